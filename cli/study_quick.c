@@ -208,8 +208,9 @@ int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cha
         free(text);
         return good ? cli_no_memory() : CLI_USAGE;
     }
-    if (snprintf(path, CLI_QUICK_PATH, "%s/plan.json", folder) >= CLI_QUICK_PATH) {
-        code = cli_usage_error(arguments, "--output: the folder's name is too long");
+    snprintf(path, CLI_QUICK_PATH, "%s/plan.json", folder);
+    if (strlen(folder) > 1000) { /* as the library's functions on studies have it */
+        code = cli_usage_error(arguments, "the name of a study's folder is longer than 1000 bytes: %.40s...", folder);
     } else if (mkdir(folder, 0777) && errno != EEXIST) {
         code = cli_usage_error(arguments, "%s: can't be made: %s", folder, strerror(errno));
     } else if (!may_write(folder, path, text, size)) {

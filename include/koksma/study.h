@@ -144,7 +144,7 @@ typedef enum koksma_export_format {
    run is using the folder), MEMORY. */
 KOKSMA_API koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path);
 
-/* Options of koksma_study_audit. */
+/* Options of koksma_study_audit. The name of the folder has at most 1000 bytes, as in all functions on studies. */
 typedef struct koksma_audit_options {
     const char *folder; /* folder of the study, which is only read */
     long long rows;     /* number of rows to draw at random, each with the same probability; 0: all */
@@ -178,10 +178,10 @@ typedef struct koksma_audit {
 } koksma_audit;
 
 /* Audits a study: computes rows again from their keys, renders all reference images again, whichever rows are drawn,
-   and compares them with the stored results. The choice of rows depends on the seed and the stored results, not on the number of threads.
-   Under mpirun all ranks work and must be able to read the folder; rank 0 gets the result.
-   Errors: ARGUMENT (rows below 0), MISSING, MALFORMED (the folder has no results of a study, or they are too
-   damaged to read), IO, MEMORY, INTERRUPTED. A difference between stored and recomputed results is not an error. */
+   and compares them with the stored results. The choice of rows depends on the seed and the stored results, not on the
+   number of threads. Under mpirun all ranks work and must be able to read the folder; rank 0 gets the result.
+   Errors: ARGUMENT (rows below 0, or the folder's name is longer than 1000 bytes), MISSING, MALFORMED (the folder has
+   no results of a study, or they are too damaged to read), IO, MEMORY, INTERRUPTED. A difference between stored and recomputed results is not an error. */
 KOKSMA_API koksma_status koksma_study_audit(const koksma_audit_options *options, const koksma_run *run,
                                             koksma_audit *out);
 

@@ -130,6 +130,22 @@ def reasons():
     shutil.copy(HERE + "/../../scenes/checker.json", "mine.json")
 
 
+def long_names():
+    """The name of a folder has at most 1000 bytes, for every verb."""
+    for length in 1000, 1001, 1004, 1200, 4000:
+        for end in "sound", "nothing/r":
+            name = "./" * ((length - len(end)) // 2) + "/" * ((length - len(end)) % 2) + end
+            for verb in ("audit",), ("export", "-o", "long.csv"), ("report",), ("run", "./plan.json", "-q", "-o"), ("quick", "-p", "sobol", "-o"):
+                if verb[0] in ("run", "quick") and length == 1000:
+                    continue
+                told = koksma("study", verb[0], *([name, *verb[1:]] if verb[0] not in ("run", "quick") else [*verb[1:], name]))
+                if length == 1000:
+                    check(told.returncode == (0 if end == "sound" else 3), f"{length}: {verb}: {told}")
+                else:
+                    check(told.returncode == 2 and told.stderr.startswith("koksma study: the name of a study's folder is longer than 1000 bytes: ./"),
+                          f"{length}: {verb}: {told}")
+
+
 # ---- The draw -------------------------------------------------------------------------------------------------
 
 
@@ -214,7 +230,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, draw, texts:
+    for part in references, reasons, long_names, draw, texts:
         part()
 finally:
     here = os.getcwd()

@@ -326,14 +326,11 @@ koksma_status koksma_study_export(const char *folder, koksma_export_format forma
     koksma__store *store;
     koksma__atomic_file file;
     writer w = {0};
-    snprintf(results, sizeof results, "%s/results.sqlite", folder);
+    KOKSMA__TRY(koksma__results_path(folder, results));
     KOKSMA__FAIL_IF(is_store(results, path), KOKSMA_ARGUMENT,
                     "%s: the export would replace the study's results, which it reads; choose another file", path);
-    koksma_status status = koksma__store_open(results, KOKSMA__STORE_READ, NULL, &store);
-    if (status) {
-        return status;
-    }
-    status = koksma__atomic_open(NULL, path, &file);
+    KOKSMA__TRY(koksma__store_open(results, KOKSMA__STORE_READ, NULL, &store));
+    koksma_status status = koksma__atomic_open(NULL, path, &file);
     if (!status) {
         w.stream = file.stream;
         status = write_rows(store, format, &w);

@@ -294,7 +294,7 @@ static koksma_status check(audit *a, koksma__audit_series *s)
 static koksma_status list_series(audit *a)
 {
     char path[KOKSMA__PATH];
-    snprintf(path, sizeof path, "%s/results.sqlite", a->options->folder);
+    KOKSMA__TRY(koksma__results_path(a->options->folder, path));
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_AUDIT, NULL, &a->study->store);
     status = status ? status : koksma__audit_list_read(a->study->store, &a->list);
     if (!status && !koksma__store_is_sealed(a->study->store)) {
@@ -371,8 +371,9 @@ koksma_status koksma_study_audit(const koksma_audit_options *options, const koks
     KOKSMA__REQUIRE(options, out);
     KOKSMA__REQUIRE_RUN(run);
     *out = (koksma_audit){0};
-    KOKSMA__FAIL_IF(!options->folder || strlen(options->folder) > 1000 || options->rows < 0, KOKSMA_ARGUMENT,
-                    "an audit needs a study's folder, and a number of rows that is not negative");
+    KOKSMA__FAIL_IF(!options->folder, KOKSMA_ARGUMENT, "an audit needs a study's folder");
+    KOKSMA__FAIL_IF(options->rows < 0, KOKSMA_ARGUMENT, "rows = %lld: it must be 0 (all rows) or more",
+                    options->rows);
     a.study = calloc(1, sizeof *a.study);
     if (!a.study || !(a.study->folder = strdup(options->folder))) {
         free(a.study);

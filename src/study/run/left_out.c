@@ -16,7 +16,7 @@
 #include "core/capacity.h"
 #include "core/status.h"
 #include "study/plan/plan_owned.h"
-#include "study/run/reference_image.h"
+#include "study/run/study.h"
 
 static const char failed_key[] = "failed", left_out_key[] = "left-out";
 
@@ -189,7 +189,7 @@ koksma_status koksma_study_left_out(const char *folder, char **lines)
     char path[KOKSMA__PATH];
     koksma__store *store;
     *lines = NULL;
-    snprintf(path, sizeof path, "%s/results.sqlite", folder);
+    KOKSMA__TRY(koksma__results_path(folder, path));
     KOKSMA__TRY(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
     koksma__texts of = {0};
     koksma_status status = each_line(store, left_out_key, &of, add_line);

@@ -16,6 +16,17 @@
 #include "study/run/mpi_rank.h"
 #include "study/run/study.h"
 
+/* Other paths in the folder add up to 30 bytes, so that all fit into KOKSMA__PATH and nearly all systems accept them. */
+enum { LONGEST_FOLDER = 1000 };
+
+koksma_status koksma__results_path(const char *folder, char path[KOKSMA__PATH])
+{
+    KOKSMA__FAIL_IF(strlen(folder) > LONGEST_FOLDER, KOKSMA_ARGUMENT,
+                    "the name of a study's folder is longer than %d bytes: %.40s...", LONGEST_FOLDER, folder);
+    snprintf(path, KOKSMA__PATH, "%s/results.sqlite", folder);
+    return KOKSMA_OK;
+}
+
 static const char *plan_name_at(const void *table, size_t i)
 {
     (void)table;
@@ -98,7 +109,7 @@ koksma_status koksma__study_open_to_write(koksma_study *study)
     if (study->is_written) {
         return KOKSMA_OK;
     }
-    snprintf(path, sizeof path, "%s/results.sqlite", study->folder);
+    KOKSMA__TRY(koksma__results_path(study->folder, path));
     koksma__store_close(study->store); /* while open, this store holds a lock that would make the next call fail */
     const koksma_status status = koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
     study->is_written = !status;
@@ -108,9 +119,9 @@ koksma_status koksma__study_open_to_write(koksma_study *study)
     return status;
 }
 
-static koksma_status make_folder(koksma_study *study, const char *folder)
+static koksma_status make_folder(koksma_study *study, const char *folder, char results[KOKSMA__PATH])
 {
-    KOKSMA__FAIL_IF(strlen(folder) > 1000, KOKSMA_ARGUMENT, "the folder's name is longer than 1000 characters");
+    KOKSMA__TRY(koksma__results_path(folder, results));
     KOKSMA__TRY(koksma__atomic_folder(folder));
     study->folder = strdup(folder);
     return study->folder ? KOKSMA_OK : koksma__fail_memory(strlen(folder));
@@ -219,8 +230,7 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
     status = status ? status : open_scenes(study);
     if (!status && options->folder) {
         study->is_written = true;
-        status = make_folder(study, options->folder);
-        snprintf(path, sizeof path, "%s/results.sqlite", options->folder);
+        status = make_folder(study, options->folder, path);
         status = status ? status : koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
         status = status ? status : keep_plan(study, options, texts);
         status = status ? status : recall_failed(study);
@@ -236,9 +246,9 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
 {
     char path[KOKSMA__PATH];
     koksma__mpi_release();
+    KOKSMA__TRY(koksma__results_path(folder, path));
     study->folder = strdup(folder);
     KOKSMA__REQUIRE_MEMORY(study->folder, strlen(folder));
-    snprintf(path, sizeof path, "%s/results.sqlite", folder);
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
     status = status ? status : recall_plan(study);
     status = status ? status : recall_failed(study);
