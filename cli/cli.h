@@ -116,7 +116,8 @@ const char *cli_one_line(const char *text);
    characters. command: the NAME, or "" for a message of the program as a whole. */
 void cli_say(const char *command, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* Prints a message about a mistake in the command line, as cli_say does. Returns the exit code 2. */
+/* Prints a message about a mistake in the command line, as cli_say does; under mpirun only rank 0 of `study` and
+   `reproduce` does. Returns the exit code 2. */
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* Prints the library's error text on stderr. Returns the exit code of `status`. */

@@ -379,16 +379,32 @@ static bool audit_seed(const cli_arguments *arguments, uint64_t *seed)
     return true;
 }
 
+/* Reads --rows; 0 stands for all. */
+static bool audit_rows(const cli_arguments *arguments, uint64_t *rows)
+{
+    const char *text = cli_text(arguments, "rows", "200");
+    char *end, meant[96];
+    const bool all = !strcmp(text, "all");
+    errno = 0;
+    *rows = all ? 0 : strtoull(text, &end, 10);
+    if (!all && (text[0] < '0' || text[0] > '9' || *end || errno || *rows < 1 || *rows > INT64_MAX)) {
+        cli_usage_error(arguments, "--rows %s: %sit takes 'all', or a whole number from 1 to %lld", text,
+                        cli_meant_of(text, "all", meant), (long long)INT64_MAX);
+        return false;
+    }
+    return true;
+}
+
 static int audit(const cli_arguments *arguments)
 {
     cli_work work;
     koksma_audit found;
-    uint64_t rows = 0, seed;
-    const bool all = !strcmp(cli_text(arguments, "rows", ""), "all"), json = cli_flag(arguments, "json");
+    uint64_t rows, seed;
+    const bool json = cli_flag(arguments, "json");
     if (arguments->n_operands != 2) {
         return cli_usage_error(arguments, "audit takes a study's folder, as in audit DIR");
     }
-    if ((!all && !cli_whole(arguments, "rows", 200, 1, INT64_MAX, &rows)) || !audit_seed(arguments, &seed) ||
+    if (!audit_rows(arguments, &rows) || !audit_seed(arguments, &seed) ||
         !cli_work_begin(arguments, "auditing", &work)) {
         return CLI_USAGE;
     }

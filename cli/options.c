@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include <koksma/render.h>
+#include <koksma/study.h>
 
 #include "paragraphs.h"
 #include "source.h"
@@ -391,10 +392,21 @@ void cli_say(const char *command, const char *format, ...)
     va_end(list);
 }
 
+/* Whether this is another MPI rank than 0 of a command whose ranks work together. All of them find the same mistake in
+   the command line, and rank 0 reports it. */
+static bool is_other_rank(const cli_arguments *arguments)
+{
+    const char *name = arguments->command->name;
+    return (!strcmp(name, "study") || !strcmp(name, "reproduce")) && koksma_study_mpi_rank() > 0;
+}
+
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...)
 {
     va_list list;
     complained = true;
+    if (is_other_rank(arguments)) {
+        return CLI_USAGE;
+    }
     va_start(list, format);
     put_line(arguments->command->name, format, list);
     va_end(list);

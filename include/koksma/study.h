@@ -186,7 +186,8 @@ KOKSMA_API koksma_status koksma_study_audit(const koksma_audit_options *options,
                                             koksma_audit *out);
 
 /* Writes DIR/report.json, which has every number (docs/report-format.md), and DIR/report.html, a page with the same
-   report in one file that needs no network. Errors: ARGUMENT (the study has no folder), IO. */
+   report in one file that needs no network. Errors: ARGUMENT (the study has no folder), MALFORMED (the
+   results are damaged or edited), IO. */
 KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_run *run);
 
 /* Returns the id of published table i of the plan, such as "5.1", or NULL past the last table. The string is valid

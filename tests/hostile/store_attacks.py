@@ -240,7 +240,7 @@ def rows():
         "size": ("UPDATE series SET width = 9 WHERE kind <> 'discrepancy'", "seed"),
         "reference": ("UPDATE series SET what = 'r:jittered@5x2' WHERE kind <> 'discrepancy'", ""),
         "hash": ("UPDATE reference SET pixels = replace(pixels, substr(pixels, 1, 3), 'abc')", "hash"),
-        "own error": ("UPDATE reference SET standard_error = standard_error * 2", "its stored error"),
+        "own error": ("UPDATE reference SET standard_error = standard_error * 2", "its stored standard error is "),
     }
     for name, (statement, words) in edits.items():
         copy("r")

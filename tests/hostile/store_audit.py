@@ -130,6 +130,43 @@ def reasons():
     shutil.copy(HERE + "/../../scenes/checker.json", "mine.json")
 
 
+def values():
+    """Standard errors that are missing or infinite, and times of runs that are."""
+    of_checker = r"reference r:jittered@4x2 of checker"
+    copy("v")
+    change("v", "UPDATE reference SET standard_error = NULL WHERE scene = 'checker'")
+    says(audit("v"), 1, f"differs: {of_checker}: its stored standard error is none, but computing it again gives 0\\.[0-9]+",
+         "2 reference images rendered again, of which 1 agree")
+    copy("v")
+    change("v", "DELETE FROM reference WHERE scene = 'checker'")
+    says(audit("v"), 1, f"differs: {of_checker}: its stored standard error is none, but .*")
+    copy("v")
+    change("v", "UPDATE reference SET standard_error = 9e999 WHERE scene = 'checker'")
+    for verb in ("audit",), ("export", "-o", "v.csv"), ("report",):
+        told = koksma("study", verb[0], "v", *verb[1:])
+        check(told.returncode == 3 and re.search(f"the standard error of {of_checker}, 8 x 6, is infinite or no number", told.stderr), f"{verb}: {told}")
+    for column in "seconds", "idle_seconds", "processor_seconds", "store_seconds":
+        copy("v")
+        change("v", f"UPDATE run SET {column} = 9e999")
+        told = koksma("study", "report", "v")
+        check(told.returncode == 3 and re.search(r"the run of 20\d\d-.* has a time that is infinite or no number", told.stderr), f"{column}: {told}")
+        check("inf" not in open("v/report.json").read(), f"{column} in the report")
+    for rows in "0", "-1", "1e9", "ALL", "", "9223372036854775808", "all ":
+        told = audit("sound", "--rows", rows)
+        check(told.returncode == 2 and re.match(f"koksma study: --rows {rows}: .*it takes 'all', or a whole number from 1 to 9223372036854775807$",
+                                                told.stderr), f"--rows {rows}: {told}")
+    # While a reader holds SQLite's shared lock, as an audit does, a run says who may be using the store.
+    copy("v")
+    reader = sqlite3.connect("v/results.sqlite", isolation_level=None)
+    reader.execute("PRAGMA locking_mode=EXCLUSIVE")
+    reader.execute("PRAGMA journal_mode=DELETE")
+    reader.execute("BEGIN")
+    reader.execute("SELECT * FROM meta").fetchall()
+    told = koksma("study", "run", "./plan.json", "-o", "v", "-q")
+    reader.close()
+    check(told.returncode == 4 and "v/results.sqlite: another run, or an export, report or audit, is using it" in told.stderr, f"run beside a reader: {told}")
+
+
 def long_names():
     """The name of a folder has at most 1000 bytes, for every verb."""
     for length in 1000, 1001, 1004, 1200, 4000:
@@ -230,7 +267,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, long_names, draw, texts:
+    for part in references, reasons, values, long_names, draw, texts:
         part()
 finally:
     here = os.getcwd()

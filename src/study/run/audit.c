@@ -235,6 +235,25 @@ static koksma_status check_file(audit *a, const koksma__reference_image *referen
     return KOKSMA_OK;
 }
 
+/* Compares the standard error of a reference, which is NaN if it has none. */
+static bool check_standard_error(audit *a, const koksma__reference_image *reference, const char *name,
+                                 double stored_error, double made)
+{
+    char before[32] = "none", now[32] = "none";
+    if ((isnan(stored_error) && isnan(made)) || !memcmp(&stored_error, &made, sizeof made)) {
+        return true;
+    }
+    if (!isnan(stored_error)) {
+        koksma__snprintf(before, sizeof before, "%.17g", stored_error);
+    }
+    if (!isnan(made)) {
+        koksma__snprintf(now, sizeof now, "%.17g", made);
+    }
+    differ(a, "reference %s of %s: its stored standard error is %s, but computing it again gives %s", name,
+           reference->scene->name, before, now);
+    return false;
+}
+
 static koksma_status put_reference(void *context, const koksma__reference_image *reference,
                                    const koksma__reference_row *made)
 {
@@ -248,12 +267,7 @@ static koksma_status put_reference(void *context, const koksma__reference_image 
         same = false;
         differ(a, "reference %s of %s: the stored hash is not that of its pixels", name, reference->scene->name);
     }
-    if (!(isnan(row.standard_error) && isnan(made->standard_error)) &&
-        memcmp(&row.standard_error, &made->standard_error, sizeof row.standard_error) != 0) {
-        same = false;
-        differ(a, "reference %s of %s: its stored error is %.17g, but computing it again gives %.17g", name,
-               reference->scene->name, row.standard_error, made->standard_error);
-    }
+    same = check_standard_error(a, reference, name, row.standard_error, made->standard_error) && same;
     const koksma_status status = check_file(a, reference, made->pixels, name, &same);
     pthread_mutex_lock(&a->lock);
     a->out->references++;

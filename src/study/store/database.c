@@ -46,9 +46,13 @@ struct koksma__database {
    for a while, until the system has removed the process. */
 enum { LAST_BREATH_MS = 1500, LOOK_AGAIN_MS = 10 };
 
-static koksma_status fail_busy(const char *path)
+/* A reader is kept out by runs only, and a run by other runs and by readers. */
+static koksma_status fail_busy(const koksma__database *database)
 {
-    return koksma__fail(KOKSMA_IO, "%s: another run is using it", path);
+    return koksma__fail(KOKSMA_IO,
+                        database->lock ? "%s: another run is using it"
+                                       : "%s: another run, or an export, report or audit, is using it",
+                        database->path);
 }
 
 static koksma_status fail(koksma__database *database)
@@ -58,7 +62,7 @@ static koksma_status fail(koksma__database *database)
     switch (code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-        return fail_busy(path);
+        return fail_busy(database);
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
         return koksma__fail(KOKSMA_MALFORMED, "%s: %s; move it away to begin anew", path, reason);
@@ -190,7 +194,7 @@ static koksma_status lock_to_read(koksma__database *database)
             return KOKSMA_OK;
         }
         if (code != SQLITE_BUSY || waited >= LAST_BREATH_MS) {
-            status = code == SQLITE_BUSY ? fail_busy(database->path)
+            status = code == SQLITE_BUSY ? fail_busy(database)
                                          : koksma__fail(KOKSMA_IO, "%s: can't be locked", database->path);
         }
         sqlite3_sleep(LOOK_AGAIN_MS);

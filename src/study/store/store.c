@@ -267,10 +267,18 @@ koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_r
         snprintf(record->version, sizeof record->version, "%s", koksma__column_text(s, 2));
         record->workers = koksma__column_whole(s, 3);
         record->jobs = koksma__column_whole(s, 4);
-        record->seconds = koksma__column_number(s, 5);
-        record->idle_seconds = koksma__column_number(s, 6);
-        record->processor_seconds = koksma__column_number(s, 7);
-        record->store_seconds = koksma__column_number(s, 8);
+        double *const numbers[] = {&record->seconds, &record->idle_seconds, &record->processor_seconds,
+                                   &record->store_seconds};
+        bool right = true;
+        for (int k = 0; k < 4; k++) {
+            right = koksma__column_read_number(s, 5 + k, numbers[k]) && !isnan(*numbers[k]) && right;
+        }
+        if (!right) {
+            status = koksma__fail(KOKSMA_MALFORMED,
+                                  "%s: the run of %.24s in table run has a time that is infinite or no number; move "
+                                  "the file away to begin anew",
+                                  koksma__database_path(store->database), record->started);
+        }
     }
     koksma__statement_reset(s);
     return koksma__store_leave(store, status);

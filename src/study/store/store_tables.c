@@ -10,8 +10,19 @@
 static koksma_status fail_row(const koksma__store *store, const char *table, long long id)
 {
     return koksma__fail(KOKSMA_MALFORMED,
-                        "%s: row %lld of table %s has a value of the wrong type; move it away to begin anew",
+                        "%s: row %lld of table %s has a value that is infinite or of the wrong type; move it away "
+                        "to begin anew",
                         koksma__database_path(store->database), id, table);
+}
+
+static koksma_status fail_reference(const koksma__store *store, const koksma__series *key)
+{
+    return koksma__fail(
+        KOKSMA_MALFORMED,
+        "%s: the standard error of reference %.200s of %.200s%s%.100s, %lld x %lld, is infinite or no "
+        "number; move the file away to begin anew",
+        koksma__database_path(store->database), key->what, key->scene, key->options[0] ? ", " : "", key->options,
+        key->width, key->height);
 }
 
 koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, int column, koksma__row *row)
@@ -89,7 +100,7 @@ koksma_status koksma__store_visit_references(koksma__store *store,
         koksma__reference_row row;
         const bool right = koksma__column_read_number(s, 7, &row.standard_error);
         snprintf(row.pixels, sizeof row.pixels, "%s", koksma__column_text(s, 8));
-        status = right ? visit(context, &key, &row) : fail_row(store, "reference", 0);
+        status = right ? visit(context, &key, &row) : fail_reference(store, &key);
     }
     koksma__statement_reset(s);
     return status;
