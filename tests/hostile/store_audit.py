@@ -167,6 +167,22 @@ def values():
     check(told.returncode == 4 and "v/results.sqlite: another run, or an export, report or audit, is using it" in told.stderr, f"run beside a reader: {told}")
 
 
+def trials():
+    """One row with a trial number that no run would give makes no other row wrong."""
+    for trial in 2147483647, 200000000, 1000:
+        copy("n")
+        change("n", f"UPDATE result SET id = (id & 4294967295) + 4294967296 * {trial} WHERE id = (SELECT min(id) FROM result)")
+        told = audit("n", "--rows", "all")
+        says(told, 1, f"differs: discrepancy random, n = 4, dim 2, star, trial {trial}: " +
+             ("the stored seed .*" if trial == 1000 else "the trial numbers of 1 of the 1000 rows of this series are too large"),
+             "4024 rows drawn, of which 4020 agree: these are all", "2 reference images rendered again, of which 2 agree")
+        says(audit("n", "--rows", "4023"), 1)
+    copy("n")
+    change("n", "UPDATE result SET id = id + (2147483647 - 999) * 4294967296 WHERE id & 4294967295 = (SELECT min(id & 4294967295) FROM result)")
+    says(audit("n", "--rows", "all"), 1, "differs: discrepancy .*: the trial numbers of 1000 of the 1000 rows of this series are too large",
+         "4024 rows drawn, of which 24 agree: these are all")
+
+
 def long_names():
     """The name of a folder has at most 1000 bytes, for every verb."""
     for length in 1000, 1001, 1004, 1200, 4000:
@@ -267,7 +283,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, values, long_names, draw, texts:
+    for part in references, reasons, values, trials, long_names, draw, texts:
         part()
 finally:
     here = os.getcwd()

@@ -76,7 +76,7 @@ static void draw_row(void *context, long long id, long long trial)
     a->seen++;
     if (drawn) {
         a->out->drawn++;
-        if (s->drawn) {
+        if (s->drawn && trial < s->end) {
             s->drawn[trial / 8] |= (unsigned char)(1u << trial % 8);
         }
     }
@@ -292,9 +292,15 @@ static koksma_status check(audit *a, koksma__audit_series *s)
         if (s->is_reference) {
             koksma__audit_reference_name(&s->key, name, sizeof name);
         } else {
-            koksma__audit_name(&s->key, s->end - 1, name, sizeof name);
+            koksma__audit_name(&s->key, s->last, name, sizeof name);
         }
         differ(a, "%s can't be %s again: %s", name, s->is_reference ? "rendered" : "computed", koksma_error_text());
+    }
+    if (s->state == KOKSMA__AUDIT_OURS && s->strays) {
+        char name[KOKSMA__REFERENCE_NAME];
+        koksma__audit_name(&s->key, s->last, name, sizeof name);
+        differ(a, "%s: the trial numbers of %lld of the %lld rows of this series are too large", name, s->strays,
+               s->rows);
     }
     if (s->state == KOKSMA__AUDIT_OTHER && !a->out->other[0]) {
         snprintf(a->out->other, sizeof a->out->other, "%.24s%s%.24s (here: %.24s%s%.24s)", s->key.made_by,

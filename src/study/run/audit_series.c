@@ -17,8 +17,9 @@
 #include "study/run/references.h"
 
 /* Runs compute trials in ascending order, so a trial number far above the number of rows means that the store is
-   damaged. */
-static const long long MOST_HOLES = 100000;
+   damaged. A row may have up to MOST_HOLES missing rows before it, where a pattern fails for most trials; but if the
+   trials of all series together are then too many for a plan, at most one, and MOST_HOLES in the whole series. */
+static const long long MOST_HOLES = 100000, MOST_TRIALS = 1 << 29;
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
@@ -85,8 +86,55 @@ static void see_row(void *context, long long id, long long trial)
     koksma__audit_series *s = koksma__audit_find(context, id);
     if (s) {
         s->rows++;
+        s->last = trial > s->last ? trial : s->last;
+    }
+}
+
+/* What see_end needs: `holes` is the number of missing rows that each row may have before it. */
+typedef struct ends {
+    const koksma__audit_list *list;
+    long long holes;
+} ends;
+
+static long long limit_of(const koksma__audit_series *s, long long holes)
+{
+    return MOST_HOLES + holes * s->rows;
+}
+
+static void see_end(void *context, long long id, long long trial)
+{
+    const ends *e = context;
+    koksma__audit_series *s = koksma__audit_find(e->list, id);
+    if (s && trial >= limit_of(s, e->holes)) {
+        s->strays++;
+    } else if (s) {
         s->end = trial >= s->end ? trial + 1 : s->end;
     }
+}
+
+/* Finds the ends of all series, and the rows with trial numbers that are too large; reads all rows again only if there
+   are any. *trials: the sum of all ends. */
+static koksma_status find_ends(koksma__store *store, koksma__audit_list *list, long long holes, double *trials)
+{
+    koksma_status status = KOKSMA_OK;
+    bool strays = false;
+    for (size_t i = 0; i < list->n; i++) {
+        koksma__audit_series *s = &list->at[i];
+        s->end = s->rows ? s->last + 1 : 0;
+        s->strays = 0;
+        strays |= s->end > limit_of(s, holes);
+    }
+    if (strays) {
+        for (size_t i = 0; i < list->n; i++) {
+            list->at[i].end = 0;
+        }
+        status = koksma__store_scan(store, see_end, &(ends){list, holes});
+    }
+    *trials = 0;
+    for (size_t i = 0; i < list->n; i++) {
+        *trials += (double)list->at[i].end;
+    }
+    return status;
 }
 
 koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *list)
@@ -96,7 +144,10 @@ koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *
         qsort(list->at, list->n, sizeof *list->at, compare_ids);
     }
     status = status ? status : koksma__store_visit_references(store, add_reference, list);
-    return status ? status : koksma__store_scan(store, see_row, list);
+    status = status ? status : koksma__store_scan(store, see_row, list);
+    double trials = 0;
+    status = status ? status : find_ends(store, list, MOST_HOLES, &trials);
+    return status || trials <= (double)MOST_TRIALS ? status : find_ends(store, list, 1, &trials);
 }
 
 static void fini_series(koksma__audit_series *series, size_t n)
@@ -202,10 +253,6 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
     if (!status && (strcmp(here->points, key->made_by) != 0 || strcmp(here->value, key->measured_by) != 0)) {
         series->state = KOKSMA__AUDIT_OTHER;
         return KOKSMA_OK;
-    }
-    if (!status && series->end > MOST_HOLES + MOST_HOLES * series->rows) {
-        status = koksma__fail(KOKSMA_MALFORMED, "the trial number %lld is too large for a series of %lld rows",
-                              series->end - 1, series->rows);
     }
     if (!status && !image && (key->dim < 1 || key->dim > KOKSMA_MAX_DIM)) {
         status = koksma__fail(KOKSMA_DIM, "point sets of %lld dimensions are not supported", key->dim);
@@ -363,7 +410,7 @@ koksma_status koksma__audit_plan(koksma_study *study, koksma__audit_list *list)
         if (s->state != KOKSMA__AUDIT_OURS || !s->rows) {
             continue;
         }
-        s->drawn = calloc(((size_t)s->end + 7) / 8, 1);
+        s->drawn = calloc((size_t)s->end / 8 + 1, 1);
         if (!s->drawn) {
             status = koksma__fail_memory((size_t)s->end / 8);
         } else if (!strcmp(s->key.kind, "discrepancy")) {

@@ -14,8 +14,10 @@ typedef enum koksma__audit_state {
 } koksma__audit_state;
 
 typedef struct koksma__audit_series {
-    koksma__series key;      /* the key, with its own copies of the strings */
-    long long id, rows, end; /* rows: number of its rows; end: 1 + its largest trial number */
+    koksma__series key; /* the key, with its own copies of the strings */
+    long long id, rows;
+    long long end, strays, last; /* strays: number of rows whose trial numbers are far too large (only a damaged store
+                                    has such rows); end: 1 + the largest other trial number; last: the largest of all */
     koksma__audit_state state;
     bool is_reference;    /* whether it is a row of table `reference`, which has no pattern, trials and id */
     unsigned char *drawn; /* one bit per trial, which tells whether the trial was drawn for the audit */
