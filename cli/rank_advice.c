@@ -17,7 +17,8 @@ static const char *base_of(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/* Returns a pattern's name for the advice (cli_one_line). A file is shown without its folder if no other has the same name. */
+/* Returns a pattern's name for the advice (cli_one_line). A file is shown without its folder if no other has the same
+   name. */
 static const char *name_of(const koksma_rank_options *options, size_t pattern)
 {
     const char *base = base_of(options->patterns[pattern]);

@@ -181,7 +181,8 @@ typedef struct koksma_audit {
    and compares them with the stored results. The choice of rows depends on the seed and the stored results, not on the
    number of threads. Under mpirun all ranks work and must be able to read the folder; rank 0 gets the result.
    Errors: ARGUMENT (rows below 0, or the folder's name is longer than 1000 bytes), MISSING, MALFORMED (the folder has
-   no results of a study, or they are too damaged to read), IO, MEMORY, INTERRUPTED. A difference between stored and recomputed results is not an error. */
+   no results of a study, or they are too damaged to read), IO, MEMORY, INTERRUPTED. A difference between stored and
+   recomputed results is not an error. */
 KOKSMA_API koksma_status koksma_study_audit(const koksma_audit_options *options, const koksma_run *run,
                                             koksma_audit *out);
 

@@ -46,8 +46,8 @@ void koksma__audit_list_fini(koksma__audit_list *list);
 /* Finds the series with the given id; NULL if there is none. */
 koksma__audit_series *koksma__audit_find(const koksma__audit_list *list, long long id);
 
-/* Sets the state of a series or reference and opens its scene. Fails if the state is WRONG; the error text gives the reason.
-   *here: the revisions of this build. */
+/* Sets the state of a series or reference and opens its scene. Fails if the state is WRONG; the error text gives the
+   reason. *here: the revisions of this build. */
 koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list, koksma__audit_series *series,
                                   koksma__made_by *here);
 
