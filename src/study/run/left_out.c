@@ -16,7 +16,7 @@
 #include "core/capacity.h"
 #include "core/status.h"
 #include "study/plan/plan_owned.h"
-#include "study/run/study.h"
+#include "study/run/results_path.h"
 
 static const char failed_key[] = "failed", left_out_key[] = "left-out";
 

@@ -4,8 +4,9 @@
 #define KOKSMA_STUDY_RUN_REFERENCE_IMAGE_H
 
 #include "study/run/picture.h"
+#include "study/run/results_path.h"
 
-enum { KOKSMA__REFERENCE_NAME = KOKSMA_MAX_SPEC + 128, KOKSMA__PATH = 1200 };
+enum { KOKSMA__REFERENCE_NAME = KOKSMA_MAX_SPEC + 128 };
 
 /* A reference image and everything that it depends on. */
 typedef struct koksma__reference_image {

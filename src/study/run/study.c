@@ -16,17 +16,6 @@
 #include "study/run/mpi_rank.h"
 #include "study/run/study.h"
 
-/* Other paths in the folder add up to 30 bytes, so that all fit into KOKSMA__PATH and nearly all systems accept them. */
-enum { LONGEST_FOLDER = 1000 };
-
-koksma_status koksma__results_path(const char *folder, char path[KOKSMA__PATH])
-{
-    KOKSMA__FAIL_IF(strlen(folder) > LONGEST_FOLDER, KOKSMA_ARGUMENT,
-                    "the name of a study's folder is longer than %d bytes: %.40s...", LONGEST_FOLDER, folder);
-    snprintf(path, KOKSMA__PATH, "%s/results.sqlite", folder);
-    return KOKSMA_OK;
-}
-
 static const char *plan_name_at(const void *table, size_t i)
 {
     (void)table;

@@ -35,9 +35,6 @@ struct koksma_study {
     const koksma__sink *sink; /* NULL: results go into the store */
 };
 
-/* Writes the path of the results in a study's folder. Errors: ARGUMENT (the folder's name is too long). */
-koksma_status koksma__results_path(const char *folder, char path[KOKSMA__PATH]);
-
 /* Opens a scene unless it is open already. `name` must remain valid as long as the study. Errors: those of
    koksma_scene_open.  */
 koksma_status koksma__study_open_scene(koksma_study *study, const char *name);
