@@ -499,6 +499,59 @@ static void folder_is_read_and_audited(void **state)
     assert_int_equal(system(command), 0);
 }
 
+/* The fractions that an audit reports. */
+typedef struct fractions {
+    double first, last;
+    size_t between; /* number of different fractions from 0.1 to 0.9 */
+} fractions;
+
+static bool see_fraction(void *context, double fraction)
+{
+    fractions *seen = context;
+    assert_true(fraction >= 0 && fraction <= 1);
+    seen->first = seen->first < 0 ? fraction : seen->first;
+    assert_true(fraction >= seen->last);
+    seen->between += fraction > seen->last && fraction > 0.1 && fraction < 0.9;
+    seen->last = fraction;
+    return true;
+}
+
+/* An audit of one row renders the reference again, in three tiles of 2^19 samples, which are nearly all of its work. */
+static void audit_reports_progress(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/koksma-progress-XXXXXX", path[64], command[256];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/p.json", folder);
+    FILE *f = fopen(path, "w");
+    assert_non_null(f);
+    fputs("{\"name\": \"p\", \"title\": \"p\", \"discrepancies\": [{\"patterns\": [\"random\"], \"measures\": "
+          "[\"star\"], \"n\": [4], \"trials\": 100}], \"images\": [{\"scenes\": [\"checker\"], \"patterns\": "
+          "[\"random\"], \"spp\": [1], \"size\": [32, 24], \"trials\": 1, \"references\": [{\"name\": \"r\", "
+          "\"pattern\": \"jittered\", \"spp\": 1024, \"replicates\": 2}]}]}",
+          f);
+    fclose(f);
+    const char *plans[] = {path};
+    const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = folder};
+    koksma_study *study;
+    assert_ok(koksma_study_open(&options, &study));
+    assert_ok(koksma_study_run(study, NULL, NULL));
+    assert_ok(koksma_study_close(study));
+    koksma_audit found;
+    fractions seen = {.first = -1, .last = 0};
+    const koksma_audit_options audit = {.folder = folder, .rows = 1, .seed = 1};
+    const koksma_run run = {.threads = 1, .keep_going = see_fraction, .context = &seen};
+    assert_ok(koksma_study_audit(&audit, &run, &found));
+    assert_int_equal(found.drawn, 1);
+    assert_int_equal(found.references_agree, 1);
+    assert_int_equal(found.differences, 0);
+    assert_near(seen.first, 0, 0);
+    assert_true(seen.between >= 2);
+    assert_true(seen.last > 0.9);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -512,6 +565,7 @@ int main(void)
         cmocka_unit_test(store_keeps_rows),
         cmocka_unit_test(store_keeps_many_rows),
         cmocka_unit_test(folder_is_read_and_audited),
+        cmocka_unit_test(audit_reports_progress),
         cmocka_unit_test(own_error_of_a_reference),
         cmocka_unit_test(correlations_as_shown),
         cmocka_unit_test(study_without_folder),
