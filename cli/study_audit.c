@@ -67,18 +67,18 @@ static void print_audit(const koksma_audit *a, uint64_t seed)
 }
 
 /* Reads --seed. Without it, the operating system gives 64 random bits, because whoever knows the seed knows which
-   rows are drawn and can change all others: the confidence limit would not hold. */
-static bool audit_seed(const cli_arguments *arguments, uint64_t *seed)
+   rows are drawn and can change all others: the confidence limit would not hold. Returns the exit code. */
+static int audit_seed(const cli_arguments *arguments, uint64_t *seed)
 {
     if (cli_text(arguments, "seed", NULL)) {
-        return cli_whole(arguments, "seed", 0, 0, UINT64_MAX, seed);
+        return cli_whole(arguments, "seed", 0, 0, UINT64_MAX, seed) ? CLI_YES : CLI_USAGE;
     }
     if (getentropy(seed, sizeof *seed)) {
-        cli_usage_error(arguments, "no random seed from the operating system: %s; give one with --seed",
-                        strerror(errno));
-        return false;
+        cli_say(arguments->command->name, "the operating system gives no random seed: %s; give one with --seed",
+                strerror(errno));
+        return koksma_status_exit_code(KOKSMA_SYSTEM);
     }
-    return true;
+    return CLI_YES;
 }
 
 /* Reads --rows; 0 stands for all. */
@@ -106,9 +106,12 @@ int cli_study_audit(const cli_arguments *arguments)
     if (arguments->n_operands != 2) {
         return cli_usage_error(arguments, "audit takes a study's folder, as in audit DIR");
     }
-    if (!audit_rows(arguments, &rows) || !audit_seed(arguments, &seed) ||
-        !cli_work_begin(arguments, "auditing", &work)) {
+    if (!audit_rows(arguments, &rows) || !cli_work_begin(arguments, "auditing", &work)) {
         return CLI_USAGE;
+    }
+    const int failed = audit_seed(arguments, &seed);
+    if (failed) {
+        return failed;
     }
     const bool speaks = koksma_study_mpi_rank() == 0;
     audited to = {json && speaks ? cli_rows_open(true) : NULL};
