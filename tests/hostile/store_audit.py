@@ -158,8 +158,6 @@ def values():
     # While a reader holds SQLite's shared lock, as an audit does, a run says who may be using the store.
     copy("v")
     reader = sqlite3.connect("v/results.sqlite", isolation_level=None)
-    reader.execute("PRAGMA locking_mode=EXCLUSIVE")
-    reader.execute("PRAGMA journal_mode=DELETE")
     reader.execute("BEGIN")
     reader.execute("SELECT * FROM meta").fetchall()
     told = koksma("study", "run", "./plan.json", "-o", "v", "-q")
