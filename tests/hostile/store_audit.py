@@ -197,6 +197,24 @@ def long_names():
                           f"{length}: {verb}: {told}")
 
 
+def impossible():
+    """A reference that can't be rendered makes only the rows wrong that need it."""
+    made_by = "replace({}, 'jittered 0', 'poisson-disk 0')"
+    text = "r:poisson-disk:d=0.9@64x1"
+    of_text = r"differs: reference r:poisson-disk:d=0\.9@64x1 of checker: poisson-disk: no 64 points .*"
+    copy("i")
+    change("i", f"INSERT INTO reference SELECT scene, scene_hash, options, width, height, '{text}', {made_by.format('made_by')}, standard_error, "
+                "pixels FROM reference WHERE scene = 'checker'")
+    says(audit("i", "--rows", "all"), 1, of_text, "4024 rows drawn, of which 4024 agree: these are all",
+         "2 reference images rendered again, of which 2 agree; 1 can't be rendered again")
+    change("i", f"UPDATE series SET what = '{text}', measured_by = {made_by.format('measured_by')} WHERE scene = 'checker'")
+    for more in ("--threads", "1"), ("--threads", "4"):
+        told = audit("i", "--rows", "all", *more)
+        says(told, 1, of_text, ".* rows can't be computed again, such as .*its reference can't be rendered",
+             "4024 rows drawn, of which 4012 agree: these are all", "2 reference images rendered again, of which 2 agree; 1 can't be rendered again")
+        check(told.stdout.count("poisson-disk: no 64 points") == 1, f"named once: {told}")
+
+
 # ---- The draw -------------------------------------------------------------------------------------------------
 
 
@@ -281,7 +299,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, values, trials, long_names, draw, texts:
+    for part in references, reasons, values, trials, impossible, long_names, draw, texts:
         part()
 finally:
     here = os.getcwd()

@@ -15,6 +15,7 @@ typedef struct koksma__reference_image {
     char options[KOKSMA__VARIANT_TEXT];
     int width, height;
     koksma_image image; /* its pixels are NULL until a job needs them */
+    bool failed;        /* whether an audit could not render it; the pixels are then those of another picture */
 } koksma__reference_image;
 
 #endif

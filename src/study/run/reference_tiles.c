@@ -102,10 +102,30 @@ static koksma_status fail_reference(const koksma__reference_image *r, koksma_sta
     return koksma__fail_in(status, text);
 }
 
+/* Renders a tile of another picture of the same scene in place of one that cannot be rendered. So a reference that fails
+   in an audit ends neither the audit of the others nor that of images which do not need it. */
+static koksma_status do_substitute(const koksma__reference_image *r, const koksma__reference_tile *tile,
+                                   const koksma_run *run, koksma__replicates *out)
+{
+    char name[] = "substitute", pattern[] = "random";
+    const koksma__reference plain = {name, pattern, 1, 1};
+    koksma__reference_image other = *r;
+    koksma_image image;
+    other.reference = &plain;
+    koksma_status status = koksma__reference_replicate(&other, 0, (int)tile->first_row, (int)tile->rows, run, &image);
+    if (status) {
+        return status;
+    }
+    status = image.height == tile->rows ? koksma__replicates_add(out, &image)
+                                        : koksma__fail(KOKSMA_UNSUPPORTED, "its rows can't be rendered alone");
+    koksma_image_fini(&image);
+    return status;
+}
+
 koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference_tile *tile, const koksma_run *run,
                               koksma__replicates *out)
 {
-    const koksma__reference_image *r = &study->references[tile->reference];
+    koksma__reference_image *r = &study->references[tile->reference];
     koksma_status status = KOKSMA_OK;
     *out = (koksma__replicates){0};
     for (long long i = 0; !status && i < r->reference->replicates; i++) {
@@ -119,6 +139,11 @@ koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference
     if (status) {
         free(out->sum);
         *out = (koksma__replicates){0};
+    }
+    if (status && study->sink && !koksma__ends_all(status)) {
+        fail_reference(r, status);
+        study->sink->fail_reference(study->sink->context, r, koksma_error_text());
+        return do_substitute(r, tile, run, out);
     }
     return status == KOKSMA_IMPOSSIBLE ? fail_reference(r, status) : status;
 }

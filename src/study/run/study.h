@@ -20,6 +20,8 @@ typedef struct koksma__sink {
     koksma_status (*put_job)(void *context, const struct koksma__task *task, const koksma__result *results);
     koksma_status (*put_reference)(void *context, const koksma__reference_image *reference,
                                    const koksma__reference_row *row);
+    /* sets reference->failed; text: the reason why it cannot be rendered */
+    void (*fail_reference)(void *context, koksma__reference_image *reference, const char *text);
 } koksma__sink;
 
 struct koksma_study {

@@ -497,9 +497,13 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
                                      .width = t->width,
                                      .height = t->height,
                                      .seed = seed};
+    const size_t last = t->image->n_references;
+    for (size_t r = 0; r <= last; r++) {
+        KOKSMA__FAIL_IF(study->references[t->references[r]].failed, KOKSMA_IMPOSSIBLE,
+                        "its reference can't be rendered");
+    }
     KOKSMA__TRY(koksma__study_render(t->scene, &picture, run, &image));
     koksma_status status = KOKSMA_OK;
-    const size_t last = t->image->n_references;
     const koksma_image *const reference = &study->references[t->references[last]].image;
     for (size_t r = 0; !status && r < last; r++) {
         koksma_image_error error = {0};
