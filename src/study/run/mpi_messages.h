@@ -9,7 +9,8 @@
  * Messages to rank 0:
  *     REQUEST  koksma__request: asks for the batch after the current one, so that no rank waits for an answer
  *     RESULTS  job numbers, each followed by the job's results
- *     FAILURE  koksma__failure: a job that is impossible
+ *     FAILURE  koksma__failure: a job that is impossible; in an audit also a reference, whose number is that of
+ *              the jobs plus its index
  *     TILE     koksma__reference_tile, followed by the tile's sums
  *     NEED     index of a reference whose pixels the rank needs
  *     ERROR    status and text of a rank that fails; all ranks then end

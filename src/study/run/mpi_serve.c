@@ -85,9 +85,15 @@ static void receive_results(server *s, unsigned char *message, size_t bytes)
 static void receive_failure(server *s, int from)
 {
     koksma__failure failure;
-    if (s->mpi->receive(from, KOKSMA__TAG_FAILURE, &failure, sizeof failure, NULL) &&
-        failure.job < s->phase->tasks->n_jobs) {
+    koksma_study *study = s->phase->tasks->study;
+    const size_t n_jobs = s->phase->tasks->n_jobs;
+    if (!s->mpi->receive(from, KOKSMA__TAG_FAILURE, &failure, sizeof failure, NULL)) {
+        return;
+    }
+    if (failure.job < n_jobs) {
         koksma__run_state_fail_job(&s->state, failure.job, failure.text);
+    } else if (study->sink && failure.job - n_jobs < study->n_references) {
+        study->sink->fail_reference(study->sink->context, &study->references[failure.job - n_jobs], failure.text);
     }
 }
 

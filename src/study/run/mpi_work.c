@@ -122,7 +122,12 @@ static koksma_status do_tile(worker *w, const koksma__reference_tile *tile)
 {
     koksma__replicates sums = {0};
     const double start_s = koksma__now_s();
+    const koksma__reference_image *reference = &w->study->references[tile->reference];
+    const bool failed = reference->failed;
     koksma_status status = koksma__tile_do(w->study, tile, w->job, &sums);
+    if (!status && reference->failed && !failed) {
+        status = send_failure(w, w->tasks.n_jobs + tile->reference);
+    }
     const size_t bytes = koksma__replicates_numbers(&sums) * sizeof *sums.sum;
     unsigned char *message = status ? NULL : malloc(sizeof *tile + bytes);
     if (!status && !message) {
