@@ -41,8 +41,9 @@ KOKSMA_API void koksma_image_fini(koksma_image *image);
      PNG   1 to 16 bits, sRGB; if the file has a gAMA chunk but neither sRGB nor iCCP, its power law replaces the
            sRGB curve (1.0: linear)
      PFM   Pf and PF in either byte order; the magnitude of the scale is ignored; extra bytes at the end are an error
-     JPEG  baseline or progressive, grey or colour, sRGB; a colour profile is not applied; a file that is cut short is
-           an error
+     JPEG  baseline or progressive, Huffman-coded, grey or colour, sRGB; a colour profile is not applied; a file that
+           is cut short, that lacks a scan, in which the decoder sees damaged data, or that has more than 100 scans is an
+           error
    Alpha and further channels are dropped; colours are not multiplied by alpha.
    Errors: MISSING, MALFORMED (also for valid files that this function cannot read: deep or subsampled EXR files,
    and files with B44 or DWA compression that have channels other than those above, or values above 65504),

@@ -4,9 +4,12 @@
  * (ITU-T T.81, T.871). Levels are read as sRGB, as in png.c; a colour profile in the file is not applied. Files are
  * written without subsampling at quality 100.
  *
- * A file that is cut short is an error, although the library would fill the rest with grey; so is a file with more
- * than 1000 scans, because each scan takes as long as decoding the whole picture. When libjpeg reports an error,
- * on_error() returns to the caller by longjmp.
+ * libjpeg replaces what is damaged or missing by grey and only warns. Here such a warning is an error, and so are a file
+ * that ends before all coefficients of all components came, and data that is left over after a scan (is_harmless says
+ * which warnings are not). Arithmetic coding is refused, because its data has no end that a decoder could miss: a file
+ * that is cut short could not be told from a whole one. So is a file with more than 100 scans, the limit of Chromium's
+ * reader, because each scan takes as long as decoding the whole picture; encoders write at most about 20. When libjpeg
+ * reports an error, on_error() returns to the caller by longjmp.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -23,7 +26,7 @@
 
 #define HOST ((const koksma__jpeg_host *)koksma__own_host->functions)
 
-enum { SCANS = 1000 };
+enum { SCANS = 100, PADDING = 16 };
 
 typedef struct errors {
     struct jpeg_error_mgr manager; /* must be first: the library sees only this member */
@@ -40,19 +43,56 @@ static void on_error(j_common_ptr jpeg)
     longjmp(e->back, 1);
 }
 
-/* Makes a warning about the file's end an error; other warnings of the library, such as bytes between markers, are
-   ignored. */
+/* Ends with an error of our own. */
+static void refuse(j_common_ptr jpeg, const char *text)
+{
+    errors *e = (errors *)(void *)jpeg->err;
+    snprintf(e->message, sizeof e->message, "%s", text);
+    longjmp(e->back, 1);
+}
+
+/* Whether bytes between two markers may be ignored: those before the first scan are in a part of the header that is
+   not used, and cameras fill the end of the data with a few zeros. Others are pixels' data for which there was no place,
+   as the data before them was damaged. */
+static bool is_filling(j_common_ptr jpeg)
+{
+    const struct jpeg_decompress_struct *reader = (j_decompress_ptr)jpeg;
+    const int count = jpeg->err->msg_parm.i[0];
+    bool zeros = count <= PADDING;
+    for (int i = 1; i <= count && zeros; i++) {
+        zeros = !reader->src->next_input_byte[-i];
+    }
+    return zeros || !reader->input_scan_number;
+}
+
+/* Whether a warning is about something that changes no pixel. Warnings that are not listed are errors. */
+static bool is_harmless(j_common_ptr jpeg)
+{
+    switch (jpeg->err->msg_code) {
+    case JWRN_ADOBE_XFORM:    /* an unknown colour transform: YCbCr is assumed */
+    case JWRN_JFIF_MAJOR:     /* a version of JFIF from the future */
+    case JWRN_NOT_SEQUENTIAL: /* a baseline scan with numbers that only a progressive one uses */
+        return true;
+    case JWRN_EXTRANEOUS_DATA:
+        return is_filling(jpeg);
+    default:
+        return !jpeg->is_decompressor;
+    }
+}
+
 static void on_message(j_common_ptr jpeg, int level)
 {
-    if (level < 0 && jpeg->err->msg_code == JWRN_JPEG_EOF) {
+    if (level < 0 && !is_harmless(jpeg)) {
         on_error(jpeg);
     }
 }
 
 static void on_progress(j_common_ptr jpeg)
 {
+    char text[64];
     if (jpeg->is_decompressor && ((j_decompress_ptr)jpeg)->input_scan_number > SCANS) {
-        ERREXIT(jpeg, JERR_BAD_PROGRESSION);
+        snprintf(text, sizeof text, "more than %d scans", SCANS);
+        refuse(jpeg, text);
     }
 }
 
@@ -85,8 +125,35 @@ static bool read_head(struct jpeg_decompress_struct *jpeg, errors *e, const unsi
     jpeg_create_decompress(jpeg);
     jpeg_mem_src(jpeg, bytes, size);
     jpeg_read_header(jpeg, TRUE);
+    if (jpeg->arith_code) {
+        refuse((j_common_ptr)jpeg, "its coding is arithmetic, which is not read: save it with Huffman coding");
+    }
     jpeg->out_color_space = jpeg->num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
     return true;
+}
+
+/* Whether every component has a scan and, in a progressive file, all bits of all coefficients. */
+static bool is_whole(struct jpeg_decompress_struct *jpeg)
+{
+    bool whole = true;
+    for (int c = 0; c < jpeg->num_components && jpeg_has_multiple_scans(jpeg); c++) {
+        whole &= jpeg->comp_info[c].quant_table != NULL;
+        for (int k = 0; k < DCTSIZE2 && jpeg->coef_bits; k++) {
+            whole &= !jpeg->coef_bits[c][k];
+        }
+    }
+    return whole;
+}
+
+/* Every block of 8 x 8 levels takes at least one bit: a Huffman code has one or more. Runs of empty blocks, which take
+   less, are only in later scans of a progressive file. */
+static double pixels_a_byte(const struct jpeg_decompress_struct *jpeg)
+{
+    double blocks = 0;
+    for (int c = 0; c < jpeg->num_components; c++) {
+        blocks += (double)jpeg->comp_info[c].width_in_blocks * (double)jpeg->comp_info[c].height_in_blocks;
+    }
+    return 8.0 * (double)jpeg->image_width * (double)jpeg->image_height / blocks;
 }
 
 static bool read_rows(struct jpeg_decompress_struct *jpeg, errors *e, unsigned char *row, koksma_image *out)
@@ -107,6 +174,9 @@ static bool read_rows(struct jpeg_decompress_struct *jpeg, errors *e, unsigned c
             to[i] = table[row[i]];
         }
     }
+    if (!is_whole(jpeg)) {
+        refuse((j_common_ptr)jpeg, "cut short: scans are missing");
+    }
     jpeg_finish_decompress(jpeg);
     return true;
 }
@@ -123,8 +193,7 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     if (!status) {
         const int channels = jpeg.num_components == 1 ? 1 : 3;
         jpeg.progress = &progress;
-        /* one run of empty blocks in a progressive file may stand for up to 2^15 blocks of 8 x 8 pixels */
-        status = HOST->image_claim(jpeg.image_width, jpeg.image_height, channels, size, 64.0 * 32768, out);
+        status = HOST->image_claim(jpeg.image_width, jpeg.image_height, channels, size, pixels_a_byte(&jpeg), out);
         unsigned char *row = status ? NULL : malloc((size_t)out->width * (size_t)channels);
         if (!status && !row) {
             status = koksma__fail_memory((size_t)out->width * (size_t)channels);

@@ -4,7 +4,7 @@
 
 docs/files.md states it: the bytes of the file, 12 a pixel of at most 2^26 pixels, and what the reader takes beside.
 Pictures of that size that pack into a few hundred KiB, of one pixel more, files whose first bytes are right up to the
-limit, and EXR tiles of many channels must keep to it.
+limit, EXR tiles of many channels, and JPEGs that claim more than they hold must keep to it.
 """
 import json
 import os
@@ -60,6 +60,17 @@ def exr(width, height, tile, channels, compression=3):
     return head + offsets + body
 
 
+def jpeg(side, scans, filling=0):
+    """Grey, progressive; tables with the one code 0, so that a block takes one bit of a scan; `filling` bytes in the head."""
+    def segment(mark, data):
+        return bytes([0xFF, mark]) + struct.pack(">H", 2 + len(data)) + data
+
+    head = b"\xff\xd8" + segment(0xDB, bytes(1) + bytes([1] * 64)) + segment(0xE1, bytes(65000)) * (filling // 65000)
+    head += segment(0xC2, struct.pack(">BHHB", 8, side, side, 1) + b"\1\x11\0")
+    head += b"".join(segment(0xC4, bytes([kind, 1] + [0] * 16)) for kind in (0, 0x10))
+    return head + b"".join(segment(0xDA, bytes([1, 1, 0, *which])) + data for *which, data in scans) + b"\xff\xd9"
+
+
 def main():
     program = os.path.abspath(sys.argv[1])
     checks = files.Checks()
@@ -93,6 +104,14 @@ def main():
         check("EXR with tiles of 40 channels", "i.exr", exr(256, 256, 256, 40), 0, 16)
         check("EXR with tiles of 400 channels", "j.exr", exr(1024, 1024, 1024, 400), 0, 0, "j.exr", "256 MiB")
         check("DWAB with tiles of 400 channels", "k.exr", exr(1024, 1024, 1024, 400, 9), 0, 0, "k.exr", "256 MiB")
+        bits = bytes(side * side // 64 // 8)
+        whole = [(0, 0, 0, bits), (1, 63, 0, bits)]
+        check("JPEG of 2^26 pixels", "l.jpg", jpeg(side, whole), 0, MOST * 6 >> 20)
+        check("JPEG of more", "m.jpg", jpeg(side + 8, whole), 0, 0, "m.jpg", f"at most {MOST}")
+        check("JPEG of few bytes", "n.jpg", jpeg(side, [(0, 0, 0, b"\0")]), 0, 0, "n.jpg", "cut short")
+        check("JPEG of few bytes and zeros", "o.jpg", jpeg(side, [(0, 0, 0, b"\0")]), LIMIT, LIMIT >> 20, "o.jpg", "premature end")
+        check("JPEG with a long head", "p.jpg", jpeg(side, [(0, 0, 0, b"\0")], 1 << 20), 0, 1, "p.jpg", "premature end")
+        check("JPEG of 20,000 scans", "q.jpg", jpeg(side, whole[:1] + 20000 * [(1, 63, 0x10, b"\0")]), 0, MOST * 6 >> 20, "q.jpg")
     checks.end()
 
 
