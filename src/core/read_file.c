@@ -37,8 +37,8 @@ uint64_t koksma__file_most(koksma__file_kind kind)
 
 koksma_status koksma__file_too_long(const char *name, koksma__file_kind kind)
 {
-    return koksma__fail(KOKSMA_MALFORMED, "%s: longer than %llu MiB, the limit of %s", name,
-                        (unsigned long long)(koksma__file_most(kind) >> 20), kinds[kind].text);
+    return koksma__refused(koksma__fail(KOKSMA_MALFORMED, "%s: longer than %llu MiB, the limit of %s", name,
+                                        (unsigned long long)(koksma__file_most(kind) >> 20), kinds[kind].text));
 }
 
 static koksma_status fail_read(const char *name, int reason)

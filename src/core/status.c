@@ -12,6 +12,7 @@
 enum { TEXT_SIZE = 1024 };
 
 static _Thread_local char error_text[TEXT_SIZE];
+static _Thread_local bool refused;
 
 static const struct {
     int exit_code;
@@ -96,7 +97,19 @@ koksma_status koksma__fail(koksma_status status, const char *format, ...)
     va_end(arguments);
     koksma_text_escape(text, sizeof text);
     memcpy(error_text, text, sizeof text);
+    refused = false;
     return status;
+}
+
+koksma_status koksma__refused(koksma_status status)
+{
+    refused = true;
+    return status;
+}
+
+bool koksma__is_refused(void)
+{
+    return refused;
 }
 
 koksma_status koksma__fail_memory(size_t bytes)
@@ -106,7 +119,10 @@ koksma_status koksma__fail_memory(size_t bytes)
 
 koksma_status koksma__fail_in(koksma_status status, const char *name)
 {
-    return koksma__fail(status, "%s: %s", name, error_text);
+    const bool was_refused = refused;
+    koksma__fail(status, "%s: %s", name, error_text);
+    refused = was_refused;
+    return status;
 }
 
 bool koksma__missing(const char *function, const char *names, const void *const *pointers, size_t n)

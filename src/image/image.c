@@ -72,11 +72,13 @@ void koksma__image_limit(size_t pixels)
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
                                   koksma_image *out)
 {
-    KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
-                        (size_t)(width * height) > most_pixels,
-                    KOKSMA_MALFORMED,
-                    "it claims %lld x %lld pixels: each side must be 1 to %d, and the number of pixels at most %zu",
-                    width, height, KOKSMA_MAX_IMAGE_SIDE, most_pixels);
+    if (width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
+        (size_t)(width * height) > most_pixels) {
+        return koksma__refused(koksma__fail(
+            KOKSMA_MALFORMED,
+            "it claims %lld x %lld pixels: each side must be 1 to %d, and the number of pixels at most %zu", width,
+            height, KOKSMA_MAX_IMAGE_SIDE, most_pixels));
+    }
     KOKSMA__FAIL_IF((double)width * (double)height > (double)bytes * pixels_a_byte, KOKSMA_MALFORMED,
                     "cut short: it claims %lld x %lld pixels but has only %zu bytes", width, height, bytes);
     return koksma_image_init(out, (int)width, (int)height, channels);

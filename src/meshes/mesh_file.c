@@ -19,6 +19,12 @@ enum { MAX_PLACEMENTS = 1 << 20 };
 
 /* ---- Files beside a model ----------------------------------------------------------------------------------- */
 
+static bool exists(const char *path)
+{
+    struct stat about;
+    return !stat(path, &about);
+}
+
 bool koksma__is_file(const char *path)
 {
     struct stat about;
@@ -64,7 +70,7 @@ bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MA
         strcpy(other, name);
         found = ways[i](other) && koksma__path_beside(model, other, out) && koksma__is_file(out);
     }
-    return found;
+    return found || (*name && koksma__path_beside(model, name, out) && exists(out));
 }
 
 /* ---- What readers share ------------------------------------------------------------------------------------- */

@@ -121,7 +121,7 @@ bool koksma__is_file(const char *path);
 
 /* Finds the file beside the model that a model names: by the exact name, or with %20 and other escapes decoded (names
    in glTF are URIs, see RFC 3986, section 2.1), or with \ replaced by / (OBJ files from Windows). Returns false if
-   there is no such file. */
+   there is no such file. A folder is found as well, so that opening it says what is wrong. */
 bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MAX_PATH]);
 
 #endif

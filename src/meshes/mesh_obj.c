@@ -285,6 +285,13 @@ static koksma_status note_missing(obj *o, const char *name)
     return koksma__is_file(own) ? koksma__mtl_read(own, &o->names, o->out) : KOKSMA_OK;
 }
 
+/* Reads a material file; if it can't be opened, the message also names the model. */
+static koksma_status read_library(obj *o, const char *path)
+{
+    const koksma_status status = koksma__mtl_read(path, &o->names, o->out);
+    return status == KOKSMA_MISSING ? koksma__fail_in(status, o->text.path) : status;
+}
+
 /* Reads the names after mtllib: one name that contains blanks, or several names. */
 static koksma_status take_libraries(obj *o, const char *rest, size_t length)
 {
@@ -303,14 +310,13 @@ static koksma_status take_libraries(obj *o, const char *rest, size_t length)
     }
     snprintf(name, sizeof name, "%.*s", (int)length, rest);
     if (koksma__find_named(o->text.path, name, path)) {
-        return koksma__mtl_read(path, &o->names, o->out);
+        return read_library(o, path);
     }
     koksma__text words = {.at = rest, .stop = rest + length};
     koksma_status status = KOKSMA_OK;
     while (!status && koksma__text_word(&words, &rest, &length)) {
         snprintf(name, sizeof name, "%.*s", (int)length, rest);
-        status = koksma__find_named(o->text.path, name, path) ? koksma__mtl_read(path, &o->names, o->out)
-                                                              : note_missing(o, name);
+        status = koksma__find_named(o->text.path, name, path) ? read_library(o, path) : note_missing(o, name);
     }
     return status;
 }

@@ -55,7 +55,7 @@ typedef enum koksma__map_use {
 } koksma__map_use;
 
 typedef struct koksma__map {
-    koksma_image *image; /* or NULL */
+    koksma_image *image; /* or NULL; owned by the scene, as all images */
     koksma__mapping mapping;
     float scale;
 } koksma__map;
@@ -169,7 +169,10 @@ struct koksma_scene {
     koksma__unread unread;    /* unsupported parts of a model file */
     koksma__unknown *unknown; /* unsupported features of another renderer's scene */
     size_t n_unknown;
-    bool glows; /* some placement that has a material is also a light */
+    struct koksma__kept_image **images; /* owns all images (render/scene_images.h) */
+    size_t n_images;
+    uint64_t image_bytes, image_file_bytes; /* of the images in memory, and of the files that they are from */
+    bool glows;                             /* some placement that has a material is also a light */
     /* the numbers of lights and shapes that model.c added to the scene of a model file, at the ends of `lights` and
        `shapes`; each of these shapes uses one material, and these materials are at the end of `materials` */
     struct {

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "core/capacity.h"
-#include "core/hash.h"
 #include "render/materials/materials.h"
+#include "render/scene_images.h"
 
 int koksma__find_material(const koksma_scene *scene, const char *name)
 {
@@ -50,17 +50,10 @@ koksma_status koksma__scene_note(koksma_scene *scene, const char *text)
     return KOKSMA_OK;
 }
 
-void koksma__material_mean(koksma__material *m)
+void koksma__material_mean(const koksma_scene *scene, koksma__material *m)
 {
-    const size_t n = (size_t)m->image->width * (size_t)m->image->height, channels = (size_t)m->image->channels;
-    for (size_t k = 0; k < 3; k++) {
-        double sum = 0;
-        for (size_t i = 0; i < n; i++) {
-            const double value = (double)m->image->pixels[i * channels + k % channels];
-            sum += value > 0 ? fmin(value, 1) : 0;
-        }
-        m->albedo[0][k] = m->albedo[1][k] = sum / (double)n;
-    }
+    koksma__scene_image_mean(scene, m->image, m->albedo[0]);
+    memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
 }
 
 static bool is_grey(const double rgb[3])
@@ -77,26 +70,22 @@ static bool has_grey_values(const koksma__material *m)
     return grey;
 }
 
-static uint64_t image_hash(const koksma_image *image)
-{
-    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-    return koksma__hash(image->pixels, n * sizeof *image->pixels);
-}
-
 /* Adds the pixels of images in other files to the scene's hash, because a scene with other pixels is another
    scene. */
 static void add_pixels(koksma_scene *scene)
 {
     for (size_t i = 0; i < scene->n_materials; i++) {
         const koksma__material *m = &scene->materials[i];
-        scene->hash ^= m->image ? image_hash(m->image) + i : 0;
+        scene->hash ^= m->image ? koksma__scene_image_hash(scene, m->image) + i : 0;
         for (size_t k = 0; k < KOKSMA__N_MAPS; k++) {
             const uint64_t key = 1 + i + KOKSMA__MAX_MATERIALS * (k + 1);
-            scene->hash ^= m->maps[k].image ? image_hash(m->maps[k].image) * (2 * key + 1) : 0;
+            scene->hash ^= m->maps[k].image ? koksma__scene_image_hash(scene, m->maps[k].image) * (2 * key + 1) : 0;
         }
     }
     for (size_t i = 0; i < scene->n_lights; i++) {
-        scene->hash ^= scene->lights[i].image ? image_hash(scene->lights[i].image) + scene->n_materials + i : 0;
+        scene->hash ^= scene->lights[i].image
+                           ? koksma__scene_image_hash(scene, scene->lights[i].image) + scene->n_materials + i
+                           : 0;
     }
 }
 

@@ -19,7 +19,7 @@ koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);
 koksma_status koksma__scene_note(koksma_scene *scene, const char *text);
 
 /* Sets the albedo of a material with an image to the image's mean. */
-void koksma__material_mean(koksma__material *material);
+void koksma__material_mean(const koksma_scene *scene, koksma__material *material);
 
 /* Computes the members that follow from the others: grey, moves, and the pixels' part of the hash. */
 void koksma__scene_finish(koksma_scene *scene);

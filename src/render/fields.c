@@ -12,9 +12,7 @@
 
 #include "core/suggestion.h"
 #include "core/vector.h"
-#include "image/formats.h"
-#include "image/image.h"
-#include "image/registry.h"
+#include "render/scene_images.h"
 
 const char *koksma__package_hint(const char *path)
 {
@@ -30,14 +28,12 @@ const char *koksma__package_hint(const char *path)
     return "";
 }
 
-koksma_status koksma__parse_image(const char *name, const field *f, const char *path, koksma_image **out)
+koksma_status koksma__parse_image(koksma_scene *scene, const char *name, const field *f, const char *path,
+                                  koksma_image **out)
 {
     char full[KOKSMA__MAX_PATH];
     KOKSMA__JSON_FAIL_IF(!koksma__path_beside(name, path, full), f, "the path is too long");
-    *out = calloc(1, sizeof **out);
-    KOKSMA__REQUIRE_MEMORY(*out, sizeof **out);
-    koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, *out);
-    status = status ? status : koksma__image_check(*out, full);
+    const koksma_status status = koksma__scene_image(scene, full, &KOKSMA__PLAIN_IMAGE, out);
     if (status == KOKSMA_MISSING) {
         koksma__fail(status, "%s%s", koksma_error_text(), koksma__package_hint(full));
     }

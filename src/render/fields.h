@@ -73,7 +73,8 @@ const char *koksma__package_hint(const char *path);
 
 /* Reads the image in the file `path`, which the scene file `name` mentions; NULL on failure, with a message that
    names the field f. */
-koksma_status koksma__parse_image(const char *name, const field *f, const char *path, koksma_image **out);
+koksma_status koksma__parse_image(koksma_scene *scene, const char *name, const field *f, const char *path,
+                                  koksma_image **out);
 
 koksma_status koksma__parse_point(const field *object, const char *key, double out[3]);
 koksma_status koksma__parse_direction(const field *object, const char *key, double out[3]);

@@ -25,6 +25,7 @@
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
+#include "render/scene_images.h"
 
 enum { MOST_UNKNOWN = 256, FINE = 512 };
 
@@ -169,33 +170,11 @@ bool koksma__import_metal(const char *name, double rgb[3])
 
 /* ---- Materials -------------------------------------------------------------------------------------------- */
 
-/* Turns an image upside down. */
-static void swap_rows(koksma_image *image)
+/* Finishes the reading of an image: one that can't be decoded is left out with a warning, any other error is one of
+   the scene. */
+static koksma_status leave_out(koksma__import *im, koksma__text_place place, koksma_status status)
 {
-    const size_t row = (size_t)image->width * (size_t)image->channels, height = (size_t)image->height;
-    for (size_t y = 0; y < height / 2; y++) {
-        float *a = image->pixels + y * row, *b = image->pixels + (height - 1 - y) * row;
-        for (size_t i = 0; i < row; i++) {
-            const float kept = a[i];
-            a[i] = b[i];
-            b[i] = kept;
-        }
-    }
-}
-
-static koksma_status read_image(koksma__import *im, koksma__text_place place, const char *path, koksma_image **out)
-{
-    koksma_image *image = calloc(1, sizeof *image);
-    KOKSMA__REQUIRE_MEMORY(image, sizeof *image);
-    koksma_status status = koksma__image_read(path, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, image);
-    status = status ? status : koksma__image_check(image, path);
-    if (status) {
-        koksma_image_fini(image);
-        free(image);
-        image = NULL;
-    }
-    *out = image;
-    return status != KOKSMA_MALFORMED && status != KOKSMA_UNSUPPORTED
+    return (status != KOKSMA_MALFORMED && status != KOKSMA_UNSUPPORTED) || koksma__is_refused()
                ? koksma__import_fail_at(place, status)
                : koksma__import_unknown(im, place, "%s; it is left out", koksma_error_text());
 }
@@ -209,14 +188,17 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
     koksma__import_albedo(m->albedo[1]);
     m->checker = from->is_checker;
     m->period = from->period;
-    KOKSMA__TRY(*from->image ? read_image(im, place, from->image, &m->image) : KOKSMA_OK);
-    if (m->image && im->rows_down) {
-        swap_rows(m->image);
+    if (!*from->image) {
+        return KOKSMA_OK;
     }
-    if (m->image) {
-        m->mapping = from->mapping;
-        koksma__material_mean(m);
+    koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+    use.upside_down = im->rows_down;
+    const koksma_status status = koksma__scene_image(im->scene, from->image, &use, &m->image);
+    if (status) {
+        return leave_out(im, place, status);
     }
+    m->mapping = from->mapping;
+    koksma__material_mean(im->scene, m);
     return KOKSMA_OK;
 }
 
@@ -286,6 +268,15 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
 
 /* ---- Lights ------------------------------------------------------------------------------------------------ */
 
+static bool has_environment(const koksma_scene *scene)
+{
+    bool found = false;
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        found |= scene->lights[i].kind == &koksma__light_environment;
+    }
+    return found;
+}
+
 koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light)
 {
     koksma__light *to = NULL;
@@ -294,17 +285,11 @@ koksma_status koksma__import_light(koksma__import *im, koksma__text_place place,
             return koksma__import_fail(place, "a light beyond 1e6");
         }
     }
-    for (size_t i = 0; light->kind == &koksma__light_environment && i < im->scene->n_lights; i++) {
-        if (im->scene->lights[i].kind == light->kind) {
-            koksma_image_fini(light->image);
-            free(light->image);
-            return koksma__import_unknown(im, place, "the scene has a second environment, which is left out");
-        }
+    if (light->kind == &koksma__light_environment && has_environment(im->scene)) {
+        return koksma__import_unknown(im, place, "the scene has a second environment, which is left out");
     }
     const koksma_status status = koksma__scene_add_light(im->scene, &to);
     if (status) {
-        koksma_image_fini(light->image);
-        free(light->image);
         return koksma__import_fail_at(place, status);
     }
     *to = *light;
@@ -366,6 +351,10 @@ static koksma_status turn_image(const koksma_image *from, bool octahedral, const
 {
     const int own = octahedral ? from->height : (from->width + 1) / 2, height = octahedral || own > FINE ? own : FINE;
     const int width = 2 * height;
+    const size_t own_pixels = (size_t)from->width * (size_t)from->height, fine = (size_t)2 * FINE * FINE;
+    KOKSMA__FAIL_IF((size_t)width * (size_t)height > 2 * (own_pixels > fine ? own_pixels : fine), KOKSMA_MALFORMED,
+                    "an environment of %d x %d pixels is more than four times as wide as high", from->width,
+                    from->height);
     KOKSMA__TRY(koksma_image_init(out, width, height, from->channels));
     for (int i = 0; i < 4 * width * height; i++) {
         const int pixel = i / 4, px = pixel % width, py = pixel / width;
@@ -391,33 +380,31 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
                                  const double scale[3], const double matrix[12])
 {
     char full[KOKSMA__MAX_PATH];
-    koksma_image *image = NULL, turned;
+    koksma_image image = {0}, turned = {0};
     double inverse[12];
     koksma__light light = {.kind = &koksma__light_environment, .visible = true};
+    if (has_environment(im->scene)) { /* the image of a second one, which may be large, is not read */
+        return koksma__import_light(im, place, &light);
+    }
     KOKSMA__TRY(koksma__import_path(im, place, name, full));
-    KOKSMA__TRY(read_image(im, place, full, &image));
     memcpy(light.radiance, scale, sizeof light.radiance);
-    if (image && !koksma__import_invert(matrix, inverse)) {
-        koksma_image_fini(image);
-        free(image);
-        return koksma__import_fail(place, "the matrix of an environment has no inverse");
+    koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, &image);
+    status = status ? status : koksma__image_check(&image, full);
+    if (status) {
+        koksma_image_fini(&image);
+        KOKSMA__TRY(leave_out(im, place, status));
+        return koksma__import_light(im, place, &light);
     }
-    if (image && (size_t)image->width * (size_t)image->height > (size_t)1 << 26) {
-        koksma_image_fini(image);
-        free(image);
-        return koksma__import_fail(place, "%s: an environment has at most 2^26 pixels", name);
+    if (!koksma__import_invert(matrix, inverse)) {
+        status = koksma__import_fail(place, "the matrix of an environment has no inverse");
+    } else {
+        status = turn_image(&image, octahedral, inverse, &turned);
+        status = status ? status : koksma__scene_image_keep(im->scene, &turned, &light.image);
+        status = status ? koksma__import_fail_at(place, status) : KOKSMA_OK;
     }
-    if (image) {
-        const koksma_status status = turn_image(image, octahedral, inverse, &turned);
-        koksma_image_fini(image);
-        if (status) {
-            free(image);
-            return status;
-        }
-        *image = turned;
-        light.image = image;
-    }
-    return koksma__import_light(im, place, &light);
+    koksma_image_fini(&image);
+    koksma_image_fini(&turned);
+    return status ? status : koksma__import_light(im, place, &light);
 }
 
 koksma_status koksma__import_spot(koksma__text_place place, const double direction[3], double inner_deg,

@@ -23,6 +23,7 @@
 #include "image/registry.h"
 #include "render/materials/materials.h"
 #include "render/medium.h"
+#include "render/scene_images.h"
 #include "render/shapes/shapes.h"
 
 /* A version number in the hash of scenes from mesh files; it is raised when a change of the code alters their
@@ -185,18 +186,16 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
 {
     KOKSMA__REQUIRE(scene);
     koksma__light *sky = NULL;
-    koksma_image *pixels = NULL;
+    koksma_image *pixels = NULL, read = {0};
     KOKSMA__FAIL_IF(!(radiance >= 0 && radiance <= BRIGHT), KOKSMA_ARGUMENT,
                     "a sky of radiance %g: it must be 0 to %g", radiance, BRIGHT);
     KOKSMA__FAIL_IF(scene->cache->made, KOKSMA_ARGUMENT, "the scene was rendered already; set its sky before that");
     if (image) {
-        pixels = calloc(1, sizeof *pixels);
-        KOKSMA__REQUIRE_MEMORY(pixels, sizeof *pixels);
-        koksma_status status = koksma__image_read(image, KOKSMA__FILE_TEXTURE, KOKSMA__BY_USER, pixels);
-        status = status ? status : koksma__image_check(pixels, image);
+        koksma_status status = koksma__image_read(image, KOKSMA__FILE_TEXTURE, KOKSMA__BY_USER, &read);
+        status = status ? status : koksma__image_check(&read, image);
+        status = status ? status : koksma__scene_image_keep(scene, &read, &pixels);
         if (status) {
-            koksma_image_fini(pixels);
-            free(pixels);
+            koksma_image_fini(&read);
             return status;
         }
     }
@@ -204,18 +203,13 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
     for (size_t i = 0; i < scene->n_lights; i++) {
         sky = scene->lights[i].kind == &koksma__light_environment ? &scene->lights[i] : sky;
     }
-    const koksma_status status = sky ? KOKSMA_OK : koksma__scene_add_light(scene, &sky);
-    if (status) {
-        koksma_image_fini(pixels);
-        free(pixels);
-        return status;
-    }
-    koksma_image_fini(sky->image);
-    free(sky->image);
+    KOKSMA__TRY(sky ? KOKSMA_OK : koksma__scene_add_light(scene, &sky));
+    const koksma_image *old = sky->image;
     *sky = (koksma__light){.kind = &koksma__light_environment,
                            .visible = true,
                            .radiance = {radiance, radiance, radiance},
                            .image = pixels};
+    koksma__scene_image_drop(scene, old);
     const uint64_t parts[2] = {scene->hash, koksma__hash(&radiance, sizeof radiance)};
     scene->hash = koksma__hash(parts, sizeof parts);
     koksma__scene_finish(scene);

@@ -16,12 +16,12 @@
 #include "core/vector.h"
 #include "image/formats.h"
 #include "image/image.h"
-#include "image/registry.h"
 #include "meshes/mesh_read.h"
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/placements.h"
+#include "render/scene_images.h"
 #include "scene/camera.h"
 
 typedef struct builder {
@@ -41,27 +41,20 @@ static double clamp01(float x)
 }
 
 /* Reads one part (such as colours or alpha) of an image that is embedded in the model file (glb) or is a file beside
-   it. Errors: MALFORMED (there is no such file, or it is not an image that Koksma reads), MISSING (the file exists
-   and can't be opened), MEMORY. */
-static koksma_status read_texture(const builder *build, const koksma__file_texture *from, koksma__image_part part,
-                                  koksma_image *image)
+   it. Errors: MALFORMED (there is no such file, or it is not an image that Koksma reads, or it is refused), MISSING (the
+   file exists and can't be opened), MEMORY. */
+static koksma_status read_texture(const builder *build, const koksma__file_texture *from,
+                                  const koksma__image_use *use, koksma_image **image)
 {
     char full[KOKSMA__MAX_PATH];
-    unsigned char *bytes = NULL;
-    size_t size = from->size;
-    koksma_status status = KOKSMA_OK;
-    *image = (koksma_image){0};
+    *image = NULL;
     KOKSMA__FAIL_IF(from->within && !from->bytes, KOKSMA_MALFORMED, "%s: no bytes", from->name);
-    if (!from->bytes) {
-        KOKSMA__FAIL_IF(!koksma__find_named(build->file->path, from->name, full), KOKSMA_MALFORMED,
-                        "%s: there is no such file", from->name);
-        KOKSMA__TRY(
-            koksma__read_file(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, koksma__image_check_start, &bytes, &size));
+    if (from->bytes) {
+        return koksma__scene_image_within(build->scene, from->name, from->bytes, from->size, use, image);
     }
-    status = koksma__image_read_part(from->bytes ? from->bytes : bytes, size, part, image);
-    status = status ? koksma__fail_in(status, from->bytes ? from->name : full) : KOKSMA_OK;
-    free(bytes);
-    return status || !image->pixels ? status : koksma__image_check(image, from->name);
+    KOKSMA__FAIL_IF(!koksma__find_named(build->file->path, from->name, full), KOKSMA_MALFORMED,
+                    "%s: there is no such file", from->name);
+    return koksma__scene_image(build->scene, full, use, image);
 }
 
 /* Scales radiance down to the maximum that scenes allow, and keeps its colour. */
@@ -74,57 +67,34 @@ static void dim(builder *build, double rgb[3])
     }
 }
 
-/* Handles the error of a texture: one that is missing or malformed becomes a warning in `text`, any other error
-   becomes build->status. */
+/* Handles the error of a texture: one that is missing or malformed becomes a warning in `text`, any other error, such
+   as that of a folder or a limit, becomes build->status. */
 static void note(builder *build, koksma_status status, char text[256])
 {
-    if (status == KOKSMA_MISSING || koksma_status_exit_code(status) == koksma_status_exit_code(KOKSMA_SYSTEM)) {
+    if (status == KOKSMA_MISSING || koksma__is_refused() ||
+        koksma_status_exit_code(status) == koksma_status_exit_code(KOKSMA_SYSTEM)) {
         build->status = status;
     } else {
         snprintf(text, 256, "%s", koksma_error_text());
     }
 }
 
-/* Multiplies the pixels by a colour; a grey image becomes a colour image if necessary. */
-static koksma_status tint(koksma_image *image, const double colour[3])
-{
-    const size_t n = (size_t)image->width * (size_t)image->height;
-    koksma_image grey = *image;
-    if (grey.channels == 1 && (colour[0] != colour[1] || colour[0] != colour[2])) {
-        const koksma_status status = koksma_image_init(image, grey.width, grey.height, 3);
-        for (size_t i = 0; !status && i < 3 * n; i++) {
-            image->pixels[i] = grey.pixels[i / 3];
-        }
-        koksma_image_fini(&grey);
-        if (status) {
-            return status;
-        }
-    }
-    const size_t channels = (size_t)image->channels;
-    for (size_t i = 0; i < n * channels; i++) {
-        image->pixels[i] = (float)((double)image->pixels[i] * colour[i % channels]);
-    }
-    return KOKSMA_OK;
-}
-
-/* Reads a part of a texture into *out. *out stays NULL if the texture has no such part or can't be read; if it can't
+/* Reads a texture into *out, as `use` says. *out stays NULL if the texture has no such part or can't be read; if it can't
    be read, `text` has the reason. */
-static void take_map(builder *build, const koksma__file_texture *from, koksma__image_part part, koksma_image **out,
-                     koksma__mapping *mapping, char text[256])
+static void take_map(builder *build, const koksma__file_texture *from, const koksma__image_use *use,
+                     koksma_image **out, koksma__mapping *mapping, char text[256])
 {
     static const int wraps[] = {[KOKSMA__WRAP_CLAMP] = 33071, [KOKSMA__WRAP_MIRROR] = 33648};
     *text = '\0';
     if (!from->name || build->status) {
         return;
     }
-    koksma_image *image = calloc(1, sizeof *image);
-    const koksma_status status = image ? read_texture(build, from, part, image) : koksma__fail_memory(sizeof *image);
+    koksma_image *image;
+    const koksma_status status = read_texture(build, from, use, &image);
     if (status) {
         note(build, status, text);
     }
     if (status || !image->pixels) {
-        koksma_image_fini(image);
-        free(image);
         return;
     }
     *out = image;
@@ -150,10 +120,11 @@ static void take_colour_map(builder *build, const koksma__file_texture *from, ko
         snprintf(m->lost, sizeof m->lost, "%s: the colour texture of a metal is ignored", from->name);
         return;
     }
-    take_map(build, from, colours_of(m), &m->image, &m->mapping, m->lost);
-    if (m->image && !build->status) {
-        build->status = tint(m->image, m->albedo[0]);
-        koksma__material_mean(m);
+    koksma__image_use use = {.part = colours_of(m)};
+    memcpy(use.tint, m->albedo[0], sizeof use.tint);
+    take_map(build, from, &use, &m->image, &m->mapping, m->lost);
+    if (m->image) {
+        koksma__material_mean(build->scene, m);
     }
 }
 
@@ -163,7 +134,9 @@ static void take_glow_map(builder *build, const koksma__file_texture *from, doub
 {
     koksma__map *map = &m->maps[KOKSMA__MAP_EMISSION];
     bool dark = true;
-    take_map(build, from, colours_of(m), &map->image, &map->mapping, m->dark);
+    koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+    use.part = colours_of(m);
+    take_map(build, from, &use, &map->image, &map->mapping, m->dark);
     const size_t n = map->image ? (size_t)map->image->width * (size_t)map->image->height : 0;
     for (size_t i = 0; i < n * (size_t)(map->image ? map->image->channels : 0) && dark; i++) {
         dark = !(map->image->pixels[i] > 0);
@@ -189,7 +162,9 @@ static void take_principled(builder *build, const koksma__file_material *from, k
     *koksma__material_value(m, "ior") = from->ior < 1 ? 1.5 : fmin(from->ior, 4);
     for (size_t i = 0; i < sizeof all / sizeof *all - (from->blends ? 0 : 1); i++) {
         koksma__map *map = &m->maps[all[i].use];
-        take_map(build, all[i].from, all[i].part, &map->image, &map->mapping, text);
+        koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+        use.part = all[i].part;
+        take_map(build, all[i].from, &use, &map->image, &map->mapping, text);
         map->scale = all[i].from->scale;
         if (*text && all[i].part == KOKSMA__IMAGE_NUMBERS && !build->status) {
             char note_text[256];

@@ -39,29 +39,29 @@ static koksma_status parse_albedo(const field *f, koksma__material *m)
 
 /* Reads "albedo": {"image": FILE} of a Lambert surface; the image's mean colour is used where a single colour is
    needed. */
-static koksma_status parse_texture(const char *name, const field *f, koksma__material *m)
+static koksma_status parse_texture(koksma_scene *scene, const char *name, const field *f, koksma__material *m)
 {
     field albedo;
     const char *path = "";
     koksma_status status = koksma__json_member(f, "albedo", &albedo);
     status = status ? status : koksma__json_only(&albedo, KEYS("image"));
     status = status ? status : koksma__json_get_text(&albedo, "image", true, &path);
-    status = status ? status : koksma__parse_image(name, &albedo, path, &m->image);
+    status = status ? status : koksma__parse_image(scene, name, &albedo, path, &m->image);
     if (!status) {
-        koksma__material_mean(m);
+        koksma__material_mean(scene, m);
     }
     return status;
 }
 
 /* Reads the diffuse albedo, in one of the forms that the kind of material allows. */
-static koksma_status parse_diffuse(const char *scene_name, const field *f, koksma__material *m)
+static koksma_status parse_diffuse(koksma_scene *scene, const char *scene_name, const field *f, koksma__material *m)
 {
     const unsigned forms = m->bsdf->diffuse;
     if (!forms) {
         return KOKSMA_OK;
     }
     if (forms & KOKSMA__IMAGE && koksma__json_is_object_at(f, "albedo")) {
-        return parse_texture(scene_name, f, m);
+        return parse_texture(scene, scene_name, f, m);
     }
     m->checker = forms & KOKSMA__CHECKER && (!(forms & KOKSMA__ALBEDO) || koksma__json_has(f, "albedos"));
     return parse_albedo(f, m);
@@ -81,7 +81,7 @@ koksma_status koksma__parse_material(const char *scene_name, const field *f, kok
     m->bsdf = koksma__bsdfs[kind];
     scene->n_materials++;
     KOKSMA__TRY(koksma__parse_fields(f, &m->bsdf->kind, koksma__material_keys(m->bsdf), m));
-    KOKSMA__TRY(parse_diffuse(scene_name, f, m));
+    KOKSMA__TRY(parse_diffuse(scene, scene_name, f, m));
     KOKSMA__JSON_FAIL_IF(m->bsdf->check && (problem = m->bsdf->check(m)), f, "%s", problem);
     return KOKSMA_OK;
 }

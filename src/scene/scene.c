@@ -13,6 +13,7 @@
 #include "core/status.h"
 #include "core/suggestion.h"
 #include "meshes/mesh_read.h"
+#include "render/scene_images.h"
 #include "scene/import_open.h"
 #include "scene/model.h"
 #include "scene/parse.h"
@@ -134,23 +135,12 @@ koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
 
 void koksma__scene_fini(koksma_scene *scene)
 {
-    for (size_t i = 0; i < scene->n_lights; i++) {
-        koksma_image_fini(scene->lights[i].image);
-        free(scene->lights[i].image);
-    }
+    koksma__scene_images_fini(scene);
     for (size_t i = 0; i < scene->n_meshes; i++) {
         koksma__mesh_fini(&scene->meshes[i]);
     }
     free(scene->meshes);
     free(scene->placements);
-    for (size_t i = 0; i < scene->n_materials; i++) {
-        koksma_image_fini(scene->materials[i].image);
-        free(scene->materials[i].image);
-        for (int k = 0; k < KOKSMA__N_MAPS; k++) {
-            koksma_image_fini(scene->materials[i].maps[k].image);
-            free(scene->materials[i].maps[k].image);
-        }
-    }
     free(scene->notes);
     free(scene->materials);
     free(scene->shapes);

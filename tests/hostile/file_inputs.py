@@ -22,7 +22,7 @@ import files
 HERE = os.path.dirname(os.path.abspath(__file__))
 SOURCE = os.path.dirname(os.path.dirname(HERE))
 SPARSE = 10 << 30
-# Images that are left out if they are malformed, of which `scene check` warns: exit code 1.
+# Images that are left out if they are malformed, of which `scene check` warns: exit code 1. What is refused is an error.
 LEFT_OUT = ("map_Kd", "glTF image", "pbrt texture", "pbrt sky", "Mitsuba texture", "Mitsuba sky")
 
 
@@ -190,6 +190,11 @@ class Things:
         os.mkfifo(path)
         return name, "it is a pipe or socket"
 
+    def directory(self, ending):
+        name = f"directory{ending}"
+        os.makedirs(os.path.join(self.folder, name), exist_ok=True)
+        return name, "it is a directory"
+
     def socket(self, ending):
         name, path = self.path("socket", ending)
         made = socket.socket(socket.AF_UNIX)
@@ -211,19 +216,23 @@ def check_named_by_files(checks, program, folder, kinds):
         most, words = kinds[kind]
         code = 1 if what in LEFT_OUT else 3
         seen.add(kind)
-        for make in (things.device, things.null, things.fifo, things.socket):
+        for make in (things.device, things.null, things.fifo, things.socket, things.directory):
             name, reason = make(ending)
             if "include" in what and reason == "it is a device":
                 reason = "not below the scene's own folder"  # where the link leads
             done = files.run(program, *arguments(name), cwd=folder)
             checks.refused(f"{what} {make.__name__}", done, 3, name, reason)
         name, _ = things.sparse(ending)
-        checks.refused(f"{what} of 10 GiB", files.run(program, *arguments(name), cwd=folder), code, name,
+        checks.refused(f"{what} of 10 GiB", files.run(program, *arguments(name), cwd=folder), 3, name,
                        f"longer than {most >> 20} MiB, the limit of {words}")
         if kind != "BUFFER":  # whose bytes are numbers, that the rest of the model needs
             name, _ = things.sparse(ending, most)
             checks.refused(f"{what} of zeros up to the limit", files.run(program, *arguments(name), cwd=folder), code,
                            name)
+        if kind == "TEXTURE":
+            name = put(os.path.join(folder, "wide" + ending), "Pf\n8193 8193\n-1\n")
+            checks.refused(f"{what} of 8193 x 8193", files.run(program, *arguments(os.path.basename(name)), cwd=folder), 3,
+                           os.path.basename(name), "at most 67108864")
     for made in things.sockets:
         made.close()
     return seen

@@ -71,6 +71,26 @@ def jpeg(side, scans, filling=0):
     return head + b"".join(segment(0xDA, bytes([1, 1, 0, *which])) + data for *which, data in scans) + b"\xff\xd9"
 
 
+def check_many(checks, program, folder, data):
+    """A picture of 256 MiB by many materials takes them once; many equal pictures are refused at 2 GiB."""
+    for n, what in ((1, "one JPEG in 60 materials"), (60, "60 JPEGs")):
+        made = scene()
+        made["materials"] = [{"name": f"m{i}", "kind": "lambert", "albedo": {"image": f"{i % n}.jpg"}} for i in range(60)]
+        made["shapes"] = [dict(made["shapes"][0], material=f"m{i}") for i in range(60)]
+        for i in range(n):
+            with open(os.path.join(folder, f"{i}.jpg"), "wb") as stream:
+                stream.write(data)
+        with open(os.path.join(folder, "many.json"), "w", encoding="ascii") as stream:
+            json.dump(made, stream)
+        done = files.run(program, "scene", "check", "many.json", cwd=folder)
+        words = "" if n == 1 else "more than 2048 MiB"
+        checks.check(done and done.code == (3 if n > 1 else 0) and words in done.err.decode(),
+                     f"{what}: exit code {done and done.code}, {done and done.err}")
+        most_mib = (MOST * 6 >> 20) + (2048 if n > 1 else 0)
+        checks.check(done and done.mib < most_mib + files.OTHER, f"{what}: {done and done.mib:.0f} MiB for {most_mib}")
+        print(f"{what}: {done.mib:.0f} MiB, exit code {done.code}")
+
+
 def main():
     program = os.path.abspath(sys.argv[1])
     checks = files.Checks()
@@ -111,6 +131,7 @@ def main():
         check("JPEG of few bytes", "n.jpg", jpeg(side, [(0, 0, 0, b"\0")]), 0, 0, "n.jpg", "cut short")
         check("JPEG of few bytes and zeros", "o.jpg", jpeg(side, [(0, 0, 0, b"\0")]), LIMIT, LIMIT >> 20, "o.jpg", "premature end")
         check("JPEG with a long head", "p.jpg", jpeg(side, [(0, 0, 0, b"\0")], 1 << 20), 0, 1, "p.jpg", "premature end")
+        check_many(checks, program, folder, jpeg(side, whole))
         check("JPEG of 20,000 scans", "q.jpg", jpeg(side, whole[:1] + 20000 * [(1, 63, 0x10, b"\0")]), 0, MOST * 6 >> 20, "q.jpg")
     checks.end()
 

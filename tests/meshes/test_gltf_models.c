@@ -169,7 +169,7 @@ static void names_of_files_are_decoded(void **state)
     expect(TEXTURED("[1, 1, 1, 1]", ""), "my%20texture.pfm", NULL, 0.25, 0.25, 0.25, "");
     unlink("my texture.pfm");
     unlink("my%20texture.pfm");
-    /* a zero ends no name, a folder is no file */
+    /* a zero ends no name; a folder is found, so that opening it says what is wrong */
     assert_int_equal(mkdir("parts", 0777), 0);
     write_image("parts/a b.pfm", 1, (const float[]){0.5f});
     assert_true(koksma__find_named("./m.obj", "parts\\a b.pfm", path));
@@ -177,7 +177,8 @@ static void names_of_files_are_decoded(void **state)
     assert_true(koksma__find_named("parts/m.obj", "a%20b%2Epfm", path));
     assert_string_equal(path, "parts/a b.pfm");
     assert_false(koksma__find_named("m.obj", "parts/a b.pfm%00x", path));
-    assert_false(koksma__find_named("m.obj", "parts", path));
+    assert_true(koksma__find_named("m.obj", "parts", path));
+    assert_false(koksma__find_named("parts/m.obj", "", path));
     assert_false(koksma__find_named("m.obj", "%", path));
     unlink("parts/a b.pfm");
     rmdir("parts");

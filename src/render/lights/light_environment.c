@@ -206,7 +206,7 @@ static koksma_status parse(const char *name, const field *f, koksma_scene *scene
     status = status ? status : koksma__json_get_number(f, "scale", false, 0, BRIGHT, &scale);
     light->angle_rad = angle_deg * TURN / 360;
     light->radiance[0] = light->radiance[1] = light->radiance[2] = scale;
-    return status ? status : koksma__parse_image(name, f, path, &light->image);
+    return status ? status : koksma__parse_image(scene, name, f, path, &light->image);
 }
 
 static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)

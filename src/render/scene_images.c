@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Reads the images of a scene. A file is known by its device and inode, an image within a model by its bytes; both are
+ * decoded once for each use (part, tint, orientation), however many materials name them, and a failure is remembered
+ * as well. All images of a scene together may take MOST bytes or, if that is more, RATIO bytes for each byte of their
+ * files: a small file may not take all memory by many names, and a scene whose files are large may have large images.
+ * The sum is compared with the limit after each image, so that one image more is in memory at most.
+ */
+#include "render/scene_images.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "core/capacity.h"
+#include "core/hash.h"
+#include "core/status.h"
+#include "image/image.h"
+
+enum { RATIO = 256, MOST_MIB = 2048 };
+#define MOST ((uint64_t)MOST_MIB << 20)
+
+typedef struct koksma__kept_image {
+    koksma_image image;
+    bool in_file; /* the image is that of a file; bytes is NULL */
+    dev_t device;
+    ino_t inode;
+    const unsigned char *bytes; /* bytes within a model; NULL for images that the program made */
+    size_t size;
+    koksma__image_use use;
+    koksma_status status; /* of reading; `text` is the message */
+    char text[256];
+    bool hashed, has_mean;
+    uint64_t hash;
+    double mean[3];
+} entry;
+
+/* ---- The list --------------------------------------------------------------------------------------------- */
+
+static bool same_bytes(const entry *a, const entry *b)
+{
+    return a->in_file == b->in_file && a->device == b->device && a->inode == b->inode && a->bytes == b->bytes &&
+           a->size == b->size && (a->in_file || a->bytes);
+}
+
+static bool same_use(const koksma__image_use *a, const koksma__image_use *b)
+{
+    return a->part == b->part && a->upside_down == b->upside_down && !memcmp(a->tint, b->tint, sizeof a->tint);
+}
+
+/* A failure does not depend on the tint. */
+static entry *find(const koksma_scene *scene, const entry *wanted)
+{
+    for (size_t i = 0; i < scene->n_images; i++) {
+        entry *e = scene->images[i];
+        if (same_bytes(e, wanted) &&
+            (e->status ? e->use.part == wanted->use.part : same_use(&e->use, &wanted->use))) {
+            return e;
+        }
+    }
+    return NULL;
+}
+
+static entry *entry_of(const koksma_scene *scene, const koksma_image *image)
+{
+    size_t i = 0;
+    while (i < scene->n_images && &scene->images[i]->image != image) {
+        i++;
+    }
+    return i < scene->n_images ? scene->images[i] : NULL;
+}
+
+static uint64_t bytes_of(const koksma_image *image)
+{
+    return (uint64_t)image->width * (uint64_t)image->height * (uint64_t)image->channels * sizeof *image->pixels;
+}
+
+/* The bytes that a new entry adds to those of the files: none if they were counted before. */
+static uint64_t new_bytes(const koksma_scene *scene, const entry *new)
+{
+    for (size_t i = 0; i < scene->n_images; i++) {
+        const entry *e = scene->images[i];
+        const bool overlaps = e->bytes && new->bytes && (uintptr_t)e->bytes < (uintptr_t) new->bytes + new->size &&
+                              (uintptr_t) new->bytes < (uintptr_t)e->bytes + e->size;
+        if (same_bytes(e, new) || overlaps) {
+            return 0;
+        }
+    }
+    return new->size;
+}
+
+/* Adds an entry, whose image is moved into the scene. */
+static koksma_status add(koksma_scene *scene, entry *from, entry **out)
+{
+    const uint64_t files = scene->image_file_bytes + new_bytes(scene, from), limit = RATIO * files;
+    const uint64_t all = scene->image_bytes + bytes_of(&from->image);
+    if (all > (limit > MOST ? limit : MOST)) {
+        return koksma__refused(koksma__fail(KOKSMA_MALFORMED,
+                                            "the images of the scene take more than %d MiB and more than %d times "
+                                            "their files: use fewer or smaller ones",
+                                            MOST_MIB, RATIO));
+    }
+    entry **place = koksma__add_one(&scene->images, &scene->n_images, sizeof *place);
+    entry *e = place ? malloc(sizeof *e) : NULL;
+    if (!e) {
+        scene->n_images -= place != NULL;
+        return koksma__fail_memory(sizeof *e);
+    }
+    *e = *from;
+    from->image = (koksma_image){0};
+    *place = *out = e;
+    scene->image_bytes = all;
+    scene->image_file_bytes = files;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__scene_image_keep(koksma_scene *scene, koksma_image *from, koksma_image **out)
+{
+    entry e = {.image = *from}, *added;
+    KOKSMA__TRY(add(scene, &e, &added));
+    *from = (koksma_image){0};
+    *out = &added->image;
+    return KOKSMA_OK;
+}
+
+void koksma__scene_image_drop(koksma_scene *scene, const koksma_image *image)
+{
+    size_t at = 0;
+    while (at < scene->n_images && &scene->images[at]->image != image) {
+        at++;
+    }
+    bool used = at == scene->n_images;
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        used |= scene->lights[i].image == image;
+    }
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        used |= scene->materials[i].image == image;
+        for (int k = 0; k < KOKSMA__N_MAPS; k++) {
+            used |= scene->materials[i].maps[k].image == image;
+        }
+    }
+    if (!used) {
+        scene->image_bytes -= bytes_of(image);
+        koksma_image_fini(&scene->images[at]->image);
+        free(scene->images[at]);
+        scene->images[at] = scene->images[--scene->n_images];
+    }
+}
+
+void koksma__scene_images_fini(koksma_scene *scene)
+{
+    for (size_t i = 0; i < scene->n_images; i++) {
+        koksma_image_fini(&scene->images[i]->image);
+        free(scene->images[i]);
+    }
+    free(scene->images);
+}
+
+/* ---- Reading ---------------------------------------------------------------------------------------------- */
+
+/* Multiplies the pixels by a colour; a grey image becomes a colour image if necessary. */
+static koksma_status tint(koksma_image *image, const double colour[3])
+{
+    const size_t n = (size_t)image->width * (size_t)image->height;
+    if (colour[0] == 1 && colour[1] == 1 && colour[2] == 1) {
+        return KOKSMA_OK;
+    }
+    koksma_image grey = *image;
+    if (grey.channels == 1 && (colour[0] != colour[1] || colour[0] != colour[2])) {
+        const koksma_status status = koksma_image_init(image, grey.width, grey.height, 3);
+        for (size_t i = 0; !status && i < 3 * n; i++) {
+            image->pixels[i] = grey.pixels[i / 3];
+        }
+        koksma_image_fini(&grey);
+        if (status) {
+            return status;
+        }
+    }
+    const size_t channels = (size_t)image->channels;
+    for (size_t i = 0; i < n * channels; i++) {
+        image->pixels[i] = (float)((double)image->pixels[i] * colour[i % channels]);
+    }
+    return KOKSMA_OK;
+}
+
+static void swap_rows(koksma_image *image)
+{
+    const size_t row = (size_t)image->width * (size_t)image->channels, height = (size_t)image->height;
+    for (size_t y = 0; y < height / 2; y++) {
+        float *a = image->pixels + y * row, *b = image->pixels + (height - 1 - y) * row;
+        for (size_t i = 0; i < row; i++) {
+            const float kept = a[i];
+            a[i] = b[i];
+            b[i] = kept;
+        }
+    }
+}
+
+static koksma_status decode(entry *e, const char *name, const unsigned char *bytes, size_t size)
+{
+    koksma_status status = koksma__image_read_part(bytes, size, e->use.part, &e->image);
+    if (status) {
+        return koksma__fail_in(status, name);
+    }
+    if (!e->image.pixels) {
+        return KOKSMA_OK;
+    }
+    status = koksma__image_check(&e->image, name);
+    status = status ? status : tint(&e->image, e->use.tint);
+    if (!status && e->use.upside_down) {
+        swap_rows(&e->image);
+    }
+    return status;
+}
+
+/* Reads the image of the entry, or finds it. Failures that another attempt would repeat are kept. */
+static koksma_status read_or_find(koksma_scene *scene, const char *name, entry *new, koksma_image **out)
+{
+    entry *e = find(scene, new);
+    *out = NULL;
+    if (!e) {
+        unsigned char *read = NULL;
+        size_t size = new->size;
+        koksma_status status = new->in_file ? koksma__read_file(name, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE,
+                                                                koksma__image_check_start, &read, &size)
+                                            : KOKSMA_OK;
+        new->size = size;
+        status = status ? status : decode(new, name, new->in_file ? read : new->bytes, size);
+        free(read);
+        if (status) {
+            koksma_image_fini(&new->image);
+        }
+        if (status && (koksma__is_refused() || (status != KOKSMA_MALFORMED && status != KOKSMA_UNSUPPORTED))) {
+            return status;
+        }
+        new->status = status;
+        snprintf(new->text, sizeof new->text, "%s", status ? koksma_error_text() : "");
+        status = add(scene, new, &e);
+        if (status) {
+            koksma_image_fini(&new->image);
+            return koksma__fail_in(status, name);
+        }
+    }
+    *out = e->status ? NULL : &e->image;
+    return e->status ? koksma__fail(e->status, "%s", e->text) : KOKSMA_OK;
+}
+
+koksma_status koksma__scene_image(koksma_scene *scene, const char *path, const koksma__image_use *use,
+                                  koksma_image **out)
+{
+    entry new = {.in_file = true, .use = *use};
+    struct stat about;
+    if (!stat(path, &about)) { /* if it fails, reading says why */
+        new.device = about.st_dev;
+        new.inode = about.st_ino;
+        new.size = (size_t)about.st_size;
+    }
+    return read_or_find(scene, path, &new, out);
+}
+
+koksma_status koksma__scene_image_within(koksma_scene *scene, const char *name, const unsigned char *bytes,
+                                         size_t size, const koksma__image_use *use, koksma_image **out)
+{
+    entry new = {.bytes = bytes, .size = size, .use = *use};
+    return read_or_find(scene, name, &new, out);
+}
+
+/* ---- What follows from the pixels -------------------------------------------------------------------------- */
+
+void koksma__scene_image_mean(const koksma_scene *scene, const koksma_image *image, double mean[3])
+{
+    entry *e = entry_of(scene, image);
+    const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
+    for (size_t k = 0; k < 3 && !e->has_mean; k++) {
+        double sum = 0;
+        for (size_t i = 0; i < n; i++) {
+            const double value = (double)image->pixels[i * channels + k % channels];
+            sum += value > 0 ? fmin(value, 1) : 0;
+        }
+        e->mean[k] = sum / (double)n;
+    }
+    e->has_mean = true;
+    memcpy(mean, e->mean, sizeof e->mean);
+}
+
+uint64_t koksma__scene_image_hash(const koksma_scene *scene, const koksma_image *image)
+{
+    entry *e = entry_of(scene, image);
+    if (!e->hashed) {
+        e->hash = koksma__hash(image->pixels, bytes_of(image));
+        e->hashed = true;
+    }
+    return e->hash;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The images of a scene: textures and environments. The scene owns them; its materials and lights point to them. */
+#ifndef KOKSMA_RENDER_SCENE_IMAGES_H
+#define KOKSMA_RENDER_SCENE_IMAGES_H
+
+#include "image/registry.h"
+#include "render/description.h"
+
+/* How an image is read: which part of it, multiplied by which colour, and whether its last row becomes the first. */
+typedef struct koksma__image_use {
+    koksma__image_part part;
+    double tint[3];
+    bool upside_down;
+} koksma__image_use;
+
+#define KOKSMA__PLAIN_IMAGE ((koksma__image_use){KOKSMA__IMAGE_COLOURS, {1, 1, 1}, false})
+
+/* Reads the image in a file that the scene names, or finds it if it was read for the same use before. An image of
+   which the file has no such part has no pixels. Errors: those of koksma__image_read; MALFORMED (a number in it is not
+   usable; the scene's images take too much memory, koksma__is_refused). */
+koksma_status koksma__scene_image(koksma_scene *scene, const char *path, const koksma__image_use *use,
+                                  koksma_image **out);
+
+/* The same for an image within a model's file, which has the name for messages. The bytes stay where they are as long
+   as images are read. */
+koksma_status koksma__scene_image_within(koksma_scene *scene, const char *name, const unsigned char *bytes,
+                                         size_t size, const koksma__image_use *use, koksma_image **out);
+
+/* Moves an image into the scene. On failure *from is unchanged. Errors: MALFORMED (too much memory), MEMORY. */
+koksma_status koksma__scene_image_keep(koksma_scene *scene, koksma_image *from, koksma_image **out);
+
+/* Frees an image, unless a material or light still uses it. image may be NULL. */
+void koksma__scene_image_drop(koksma_scene *scene, const koksma_image *image);
+
+/* The mean colour, with pixels clamped to [0, 1], and the hash of the pixels; each is computed once. */
+void koksma__scene_image_mean(const koksma_scene *scene, const koksma_image *image, double mean[3]);
+uint64_t koksma__scene_image_hash(const koksma_scene *scene, const koksma_image *image);
+
+void koksma__scene_images_fini(koksma_scene *scene);
+
+#endif
