@@ -80,7 +80,7 @@ typedef struct koksma_layer {
    channel is the layer's name, a dot, and R, G or B ("normal.R"); a named layer with one channel uses the layer's
    name alone ("depth"). The channels of the first layer are R, G and B, or Y.
    Errors: those of koksma_image_write; also ARGUMENT for n = 0, layers of different sizes, a name that is too long,
-   and two channels with the same name. */
+   two channels with the same name, and more than 4,096 channels. */
 KOKSMA_API koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n,
                                                    const char *metadata);
 

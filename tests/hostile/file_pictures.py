@@ -124,6 +124,11 @@ def main():
         check("EXR with tiles of 40 channels", "i.exr", exr(256, 256, 256, 40), 0, 16)
         check("EXR with tiles of 400 channels", "j.exr", exr(1024, 1024, 1024, 400), 0, 0, "j.exr", "256 MiB")
         check("DWAB with tiles of 400 channels", "k.exr", exr(1024, 1024, 1024, 400, 9), 0, 0, "k.exr", "256 MiB")
+        check("EXR of 100,000 channels", "r.exr", exr(16, 16, 16, 100000), 0, 64, "r.exr", "more than 4096")
+        many = exr(16, 16, 16, 3)
+        at = many.index(b"compression\0")
+        many = many[:at] + b"".join(attribute(f"x{i}", "string", b"y") for i in range(100000)) + many[at:]
+        check("EXR of 100,000 attributes", "s.exr", many, 0, 64, "s.exr", "more than 4096")
         bits = bytes(side * side // 64 // 8)
         whole = [(0, 0, 0, bits), (1, 63, 0, bits)]
         check("JPEG of 2^26 pixels", "l.jpg", jpeg(side, whole), 0, MOST * 6 >> 20)
