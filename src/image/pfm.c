@@ -44,14 +44,31 @@ static bool is_end(const unsigned char *bytes, size_t size)
     return i + 1 == size && bytes[i] == '\n';
 }
 
+/* Reads a word of at most nine digits, such as the width. */
+static bool take_side(const char *word, long long *out)
+{
+    const size_t length = strlen(word);
+    *out = 0;
+    if (length > 9 || strspn(word, "0123456789") != length) {
+        return false;
+    }
+    for (size_t i = 0; i < length; i++) {
+        *out = *out * 10 + (word[i] - '0');
+    }
+    return true;
+}
+
 static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
 {
-    char header[96] = "", scale_text[24] = "", *end;
+    /* a word that fills its place may be the start of a longer one */
+    char header[96] = "", width_text[24] = "", height_text[24] = "", scale_text[24] = "", *end;
     long long width, height;
     int used = 0;
     memcpy(header, bytes + 2, size - 2 < sizeof header - 1 ? size - 2 : sizeof header - 1);
-    KOKSMA__FAIL_IF(sscanf(header, "%9lld %9lld %23s%n", &width, &height, scale_text, &used) != 3, KOKSMA_MALFORMED,
-                    "line 1: a PFM header is PF or Pf, width, height and scale");
+    KOKSMA__FAIL_IF(sscanf(header, "%23s %23s %23s%n", width_text, height_text, scale_text, &used) != 3 ||
+                        !take_side(width_text, &width) || !take_side(height_text, &height),
+                    KOKSMA_MALFORMED,
+                    "line 1: a PFM header is PF or Pf, width, height and scale, with blanks between");
     const double scale = koksma__strtod(scale_text, &end);
     KOKSMA__FAIL_IF(*end || !isfinite(scale) || scale == 0, KOKSMA_MALFORMED,
                     "line 3: the scale '%s' is not a number other than 0", scale_text);

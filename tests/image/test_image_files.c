@@ -585,6 +585,13 @@ static void pfm_heads_end_as_writers_end_them(void **state)
         assert_ok(read_pfm(good[i], ""));
         assert_int_equal(read_pfm(good[i], "junk"), KOKSMA_MALFORMED);
     }
+    /* a number ends where its digits do */
+    static const char *const joined[] = {
+        "Pf\n0000000021\n-1\n", "Pf\n2 1-1\n",     "Pf\n2-1\n1\n",   "Pf\n2 1 -1-1\n",
+        "Pf\n2.0 1\n-1\n",      "Pf\n0x2 1\n-1\n", "Pf\n+2 1\n-1\n", "Pf\n00000000000000000000000 2 1\n-1\n"};
+    for (size_t i = 0; i < sizeof joined / sizeof *joined; i++) {
+        assert_int_equal(read_pfm(joined[i], ""), KOKSMA_MALFORMED);
+    }
     assert_int_equal(read_pfm("Pf\n2 1\n-1.0\n\n", ""), KOKSMA_MALFORMED);
     assert_int_equal(read_pfm("Pf\n2 1\n-1.0  ", ""), KOKSMA_MALFORMED);
     assert_int_equal(read_pfm("Pf\n2 1\n-1.0\n", "\n"), KOKSMA_MALFORMED);
