@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The images of a scene: each is read once for each use, and belongs to the scene. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <koksma/image.h>
+
+#include "core/status.h"
+#include "render/scene_images.h"
+#include "test.h"
+
+/* Two rows of one grey pixel: 0.25 above, 0.5 below. */
+static void write_two(const char *path)
+{
+    koksma_image image;
+    assert_ok(koksma_image_init(&image, 1, 2, 1));
+    image.pixels[0] = 0.25f;
+    image.pixels[1] = 0.5f;
+    assert_ok(koksma_image_write(path, &image, NULL));
+    koksma_image_fini(&image);
+}
+
+static void a_file_is_read_once_for_each_use(void **state)
+{
+    (void)state;
+    koksma_scene scene = {.n_images = 0};
+    koksma_image *plain, *again, *tinted, *turned;
+    koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+    double mean[3];
+    write_two("two.pfm");
+    assert_int_equal(link("two.pfm", "other.pfm"), 0);
+    assert_ok(koksma__scene_image(&scene, "two.pfm", &use, &plain));
+    assert_ok(koksma__scene_image(&scene, "other.pfm", &use, &again));
+    assert_ptr_equal(plain, again);
+    use.upside_down = true;
+    assert_ok(koksma__scene_image(&scene, "two.pfm", &use, &turned));
+    assert_true(plain->pixels[0] == 0.25f && turned->pixels[0] == 0.5f && turned->pixels[1] == 0.25f);
+    use = KOKSMA__PLAIN_IMAGE;
+    use.tint[2] = 0.5;
+    assert_ok(koksma__scene_image(&scene, "two.pfm", &use, &tinted));
+    assert_true(tinted->channels == 3 && tinted->pixels[3] == 0.5f && tinted->pixels[5] == 0.25f);
+    koksma__scene_image_mean(&scene, tinted, mean);
+    assert_true(mean[0] == 0.375 && mean[2] == 0.1875);
+    assert_int_not_equal(koksma__scene_image_hash(&scene, plain), koksma__scene_image_hash(&scene, turned));
+    assert_int_equal(scene.n_images, 3);
+    assert_int_equal(scene.image_bytes, 8 + 8 + 24);
+    unlink("other.pfm");
+    unlink("two.pfm");
+    koksma__scene_images_fini(&scene);
+}
+
+/* A failure is remembered, whatever the tint; one of opening is not. */
+static void a_damaged_file_is_read_once(void **state)
+{
+    (void)state;
+    koksma_scene scene = {.n_images = 0};
+    koksma_image *image;
+    koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+    static const unsigned char damaged[] = "Pf\n2 2\n-1\n";
+    for (int i = 0; i < 3; i++) {
+        use.tint[0] = i;
+        assert_int_equal(koksma__scene_image_within(&scene, "images[0]", damaged, 10, &use, &image),
+                         KOKSMA_MALFORMED);
+        assert_string_equal(koksma_error_text(), "images[0]: cut short: it claims 2 x 2 pixels but has only 0 bytes");
+        assert_null(image);
+        assert_false(koksma__is_refused());
+        assert_int_equal(koksma__scene_image(&scene, "none.pfm", &use, &image), KOKSMA_MISSING);
+    }
+    assert_int_equal(scene.n_images, 1);
+    koksma__scene_images_fini(&scene);
+}
+
+/* Bytes within a model count once, however the images in them overlap. */
+static void bytes_of_files_count_once(void **state)
+{
+    (void)state;
+    koksma_scene scene = {.n_images = 0};
+    koksma_image *image;
+    unsigned char bytes[34] = "Pf\n1 1 -1\n....Pf\n1 1 -1\n....", more[14];
+    assert_ok(koksma__scene_image_within(&scene, "a", bytes, 14, &KOKSMA__PLAIN_IMAGE, &image));
+    assert_int_equal(scene.image_file_bytes, 14);
+    assert_ok(koksma__scene_image_within(&scene, "b", bytes + 14, 14, &KOKSMA__PLAIN_IMAGE, &image));
+    assert_int_equal(scene.image_file_bytes, 28);
+    koksma__image_use numbers = KOKSMA__PLAIN_IMAGE;
+    numbers.part = KOKSMA__IMAGE_NUMBERS;
+    assert_ok(koksma__scene_image_within(&scene, "a", bytes, 14, &numbers, &image));
+    assert_int_equal(koksma__scene_image_within(&scene, "c", bytes, 28, &numbers, &image), KOKSMA_MALFORMED);
+    assert_int_equal(scene.image_file_bytes, 28);
+    memcpy(more, bytes, sizeof more);
+    assert_ok(koksma__scene_image_within(&scene, "d", more, sizeof more, &numbers, &image));
+    assert_int_equal(scene.image_file_bytes, 42);
+    koksma__scene_images_fini(&scene);
+}
+
+/* An image that nothing uses any more is freed; its bytes no longer count. */
+static void unused_images_are_dropped(void **state)
+{
+    (void)state;
+    koksma__light light = {.image = NULL};
+    koksma_scene scene = {.n_lights = 1, .lights = &light};
+    koksma_image made, *kept;
+    assert_ok(koksma_image_init(&made, 2, 1, 3));
+    assert_ok(koksma__scene_image_keep(&scene, &made, &kept));
+    assert_null(made.pixels);
+    light.image = kept;
+    koksma__scene_image_drop(&scene, kept);
+    assert_int_equal(scene.n_images, 1);
+    light.image = NULL;
+    koksma__scene_image_drop(&scene, kept);
+    koksma__scene_image_drop(&scene, NULL);
+    assert_int_equal(scene.n_images, 0);
+    assert_int_equal(scene.image_bytes, 0);
+    koksma__scene_images_fini(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_is_read_once_for_each_use),
+        cmocka_unit_test(a_damaged_file_is_read_once),
+        cmocka_unit_test(bytes_of_files_count_once),
+        cmocka_unit_test(unused_images_are_dropped),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
