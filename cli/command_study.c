@@ -98,16 +98,13 @@ static double percent(double part, double of)
 
 static const double RUN_SHARE = 0.95; /* fraction of the progress bar for the run; the rest is for the report */
 
-static int run_study(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work)
+/* Runs an open study, reports and closes it. Returns the exit code. */
+static int run_study(const cli_arguments *arguments, const koksma_study_options *options, koksma_study *study,
+                     cli_work *work)
 {
-    koksma_study *study;
     koksma_study_summary summary = {0};
-    koksma_status status = koksma_study_open(options, &study);
-    if (status) {
-        return cli_fail(arguments, status);
-    }
     work->share = options->folder ? RUN_SHARE : 1;
-    status = koksma_study_run(study, &work->run, &summary);
+    koksma_status status = koksma_study_run(study, &work->run, &summary);
     const int refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
     status = refused ? KOKSMA_OK : status;
     if (!status && options->folder) {
@@ -171,7 +168,9 @@ static int run_plans(const cli_arguments *arguments)
     if (koksma_study_mpi_rank() > 0) {
         options.folder = NULL;
     }
-    const int code = run_study(arguments, &options, &work);
+    koksma_study *study;
+    const koksma_status status = koksma_study_open(&options, &study);
+    const int code = status ? cli_fail(arguments, status) : run_study(arguments, &options, study, &work);
     cli_work_end();
     return code;
 }
@@ -181,19 +180,27 @@ static int run_quick(const cli_arguments *arguments)
 {
     cli_work work;
     koksma_study_options options;
-    char path[CLI_QUICK_PATH];
+    cli_quick_plan made;
     const char *folder = cli_text(arguments, "output", NULL);
     if (arguments->n_operands != 1 || !folder) {
         return cli_usage_error(arguments, "quick takes options and a folder, as in quick -p sobol,random -o DIR");
     }
-    int code = cli_write_quick_plan(arguments, folder, path);
-    if (code || !study_options(arguments, &options, &work)) {
-        return code ? code : CLI_USAGE;
+    if (!study_options(arguments, &options, &work)) {
+        return CLI_USAGE;
     }
-    const char *plan = path;
+    int code = cli_write_quick_plan(arguments, folder, &made);
+    if (code) {
+        return code;
+    }
+    koksma_study *study;
+    const char *plan = made.path;
     options.plans = &plan;
     options.n_plans = 1;
-    code = run_study(arguments, &options, &work);
+    const koksma_status status = koksma_study_open(&options, &study);
+    code = status ? cli_fail(arguments, status) : run_study(arguments, &options, study, &work);
+    if (status) {
+        cli_remove_quick_plan(folder, &made);
+    }
     cli_work_end();
     return code;
 }

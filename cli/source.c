@@ -161,9 +161,8 @@ static bool stop_at_once(void *context, double fraction)
     return false;
 }
 
-/* Returns whether a pattern has sets of n points in dim dimensions. The function starts koksma_generate, which checks
-   this first, and stops it at once. */
-static bool can_serve(const koksma_spec *spec, size_t n, int dim)
+/* The function starts koksma_generate, which checks the arguments first, and stops it at once. */
+koksma_status cli_try_set(const koksma_spec *spec, size_t n, int dim)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
     koksma_points points;
@@ -172,7 +171,7 @@ static bool can_serve(const koksma_spec *spec, size_t n, int dim)
         status = koksma_generate(spec, 0, &briefly, &points);
         koksma_points_fini(&points);
     }
-    return !status || status == KOKSMA_INTERRUPTED;
+    return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
 }
 
 bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC])
@@ -224,7 +223,7 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
             return CLI_USAGE;
         }
         snprintf(operand, sizeof operand, of->dim == 2 ? "%s@%s" : "%s@%s@%d", text, item, (int)of->dim);
-        if (!of->all || (!koksma_pattern_spec(spec, &known) && can_serve(&known, n, (int)of->dim))) {
+        if (!of->all || (!koksma_pattern_spec(spec, &known) && !cli_try_set(&known, n, (int)of->dim))) {
             code = add_operand(arguments, operand);
         } else {
             const size_t used = strlen(of->left_out);

@@ -3,13 +3,14 @@
  * Writes the plan of `koksma study quick` to DIR/plan.json, which `koksma study run` accepts, too. The patterns,
  * measures, integrands and numbers of points of the command line become one block of points, the scenes one block of
  * images. Both blocks of the plan have `skip`, which leaves out sizes that a pattern does not have. Relative paths
- * become absolute, because a plan's paths are relative to the plan's folder.
+ * become absolute, because a plan's paths are relative to the plan's folder. The options are checked before anything
+ * is written (study_quick_check.c), and an existing plan.json of another text stays (koksma_plan_write).
  */
 #include "study_quick.h"
 
 #include "metric_option.h"
+#include "study_quick_check.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -18,7 +19,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <koksma/plot.h>
 #include <koksma/study.h>
 
 static const char default_patterns[] = "random,jittered,n-rooks,sobol:scramble=owen";
@@ -27,7 +27,8 @@ static const char default_patterns[] = "random,jittered,n-rooks,sobol:scramble=o
 static void put_characters(FILE *out, const char *text, size_t count)
 {
     for (; *text && count > 0; text++, count--) {
-        fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+        const unsigned char c = (unsigned char)*text;
+        fprintf(out, c < 0x20 ? "\\u%04x" : c == '"' || c == '\\' ? "\\%c" : "%c", c);
     }
 }
 
@@ -92,22 +93,15 @@ static void put_patterns(FILE *out, const char *list)
     }
 }
 
-/* Prints the list of an option as JSON numbers. Returns false after an error if an item is not a whole number. */
-static bool put_numbers(FILE *out, const cli_arguments *arguments, const char *key, const char *option,
-                        const char *fallback)
+/* Prints a list as JSON numbers. */
+static void put_numbers(FILE *out, const char *key, const char *list)
 {
     char item[32];
-    const char *list = cli_text(arguments, option, fallback);
     fprintf(out, "\"%s\": [", key);
     for (size_t i = 0; cli_list_item(list, i, item, sizeof item); i++) {
-        if (!*item || item[strspn(item, "0123456789")]) {
-            cli_usage_error(arguments, "--%s %s: '%s' is not a whole number", option, list, item);
-            return false;
-        }
-        fprintf(out, "%s%s", i ? ", " : "", item);
+        fprintf(out, "%s%llu", i ? ", " : "", strtoull(item, NULL, 10)); /* JSON has no leading zeros */
     }
     fputs("]", out);
-    return true;
 }
 
 /* Prints the metrics of --metric: the first ranks the patterns, the others are measured, too. Returns false after an
@@ -127,16 +121,10 @@ static bool put_metrics(FILE *out, const cli_arguments *arguments)
     return true;
 }
 
-static bool put_plan(FILE *out, const cli_arguments *arguments)
+static bool put_plan(FILE *out, const cli_arguments *arguments, const cli_quick *quick)
 {
-    const char *patterns = cli_text(arguments, "patterns", default_patterns);
-    const char *scenes = cli_text(arguments, "scene", NULL);
-    const char *measures = cli_text(arguments, "measures", "star,l2-star");
-    const char *integrands = cli_text(arguments, "integrands", NULL);
-    if (!scenes && cli_text(arguments, "metric", NULL)) {
-        cli_usage_error(arguments, "--metric needs --scene, because it measures the error of images");
-        return false;
-    }
+    const char *patterns = quick->patterns, *scenes = quick->scenes, *measures = quick->measures;
+    const char *integrands = quick->integrands;
     fputs("{\n  \"comment\": \"Made by koksma study quick; studies/README.md has all fields.\",\n"
           "  \"name\": \"quick\",\n  \"title\": \"Patterns by ",
           out);
@@ -152,9 +140,7 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
         put_list(out, "integrands", integrands, false);
         fputs(",\n     ", out);
     }
-    if (!put_numbers(out, arguments, "n", "points", "16,64,256,1024")) {
-        return false;
-    }
+    put_numbers(out, "n", quick->points);
     fputs(", \"trials\": 100, \"quick\": 10, \"skip\": true}\n  ]", out);
     if (scenes) {
         fputs(",\n  \"images\": [\n    {", out);
@@ -162,9 +148,7 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
         fputs(",\n     ", out);
         put_patterns(out, patterns);
         fputs(",\n     ", out);
-        if (!put_numbers(out, arguments, "spp", "spp", "4,16,64")) {
-            return false;
-        }
+        put_numbers(out, "spp", quick->spp);
         fputs(", \"size\": [96, 72], \"trials\": 20, \"quick\": 6, \"skip\": true,\n     \"references\": [{\"name\": "
               "\"converged\", \"pattern\": \"jittered\", \"spp\": 1024, \"replicates\": 4}]}\n  ]",
               out);
@@ -176,51 +160,56 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
     return true;
 }
 
-/* Returns whether the plan may be written: the folder has no results, or its plan has exactly this text. */
-static bool may_write(const char *folder, const char *path, const char *text, size_t size)
+/* Writes the plan's text and notes which names are new. Returns the exit code. */
+static int write_plan(const cli_arguments *arguments, const char *folder, const char *text, cli_quick_plan *plan)
 {
-    char results[CLI_QUICK_PATH + 32];
-    snprintf(results, sizeof results, "%s/results.sqlite", folder);
-    FILE *f = access(results, F_OK) ? NULL : fopen(path, "r");
-    if (!f) {
-        return true;
+    struct stat info;
+    snprintf(plan->path, sizeof plan->path, "%s/plan.json", folder);
+    if (strlen(folder) > 1000) { /* as the library's functions on studies have it */
+        return cli_usage_error(arguments, "the name of a study's folder is longer than 1000 bytes: %.40s...", folder);
     }
-    bool same = true;
-    for (size_t i = 0; same && i < size; i++) {
-        same = getc(f) == (unsigned char)text[i];
-    }
-    same = same && getc(f) == EOF;
-    fclose(f);
-    return same;
+    const bool new_folder = lstat(folder, &info), new_file = lstat(plan->path, &info);
+    const koksma_status status = koksma_plan_write(folder, text);
+    plan->new_folder = !status && new_folder;
+    plan->new_file = !status && new_file;
+    /* the text comes from the command line, and no file is malformed */
+    return status == KOKSMA_MALFORMED ? cli_usage_error(arguments, "%s", koksma_error_text())
+           : status                   ? cli_fail(arguments, status)
+                                      : CLI_YES;
 }
 
-int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, char path[CLI_QUICK_PATH])
+int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cli_quick_plan *plan)
 {
+    const cli_quick quick = {.patterns = cli_text(arguments, "patterns", default_patterns),
+                             .measures = cli_text(arguments, "measures", "star,l2-star"),
+                             .integrands = cli_text(arguments, "integrands", NULL),
+                             .points = cli_text(arguments, "points", "16,64,256,1024"),
+                             .scenes = cli_text(arguments, "scene", NULL),
+                             .spp = cli_text(arguments, "spp", "4,16,64")};
     char *text = NULL;
     size_t size = 0;
-    int code = CLI_YES;
+    *plan = (cli_quick_plan){.new_file = false};
+    const int checked = cli_quick_check(arguments, &quick);
+    if (checked) {
+        return checked;
+    }
     FILE *out = open_memstream(&text, &size);
     if (!out) {
         return cli_no_memory();
     }
-    const bool good = put_plan(out, arguments);
-    if (fclose(out) || !good) {
-        free(text);
-        return good ? cli_no_memory() : CLI_USAGE;
-    }
-    snprintf(path, CLI_QUICK_PATH, "%s/plan.json", folder);
-    if (strlen(folder) > 1000) { /* as the library's functions on studies have it */
-        code = cli_usage_error(arguments, "the name of a study's folder is longer than 1000 bytes: %.40s...", folder);
-    } else if (mkdir(folder, 0777) && errno != EEXIST) {
-        code = cli_usage_error(arguments, "%s: can't be made: %s", folder, strerror(errno));
-    } else if (!may_write(folder, path, text, size)) {
-        code = cli_usage_error(arguments,
-                               "%s: the folder has another plan; use another folder, or 'koksma study run %s -o %s'",
-                               path, path, folder);
-    } else {
-        const koksma_status status = koksma_plot_write(path, (const unsigned char *)text, size);
-        code = status ? cli_fail(arguments, status) : CLI_YES;
-    }
+    const bool good = put_plan(out, arguments, &quick);
+    const bool closed = !fclose(out);
+    const int code = !good ? CLI_USAGE : !closed ? cli_no_memory() : write_plan(arguments, folder, text, plan);
     free(text);
     return code;
+}
+
+void cli_remove_quick_plan(const char *folder, const cli_quick_plan *plan)
+{
+    if (plan->new_file) {
+        unlink(plan->path);
+    }
+    if (plan->new_folder) {
+        rmdir(folder);
+    }
 }

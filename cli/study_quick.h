@@ -7,8 +7,16 @@
 
 enum { CLI_QUICK_PATH = 1024 };
 
-/* Makes the folder and writes plan.json into it. path: the path of that file. Fails if the folder has results of a
-   different plan. Returns the exit code, which is not CLI_YES after an error. */
-int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, char path[CLI_QUICK_PATH]);
+typedef struct cli_quick_plan {
+    char path[CLI_QUICK_PATH];
+    bool new_file, new_folder; /* whether this run made the file or the folder */
+} cli_quick_plan;
+
+/* Checks the options, then makes the folder and writes plan.json into it. Fails if the folder has another plan.json.
+   Returns the exit code, which is not CLI_YES after an error; nothing is written then. */
+int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cli_quick_plan *plan);
+
+/* Removes what cli_write_quick_plan made, for a study that could not be opened. */
+void cli_remove_quick_plan(const char *folder, const cli_quick_plan *plan);
 
 #endif

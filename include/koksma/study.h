@@ -38,6 +38,14 @@ KOKSMA_API const char *koksma_plan_name_at(size_t i);
    Returns 0 if no path begins after `from`. */
 KOKSMA_API size_t koksma_plan_path(const char *text, size_t from);
 
+/* Checks the text of a plan, then makes the folder and writes the text to DIR/plan.json. A text with an error writes
+   nothing. An existing DIR/plan.json is never replaced, and a link of that name is not followed.
+     folder  folder of the study; its parent must exist
+     text    a plan in JSON, as in the files that koksma_study_open reads
+   Errors: MALFORMED (the text; the message names line and reason), ARGUMENT (the folder has a plan.json with another
+   text, or one that is not a plain file), IO, MEMORY. */
+KOKSMA_API koksma_status koksma_plan_write(const char *folder, const char *text);
+
 /* Sets *out to question type i of those that a plan may contain, or to section i of the report; returns false past
    the last one. The title is the heading in the report. */
 KOKSMA_API bool koksma_question_at(size_t i, koksma_entry *out);

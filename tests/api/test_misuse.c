@@ -328,6 +328,17 @@ static const char *study_folder(void)
     return work_path(name);
 }
 
+static const char *a_plan(void)
+{
+    return "{\"name\": \"f\", \"title\": \"f\", \"discrepancies\": [{\"id\": \"d\", \"patterns\": [\"random\"], "
+           "\"measures\": [\"star\"], \"n\": [4], \"trials\": 2}], \"questions\": [{\"id\": \"5.1\", \"kind\": "
+           "\"table\", "
+           "\"title\": \"t\", \"discrepancies\": \"d\"}], \"tables\": [{\"id\": \"5.1\", \"title\": \"t\", \"n\": "
+           "[4], "
+           "\"measure\": \"star\", \"rows\": [{\"pattern\": \"random\", \"label\": \"r\", \"published\": "
+           "[\"0.5\"]}]}]}";
+}
+
 static void *study_options(void)
 {
     const char *const plans[] = {work_path("plan.json")};
@@ -611,14 +622,8 @@ static void asserted(const char *condition)
 
 static void make_inputs(void)
 {
-    static const char plan[] =
-        "{\"name\": \"f\", \"title\": \"f\", \"discrepancies\": [{\"id\": \"d\", \"patterns\": [\"random\"], "
-        "\"measures\": [\"star\"], \"n\": [4], \"trials\": 2}], \"questions\": [{\"id\": \"5.1\", \"kind\": "
-        "\"table\", "
-        "\"title\": \"t\", \"discrepancies\": \"d\"}], \"tables\": [{\"id\": \"5.1\", \"title\": \"t\", \"n\": [4], "
-        "\"measure\": \"star\", \"rows\": [{\"pattern\": \"random\", \"label\": \"r\", \"published\": [\"0.5\"]}]}]}";
     FILE *f = fopen(work_path("plan.json"), "w");
-    if (!f || fputs(plan, f) < 0 || fclose(f)) {
+    if (!f || fputs(a_plan(), f) < 0 || fclose(f)) {
         abort();
     }
     koksma_study *study;

@@ -95,6 +95,27 @@ def check_own_names(checks, program, folder):
     checks.check(not os.listdir(os.path.join(folder, "elsewhere")), "a reference was written below a link")
 
 
+def check_quick(checks, program, folder):
+    """`study quick` writes DIR/plan.json: a file of the user, or a link, stays, and is not followed."""
+    quick = ["study", "quick", "-p", "random", "-m", "star", "-n", "4", "--trials", "2", "-q", "-o"]
+    victim, planted = write(os.path.join(folder, "victim")), os.path.join(folder, "planted")
+    for to in ("../victim", "../nothing", "plan.json"):
+        os.mkdir(planted)
+        os.symlink(to, os.path.join(planted, "plan.json"))
+        checks.refused(f"plan.json -> {to}", files.run(program, *quick, "planted", cwd=folder), 2, "planted/plan.json")
+        checks.check(read(victim) == VICTIM and os.listdir(planted) == ["plan.json"], f"plan.json -> {to}: written")
+        checks.check(not os.path.lexists(os.path.join(folder, "nothing")), "plan.json: a link to nothing was followed")
+        shutil.rmtree(planted)
+    for make in (write, os.mkdir, os.mkfifo):
+        os.mkdir(planted)
+        make(os.path.join(planted, "plan.json"))
+        checks.refused(f"plan.json by {make}", files.run(program, *quick, "planted", cwd=folder), 2, "planted/plan.json")
+        checks.check(make is not write or read(os.path.join(planted, "plan.json")) == VICTIM, "a user's plan.json is gone")
+        shutil.rmtree(planted)
+    for _ in range(2):
+        good(checks, "the same plan again", files.run(program, *quick, "planted", cwd=folder))
+
+
 def check_user_names(checks, program, folder):
     """What the user named is written where it leads: through links, and to streams and devices as they are."""
     target, link = write(os.path.join(folder, "target.txt")), os.path.join(folder, "link.txt")
@@ -247,7 +268,7 @@ def check_full(checks, program, faults, folder):
 def main():
     program, faults = map(os.path.abspath, sys.argv[1:3])
     checks = files.Checks()
-    cases = [(check_planted_links, [program]), (check_own_names, [program]), (check_user_names, [program]),
+    cases = [(check_planted_links, [program]), (check_own_names, [program]), (check_quick, [program]), (check_user_names, [program]),
              (check_equal_numbers, [program]), (check_leftovers, [program, faults]), (check_others, [program]),
              (check_living, [program]), (check_full, [program, faults])]
     for case, programs in cases:

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Checks the options of `koksma study quick` before it writes its plan. The plan's reader would find the same errors,
+ * but would name a line of a file that the user did not write. Each item of a list is parsed by the function that the
+ * reader uses for it, and its canonical text must differ from those of earlier items. Then the patterns are tried with
+ * the numbers of points: the plan leaves out sizes that a pattern does not have, but not all of them.
+ */
+#include "study_quick_check.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/integrate.h>
+#include <koksma/render.h>
+
+#include "source.h"
+
+/* As many as the plan's reader accepts in a list; it tries sets of at most MOST_TRIED points. */
+enum { MOST_ITEMS = 4096, MOST_TRIED = 1 << 16 };
+
+/* Parses an item and writes its canonical text. */
+typedef koksma_status (*item_parser)(const char *item, char text[PATH_MAX]);
+
+static koksma_status parse_pattern(const char *item, char text[PATH_MAX])
+{
+    koksma_spec spec;
+    const koksma_status status = koksma_pattern_spec(item, &spec);
+    if (!status) {
+        koksma_spec_text(&spec, text);
+    }
+    return status;
+}
+
+/* koksma_evaluate checks the dimension of the one point. */
+static koksma_status parse_measure(const char *item, char text[PATH_MAX])
+{
+    double xs[] = {0.5, 0.5};
+    const koksma_points point = {1, 2, xs};
+    koksma_spec spec;
+    koksma_value value;
+    const koksma_status status = koksma_measure_spec(item, &spec);
+    if (status) {
+        return status;
+    }
+    koksma_spec_text(&spec, text);
+    return koksma_evaluate(&spec, &point, NULL, &value) == KOKSMA_DIM ? KOKSMA_DIM : KOKSMA_OK;
+}
+
+static koksma_status parse_integrand(const char *item, char text[PATH_MAX])
+{
+    koksma_integral *integral;
+    koksma_integral_facts facts;
+    const koksma_status status = koksma_integral_open(item, 2, &integral);
+    if (!status) {
+        koksma_integral_about(integral, &facts);
+        snprintf(text, PATH_MAX, "%s", facts.text);
+        koksma_integral_close(integral);
+    }
+    return status;
+}
+
+static koksma_status parse_scene(const char *item, char text[PATH_MAX])
+{
+    koksma_scene *scene;
+    const koksma_status status = koksma_scene_open(item, &scene);
+    if (!status) {
+        koksma_scene_close(scene);
+        snprintf(text, PATH_MAX, "%s", item);
+    }
+    return status;
+}
+
+/* Whether an item before item i of a list has the canonical text `text`. */
+static bool is_repeated(const char *list, size_t i, item_parser parser, const char *text)
+{
+    char item[PATH_MAX], other[PATH_MAX];
+    for (size_t k = 0; k < i && cli_list_item(list, k, item, sizeof item); k++) {
+        if (!parser(item, other) && !strcmp(other, text)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static int check_items(const cli_arguments *arguments, const char *option, const char *list, item_parser parser)
+{
+    char item[PATH_MAX], text[PATH_MAX];
+    size_t i = 0;
+    for (; i <= MOST_ITEMS && cli_list_item(list, i, item, sizeof item); i++) {
+        const koksma_status status = parser(item, text);
+        if (status) {
+            cli_usage_error(arguments, "--%s %s: %s", option, item, koksma_error_text());
+            return koksma_status_exit_code(status);
+        }
+        if (is_repeated(list, i, parser, text)) {
+            return cli_usage_error(arguments, "--%s: '%s' is listed twice", option, text);
+        }
+    }
+    return i == 0           ? cli_usage_error(arguments, "--%s: an empty list", option)
+           : i > MOST_ITEMS ? cli_usage_error(arguments, "--%s: at most %d items", option, MOST_ITEMS)
+                            : CLI_YES;
+}
+
+/* Reads a list of numbers from 1 to `most`. Returns the exit code; the caller frees *numbers. */
+static int check_numbers(const cli_arguments *arguments, const char *option, const char *list, uint64_t most,
+                         uint64_t **numbers, size_t *n)
+{
+    char item[PATH_MAX];
+    *n = 0;
+    *numbers = malloc(MOST_ITEMS * sizeof **numbers);
+    if (!*numbers) {
+        return cli_no_memory();
+    }
+    for (; cli_list_item(list, *n, item, sizeof item); ++*n) {
+        uint64_t value;
+        if (*n == MOST_ITEMS) {
+            return cli_usage_error(arguments, "--%s: at most %d items", option, MOST_ITEMS);
+        }
+        if (!cli_is_whole(arguments, option, item, 1, most, &value)) {
+            return CLI_USAGE;
+        }
+        for (size_t i = 0; i < *n; i++) {
+            if ((*numbers)[i] == value) {
+                return cli_usage_error(arguments, "--%s: %llu is listed twice", option, (unsigned long long)value);
+            }
+        }
+        (*numbers)[*n] = value;
+    }
+    return *n ? CLI_YES : cli_usage_error(arguments, "--%s: an empty list", option);
+}
+
+/* Tries all patterns with all sizes. Returns the exit code, which is CLI_YES if one has a set, or if one is too large to
+   be tried. */
+static int try_sets(const cli_arguments *arguments, const char *patterns, const char *option, const char *list,
+                    const uint64_t *sizes, size_t n)
+{
+    char item[KOKSMA_MAX_SPEC], reason[512] = "";
+    bool any = false;
+    for (size_t i = 0; cli_pattern_item(patterns, i, item); i++) {
+        koksma_spec spec;
+        koksma_status status = koksma_pattern_spec(item, &spec);
+        for (size_t k = 0; !status && k < n; k++) {
+            const koksma_status tried = sizes[k] > MOST_TRIED ? KOKSMA_OK : cli_try_set(&spec, (size_t)sizes[k], 2);
+            any |= !tried;
+            /* a pattern of many files may lack some of them */
+            if (koksma_status_exit_code(tried) > CLI_USAGE && !strchr(item, '{')) {
+                cli_usage_error(arguments, "--patterns %s: %s", item, koksma_error_text());
+                return koksma_status_exit_code(tried);
+            }
+            if (tried && !*reason) {
+                snprintf(reason, sizeof reason, "%s", koksma_error_text());
+            }
+        }
+    }
+    return any ? CLI_YES : cli_usage_error(arguments, "--%s %s: no pattern has such a set: %s", option, list, reason);
+}
+
+static int check_sizes(const cli_arguments *arguments, const char *patterns, const char *option, const char *list,
+                       uint64_t most)
+{
+    uint64_t *numbers;
+    size_t n;
+    const int code = check_numbers(arguments, option, list, most, &numbers, &n);
+    const int tried = code ? code : try_sets(arguments, patterns, option, list, numbers, n);
+    free(numbers);
+    return tried;
+}
+
+int cli_quick_check(const cli_arguments *arguments, const cli_quick *quick)
+{
+    const bool all = !strcmp(quick->patterns, "all");
+    if (!quick->scenes && cli_text(arguments, "metric", NULL)) {
+        return cli_usage_error(arguments, "--metric needs --scene, because it measures the error of images");
+    }
+    int code = all ? CLI_YES : check_items(arguments, "patterns", quick->patterns, parse_pattern);
+    code = code ? code : check_items(arguments, "measures", quick->measures, parse_measure);
+    code =
+        code || !quick->integrands ? code : check_items(arguments, "integrands", quick->integrands, parse_integrand);
+    code = code || !quick->scenes ? code : check_items(arguments, "scene", quick->scenes, parse_scene);
+    code = code ? code : check_sizes(arguments, quick->patterns, "points", quick->points, KOKSMA_MAX_COORDINATES);
+    return code || !quick->scenes ? code : check_sizes(arguments, quick->patterns, "spp", quick->spp, KOKSMA_MAX_SPP);
+}
