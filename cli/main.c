@@ -6,6 +6,7 @@
 
 #include "cli.h"
 #include "options.h"
+#include "output.h"
 #include "texts.h"
 
 static const cli_command *const commands[] = {
@@ -51,6 +52,7 @@ static bool kernels_are_there(void)
 
 int main(int argc, char **argv)
 {
+    cli_begin_output();
     if (!kernels_are_there()) {
         return CLI_USAGE;
     }

@@ -16,6 +16,7 @@
 #include <koksma/render.h>
 #include <koksma/study.h>
 
+#include "output.h"
 #include "paragraphs.h"
 #include "source.h"
 
@@ -200,18 +201,6 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
     arguments->n_operands = argc - optind;
     arguments->operands = argv + optind;
     return PARSED;
-}
-
-/* Flushes stdout, because a full disk causes an error only when the buffer is written. Returns `code`, or the exit
-   code of that error. */
-int cli_end_output(int code)
-{
-    errno = 0;
-    if (code <= CLI_NO && (fflush(stdout) || ferror(stdout))) {
-        cli_say("", "standard output could not be written%s%s", errno ? ": " : "", errno ? strerror(errno) : "");
-        return koksma_status_exit_code(KOKSMA_IO);
-    }
-    return code;
 }
 
 /* Returns whether a file to write has an ending that its option's argument lists, "FILE.txt|.csv", or no ending; else

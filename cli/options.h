@@ -17,8 +17,4 @@ void cli_print_help(const cli_command *command);
    its help instead. Returns the exit code. */
 int cli_run(const cli_command *command, int argc, char **argv);
 
-/* Flushes stdout and returns the final exit code: `code`, or 4 after a message on stderr if `code` is 0 or 1 but
-   stdout could not be written. */
-int cli_end_output(int code);
-
 #endif

@@ -21,12 +21,19 @@
 #include "image/exr.h"
 #include "modules/module_side.h"
 
-static koksma_status fail(void)
+/* Fails with the library's message, without the name of the file in memory, which it has in quotes. */
+static koksma_status fail(const char *path)
 {
-    return koksma__fail(KOKSMA_MALFORMED, "as an EXR: %s", ImfErrorMessage());
+    char name[72];
+    const char *text = ImfErrorMessage();
+    const int length = snprintf(name, sizeof name, " \"%s\"", path);
+    const char *at = strstr(text, name);
+    return koksma__fail(KOKSMA_MALFORMED, "as an EXR: %.*s%s", at ? (int)(at - text) : (int)strlen(text), text,
+                        at ? at + length : "");
 }
 
-static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, bool wide, koksma_image *out)
+static koksma_status read_pixels(ImfInputFile *file, const char *path, size_t size, int channels, bool wide,
+                                 koksma_image *out)
 {
     int low_x, low_y, high_x, high_y;
     ImfHeaderDataWindow(ImfInputHeader(file), &low_x, &low_y, &high_x, &high_y);
@@ -51,7 +58,7 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
     }
     free(row);
     if (!whole) {
-        return fail();
+        return fail(path);
     }
     return fits ? KOKSMA_OK
                 : koksma__fail(KOKSMA_MALFORMED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
@@ -159,7 +166,7 @@ koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int
     } else {
         snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
         ImfInputFile *file = ImfOpenInputFile(path);
-        status = file ? read_pixels(file, size, channels, wide, out) : fail();
+        status = file ? read_pixels(file, path, size, channels, wide, out) : fail(path);
         if (file) {
             ImfCloseInputFile(file);
         }

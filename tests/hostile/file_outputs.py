@@ -265,12 +265,47 @@ def check_full(checks, program, faults, folder):
                        "No space left on device")
 
 
+def check_stores(checks, program, folder):
+    """A store that can't be made or written is called by its path, with the system's reason; stores are not half made."""
+    plan = [program, "study", "run", PLAN, "-q", "-o"]
+    for what, limit, reason in (("a limit of the length", "ulimit -f 10", "File too large"),
+                                ("few descriptors", "ulimit -n 5", "Too many open files")):
+        done = files.run("/bin/sh", "-c", limit + '; exec "$@"', "sh", *plan, "study", cwd=folder)
+        checks.refused(what, done, 4, "study: study/results.sqlite: ", reason)
+        checks.check(not os.listdir(os.path.join(folder, "study")), f"{what}: something is left")
+    disk = os.path.join(folder, "disk")
+    os.mkdir(disk)
+    for size_kib in range(40, 240, 40 if files.SANITIZED else 10):
+        if os.geteuid() or subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size_kib}k", "none", disk],
+                                          capture_output=True, check=False).returncode:
+            break
+        try:
+            done = files.run(*plan, "disk/study", cwd=folder)
+            if done.code:
+                checks.refused(f"a disk of {size_kib} KiB", done, 4, "study: disk/study/", ": No space left on device")
+        finally:
+            subprocess.run(["umount", disk], check=True)
+
+
+def check_streams(checks, program, folder):
+    """Standard output that is full or closed, for rows of all kinds, short and long."""
+    good(checks, "points", files.run(program, *POINTS, "-n", "4", "-o", "r.txt", cwd=folder))
+    good(checks, "study", files.run(program, "study", "run", PLAN, "-q", "-o", "study", cwd=folder))
+    for arguments in (["study", "audit", "study", "--json"], ["measure", "r.txt", "--json"], ["measure", "r.txt"],
+                      ["list", "patterns", "--json"], ["list", "patterns"], ["help", "study"], ["manual"], ["version"],
+                      ["verify", "r.txt", "--json"], ["completion", "bash"]):
+        for to, reason in ((">/dev/full", "No space left on device"), (">&-", "Bad file descriptor")):
+            done = files.run("/bin/sh", "-c", f'exec "$@" {to}', "sh", program, *arguments, cwd=folder)
+            checks.refused(f"{arguments} {to}", done, 4, f"standard output could not be written: {reason}")
+
+
 def main():
     program, faults = map(os.path.abspath, sys.argv[1:3])
     checks = files.Checks()
     cases = [(check_planted_links, [program]), (check_own_names, [program]), (check_quick, [program]), (check_user_names, [program]),
              (check_equal_numbers, [program]), (check_leftovers, [program, faults]), (check_others, [program]),
-             (check_living, [program]), (check_full, [program, faults])]
+             (check_living, [program]), (check_full, [program, faults]), (check_stores, [program]),
+             (check_streams, [program])]
     for case, programs in cases:
         with tempfile.TemporaryDirectory() as folder:
             case(checks, *programs, folder)

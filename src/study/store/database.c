@@ -58,7 +58,12 @@ static koksma_status fail_busy(const koksma__database *database)
 static koksma_status fail(koksma__database *database)
 {
     const char *path = database->path, *reason = sqlite3_errmsg(database->file);
-    const int code = sqlite3_errcode(database->file), system = sqlite3_system_errno(database->file);
+    const int code = sqlite3_errcode(database->file);
+    int system = sqlite3_system_errno(database->file), last = 0;
+    /* a rollback after the error may have overwritten the first number */
+    if (!system && sqlite3_file_control(database->file, NULL, SQLITE_FCNTL_LAST_ERRNO, &last) == SQLITE_OK) {
+        system = last;
+    }
     switch (code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
@@ -277,18 +282,19 @@ static koksma_status open_as(koksma__database *database, koksma__database_mode m
     return status ? status : koksma__database_execute(database, settings[mode]);
 }
 
-koksma_status koksma__database_open(const char *path, koksma__database_mode mode, koksma__database **out)
+koksma_status koksma__database_open(const char *path, const char *shown, koksma__database_mode mode,
+                                    koksma__database **out)
 {
     koksma__database *database = calloc(1, sizeof *database);
     char *whole = NULL;
     koksma_status status = KOKSMA_OK;
     *out = NULL;
-    if (!database || !(database->path = strdup(path))) {
+    if (!database || !(database->path = strdup(shown))) {
         status = koksma__fail_memory(sizeof *database);
     } else if (!(whole = *path ? realpath(path, NULL) : strdup(""))) {
-        status = koksma__fail(errno == ENOENT ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path, strerror(errno));
+        status = koksma__fail(errno == ENOENT ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", shown, strerror(errno));
     } else if (strlen(whole) >= MAX_PATH) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "%s: the path is too long", path);
+        status = koksma__fail(KOKSMA_ARGUMENT, "%s: the path is too long", shown);
     }
     if (!status) {
         strcpy(database->real, whole);

@@ -30,7 +30,9 @@ typedef enum koksma__database_mode {
     KOKSMA__DATABASE_BUILD
 } koksma__database_mode;
 
-koksma_status koksma__database_open(const char *path, koksma__database_mode mode, koksma__database **out);
+/* Opens the file `path`; error messages call it `shown`, the path that the user knows. */
+koksma_status koksma__database_open(const char *path, const char *shown, koksma__database_mode mode,
+                                    koksma__database **out);
 /* Closes a database whose statements are closed; what was not committed is lost. */
 void koksma__database_close(koksma__database *database);
 

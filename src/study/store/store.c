@@ -36,8 +36,7 @@ double koksma__store_seconds(koksma__store *store)
 
 koksma_status koksma__store_begin(koksma__store *store)
 {
-    KOKSMA__FAIL_IF(store->failed, KOKSMA_IO, "%s: an earlier write failed, and nothing more is written",
-                    koksma__database_path(store->database));
+    KOKSMA__FAIL_IF(store->failed, store->failed, "%s", store->reason);
     if (store->in_transaction) {
         return KOKSMA_OK;
     }
@@ -75,7 +74,10 @@ koksma_status koksma__store_end(koksma__store *store)
 
 koksma_status koksma__store_wrote(koksma__store *store, koksma_status status)
 {
-    store->failed |= status != KOKSMA_OK;
+    if (status && !store->failed) {
+        store->failed = status;
+        snprintf(store->reason, sizeof store->reason, "%s", koksma_error_text());
+    }
     return status;
 }
 

@@ -79,11 +79,13 @@ typedef struct koksma__known_series {
 struct koksma__store {
     koksma__database *database;
     koksma__statement *queries[KOKSMA__N_QUERIES];
-    pthread_mutex_t lock;        /* guards the database and the members below */
-    bool in_transaction, failed; /* failed: whether a write has failed, so that nothing more is written */
-    koksma__seal seal, sealed;   /* seal: seal of all rows written so far; sealed: the seal in table meta */
-    koksma__seal found;          /* seal of the rows that the last scan read */
-    bool for_audit;              /* whether `found` may differ from `seal` without an error */
+    pthread_mutex_t lock; /* guards the database and the members below */
+    bool in_transaction;
+    koksma_status failed;      /* status of the first write that failed, after which nothing more is written */
+    char reason[512];          /* its error text */
+    koksma__seal seal, sealed; /* seal: seal of all rows written so far; sealed: the seal in table meta */
+    koksma__seal found;        /* seal of the rows that the last scan read */
+    bool for_audit;            /* whether `found` may differ from `seal` without an error */
     double began_s, entered_s, seconds;
     koksma__rows spare;
     size_t n_known;              /* length of `known`, which is indexed by the ids of series */

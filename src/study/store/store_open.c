@@ -81,11 +81,12 @@ static koksma_status open_queries(koksma__store *store)
 /* ---- New stores ---------------------------------------------------------------------------------------- */
 
 /* Builds a complete store in an empty file that no other program knows, or in memory (path ""); it has the rows
-   of `old`, or none if `old` is NULL. */
-static koksma_status build(const char *path, const koksma__database *old, int schema, koksma__store **out)
+   of `old`, or none if `old` is NULL. Messages name the file `shown`. */
+static koksma_status build(const char *path, const char *shown, const koksma__database *old, int schema,
+                           koksma__store **out)
 {
     koksma__database *database;
-    koksma_status status = koksma__database_open(path, KOKSMA__DATABASE_BUILD, &database);
+    koksma_status status = koksma__database_open(path, shown, KOKSMA__DATABASE_BUILD, &database);
     *out = NULL;
     status = status ? status : make_store(database, out);
     if (!status && old) {
@@ -124,7 +125,7 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
     KOKSMA__TRY(koksma__atomic_open(NULL, path, &file));
     char temporary[KOKSMA__TEMPORARY_PATH];
     koksma__atomic_temporary(&file, temporary);
-    koksma_status status = build(temporary, old, schema, &store);
+    koksma_status status = build(temporary, path, old, schema, &store);
     if (!status && old && !koksma__store_is_sealed(store)) {
         status = koksma__seal_fail(store); /* the old file is damaged, and is not replaced */
     }
@@ -145,7 +146,7 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
 static koksma_status upgrade_file(const char *path, int schema)
 {
     koksma__database *old;
-    koksma_status status = koksma__database_open(path, KOKSMA__DATABASE_LOCK, &old);
+    koksma_status status = koksma__database_open(path, path, KOKSMA__DATABASE_LOCK, &old);
     if (!status && koksma__database_has_moved(old)) {
         status = koksma__fail(KOKSMA_IO, "%s: another run is using it", path);
     }
@@ -179,7 +180,7 @@ static koksma_status look(const char *path, bool *exists, int *schema, koksma__d
     *out = NULL;
     *exists = header.exists;
     if (!status && *exists) {
-        status = koksma__database_open(path, KOKSMA__DATABASE_READ, out);
+        status = koksma__database_open(path, path, KOKSMA__DATABASE_READ, out);
         status = status ? status : koksma__schema_of(*out, &header, schema);
     }
     if (status) {
@@ -202,7 +203,7 @@ static koksma_status open_to_read(const char *path, koksma__store **out)
         return status;
     }
     if (schema != KOKSMA__SCHEMA) {
-        status = build("", database, schema, out);
+        status = build("", path, database, schema, out);
         koksma__database_close(database);
         return status;
     }
@@ -247,7 +248,7 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     } else if (!status && schema != KOKSMA__SCHEMA) {
         status = upgrade_file(path, schema);
     }
-    status = status ? status : koksma__database_open(path, KOKSMA__DATABASE_WRITE, &database);
+    status = status ? status : koksma__database_open(path, path, KOKSMA__DATABASE_WRITE, &database);
     status = status ? status : make_store(database, out);
     status = status ? status : koksma__store_begin(*out);
     if (!status && koksma__database_has_moved(database)) {
@@ -279,7 +280,7 @@ koksma_status koksma__store_open(const char *path, koksma__store_mode mode, cons
     if (status) {
         if (store) {
             store->in_transaction = false; /* closing the database rolls the transaction back */
-            store->failed = true;
+            koksma__store_wrote(store, status);
         }
         koksma__store_close(store);
         *out = NULL;
