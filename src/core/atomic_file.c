@@ -34,7 +34,7 @@
 
 static const char prefix[] = ".koksma-";
 
-enum { PREFIX = sizeof prefix - 1, RANDOM = 16, TRIES = 100 };
+enum { PREFIX = sizeof prefix - 1, RANDOM = 16, TRIES = 100, MOST_LINKS = 40 /* as Linux follows */ };
 
 typedef struct koksma__output {
     char *path, *name; /* path: name of the file in messages; name: its name within the folder */
@@ -176,8 +176,8 @@ static int descriptor_of(const char *path)
     return numbered && used > 0 && !path[used] ? number : -1;
 }
 
-/* Returns the target of a symbolic link whose target does not exist yet; NULL for any other path. */
-static char *new_target(const char *path)
+/* Returns where a symbolic link leads, one step; NULL for any other path. */
+static char *next_target(const char *path)
 {
     char to[4096];
     const ssize_t length = readlink(path, to, sizeof to - 1);
@@ -193,6 +193,31 @@ static char *new_target(const char *path)
         snprintf(target, size, "%.*s%s", folder, path, to);
     }
     return target;
+}
+
+/* Returns the path of the file that a path leads to, which need not exist: the last of a chain of links must not be
+   replaced either. If it fails, it returns NULL and sets errno: the links may have no end, or lead below a file. */
+static char *resolve(const char *path)
+{
+    char *known = realpath(path, NULL);
+    if (known || errno == ELOOP || errno == ENOTDIR) {
+        return known;
+    }
+    char *target = strdup(path);
+    for (int links = 0; target; links++) {
+        char *next = next_target(target);
+        if (!next) {
+            return target;
+        }
+        free(target);
+        target = next;
+        if (links == MOST_LINKS) {
+            free(target);
+            errno = ELOOP;
+            return NULL;
+        }
+    }
+    return NULL;
 }
 
 /* Opens a target that is not a plain file, such as a device or pipe, for writing: a temporary file renamed to its
@@ -249,8 +274,7 @@ static bool open_within(int folder, const char *path, output *o)
 
 static bool open_target(const char *path, output *o)
 {
-    char *known = realpath(path, NULL), *target = known ? known : new_target(path);
-    char *copy = target ? target : strdup(path);
+    char *copy = resolve(path);
     char *slash = copy ? strrchr(copy, '/') : NULL;
     bool done = false;
     if (copy) {

@@ -126,6 +126,18 @@ def check_user_names(checks, program, folder):
         good(checks, name, files.run(program, *POINTS, "-n", "4", "-o", name, cwd=folder))
         checks.check(os.path.islink(os.path.join(folder, name)), f"{name} is no link any more")
         checks.check(b"random" in read(os.path.join(folder, to)), f"{name}: not written where it leads")
+    for name, to in (("loop", "loop"), ("l1", "l2"), ("l2", "l1"), ("first", "second"), ("second", "third.txt")):
+        os.symlink(to, os.path.join(folder, name))
+    for name in ("loop", "l1", "l2"):
+        checks.refused(f"a link without an end, {name}", files.run(program, *POINTS, "-n", "4", "-o", name, cwd=folder), 4,
+                       f"{name}: can't be written: Too many levels of symbolic links")
+    good(checks, "a link to a link to nothing", files.run(program, *POINTS, "-n", "4", "-o", "first", cwd=folder))
+    checks.check(b"random" in read(os.path.join(folder, "third.txt")), "a link to a link: not written where it leads")
+    for name in ("loop", "l1", "l2", "first", "second"):
+        checks.check(os.path.islink(os.path.join(folder, name)), f"{name} is no link any more")
+    for name in ("target.txt/", "target.txt/x", "link.txt/"):
+        checks.refused(name, files.run(program, *POINTS, "-n", "4", "-o", name, cwd=folder), 4,
+                       f"{name}: can't be written: Not a directory")
     checks.check(os.stat(target).st_mode & 0o777 == 0o600, "a private file is private no more")
     for name in ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
         done = files.run(program, *POINTS, "-n", "4", "-s", "5", "-o", name, cwd=folder)
