@@ -205,6 +205,7 @@ typedef struct sizes {
     const char *list; /* the list of -n, or NULL */
     uint64_t dim;
     bool all, used;
+    bool any_bare, any_other; /* whether there is a pattern without a size; whether there are other points */
     char left_out[1024];
 } sizes;
 
@@ -214,6 +215,8 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
     char item[32], operand[KOKSMA_MAX_SPEC + 64];
     const char *spec = strncmp(text, prefix, sizeof prefix - 1) ? text : text + sizeof prefix - 1;
     const bool bare = (cli_names_pattern(spec) || spec != text) && !is_counted(text);
+    of->any_bare |= bare;
+    of->any_other |= !bare;
     int code = bare && of->list ? CLI_YES : add_operand(arguments, text);
     for (size_t k = 0; bare && of->list && !code && cli_list_item(of->list, k, item, sizeof item); k++) {
         uint64_t n;
@@ -233,6 +236,12 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
     return code;
 }
 
+/* Whether the first operand names no points, but an integrand or a curve. */
+static bool takes_name_first(const cli_arguments *arguments)
+{
+    return !strcmp(arguments->command->name, "integrate") || !strcmp(arguments->command->name, "curve");
+}
+
 int cli_sources_expand(cli_arguments *arguments)
 {
     const char *patterns = cli_text(arguments, "patterns", NULL);
@@ -241,6 +250,7 @@ int cli_sources_expand(cli_arguments *arguments)
     int code = cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &of.dim) ? CLI_YES : CLI_USAGE;
     for (int i = 0; i < arguments->n_operands && !code; i++) {
         code = add_sizes(arguments, arguments->operands[i], &of);
+        of.any_other = of.any_other && (i > 0 || !takes_name_first(arguments));
     }
     of.all = patterns && !strcmp(patterns, "all");
     if (!code && of.all && !of.list) {
@@ -256,6 +266,10 @@ int cli_sources_expand(cli_arguments *arguments)
                        koksma_pattern_spec(last, &unknown)
                    ? cli_fail(arguments, KOKSMA_ARGUMENT)
                    : cli_usage_error(arguments, "-n %s: it needs a pattern without @N", of.list);
+    }
+    const char *dim = cli_text(arguments, "dim", NULL);
+    if (!code && dim && of.any_other && !of.any_bare) {
+        code = cli_usage_error(arguments, "-d %s: it needs a pattern without @N; write SPEC@N@%s", dim, dim);
     }
     if (!code && *of.left_out && !cli_flag(arguments, "quiet")) {
         cli_say(arguments->command->name, "-p all leaves out patterns without such a set: %s", of.left_out);
