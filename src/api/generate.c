@@ -73,15 +73,31 @@ static koksma_status generate(const koksma_spec *spec, const koksma_pattern *p, 
     KOKSMA__TRY(koksma__generate_check(spec, p, out->dim));
     KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
     KOKSMA__TRY(p->runs_code ? check_permission(spec, p, run) : KOKSMA_OK);
-    KOKSMA__TRY(p->generate(seed, &args, out));
+    const char kept = koksma__call_begin();
+    KOKSMA__TRY(koksma__call_end(kept, p->generate(seed, &args, out), "koksma_pattern.generate"));
     koksma__modify(spec->modifiers, seed, out);
+    return KOKSMA_OK;
+}
+
+/* Fails unless the spec is of a pattern, which may be the caller's own, with a name and a function. */
+static koksma_status check_pattern(const char *caller, const koksma_spec *spec, const koksma_pattern *p)
+{
+    KOKSMA__FAIL_IF(!p, KOKSMA_ARGUMENT, "%s: it takes the spec of a pattern and initialised points", caller);
+    KOKSMA__FAIL_IF(spec->measure, KOKSMA_ARGUMENT,
+                    "%s: the spec has a pattern and a measure; exactly one of them is not NULL", caller);
+    KOKSMA__FAIL_IF(!p->name || !p->generate, KOKSMA_ARGUMENT,
+                    "%s: the pattern has no %s: koksma_pattern_find has patterns", caller,
+                    p->name ? "generate" : "name");
     return KOKSMA_OK;
 }
 
 static const koksma_pattern *pattern_for(const char *caller, const koksma_spec *spec, const koksma_points *out)
 {
     const koksma_pattern *p = pattern_of(spec);
-    if (!p || !out->xs || out->n == 0) {
+    if (check_pattern(caller, spec, p)) {
+        return NULL;
+    }
+    if (!out->xs || out->n == 0) {
         koksma__fail(KOKSMA_ARGUMENT, "%s: it takes the spec of a pattern and initialised points", caller);
         return NULL;
     }
@@ -138,7 +154,7 @@ koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, cons
     KOKSMA__REQUIRE_RUN(run);
     const koksma_pattern *p = pattern_of(spec);
     *out = (koksma_points){0};
-    KOKSMA__FAIL_IF(!p, KOKSMA_ARGUMENT, "koksma_generate_whole: it takes the spec of a pattern");
+    KOKSMA__TRY(check_pattern(__func__, spec, p));
     if (!p->whole) {
         return koksma__fail(KOKSMA_N, "%s: the number of points is missing", p->name);
     }
@@ -146,7 +162,8 @@ koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, cons
     const koksma_args args = koksma__spec_arguments(spec, run);
     if (!status) {
         out->dim = dim;
-        status = p->whole(seed, &args, out);
+        const char kept = koksma__call_begin();
+        status = koksma__call_end(kept, p->whole(seed, &args, out), "koksma_pattern.whole");
     }
     if (status) {
         *out = (koksma_points){0};

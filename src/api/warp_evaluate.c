@@ -141,9 +141,20 @@ static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, 
                         warp->name, taken[warp->domain]);
 }
 
+static koksma_status check_warp(const koksma_warp *warp)
+{
+    KOKSMA__FAIL_IF(!warp->name || !warp->map, KOKSMA_ARGUMENT, "the warp has no %s: koksma_warp_find has warps",
+                    warp->name ? "map" : "name");
+    KOKSMA__FAIL_IF(warp->dim < 2 || warp->dim > 3 || (unsigned)warp->domain > KOKSMA_DOMAIN_HEMISPHERE_COSINE,
+                    KOKSMA_ARGUMENT, "warp %s: a warp maps to 2 or 3 dimensions, on a domain of koksma_warp_domain",
+                    warp->name);
+    return KOKSMA_OK;
+}
+
 koksma_status koksma_warp_points(const koksma_warp *warp, const koksma_points *points, koksma_points *out)
 {
     KOKSMA__REQUIRE(warp, points, out);
+    KOKSMA__TRY(check_warp(warp));
     KOKSMA__TRY(koksma__points_check(points));
     KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "%s: a warp maps points of 2 dimensions, not %d", warp->name,
                     points->dim);

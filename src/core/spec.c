@@ -179,11 +179,12 @@ void koksma_spec_text(const koksma_spec *spec, char *text)
 {
     KOKSMA__REQUIRE_OR(, spec, text);
     const bool is_pattern = spec->pattern != NULL;
-    if (!is_pattern && !spec->measure) {
-        *text = '\0';
+    const char *name = is_pattern ? spec->pattern->name : spec->measure ? spec->measure->name : NULL;
+    *text = '\0';
+    if (!name) {
         return;
     }
-    snprintf(text, KOKSMA_MAX_SPEC, "%s", is_pattern ? spec->pattern->name : spec->measure->name);
+    snprintf(text, KOKSMA_MAX_SPEC, "%s", name);
     if (!is_pattern) {
         koksma__params_text(spec->measure->params, spec->params, text, KOKSMA_MAX_SPEC);
         return;

@@ -117,6 +117,24 @@ koksma_status koksma__fail_memory(size_t bytes)
     return koksma__fail(KOKSMA_MEMORY, "out of memory: %zu bytes could not be allocated", bytes);
 }
 
+char koksma__call_begin(void)
+{
+    const char kept = error_text[0];
+    error_text[0] = '\0';
+    return kept;
+}
+
+koksma_status koksma__call_end(char kept, koksma_status status, const char *function)
+{
+    if (!status) {
+        error_text[0] = error_text[0] ? error_text[0] : kept;
+        return KOKSMA_OK;
+    }
+    KOKSMA__FAIL_IF((int)status < 0 || status >= KOKSMA_STATUS_COUNT, KOKSMA_ARGUMENT,
+                    "%s returned %d, which is not a koksma_status", function, (int)status);
+    return error_text[0] ? status : koksma__fail(status, "%s failed: %s", function, koksma_status_text(status));
+}
+
 koksma_status koksma__fail_in(koksma_status status, const char *name)
 {
     const bool was_refused = refused;

@@ -17,6 +17,14 @@ size_t koksma__utf8_length(const unsigned char *text);
 /* Sets the error text for a block of `bytes` that malloc or realloc could not allocate, and returns MEMORY. */
 KOKSMA__LAB koksma_status koksma__fail_memory(size_t bytes);
 
+/* Every function that a caller or a table provides, and that returns a status, is called as
+       const char kept = koksma__call_begin();
+       status = koksma__call_end(kept, f(...), "koksma_processes.exchange");
+   koksma__call_end makes sure that the status exists and that an error has a text, which names the function unless the
+   function itself has set one; a number that is no status becomes ARGUMENT. Without an error the text is as before. */
+KOKSMA__LAB char koksma__call_begin(void);
+KOKSMA__LAB koksma_status koksma__call_end(char kept, koksma_status status, const char *function);
+
 /* Puts a name in front of the text of the last failure ("PATH: reason") and returns status. */
 KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name);
 

@@ -287,7 +287,7 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
 {
     const koksma_pattern *p = spec->pattern;
     p = p && p->alias_of ? koksma_pattern_find(p->alias_of) : p;
-    KOKSMA__FAIL_IF(!p, KOKSMA_ARGUMENT, "the spec does not name a pattern");
+    KOKSMA__FAIL_IF(!p || !p->name, KOKSMA_ARGUMENT, "the spec does not name a pattern");
     KOKSMA__TRY(koksma__generate_check(spec, p, 2));
     for (size_t i = 0; i < KOKSMA_MAX_MODIFIERS; i++) {
         const koksma_modifier *modifier = koksma_modifier_at(i);

@@ -76,6 +76,13 @@ static bool keep_going(void *context, double fraction)
     return koksma__keep_going(s->run, fmin(done, 1));
 }
 
+static koksma_status exchange(const koksma_processes *others, void *pieces, size_t count, size_t bytes)
+{
+    const char kept = koksma__call_begin();
+    return koksma__call_end(kept, others->exchange(others->context, pieces, count, bytes),
+                            "koksma_processes.exchange");
+}
+
 /* Runs one step: the share of this process in the searches 0 to SEARCHES - 1. A better result replaces the best
    set. */
 static koksma_status take_step(step *s, koksma_optimum *best)
@@ -85,7 +92,7 @@ static koksma_status take_step(step *s, koksma_optimum *best)
     const size_t size = others ? (size_t)others->size : 1, rank = others ? (size_t)others->rank : 0;
     koksma_status status = koksma__parallel(&run, (SEARCHES - rank + size - 1) / size, search, s);
     if (!status && size > 1) {
-        status = others->exchange(others->context, s->found, SEARCHES, s->piece * sizeof(double));
+        status = exchange(others, s->found, SEARCHES, s->piece * sizeof(double));
     }
     if (status) {
         return status;
@@ -110,7 +117,7 @@ static koksma_status agree(const koksma_processes *others, bool *going)
         return KOKSMA_OK;
     }
     wishes[others->rank] = *going;
-    KOKSMA__TRY(others->exchange(others->context, wishes, (size_t)others->size, sizeof *wishes));
+    KOKSMA__TRY(exchange(others, wishes, (size_t)others->size, sizeof *wishes));
     for (int i = 0; i < others->size; i++) {
         *going = *going && wishes[i] > 0;
     }

@@ -328,8 +328,12 @@ koksma_status koksma__panel_check(const koksma_panel *panel)
         return koksma__fail(KOKSMA_ARGUMENT, "a grid of %zu columns and %zu rows: each is up to %d", o->columns,
                             o->rows, KOKSMA_PLOT_MAX_CELLS);
     }
-    KOKSMA__FAIL_IF(o->local_discrepancy && (o->warp || panel->points->dim != 2), KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF(o->local_discrepancy && panel->points->dim != 2, KOKSMA_ARGUMENT,
                     "the local discrepancy can be drawn only for points of 2 dimensions");
+    KOKSMA__FAIL_IF(o->local_discrepancy && o->warp, KOKSMA_ARGUMENT,
+                    "the local discrepancy can be drawn only without a map");
+    KOKSMA__FAIL_IF(o->warp && (!o->warp->name || !o->warp->map), KOKSMA_ARGUMENT,
+                    "the warp has no %s: koksma_warp_find has warps", o->warp->name ? "map" : "name");
     if (o->warp && panel->points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "a map needs points of 2 dimensions, not %d", panel->points->dim);
     }

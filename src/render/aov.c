@@ -90,7 +90,7 @@ koksma_status koksma_aovs_parse(const char *text, koksma_aovs *out)
 
 void koksma_aovs_fini(koksma_aovs *aovs)
 {
-    for (int i = 0; aovs && i < aovs->n; i++) {
+    for (int i = 0; aovs && i < aovs->n && i < KOKSMA_MAX_AOVS; i++) {
         koksma_image_fini(&aovs->images[i]);
     }
 }

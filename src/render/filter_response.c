@@ -23,6 +23,16 @@ typedef struct sums {
     double f, wave, square;
 } sums;
 
+koksma_status koksma__filter_check(const koksma_filter *filter)
+{
+    KOKSMA__FAIL_IF(!filter->name || !filter->value, KOKSMA_ARGUMENT,
+                    "the filter has no %s: koksma_filter_find has filters", filter->name ? "value" : "name");
+    KOKSMA__FAIL_IF(!(filter->radius > 0 && filter->radius <= KOKSMA__MAX_RADIUS), KOKSMA_ARGUMENT,
+                    "filter %s: radius = %g: it takes a radius above 0 and up to %d pixels", filter->name,
+                    filter->radius, KOKSMA__MAX_RADIUS);
+    return KOKSMA_OK;
+}
+
 static sums integrate(const koksma_filter *filter, double frequency)
 {
     const double h = filter->radius / CELLS;
@@ -44,6 +54,9 @@ static sums integrate(const koksma_filter *filter, double frequency)
 double koksma_filter_response(const koksma_filter *filter, double frequency)
 {
     KOKSMA__REQUIRE_OR(NAN, filter);
+    if (koksma__filter_check(filter)) {
+        return NAN;
+    }
     const sums s = integrate(filter, frequency);
     return s.wave / s.f;
 }
@@ -51,6 +64,9 @@ double koksma_filter_response(const koksma_filter *filter, double frequency)
 double koksma_filter_leakage(const koksma_filter *filter)
 {
     KOKSMA__REQUIRE_OR(NAN, filter);
+    if (koksma__filter_check(filter)) {
+        return NAN;
+    }
     const sums s = integrate(filter, 0);
     /* integral f^2 / (integral f)^2, where both halves of the line count: 2 square / (2 f)^2 */
     const double all = s.square / (2 * s.f * s.f);

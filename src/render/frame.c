@@ -181,6 +181,7 @@ bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options 
 {
     KOKSMA__REQUIRE_OR(false, scene, options);
     KOKSMA__REQUIRE_OR(false, options->integrator);
+    KOKSMA__REQUIRE_OR(false, options->integrator->flags);
     const koksma__use_list uses = koksma__frame_uses(scene, options);
     return i < KOKSMA_N_USES && koksma__use_is_there(&uses, (int)i);
 }
@@ -267,6 +268,10 @@ static koksma_status check(const koksma_render_options *o)
     KOKSMA__FAIL_IF(!koksma_pairing_name(o->pairing) || !koksma_scope_name(o->scope) ||
                         !koksma_light_selection_name(o->lights) || !o->integrator || !o->filter,
                     KOKSMA_ARGUMENT, "the options lack a pairing, scope, light selection, integrator or filter");
+    KOKSMA__FAIL_IF(!o->integrator->name || !o->integrator->flags, KOKSMA_ARGUMENT,
+                    "the integrator has no %s: koksma_integrator_find has integrators",
+                    o->integrator->name ? "flags" : "name");
+    KOKSMA__TRY(koksma__filter_check(o->filter));
     KOKSMA__FAIL_IF(o->depth < -1 || o->depth > KOKSMA_MAX_DEPTH, KOKSMA_ARGUMENT,
                     "depth = %d: the number of bounces must be 0 to %d", o->depth, KOKSMA_MAX_DEPTH);
     KOKSMA__FAIL_IF(

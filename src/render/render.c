@@ -158,6 +158,7 @@ bool koksma_render_warning(const koksma_scene *scene, const koksma_render_option
 {
     KOKSMA__REQUIRE_OR(false, scene, options, text);
     KOKSMA__REQUIRE_OR(false, options->integrator);
+    KOKSMA__REQUIRE_OR(false, options->integrator->flags);
     const koksma__integrator_flags *flags = options->integrator->flags;
     return koksma__scene_warning(scene, (flags->followed & KOKSMA__LOBE_DIFFUSE) != 0, i, text, size);
 }
@@ -259,6 +260,7 @@ koksma_render_size koksma_render_size_of(const koksma_scene *scene, const koksma
 {
     KOKSMA__REQUIRE_OR((koksma_render_size){0}, scene, options);
     KOKSMA__REQUIRE_OR((koksma_render_size){0}, options->integrator, options->pattern.pattern);
+    KOKSMA__REQUIRE_OR((koksma_render_size){0}, options->integrator->flags);
     const uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
     const koksma__use_list uses = koksma__frame_uses(scene, options);
     const int channels = scene->grey ? 1 : 3;

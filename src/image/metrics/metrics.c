@@ -53,6 +53,8 @@ koksma_status koksma_metric_parse(const char *text, koksma_metric_spec *spec)
 koksma_status koksma__metric_spec_check(const koksma_metric_spec *spec)
 {
     KOKSMA__FAIL_IF(!spec->metric, KOKSMA_ARGUMENT, "a spec without a metric: koksma_metric_parse makes one");
+    KOKSMA__FAIL_IF(!spec->metric->name || !spec->metric->errors, KOKSMA_ARGUMENT,
+                    "the metric has no %s: koksma_metric_find has metrics", spec->metric->name ? "errors" : "name");
     return koksma__params_check(spec->metric->name, spec->metric->params, spec->params);
 }
 
@@ -164,7 +166,8 @@ static koksma_status evaluate(const koksma_metric_spec *specs, size_t n, int cha
                                         .height = image->height,
                                         .image = buffer,
                                         .reference = buffer + values};
-        status = metric->errors(&in, errors);
+        const char kept = koksma__call_begin();
+        status = koksma__call_end(kept, metric->errors(&in, errors), "koksma_metric.errors");
         if (!status) {
             out[m] = koksma__metric_pool(metric, errors, pixels);
         }

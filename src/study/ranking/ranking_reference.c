@@ -139,7 +139,8 @@ koksma_status koksma__rank_reference_compare(const koksma__rank_reference *refer
         const koksma_metric_input in = {spec->params, reference->width, reference->height, values,
                                         r ? reference->without + (size_t)(r - 1) * reference->values
                                           : reference->mean};
-        status = spec->metric->errors(&in, map);
+        const char kept = koksma__call_begin();
+        status = koksma__call_end(kept, spec->metric->errors(&in, map), "koksma_metric.errors");
         errors[r] = status ? 0 : koksma__metric_mean(spec->metric, map, reference->pixels);
     }
     if (!status) {

@@ -345,7 +345,11 @@ static koksma_status show_chosen(search *s)
     memcpy(out->points.xs, set->xs, set->n * (size_t)set->dim * sizeof *set->xs);
     out->measure = kernels[s->chosen / s->phases % 3].measure;
     out->phase = s->chosen % s->phases;
-    return s->options->found ? s->options->found(s->options->context, out) : KOKSMA_OK;
+    if (!s->options->found) {
+        return KOKSMA_OK;
+    }
+    const char kept = koksma__call_begin();
+    return koksma__call_end(kept, s->options->found(s->options->context, out), "koksma_scene_search.found");
 }
 
 /* Ranks the candidates. Counts the eliminated candidates, and chooses the one with the least error. */

@@ -50,7 +50,9 @@ static koksma_status render_elsewhere(const koksma__study_scene *scene, const ko
     const koksma_rank_picture asked = {scene->name,    picture->pattern, (int)picture->spp,
                                        picture->width, picture->height,  picture->seed >> 33};
     *out = (koksma_image){0};
-    koksma_status status = scene->render(scene->render_context, &asked, run, out);
+    const char kept = koksma__call_begin();
+    koksma_status status =
+        koksma__call_end(kept, scene->render(scene->render_context, &asked, run, out), "koksma_rank_options.render");
     if (!status && picture->width && (out->width != picture->width || out->height != picture->height)) {
         status =
             koksma__fail(KOKSMA_IMPOSSIBLE, "%s: the renderer made a picture of %d x %d pixels instead of %d x %d",

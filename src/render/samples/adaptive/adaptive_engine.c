@@ -282,6 +282,8 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
 {
     KOKSMA__FAIL_IF(!adaptive->method, KOKSMA_ARGUMENT, "adaptive sampling needs a method");
     const char *name = adaptive->method->name;
+    KOKSMA__FAIL_IF(!name || !adaptive->method->functions, KOKSMA_ARGUMENT,
+                    "the adaptive method has no %s: koksma_adaptive_find has methods", name ? "functions" : "name");
     const koksma_param *params = adaptive->method->params;
     for (int i = 0; params && params[i].name; i++) {
         KOKSMA__FAIL_IF(!(adaptive->params[i] >= params[i].min && adaptive->params[i] <= params[i].max),

@@ -188,7 +188,7 @@ koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, kok
 
 void koksma_strata_fini(koksma_strata *strata)
 {
-    for (size_t i = 0; strata && i < strata->n_spaces; i++) {
+    for (size_t i = 0; strata && strata->spaces && i < strata->n_spaces; i++) {
         free(strata->spaces[i].strata);
         free(strata->spaces[i].splits);
     }

@@ -37,6 +37,7 @@ void koksma_adaptive_text(const koksma_adaptive_options *options, char *text)
 {
     KOKSMA__REQUIRE_OR(, options, text);
     KOKSMA__REQUIRE_OR(, options->method);
+    KOKSMA__REQUIRE_OR(, options->method->name);
     snprintf(text, KOKSMA_MAX_SPEC, "%s", options->method->name);
     koksma__params_text(options->method->params, options->params, text, KOKSMA_MAX_SPEC);
 }
