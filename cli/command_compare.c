@@ -3,6 +3,7 @@
    the coherence of the errors of all images. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <koksma/image.h>
 
@@ -155,6 +156,13 @@ static int run(const cli_arguments *arguments)
     const int last = (int)arguments->n_operands - 1;
     if (last < 1) {
         return cli_usage_error(arguments, "it takes one image or more, and then the reference");
+    }
+    int n_stdin = 0;
+    for (int i = 0; i <= last; i++) {
+        n_stdin += !strcmp(arguments->operands[i], "-");
+    }
+    if (n_stdin > 1) {
+        return cli_usage_error(arguments, "-: stdin can be read only once");
     }
     if (output && last > 1) {
         return cli_usage_error(

@@ -68,8 +68,10 @@ static int open_library(job *j, const char *text, int dim, koksma_integral **out
     const size_t most = sizeof j->libraries / sizeof *j->libraries;
     void *library = j->n_libraries < most ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
     if (!library) {
-        cli_say(j->arguments->command->name, "%s: %s", path,
-                j->n_libraries < most ? dlerror() : "a command takes 16 libraries at most");
+        const char *reason = j->n_libraries < most ? dlerror() : "a command takes 16 libraries at most";
+        const size_t length = strlen(path); /* some reasons of dlerror begin with the path */
+        const bool named = !strncmp(reason, path, length) && !strncmp(reason + length, ": ", 2);
+        cli_say(j->arguments->command->name, "%s: %s", path, named ? reason + length + 2 : reason);
         return koksma_status_exit_code(KOKSMA_MISSING);
     }
     j->libraries[j->n_libraries++] = library;

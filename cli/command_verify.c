@@ -166,7 +166,8 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands == 0) {
         return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
     }
-    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "verifying", &work)) {
+    if (!cli_sources_check(arguments, 0, 1, 0) || !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) ||
+        !cli_work_begin(arguments, "verifying", &work)) {
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/image.h>
 #include <koksma/render.h>
 #include <koksma/study.h>
 
@@ -332,6 +333,12 @@ bool cli_size(const cli_arguments *arguments, int *width, int *height)
     int used = 0;
     if (text && (sscanf(text, "%6dx%6d%n", width, height, &used) != 2 || text[used] || *width < 1 || *height < 1)) {
         cli_usage_error(arguments, "--size %s: it takes WIDTHxHEIGHT, such as 512x384", text);
+        return false;
+    }
+    if (text && (*width > KOKSMA_MAX_IMAGE_SIDE || *height > KOKSMA_MAX_IMAGE_SIDE ||
+                 (size_t)*width * (size_t)*height > KOKSMA_MAX_PIXELS)) {
+        cli_usage_error(arguments, "--size %s: each side must be 1 to %d, and the number of pixels at most %zu", text,
+                        KOKSMA_MAX_IMAGE_SIDE, (size_t)KOKSMA_MAX_PIXELS);
         return false;
     }
     return true;
