@@ -4,7 +4,8 @@
  * verb `new` writes an example of a plan. `run` measures and renders what plans list, writes the results into a
  * folder, and continues an earlier run in that folder; `quick` does so for a plan made from the command line.
  * `estimate` predicts the cost of a run. `export` and `report` write the results of a run again, `audit` computes
- * results again and compares them, and `images` compares sets of images.
+ * results again and compares them, and `images` compares sets of images. Long because all verbs share the table of
+ * options.
  */
 #include <math.h>
 #include <stdio.h>
@@ -98,13 +99,20 @@ static double percent(double part, double of)
 
 static const double RUN_SHARE = 0.95; /* fraction of the progress bar for the run; the rest is for the report */
 
-/* Runs an open study, reports and closes it. Returns the exit code. */
-static int run_study(const cli_arguments *arguments, const koksma_study_options *options, koksma_study *study,
+/* Opens a study, runs it, reports and closes it. If it can't be opened, the plan `made`, or NULL, is removed. Returns
+   the exit code. */
+static int run_study(const cli_arguments *arguments, const koksma_study_options *options, const cli_quick_plan *made,
                      cli_work *work)
 {
+    koksma_study *study;
     koksma_study_summary summary = {0};
+    koksma_status status = koksma_study_open(options, &study);
+    if (status) {
+        cli_remove_quick_plan(options->folder, made);
+        return cli_fail(arguments, status);
+    }
     work->share = options->folder ? RUN_SHARE : 1;
-    koksma_status status = koksma_study_run(study, &work->run, &summary);
+    status = koksma_study_run(study, &work->run, &summary);
     const int refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
     status = refused ? KOKSMA_OK : status;
     if (!status && options->folder) {
@@ -168,9 +176,7 @@ static int run_plans(const cli_arguments *arguments)
     if (koksma_study_mpi_rank() > 0) {
         options.folder = NULL;
     }
-    koksma_study *study;
-    const koksma_status status = koksma_study_open(&options, &study);
-    const int code = status ? cli_fail(arguments, status) : run_study(arguments, &options, study, &work);
+    const int code = run_study(arguments, &options, NULL, &work);
     cli_work_end();
     return code;
 }
@@ -192,15 +198,10 @@ static int run_quick(const cli_arguments *arguments)
     if (code) {
         return code;
     }
-    koksma_study *study;
     const char *plan = made.path;
     options.plans = &plan;
     options.n_plans = 1;
-    const koksma_status status = koksma_study_open(&options, &study);
-    code = status ? cli_fail(arguments, status) : run_study(arguments, &options, study, &work);
-    if (status) {
-        cli_remove_quick_plan(folder, &made);
-    }
+    code = run_study(arguments, &options, &made, &work);
     cli_work_end();
     return code;
 }

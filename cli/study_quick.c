@@ -206,10 +206,10 @@ int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cli
 
 void cli_remove_quick_plan(const char *folder, const cli_quick_plan *plan)
 {
-    if (plan->new_file) {
+    if (plan && plan->new_file) {
         unlink(plan->path);
     }
-    if (plan->new_folder) {
+    if (plan && plan->new_folder) {
         rmdir(folder);
     }
 }

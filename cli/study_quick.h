@@ -16,7 +16,7 @@ typedef struct cli_quick_plan {
    Returns the exit code, which is not CLI_YES after an error; nothing is written then. */
 int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cli_quick_plan *plan);
 
-/* Removes what cli_write_quick_plan made, for a study that could not be opened. */
+/* Removes what cli_write_quick_plan made, for a study that could not be opened; `plan` may be NULL. */
 void cli_remove_quick_plan(const char *folder, const cli_quick_plan *plan);
 
 #endif

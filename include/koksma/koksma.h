@@ -16,12 +16,12 @@
  *
  * These rules hold for every function of every header of this directory:
  *
- *   Errors     A function that can fail returns a koksma_status, KOKSMA_OK (0) for success. "Errors:" in its
- *              comment lists the other statuses that it returns, without the prefix KOKSMA_; every function may
- *              also return ARGUMENT. After an error koksma_error_text() returns one line that names the object and
- *              the reason. If a function of the caller fails, its status is returned; the text is the one that it
- *              left by a call of the library, or else names it. A number that is no status becomes ARGUMENT. After an error each result is unchanged or zero, unless the function's comment says
- *              otherwise.
+ *   Errors     A function that can fail returns a koksma_status, KOKSMA_OK (0) for success. "Errors:" in its comment
+ *              lists the other statuses that it returns, without the prefix KOKSMA_; every function may also return
+ *              ARGUMENT. After an error koksma_error_text() returns one line that names the object and the reason. If
+ *              a function of the caller fails, its status is returned; the text is the one that it left by a call of
+ *              the library, or else names it. A number that is no status becomes ARGUMENT. After an error each result
+ *              is unchanged or zero, unless the function's comment says otherwise.
  *   Results    go through out-pointers, which are the last parameters.
  *   Pointers   must not be NULL unless the comment says "may be NULL". For a NULL pointer a function returns
  *              ARGUMENT. A function without a status then returns NULL, NaN, 0 or false, or does nothing, and also

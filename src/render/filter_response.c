@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "core/status.h"
-#include "render/filters/filters.h"
+#include "render/filter_check.h"
 
 enum { CELLS = 4096, BANDS = 64 };
 
@@ -22,16 +22,6 @@ static const double gauss = 0.28867513459481287; /* half of 1 / sqrt(3) */
 typedef struct sums {
     double f, wave, square;
 } sums;
-
-koksma_status koksma__filter_check(const koksma_filter *filter)
-{
-    KOKSMA__FAIL_IF(!filter->name || !filter->value, KOKSMA_ARGUMENT,
-                    "the filter has no %s: koksma_filter_find has filters", filter->name ? "value" : "name");
-    KOKSMA__FAIL_IF(!(filter->radius > 0 && filter->radius <= KOKSMA__MAX_RADIUS), KOKSMA_ARGUMENT,
-                    "filter %s: radius = %g: it takes a radius above 0 and up to %d pixels", filter->name,
-                    filter->radius, KOKSMA__MAX_RADIUS);
-    return KOKSMA_OK;
-}
 
 static sums integrate(const koksma_filter *filter, double frequency)
 {

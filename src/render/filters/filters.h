@@ -9,9 +9,4 @@
 #include "render/filters/filters.def"
 #undef FILTER
 
-/* Fails unless a filter, which may be the caller's own, has a name, a function and a radius above 0 of at most
-   KOKSMA__MAX_RADIUS pixels. Error: ARGUMENT. */
-enum { KOKSMA__MAX_RADIUS = 64 };
-koksma_status koksma__filter_check(const koksma_filter *filter);
-
 #endif
