@@ -485,7 +485,7 @@ const cli_command cli_command_study = {
         "reason, and "
         "all other trials are done. The exit code is then 2, or 0 if the block of the plan has \"skip\": true.\n"
         "quick: writes DIR/plan.json from the options and runs it. Numbers of points that a pattern does not accept "
-        "are left out and listed. A pattern file:PATH is a file of points.\n"
+        "are left out and listed. A pattern file:PATH is a file of points. Another DIR/plan.json is not replaced.\n"
         "Images are always compared by mae, rmse, relmse and smape; --metric names the one that ranks the patterns, "
         "and\n"
         "further ones, such as ldr-flip, which takes longer than many renders. In a plan these are the fields "
