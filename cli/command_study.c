@@ -4,8 +4,7 @@
  * verb `new` writes an example of a plan. `run` measures and renders what plans list, writes the results into a
  * folder, and continues an earlier run in that folder; `quick` does so for a plan made from the command line.
  * `estimate` predicts the cost of a run. `export` and `report` write the results of a run again, `audit` computes
- * results again and compares them, and `images` compares sets of images. Long because all verbs share the table of
- * options.
+ * results again and compares them, and `images` compares sets of images.
  */
 #include <math.h>
 #include <stdio.h>

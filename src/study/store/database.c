@@ -60,8 +60,9 @@ static koksma_status fail(koksma__database *database)
     const char *path = database->path, *reason = sqlite3_errmsg(database->file);
     const int code = sqlite3_errcode(database->file);
     int system = sqlite3_system_errno(database->file), last = 0;
-    /* a rollback after the error may have overwritten the first number */
-    if (!system && sqlite3_file_control(database->file, NULL, SQLITE_FCNTL_LAST_ERRNO, &last) == SQLITE_OK) {
+    /* a rollback after the error may have overwritten the first number; without memory there is no connection */
+    if (!system && database->file &&
+        sqlite3_file_control(database->file, NULL, SQLITE_FCNTL_LAST_ERRNO, &last) == SQLITE_OK) {
         system = last;
     }
     switch (code) {
