@@ -31,8 +31,8 @@ KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name
 /* koksma__refused marks the last failure as one of a limit: the file may be sound, but takes more than the program
    allows. It returns status. A model loses a texture that is damaged with a warning; one that is refused is an error.
    koksma__fail removes the mark, koksma__fail_in keeps it. */
-koksma_status koksma__refused(koksma_status status);
-bool koksma__is_refused(void);
+KOKSMA__LAB koksma_status koksma__refused(koksma_status status);
+KOKSMA__LAB bool koksma__is_refused(void);
 
 /* The checks that a public function begins with: KOKSMA__REQUIRE(points, out) returns ARGUMENT and names the first
    NULL pointer in the error text; KOKSMA__REQUIRE_OR(result, ...) returns `result` instead; in a void function write
