@@ -227,9 +227,12 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     rows, out = (s.RankRow * len(names))(), s.Ranking()
     try:
         call(lab().koksma_rank_patterns, byref(options), rows, byref(out), threads=threads, run_at=1)
-    except Exception:
+    except Exception as error:
         if other is not None and other.raised:
             raise other.raised[0] from None
+        if other is not None and other.reasons and isinstance(error, ArgumentError):  # the reference's pattern is left out
+            pattern, reason = next(iter(other.reasons.items()))
+            raise ArgumentError(f"renderer: {pattern}: {reason}") from None
         raise
     reasons: Dict[str, str] = {} if other is None else other.reasons
     undecided = not out.settled

@@ -56,6 +56,8 @@ class Renderers(unittest.TestCase):
     def test_refusals(self):
         with self.assertRaisesRegex(ValueError, "the same picture for every seed"):
             koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)))
+        with self.assertRaisesRegex(ValueError, "^renderer: fine: an image must be an array"):
+            koksma.rank("any", ["fine", "coarse"], 4, renderer=lambda asked: None)
         with self.assertRaisesRegex(ValueError, "reference has an effect only with renderer"):
             koksma.rank("ball", ["random"], 4, reference="random")
         with self.assertRaisesRegex(ValueError, "instead of 8 x 8"):
