@@ -4,17 +4,12 @@
  * parser would hardly ever run. Here values are moved, copied, removed and replaced within a text, or come from another
  * input, and keys are exchanged. One input in eight, and those that are no JSON, are mutated by bytes.
  */
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <jansson.h>
 
-size_t LLVMFuzzerMutate(uint8_t *bytes, size_t size, size_t max_size);
-size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t max_size, unsigned seed);
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
-                                 uint8_t *out, size_t max_size, unsigned seed);
+#include "mutate.h"
 
 enum { MAX_NODES = 4096, MAX_TEXT = 256 };
 
@@ -29,15 +24,6 @@ typedef struct nodes {
     node at[MAX_NODES];
     size_t count;
 } nodes;
-
-static uint64_t state;
-
-/* A number below n, by a linear congruential generator. */
-static size_t below(size_t n)
-{
-    state = state * 6364136223846793005U + 1442695040888963407U;
-    return (size_t)(state >> 33) % n;
-}
 
 static json_t *value_of(const node *n)
 {
@@ -192,7 +178,7 @@ static size_t write_to(json_t *root, uint8_t *bytes, size_t max_size)
 
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t max_size, unsigned seed)
 {
-    state = seed;
+    *mutate_state() = seed;
     json_t *root = below(8) ? json_loadb((const char *)bytes, size, 0, NULL) : NULL;
     size_t length = 0;
     if (root) {
@@ -212,7 +198,7 @@ size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const 
                                  uint8_t *out, size_t max_size, unsigned seed)
 {
     static nodes others;
-    state = seed;
+    *mutate_state() = seed;
     others.count = 0;
     json_t *root = json_loadb((const char *)first, first_size, 0, NULL);
     json_t *other = json_loadb((const char *)second, second_size, 0, NULL);

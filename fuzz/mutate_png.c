@@ -5,15 +5,12 @@
  * of four the change is made to the pixels before they are compressed.
  */
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <zlib.h>
 
-size_t LLVMFuzzerMutate(uint8_t *bytes, size_t size, size_t max_size);
-size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t max_size, unsigned seed);
+#include "mutate.h"
 
 enum { SIGNATURE = 8, FRAME = 12, MAX_PIXELS = 1 << 16 };
 

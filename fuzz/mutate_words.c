@@ -6,15 +6,10 @@
  */
 #include <ctype.h>
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-size_t LLVMFuzzerMutate(uint8_t *bytes, size_t size, size_t max_size);
-size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t max_size, unsigned seed);
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
-                                 uint8_t *out, size_t max_size, unsigned seed);
+#include "mutate.h"
 
 enum { MAX_PARTS = 4096, MAX_WORD = 256 };
 
@@ -28,15 +23,6 @@ typedef struct text {
     size_t size, n;
     part parts[MAX_PARTS];
 } text;
-
-static uint64_t state;
-
-/* A number below n, by a linear congruential generator. */
-static size_t below(size_t n)
-{
-    state = state * 6364136223846793005U + 1442695040888963407U;
-    return (size_t)(state >> 33) % n;
-}
 
 static bool in_word(uint8_t byte)
 {
@@ -142,7 +128,7 @@ static size_t mutate(const uint8_t *first, size_t first_size, const uint8_t *sec
 
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t max_size, unsigned seed)
 {
-    state = seed;
+    *mutate_state() = seed;
     uint8_t *copy = below(3) && !memchr(bytes, 0, size) ? malloc(size + 1) : NULL;
     if (copy) {
         memcpy(copy, bytes, size);
@@ -158,6 +144,6 @@ size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t max_size, uns
 size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
                                  uint8_t *out, size_t max_size, unsigned seed)
 {
-    state = seed;
+    *mutate_state() = seed;
     return mutate(first, first_size, second, second_size, out, max_size);
 }
