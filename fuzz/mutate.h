@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the mutators share: the functions that libFuzzer calls and offers, and random choices, which depend on the seed that it
-   gives for each mutation. */
+/* What the mutators share: the functions that libFuzzer calls and offers, and random choices, which depend on the
+   seed that it gives for each mutation. */
 #ifndef KOKSMA_FUZZ_MUTATE_H
 #define KOKSMA_FUZZ_MUTATE_H
 
