@@ -4,9 +4,18 @@
 #ifndef KOKSMA_PATTERNS_SHARED_FILE_NAMES_H
 #define KOKSMA_PATTERNS_SHARED_FILE_NAMES_H
 
+#include <string.h>
+
 #include <koksma/koksma.h>
 
 #include "core/visibility.h"
+
+/* Returns whether the operand of a pattern, which may be NULL, is a path to a file, a program or a library. An operand that
+   is a list of numbers has a name with colons, "Z1:Z2:..". */
+static inline bool koksma__names_path(const koksma_pattern *pattern)
+{
+    return pattern && pattern->operand && !strchr(pattern->operand, ':');
+}
 
 /* Returns whether a pattern reads its points from a file instead of generating them. */
 static inline bool koksma__reads_points(const koksma_pattern *pattern)

@@ -11,6 +11,7 @@
 #include <koksma/study.h>
 
 #include "core/status.h"
+#include "patterns/shared/file_names.h"
 
 enum { MAX_ITEMS = 4096 };
 
@@ -60,8 +61,7 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
 }
 
 /* Whether the text before `end` ends with the name of a pattern whose operand is a path; the name must begin at the
-   start of the text or after "=" or ";". An operand that is a list of numbers, not a path, has a name with colons,
-   "Z1:Z2:..". */
+   start of the text or after "=" or ";". */
 static bool ends_with_pattern(const char *text, const char *end)
 {
     char name[KOKSMA_MAX_SPEC];
@@ -74,8 +74,7 @@ static bool ends_with_pattern(const char *text, const char *end)
         return false;
     }
     snprintf(name, sizeof name, "%.*s", length, word);
-    const koksma_pattern *pattern = koksma_pattern_find(name);
-    return pattern && pattern->operand && !strchr(pattern->operand, ':');
+    return koksma__names_path(koksma_pattern_find(name));
 }
 
 size_t koksma_plan_path(const char *text, size_t from)

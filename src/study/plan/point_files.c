@@ -1,36 +1,55 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Hashes the files of points and parameters that a plan's patterns name (file:PATH, net-file:PATH). A result
-   depends on the contents of such a file, so that their hash is part of the result's key: after a change of the file,
-   new rows are made and the old rows are kept. */
+/* Hashes the files of points and parameters that a plan's patterns name (file:PATH, net-file:PATH), for all uses of an
+   image and for its reference. A result depends on the contents of such a file, so that their hash is part of the
+   result's key: after a change of the file, new rows are made and the old rows are kept. */
 #include "study/plan/point_files.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/render.h>
+
 #include "core/capacity.h"
-#include "core/modifiers.h"
 #include "core/read_file.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
+#include "study/plan/made_by.h"
 
-/* Finds the path in a pattern or in the name of a reference; *length is the path's length without modifiers. NULL:
-   no path. */
-static const char *path_in(const char *spec, size_t *length)
+/* Calls `visit` for every path in the patterns of an image's uses, or in the single pattern of a set of points. Other
+   texts have none: their reader says what is wrong with them. */
+static koksma_status visit_patterns(const char *patterns, koksma_status (*visit)(void *context, const char *path),
+                                    void *context)
 {
-    const koksma_pattern *p;
-    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
-        char key[80];
-        snprintf(key, sizeof key, ":%s:", p->name);
-        const char *found = !p->operand ? NULL : !strncmp(spec, key + 1, strlen(key + 1)) ? spec : strstr(spec, key);
-        const char *end = !found ? NULL : found == spec ? spec + strlen(spec) : strrchr(found, '@');
-        if (end) {
-            const char *path = found + strlen(key) - (found == spec), *modifiers = koksma__modifiers_of_path(path);
-            *length = (size_t)((modifiers < end ? modifiers : end) - path);
-            return path;
-        }
+    koksma_render_options options = {0};
+    const koksma_spec *specs[1 + KOKSMA_N_USES + KOKSMA_MAX_USE_GROUPS];
+    size_t n = 0;
+    koksma_status status = KOKSMA_OK;
+    if (!patterns[0] || koksma_render_patterns(patterns, &options)) {
+        return KOKSMA_OK;
     }
-    return NULL;
+    specs[n++] = &options.pattern;
+    for (int u = 0; u < KOKSMA_N_USES; u++) {
+        specs[n++] = &options.patterns[u];
+    }
+    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
+        specs[n++] = &options.groups[g].pattern;
+    }
+    for (size_t i = 0; !status && i < n; i++) {
+        status = koksma__names_path(specs[i]->pattern) ? visit(context, specs[i]->path) : KOKSMA_OK;
+    }
+    return status;
+}
+
+static koksma_status visit_paths(const char *patterns, const char *reference,
+                                 koksma_status (*visit)(void *context, const char *path), void *context)
+{
+    char name[KOKSMA_MAX_SPEC], of_reference[KOKSMA_MAX_SPEC];
+    long long spp, replicates;
+    const koksma_status status = visit_patterns(patterns, visit, context);
+    const bool has_reference =
+        !status && reference[0] && !koksma__reference_parse(reference, name, of_reference, &spp, &replicates);
+    return has_reference ? visit_patterns(of_reference, visit, context) : status;
 }
 
 /* Hash of a file; for a family of files (file_names.h), the combined hash of all of them. 0: it can't be read. */
@@ -72,40 +91,52 @@ static uint64_t look_up(koksma__point_files *known, const char *path)
     return hash;
 }
 
-void koksma__hash_with_points(koksma__point_files *known, const char *hash, const char *spec,
-                              char out[KOKSMA__HASH_TEXT])
+/* The hash of all files that were visited. */
+typedef struct all_files {
+    koksma__point_files *known;
+    size_t n;
+    uint64_t hash;
+} all_files;
+
+static koksma_status add_hash(void *context, const char *path)
 {
-    size_t length;
-    const char *at = path_in(spec, &length);
-    char *path = at ? strndup(at, length) : NULL;
-    snprintf(out, KOKSMA__HASH_TEXT, "%s", hash);
-    if (path) {
-        const size_t used = strlen(out);
-        snprintf(out + used, KOKSMA__HASH_TEXT - used, "%s%016llx", used ? "+" : "",
-                 (unsigned long long)look_up(known, path));
-    }
-    free(path);
+    all_files *all = context;
+    const uint64_t hash = look_up(all->known, path);
+    all->hash = all->n++ ? (all->hash * 0x100000001b3) ^ hash : hash;
+    return KOKSMA_OK;
 }
 
-koksma_status koksma__points_can_be_read(const char *spec)
+void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash, const char *patterns,
+                              const char *reference, char out[KOKSMA__HASH_TEXT])
 {
-    size_t length, count = 0;
-    const char *at = path_in(spec, &length);
-    char *path = at ? strndup(at, length) : NULL;
-    koksma__file_set *sets = NULL;
-    koksma_status status = at && !path ? koksma__fail_memory(length) : KOKSMA_OK;
-    uint64_t hash;
-    if (path && (koksma__file_has(path, "{n}") || koksma__file_has(path, "{seed}"))) {
-        status = koksma__file_sets(path, &sets, &count);
-        if (!status && !count) {
-            status = koksma__fail(KOKSMA_MISSING, "%s: no file has such a name", path);
-        }
-        free(sets);
-    } else if (path) {
-        status = koksma__hash_file(path, &hash);
+    all_files all = {.known = known};
+    visit_paths(patterns, reference, add_hash, &all);
+    const size_t used = (size_t)snprintf(out, KOKSMA__HASH_TEXT, "%s", scene_hash);
+    if (all.n && used < KOKSMA__HASH_TEXT) {
+        snprintf(out + used, KOKSMA__HASH_TEXT - used, "%s%016llx", used ? "+" : "", (unsigned long long)all.hash);
     }
-    free(path);
+}
+
+static koksma_status can_be_read(void *context, const char *path)
+{
+    koksma__file_set *sets = NULL;
+    size_t count = 0;
+    uint64_t hash;
+    (void)context;
+    if (!koksma__file_has(path, "{n}") && !koksma__file_has(path, "{seed}")) {
+        return koksma__hash_file(path, &hash);
+    }
+    koksma_status status = koksma__file_sets(path, &sets, &count);
+    if (!status && !count) {
+        status = koksma__fail(KOKSMA_MISSING, "%s: no file has such a name", path);
+    }
+    free(sets);
     return status;
+}
+
+koksma_status koksma__points_can_be_read(const char *patterns, const char *reference)
+{
+    return visit_paths(patterns, reference, can_be_read, NULL);
 }
 
 void koksma__point_files_fini(koksma__point_files *known)

@@ -22,14 +22,14 @@ typedef struct koksma__point_files {
 
 enum { KOKSMA__HASH_TEXT = 40 };
 
-/* Writes `hash` to out, followed by the hash of the file if `spec` is "file:PATH" or ends in ":file:PATH@…" as
-   the name of a reference does. A file that can't be read has the hash 0; koksma__points_can_be_read
-   tells why. known may be NULL. */
-void koksma__hash_with_points(koksma__point_files *known, const char *hash, const char *spec,
-                              char out[KOKSMA__HASH_TEXT]);
+/* Writes the hash of a scene to out, followed by one hash of all files that two texts name: the patterns of a row, of all
+   uses of an image, and the name of its reference (koksma__reference_parse). Either text may be "". A file that can't be
+   read has the hash 0; koksma__points_can_be_read tells why. known may be NULL. */
+void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash, const char *patterns,
+                              const char *reference, char out[KOKSMA__HASH_TEXT]);
 
-/* Fails if the file of points that `spec` names can't be read, with the reason; OK also if it names none. */
-koksma_status koksma__points_can_be_read(const char *spec);
+/* Fails if a file that the patterns or the reference name can't be read, with the reason; OK also if they name none. */
+koksma_status koksma__points_can_be_read(const char *patterns, const char *reference);
 
 void koksma__point_files_fini(koksma__point_files *known);
 

@@ -223,17 +223,17 @@ static koksma_status check_image(const koksma__study_scene *scene, const koksma_
     return status;
 }
 
-/* Checks that the hash in a key, of the scene and of the file of points, is that of the present files. */
+/* Checks that the hash in a key, of the scene and of the files of points, is that of the present files. */
 static koksma_status check_hash(koksma__audit_list *list, const koksma__audit_series *series, const char *scene)
 {
     const koksma__series *key = &series->key;
-    const char *points = series->is_reference ? key->what : key->pattern;
+    const char *reference = strcmp(key->kind, "discrepancy") ? key->what : "";
     char hash[KOKSMA__HASH_TEXT];
-    koksma__hash_with_points(&list->files, scene, points, hash);
+    koksma__hash_with_points(&list->files, scene, key->pattern, reference, hash);
     if (!strcmp(hash, key->scene_hash)) {
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma__points_can_be_read(points);
+    const koksma_status status = koksma__points_can_be_read(key->pattern, reference);
     if (status) {
         return koksma__fail_in(status == KOKSMA_MEMORY ? status : KOKSMA_MISSING, "the file of its points");
     }

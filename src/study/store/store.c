@@ -162,13 +162,12 @@ koksma_status koksma__seal_read(koksma__store *store)
 
 void koksma__store_bind_key(koksma__store *store, const koksma__series *series, koksma__series *key)
 {
-    /* the row of a reference has no pattern */
-    const char *of = strcmp(series->pattern, "") ? series->pattern : series->what;
+    const bool image = strcmp(series->kind, "discrepancy") != 0;
     *key = *series;
-    koksma__hash_with_points(&store->files, series->scene_hash, of, store->hash);
+    koksma__hash_with_points(&store->files, series->scene_hash, series->pattern, image ? series->what : "",
+                             store->hash);
     key->metric = series->metric ? series->metric : "";
-    koksma__find_made_by(strcmp(series->kind, "discrepancy") != 0, series->pattern, series->options, series->what,
-                         key->metric, false, &store->made_by);
+    koksma__find_made_by(image, series->pattern, series->options, series->what, key->metric, false, &store->made_by);
     key->scene_hash = store->hash;
     key->made_by = store->made_by.points;
     key->measured_by = store->made_by.value;
