@@ -64,27 +64,53 @@ size_t koksma__utf8_length(const unsigned char *text)
     return overlong || no_character ? 0 : length;
 }
 
-/* Control characters are escaped, including U+0080 to U+009F, because terminals would execute them. */
+/* The number of bytes of the character at `text` that stays as it is; 0: its first byte is escaped. Control characters
+   are escaped, including U+0080 to U+009F, because terminals would execute them. */
+static size_t kept_length(const unsigned char *text)
+{
+    const bool control = text[0] < 0x20 || text[0] == 0x7f || (text[0] == 0xc2 && text[1] < 0xa0);
+    return control ? 0 : koksma__utf8_length(text);
+}
+
+/* As kept_length(), for the character that ends before text + end. A first byte of a character is never a later byte of
+   another one, so that the characters are the same in both directions. */
+static size_t kept_length_before(const unsigned char *text, size_t end)
+{
+    size_t length = 1;
+    while (length < 4 && length < end && (text[end - length] & 0xc0) == 0x80) {
+        length++;
+    }
+    return kept_length(text + end - length) == length ? length : 0;
+}
+
+/* The text is written from its end, so that each byte is moved once. */
 void koksma_text_escape(char *text, size_t size)
 {
     static const char hex[] = "0123456789abcdef";
-    for (size_t i = 0; text && text[i];) {
-        const unsigned char c = (unsigned char)text[i];
-        const size_t length = koksma__utf8_length((const unsigned char *)text + i);
-        const bool control = c < 0x20 || c == 0x7f || (c == 0xc2 && (unsigned char)text[i + 1] < 0xa0);
-        if (length && !control) {
-            i += length;
-            continue;
+    unsigned char *bytes = (unsigned char *)text;
+    size_t from = 0, to = 0;
+    if (!text || !size) {
+        return;
+    }
+    while (bytes[from]) {
+        const size_t kept = kept_length(bytes + from);
+        if (to + (kept ? kept : 4) >= size) {
+            break;
         }
-        if (i + 5 > size) {
-            text[i] = '\0';
-            return;
+        to += kept ? kept : 4;
+        from += kept ? kept : 1;
+    }
+    bytes[to] = '\0';
+    while (to > from) {
+        const unsigned char c = bytes[from - 1];
+        const size_t kept = kept_length_before(bytes, from);
+        to -= kept ? kept : 4;
+        from -= kept ? kept : 1;
+        if (kept) {
+            memmove(bytes + to, bytes + from, kept);
+        } else {
+            memcpy(bytes + to, (const char[]){'\\', 'x', hex[c >> 4], hex[c & 15]}, 4);
         }
-        const size_t rest = strlen(text + i + 1), room = size - i - 5, kept = rest < room ? rest : room;
-        memmove(text + i + 4, text + i + 1, kept);
-        text[i + 4 + kept] = '\0';
-        memcpy(text + i, (const char[]){'\\', 'x', hex[c >> 4], hex[c & 15]}, 4);
-        i += 4;
     }
 }
 

@@ -63,6 +63,34 @@ static bool is_line_of_utf8(const char *text)
     return true;
 }
 
+/* A text with as much space as it can take: the same bytes as when they are written one after the other. */
+static void test_space(void **state)
+{
+    static char text[4 * (1 << 20) + 1];
+    (void)state;
+    const size_t n = 1 << 20;
+    for (size_t i = 0; i < n; i++) {
+        text[i] = i % 3 ? '\x1b' : 'a'; /* moved once for each of them, these would be 3e12 bytes */
+    }
+    text[n] = '\0';
+    koksma_text_escape(text, sizeof text);
+    for (size_t i = 0, at = 0; i < n; i++) {
+        const char *const expected = i % 3 ? "\\x1b" : "a";
+        assert_memory_equal(text + at, expected, strlen(expected));
+        at += strlen(expected);
+        assert_true(i + 1 < n || !text[at]);
+    }
+    strcpy(text, "a\n\xe2\x82\xac\xe2\x82");
+    koksma_text_escape(text, 9); /* no half of a character or of an escape is left */
+    assert_string_equal(text, "a\\x0a\xe2\x82\xac");
+    strcpy(text, "a\n\xe2\x82\xac");
+    koksma_text_escape(text, 8);
+    assert_string_equal(text, "a\\x0a");
+    strcpy(text, "ab\n");
+    koksma_text_escape(text, 6);
+    assert_string_equal(text, "ab");
+}
+
 static void test_any_bytes(void **state)
 {
     uint64_t h = 1;
@@ -86,6 +114,6 @@ static void test_any_bytes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_any_bytes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_space), cmocka_unit_test(test_any_bytes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

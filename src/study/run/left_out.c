@@ -36,6 +36,7 @@ typedef struct fields {
     const char *label, *reason;
     int label_length;
     long long n, failed, trials;
+    size_t place; /* among the lines that were read */
 } fields;
 
 static bool read_line(const char *line, fields *out)
@@ -70,43 +71,68 @@ static koksma_status add_line(koksma__texts *lines, const char *text)
     return status;
 }
 
-/* Appends to `lines` one line for all tasks with the label of task `first`, and marks them as shown. */
-static koksma_status show(const fields *tasks, size_t n, size_t first, bool *shown, koksma__texts *lines)
+/* By label, then by place. */
+static int compare_labels(const void *a, const void *b)
+{
+    const fields *x = a, *y = b;
+    const int shorter = x->label_length < y->label_length ? x->label_length : y->label_length;
+    const int order = memcmp(x->label, y->label, (size_t)shorter);
+    return order ? order
+           : x->label_length != y->label_length
+               ? (x->label_length > y->label_length) - (x->label_length < y->label_length)
+               : (x->place > y->place) - (x->place < y->place);
+}
+
+/* Appends to `lines` one line for the n tasks of one label. */
+static koksma_status show(const fields *tasks, size_t n, koksma__texts *lines)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *f = open_memstream(&text, &size);
     KOKSMA__REQUIRE_MEMORY(f, 1);
-    fprintf(f, "%.*s, N =", tasks[first].label_length, tasks[first].label);
-    for (size_t i = first; i < n; i++) {
-        if (!shown[i] && same_label(&tasks[first], &tasks[i])) {
-            fprintf(f, "%s %lld (%lld of %lld trial%s)", i == first ? "" : ",", tasks[i].n, tasks[i].failed,
-                    tasks[i].trials, tasks[i].trials == 1 ? "" : "s");
-            shown[i] = true;
-        }
+    fprintf(f, "%.*s, N =", tasks->label_length, tasks->label);
+    for (size_t i = 0; i < n; i++) {
+        fprintf(f, "%s %lld (%lld of %lld trial%s)", i ? "," : "", tasks[i].n, tasks[i].failed, tasks[i].trials,
+                tasks[i].trials == 1 ? "" : "s");
     }
-    fprintf(f, ": %s", tasks[first].reason);
+    fprintf(f, ": %s", tasks->reason);
     koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
     status = status ? status : add_line(lines, text);
     free(text);
     return status;
 }
 
-/* Makes the readers' lines of the store's lines. */
+/* Makes the readers' lines of the store's lines: one for each label, in the order of their first tasks. The tasks are
+   sorted, because a damaged store may have any number of labels. */
 koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *lines)
 {
     fields *tasks = calloc(stored->n + 1, sizeof *tasks);
-    bool *shown = calloc(stored->n + 1, sizeof *shown);
-    koksma_status status = tasks && shown ? KOKSMA_OK : koksma__fail_memory(stored->n * sizeof *tasks);
+    size_t *sorted = calloc(stored->n + 1, sizeof *sorted);
+    koksma_status status = tasks && sorted ? KOKSMA_OK : koksma__fail_memory(stored->n * sizeof *tasks);
     size_t n = 0;
     koksma__texts_fini(lines);
     for (size_t i = 0; !status && i < stored->n; i++) {
+        tasks[n].place = n;
         n += read_line(stored->at[i], &tasks[n]);
     }
-    for (size_t i = 0; !status && i < n; i++) {
-        status = shown[i] ? KOKSMA_OK : show(tasks, n, i, shown, lines);
+    if (n) {
+        qsort(tasks, n, sizeof *tasks, compare_labels);
     }
-    KOKSMA__FREE(tasks, shown);
+    for (size_t i = 0; i < n; i++) {
+        sorted[tasks[i].place] = i;
+    }
+    for (size_t i = 0; !status && i < n; i++) {
+        const size_t first = sorted[i];
+        size_t end = first + 1;
+        if (first && same_label(&tasks[first - 1], &tasks[first])) {
+            continue; /* it is on the line of an earlier one */
+        }
+        while (end < n && same_label(&tasks[first], &tasks[end])) {
+            end++;
+        }
+        status = show(tasks + first, end - first, lines);
+    }
+    KOKSMA__FREE(tasks, sorted);
     return status;
 }
 
