@@ -195,9 +195,8 @@ static char *next_target(const char *path)
     return target;
 }
 
-/* Returns the path of the file that a path leads to, which need not exist: the last of a chain of links must not be
-   replaced either. If it fails, it returns NULL and sets errno: the links may have no end, or lead below a file. */
-static char *resolve(const char *path)
+/* The last of a chain of links must not be replaced either. */
+char *koksma__atomic_target(const char *path)
 {
     char *known = realpath(path, NULL);
     if (known || errno == ELOOP || errno == ENOTDIR) {
@@ -274,7 +273,7 @@ static bool open_within(int folder, const char *path, output *o)
 
 static bool open_target(const char *path, output *o)
 {
-    char *copy = resolve(path);
+    char *copy = koksma__atomic_target(path);
     char *slash = copy ? strrchr(copy, '/') : NULL;
     bool done = false;
     if (copy) {

@@ -34,6 +34,10 @@ KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool k
 /* Opens a file, writes the bytes and closes it. */
 KOKSMA__LAB koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size);
 
+/* Returns the path of the file that a path leads to through symbolic links, which need not exist; the caller frees it.
+   NULL: the links have no end or lead below a file, or there is no memory; errno tells which. */
+KOKSMA__LAB char *koksma__atomic_target(const char *path);
+
 /* Makes a folder, unless it exists, and syncs its entry, so that it survives a loss of power. Error: IO. */
 KOKSMA__LAB koksma_status koksma__atomic_folder(const char *path);
 

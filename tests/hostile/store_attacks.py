@@ -331,6 +331,13 @@ def exports():
         told = study("export", "e", "--format", "csv", "-o", path)
         check(told.returncode == 2 and path in told.stderr, f"an export over the results: {told}")
         check(bytes_of("e") == before, f"an export over the results as {path}: they are changed")
+    os.symlink("e/results.sqlite-wal", "log.csv")
+    for path in "e/results.sqlite-journal", "e/results.sqlite-wal", "e/../e/results.sqlite-shm", "log.csv":
+        told = study("export", "e", "--format", "csv", "-o", path)
+        check(told.returncode == 2 and path in told.stderr, f"an export where SQLite expects a log: {told}")
+        check(sorted(os.listdir("e")) == sorted([*os.listdir("sound"), "link.csv"]), f"an export to {path} made a file")
+    for name in "e/results.sqlite.csv", "e/results.csv", "results.sqlite-wal":
+        check(study("export", "e", "--format", "csv", "-o", name).returncode == 0, f"an export to {name}")
 
 
 def programs():

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Exports the rows of a store, sorted by their keys, as CSV, JSON lines or NPY, or as the SHA-256 of the CSV. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -305,18 +306,53 @@ static koksma_status write_rows(koksma__store *store, koksma_export_format forma
     return koksma__fail(KOKSMA_ARGUMENT, "no export format %d", (int)format);
 }
 
-/* Whether `path` is the store's file or its log, also by another name. */
-static bool is_store(const char *results, const char *path)
+static bool same_file(const char *a, const char *b)
+{
+    struct stat info, other;
+    return !stat(a, &info) && !stat(b, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
+}
+
+/* Cuts a path after its folder and returns the name in that folder, which may be the path itself ("." is the folder). */
+static char *split(char **path)
+{
+    char *slash = strrchr(*path, '/'), *name = slash ? slash + 1 : *path;
+    static char here[] = ".", root[] = "/";
+    if (slash) {
+        *slash = '\0';
+    }
+    *path = !slash ? here : slash == *path ? root : *path;
+    return name;
+}
+
+/* Fails if `path` leads to the store's file or one of its logs, also by another name, or to where SQLite would expect a
+   log. */
+static koksma_status check_target(const char *results, const char *path)
 {
     static const char *const endings[] = {"", "-wal", "-shm", "-journal"};
-    struct stat info, other;
-    char name[KOKSMA__PATH + 16];
+    char *store = koksma__atomic_target(results), *target = store ? koksma__atomic_target(path) : NULL;
+    const int reason = errno;
     bool same = false;
-    for (size_t i = 0; i < sizeof endings / sizeof *endings && !stat(path, &info); i++) {
+    for (size_t i = 0; target && i < sizeof endings / sizeof *endings; i++) {
+        char name[2 * KOKSMA__PATH];
         snprintf(name, sizeof name, "%s%s", results, endings[i]);
-        same |= !stat(name, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
+        same |= same_file(name, target);
     }
-    return same;
+    if (target) {
+        char *store_folder = store, *folder = target;
+        const char *store_name = split(&store_folder), *name = split(&folder);
+        const size_t length = strlen(store_name);
+        for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+            same |= !strncmp(name, store_name, length) && !strcmp(name + length, endings[i]) &&
+                    same_file(store_folder, folder);
+        }
+    }
+    const bool no_memory = !target && reason == ENOMEM; /* with other reasons the path can't be opened either */
+    KOKSMA__FREE(store, target);
+    return no_memory ? koksma__fail_memory(strlen(path))
+           : same    ? koksma__fail(KOKSMA_ARGUMENT,
+                                    "%s: the export would replace the study's results or their log; choose another file",
+                                    path)
+                     : KOKSMA_OK;
 }
 
 koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path)
@@ -327,8 +363,7 @@ koksma_status koksma_study_export(const char *folder, koksma_export_format forma
     koksma__atomic_file file;
     writer w = {0};
     KOKSMA__TRY(koksma__results_path(folder, results));
-    KOKSMA__FAIL_IF(is_store(results, path), KOKSMA_ARGUMENT,
-                    "%s: the export would replace the study's results, which it reads; choose another file", path);
+    KOKSMA__TRY(check_target(results, path));
     KOKSMA__TRY(koksma__store_open(results, KOKSMA__STORE_READ, NULL, &store));
     koksma_status status = koksma__atomic_open(NULL, path, &file);
     if (!status) {
