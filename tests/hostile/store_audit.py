@@ -195,6 +195,27 @@ def long_names():
                 else:
                     check(told.returncode == 2 and told.stderr.startswith("koksma study: the name of a study's folder is longer than 1000 bytes: ./"),
                           f"{length}: {verb}: {told}")
+    with open("plain", "w"):
+        pass
+    for folder, code in ("plain", 3), ("nosuch", 3), ("a" * 1100, 2):
+        for verb in "audit", "export":
+            told = koksma("study", verb, folder)
+            check(told.returncode == code and "references" not in told.stderr, f"{verb} {folder}: {told}")
+
+
+def operands():
+    """An operand that is no path has the hash 0 in the keys, as in all stores that have such rows."""
+    with open("vector.json", "w") as file:
+        json.dump({"name": "v", "title": "v", "discrepancies": [{"patterns": ["lattice-vector:1:5"], "measures": ["star"], "n": [8], "trials": 1}],
+                   "images": [{"scenes": ["ball"], "patterns": ["n-rooks;lens=lattice-vector:1:5"], "spp": [8], "size": [8, 6], "trials": 1,
+                               "references": [{"name": "r", "pattern": "jittered", "spp": 4, "replicates": 2}]}]}, file)
+    check(koksma("study", "run", "./vector.json", "-o", "vector", "-q").returncode == 0, "a study of a vector")
+    database = sqlite3.connect("vector/results.sqlite")
+    hashes = dict(database.execute("SELECT kind, scene_hash FROM series"))
+    (scene,) = database.execute("SELECT scene_hash FROM reference").fetchone()
+    database.close()
+    check(hashes["discrepancy"] == 16 * "0" and hashes["image"] == scene + "+" + 16 * "0", f"keys: {hashes}, {scene}")
+    says(audit("vector", "--rows", "all"), 0, "1 reference images rendered again, of which 1 agree")
 
 
 def impossible():
@@ -299,7 +320,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, values, trials, impossible, long_names, draw, texts:
+    for part in references, reasons, operands, values, trials, impossible, long_names, draw, texts:
         part()
 finally:
     here = os.getcwd()

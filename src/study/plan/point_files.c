@@ -16,8 +16,8 @@
 #include "patterns/shared/file_names.h"
 #include "study/plan/made_by.h"
 
-/* Calls `visit` for every path in the patterns of an image's uses, or in the single pattern of a set of points. Other
-   texts have none: their reader says what is wrong with them. */
+/* Calls `visit` for every path in the patterns of an image's uses, or in the single pattern of a set of points, and with
+   NULL for an operand that is no path. Other texts have none: their reader says what is wrong with them. */
 static koksma_status visit_patterns(const char *patterns, koksma_status (*visit)(void *context, const char *path),
                                     void *context)
 {
@@ -36,7 +36,8 @@ static koksma_status visit_patterns(const char *patterns, koksma_status (*visit)
         specs[n++] = &options.groups[g].pattern;
     }
     for (size_t i = 0; !status && i < n; i++) {
-        status = koksma__names_path(specs[i]->pattern) ? visit(context, specs[i]->path) : KOKSMA_OK;
+        const koksma_pattern *p = specs[i]->pattern;
+        status = p && p->operand ? visit(context, koksma__names_path(p) ? specs[i]->path : NULL) : KOKSMA_OK;
     }
     return status;
 }
@@ -98,10 +99,12 @@ typedef struct all_files {
     uint64_t hash;
 } all_files;
 
+/* An operand that is no path has the hash 0. Its numbers are in the pattern's text, so that the key needs no hash of
+   them; the 0 is part of the keys of rows that stores have. */
 static koksma_status add_hash(void *context, const char *path)
 {
     all_files *all = context;
-    const uint64_t hash = look_up(all->known, path);
+    const uint64_t hash = path ? look_up(all->known, path) : 0;
     all->hash = all->n++ ? (all->hash * 0x100000001b3) ^ hash : hash;
     return KOKSMA_OK;
 }
@@ -123,6 +126,9 @@ static koksma_status can_be_read(void *context, const char *path)
     size_t count = 0;
     uint64_t hash;
     (void)context;
+    if (!path) {
+        return KOKSMA_OK;
+    }
     if (!koksma__file_has(path, "{n}") && !koksma__file_has(path, "{seed}")) {
         return koksma__hash_file(path, &hash);
     }

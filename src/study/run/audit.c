@@ -331,7 +331,9 @@ static koksma_status list_series(audit *a)
 {
     char path[KOKSMA__PATH];
     KOKSMA__TRY(koksma__results_path(a->options->folder, path));
+    bool has_references;
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_AUDIT, NULL, &a->study->store);
+    status = status ? status : koksma__references_folder(a->study, &has_references);
     status = status ? status : koksma__audit_list_read(a->study->store, &a->list);
     if (!status && !koksma__store_is_sealed(a->study->store)) {
         differ(a, "%s: the rows are not those that runs wrote: some were changed, lost or added", path);
@@ -419,9 +421,7 @@ koksma_status koksma_study_audit(const koksma_audit_options *options, const koks
     }
     a.study->sink = &sink;
     pthread_mutex_init(&a.lock, NULL);
-    bool has_references;
     koksma_status status = koksma__mpi_check();
-    status = status ? status : koksma__references_folder(a.study, &has_references);
     status = status ? status : list_series(&a);
     status = status ? status : compare(&a, run);
     koksma__mpi_release();
