@@ -31,9 +31,11 @@ static koksma_status compare(const char *path, const char *text, bool *there)
     }
     KOKSMA__FAIL_IF(!S_ISREG(info.st_mode), KOKSMA_ARGUMENT,
                     "%s: it is not a plain file, and is not replaced; use another folder", path);
-    const bool same = (unsigned long long)info.st_size == strlen(text) &&
-                      !koksma__read_file(path, KOKSMA__FILE_PLAN, KOKSMA__BY_FILE, NULL, &found, &size) &&
-                      size == strlen(text) && !memcmp(found, text, size);
+    bool same = (unsigned long long)info.st_size == strlen(text);
+    if (same) {
+        KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_PLAN, KOKSMA__BY_FILE, NULL, &found, &size));
+        same = size == strlen(text) && !memcmp(found, text, size);
+    }
     free(found);
     return same ? KOKSMA_OK
                 : koksma__fail(KOKSMA_ARGUMENT,
