@@ -30,8 +30,8 @@ typedef struct koksma__kept_image {
     const unsigned char *bytes; /* bytes within a model; NULL for images that the program made */
     size_t size;
     koksma__image_use use;
-    koksma_status status; /* of reading; `text` is the message */
-    char text[256];
+    koksma_status status; /* of reading; `text` is the message, NULL without an error */
+    char *text;
     bool hashed, has_mean;
     uint64_t hash;
     double mean[3];
@@ -144,7 +144,7 @@ void koksma__scene_image_drop(koksma_scene *scene, const koksma_image *image)
     if (!used) {
         scene->image_bytes -= bytes_of(image);
         koksma_image_fini(&scene->images[at]->image);
-        free(scene->images[at]);
+        KOKSMA__FREE(scene->images[at]->text, scene->images[at]);
         scene->images[at] = scene->images[--scene->n_images];
     }
 }
@@ -153,7 +153,7 @@ void koksma__scene_images_fini(koksma_scene *scene)
 {
     for (size_t i = 0; i < scene->n_images; i++) {
         koksma_image_fini(&scene->images[i]->image);
-        free(scene->images[i]);
+        KOKSMA__FREE(scene->images[i]->text, scene->images[i]);
     }
     free(scene->images);
 }
@@ -236,9 +236,10 @@ static koksma_status read_or_find(koksma_scene *scene, const char *name, entry *
             return status;
         }
         new->status = status;
-        snprintf(new->text, sizeof new->text, "%s", status ? koksma_error_text() : "");
-        status = add(scene, new, &e);
+        new->text = status ? strdup(koksma_error_text()) : NULL;
+        status = status && !new->text ? koksma__fail_memory(1) : add(scene, new, &e);
         if (status) {
+            free(new->text);
             koksma_image_fini(&new->image);
             return koksma__fail_in(status, name);
         }
