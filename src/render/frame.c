@@ -194,7 +194,9 @@ static void release_geometry(void *made)
     free(geometry);
 }
 
-/* The scene's geometry, which all its images share, because a study may render a mesh a thousand times. */
+/* The scene's geometry, which all its images share, because a study may render a mesh a thousand times. It is made of
+   the scene itself, not of one that an integrator puts in its place: that one ends with its image, and may lack a
+   medium in which shadow rays begin. */
 static koksma_status find_geometry(const koksma_scene *scene, koksma__geometry *out)
 {
     koksma__scene_cache *cache = scene->cache;
@@ -219,7 +221,7 @@ static koksma_status find_geometry(const koksma_scene *scene, koksma__geometry *
     return status;
 }
 
-static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
+static koksma_status make_frame(koksma__frame *f, const koksma_scene *scene, const koksma_run *run)
 {
     const koksma_render_options *options = f->options;
     KOKSMA__TRY(make_materials(f));
@@ -233,7 +235,7 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
     koksma_status status = options->scope == KOKSMA_SCOPE_IMAGE
                                ? koksma__image_samples(options, &f->uses, run, &f->sampler)
                                : koksma__pixel_samples(options, &f->uses, &f->sampler);
-    status = status ? status : find_geometry(f->scene, &f->geometry);
+    status = status ? status : find_geometry(scene, &f->geometry);
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);
     }
@@ -300,5 +302,5 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
         KOKSMA__TRY(out->flags->replace_scene(scene, &out->replaced));
         out->scene = out->replaced;
     }
-    return make_frame(out, run);
+    return make_frame(out, scene, run);
 }
