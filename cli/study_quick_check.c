@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Checks the options of `koksma study quick` before it writes its plan. The plan's reader would find the same errors,
- * but would name a line of a file that the user did not write. Each item of a list is parsed by the function that the
- * reader uses for it, and its canonical text must differ from those of earlier items. Then the patterns are tried with
- * the numbers of points: the plan leaves out sizes that a pattern does not have, but not all of them.
+ * but would name a line of a file that the user did not write. Each item of a list is parsed once, by the function that
+ * the reader uses for it, and its canonical text is compared with those of earlier items. Then the patterns are tried
+ * with the numbers of points: the plan leaves out sizes that a pattern does not have, but not all of them.
  */
 #include "study_quick_check.h"
 
@@ -72,35 +72,51 @@ static koksma_status parse_scene(const char *item, char text[PATH_MAX])
     return status;
 }
 
-/* Whether an item before item i of a list has the canonical text `text`. */
-static bool is_repeated(const char *list, size_t i, item_parser parser, const char *text)
+/* The canonical texts of the items of a list. */
+typedef struct canonical {
+    size_t n;
+    char *at[MOST_ITEMS];
+} canonical;
+
+/* Parses an item and adds its canonical text to those of earlier items. Returns the exit code. */
+static int check_item(const cli_arguments *arguments, const char *option, const char *item, item_parser parser,
+                      canonical *texts)
 {
-    char item[PATH_MAX], other[PATH_MAX];
-    for (size_t k = 0; k < i && cli_list_item(list, k, item, sizeof item); k++) {
-        if (!parser(item, other) && !strcmp(other, text)) {
-            return true;
+    char text[PATH_MAX];
+    const koksma_status status = parser(item, text);
+    if (status) {
+        cli_usage_error(arguments, "--%s %s: %s", option, item, koksma_error_text());
+        return koksma_status_exit_code(status);
+    }
+    for (size_t k = 0; k < texts->n; k++) {
+        if (!strcmp(texts->at[k], text)) {
+            return cli_usage_error(arguments, "--%s: '%s' is listed twice", option, text);
         }
     }
-    return false;
+    if (texts->n == MOST_ITEMS) {
+        return cli_usage_error(arguments, "--%s: at most %d items", option, MOST_ITEMS);
+    }
+    texts->at[texts->n] = strdup(text);
+    return texts->at[texts->n++] ? CLI_YES : cli_no_memory();
 }
 
 static int check_items(const cli_arguments *arguments, const char *option, const char *list, item_parser parser)
 {
-    char item[PATH_MAX], text[PATH_MAX];
-    size_t i = 0;
-    for (; i <= MOST_ITEMS && cli_list_item(list, i, item, sizeof item); i++) {
-        const koksma_status status = parser(item, text);
-        if (status) {
-            cli_usage_error(arguments, "--%s %s: %s", option, item, koksma_error_text());
-            return koksma_status_exit_code(status);
-        }
-        if (is_repeated(list, i, parser, text)) {
-            return cli_usage_error(arguments, "--%s: '%s' is listed twice", option, text);
-        }
+    char item[PATH_MAX];
+    canonical *texts = calloc(1, sizeof *texts);
+    if (!texts) {
+        return cli_no_memory();
     }
-    return i == 0           ? cli_usage_error(arguments, "--%s: an empty list", option)
-           : i > MOST_ITEMS ? cli_usage_error(arguments, "--%s: at most %d items", option, MOST_ITEMS)
-                            : CLI_YES;
+    int code = CLI_YES;
+    for (size_t i = 0; !code && cli_list_item(list, i, item, sizeof item); i++) {
+        code = check_item(arguments, option, item, parser, texts);
+    }
+    code = code || texts->n ? code : cli_usage_error(arguments, "--%s: an empty list", option);
+    for (size_t i = 0; i < texts->n; i++) {
+        free(texts->at[i]);
+    }
+    free(texts);
+    return code;
 }
 
 /* Reads a list of numbers from 1 to `most`. Returns the exit code; the caller frees *numbers. */

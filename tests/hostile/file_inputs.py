@@ -7,11 +7,13 @@ beyond the limit of the kind (src/core/file_kinds.def), and sparse files within 
 it is, the program must end, in the memory of an ordinary run, with exit code 3 and one line that names the file and says
 why. What the user names may be a pipe, which must give what the file gives, and is read up to the limit.
 """
+import ctypes
 import json
 import os
 import re
 import resource
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -337,6 +339,24 @@ def check_descriptors(checks, program, folder):
         os.remove(fifo)
 
 
+def check_openings(checks, program, folder):
+    """`study quick` opens each scene of a list once to check it, the first as well as the last; counted by inotify(7)."""
+    opened, closed, event = 0x20, 0x18, struct.Struct("iIII")  # IN_OPEN; IN_CLOSE_*, which keep equal events apart
+    libc = ctypes.CDLL(None, use_errno=True)
+    names = [put(os.path.join(folder, f"listed{i}.json"), scene()) for i in range(12)]
+    descriptor = libc.inotify_init1(os.O_NONBLOCK)
+    watches = [libc.inotify_add_watch(descriptor, os.fsencode(name), opened | closed) for name in names]
+    done = files.run(program, "study", "quick", "-p", "jittered", "-n", "4", "--spp", "2", "--scene",
+                     ",".join(os.path.basename(name) for name in names), "-o", "listed", cwd=folder)
+    checks.refused("a size without a set", done, 2, "--spp 2")  # after the scenes, and before the study opens them
+    data, counts = os.read(descriptor, 1 << 16), dict.fromkeys(watches, 0)
+    os.close(descriptor)
+    for at in range(0, len(data), event.size):  # events of files have no names
+        watch, mask, _, _ = event.unpack_from(data, at)
+        counts[watch] += bool(mask & opened)
+    checks.check(set(counts.values()) == {1}, f"openings of each scene: {list(counts.values())}")
+
+
 def main():
     program = os.path.abspath(sys.argv[1])
     checks, kinds = files.Checks(), limits()
@@ -345,6 +365,7 @@ def main():
         seen |= check_named_by_user(checks, program, folder, kinds)
         check_pipes(checks, program, folder)
         check_descriptors(checks, program, folder)
+        check_openings(checks, program, folder)
     with open(os.path.join(SOURCE, "docs/files.md"), encoding="utf-8") as stream:
         rows = re.findall(r"^\| ([^|]+) \| (\d+) MiB \|", stream.read(), re.M)
     checks.check({(text, int(mib) << 20) for text, mib in rows} == {(text, most) for most, text in kinds.values()},
