@@ -12,6 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <koksma/study.h>
+
 static const char prefix[] = "pattern:";
 
 /* Splits "SPEC@N" or "SPEC@N@DIM" at its last one or two '@'. *dim is 0 if DIM is out of range. Returns false if the
@@ -154,26 +156,6 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
 
 /* ---- -p and -n --------------------------------------------------------------------------------------------- */
 
-static bool stop_at_once(void *context, double fraction)
-{
-    (void)context;
-    (void)fraction;
-    return false;
-}
-
-/* The function starts koksma_generate, which checks the arguments first, and stops it at once. */
-koksma_status cli_try_set(const koksma_spec *spec, size_t n, int dim)
-{
-    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
-    koksma_points points;
-    koksma_status status = koksma_points_init(&points, n, dim);
-    if (!status) {
-        status = koksma_generate(spec, 0, &briefly, &points);
-        koksma_points_fini(&points);
-    }
-    return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
-}
-
 bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC])
 {
     if (strcmp(list, "all") != 0) {
@@ -220,13 +202,12 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
     int code = bare && of->list ? CLI_YES : add_operand(arguments, text);
     for (size_t k = 0; bare && of->list && !code && cli_list_item(of->list, k, item, sizeof item); k++) {
         uint64_t n;
-        koksma_spec known;
         of->used = true;
         if (!cli_is_whole(arguments, "n", item, 1, KOKSMA_MAX_INDEX, &n)) {
             return CLI_USAGE;
         }
         snprintf(operand, sizeof operand, of->dim == 2 ? "%s@%s" : "%s@%s@%d", text, item, (int)of->dim);
-        if (!of->all || (!koksma_pattern_spec(spec, &known) && !cli_try_set(&known, n, (int)of->dim))) {
+        if (!of->all || !koksma_plan_try(spec, (size_t)n, (int)of->dim)) {
             code = add_operand(arguments, operand);
         } else {
             const size_t used = strlen(of->left_out);

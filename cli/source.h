@@ -29,9 +29,6 @@ bool cli_names_pattern(const char *text);
    Returns false past the end. */
 bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC]);
 
-/* Returns KOKSMA_OK if a pattern has sets of n points in dim dimensions, else the error that koksma_generate has. */
-koksma_status cli_try_set(const koksma_spec *spec, size_t n, int dim);
-
 /* Removes "pattern:" and "@N" from each pattern of `text`, "[USE=]SPEC@N;..", and stores N, the number of samples a pixel,
    in *n. *n is 0 until a number is found. Returns false after an error if two numbers differ. */
 bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n);

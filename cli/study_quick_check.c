@@ -14,6 +14,7 @@
 
 #include <koksma/integrate.h>
 #include <koksma/render.h>
+#include <koksma/study.h>
 
 #include "source.h"
 
@@ -155,13 +156,11 @@ static int try_sets(const cli_arguments *arguments, const char *patterns, const 
     char item[KOKSMA_MAX_SPEC], reason[512] = "";
     bool any = false;
     for (size_t i = 0; cli_pattern_item(patterns, i, item); i++) {
-        koksma_spec spec;
-        koksma_status status = koksma_pattern_spec(item, &spec);
-        for (size_t k = 0; !status && k < n; k++) {
-            const koksma_status tried = sizes[k] > MOST_TRIED ? KOKSMA_OK : cli_try_set(&spec, (size_t)sizes[k], 2);
+        for (size_t k = 0; k < n; k++) {
+            const koksma_status tried =
+                sizes[k] > MOST_TRIED ? KOKSMA_OK : koksma_plan_try(item, (size_t)sizes[k], 2);
             any |= !tried;
-            /* a pattern of many files may lack some of them */
-            if (koksma_status_exit_code(tried) > CLI_USAGE && !strchr(item, '{')) {
+            if (koksma_status_exit_code(tried) > CLI_USAGE) { /* it concerns a file, not this number of points */
                 cli_usage_error(arguments, "--patterns %s: %s", item, koksma_error_text());
                 return koksma_status_exit_code(tried);
             }

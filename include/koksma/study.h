@@ -38,6 +38,12 @@ KOKSMA_API const char *koksma_plan_name_at(size_t i);
    Returns 0 if no path begins after `from`. */
 KOKSMA_API size_t koksma_plan_path(const char *text, size_t from);
 
+/* Tries whether a pattern has a set of n points in dim dimensions, as the reader of a plan does; the set is checked, but
+   not generated. Of a family of files, such as file:my_{n}_{seed}.npy, the set with the smallest seed is tried.
+   Errors: UNKNOWN, ARGUMENT, N, DIM and others of koksma_pattern_spec and koksma_generate; of a family of files MISSING if
+   it has no file, and N if it has files, but none for this n. */
+KOKSMA_API koksma_status koksma_plan_try(const char *pattern, size_t n, int dim);
+
 /* Checks the text of a plan, then makes the folder and writes the text to DIR/plan.json. A text with an error writes
    nothing. An existing DIR/plan.json is never replaced, and a link of that name is not followed.
      folder  folder of the study; its parent must exist

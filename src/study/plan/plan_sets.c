@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include <koksma/integrate.h>
+#include <koksma/study.h>
 
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
@@ -26,15 +27,15 @@ static bool stop_at_once(void *context, double fraction)
     return false;
 }
 
-static koksma_status try_set(const char *pattern, long long n, int dim)
+static koksma_status try_set(const char *pattern, size_t n, int dim)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
     koksma_spec spec;
     koksma_points points;
     koksma_status status = koksma_pattern_spec(pattern, &spec);
-    status = status ? status : koksma_points_init(&points, (size_t)n, dim);
+    status = status ? status : koksma_points_init(&points, n, dim);
     if (!status) {
-        status = koksma_generate(&spec, koksma__first_seed(&spec, (size_t)n), &briefly, &points);
+        status = koksma_generate(&spec, koksma__first_seed(&spec, n), &briefly, &points);
         koksma_points_fini(&points);
     }
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
@@ -52,7 +53,7 @@ typedef koksma_status (*set_trial)(const void *block, const char *pattern, long 
 
 static koksma_status try_points(const void *block, const char *pattern, long long n)
 {
-    return try_set(pattern, n, ((const koksma__discrepancy_block *)block)->dim);
+    return try_set(pattern, (size_t)n, ((const koksma__discrepancy_block *)block)->dim);
 }
 
 static koksma_status try_image(const void *block, const char *pattern, long long n)
@@ -88,7 +89,7 @@ static koksma_status refuse_first(const tried *t)
 }
 
 /* Whether a pattern is a family of files (file_names.h) that has sets of other numbers of points, but not of n. */
-static bool is_gap(const char *pattern, long long n)
+static bool is_gap(const char *pattern, size_t n)
 {
     koksma_spec spec;
     koksma__file_set *sets = NULL;
@@ -99,10 +100,22 @@ static bool is_gap(const char *pattern, long long n)
     }
     bool gap = count > 0;
     for (size_t i = 0; i < count; i++) {
-        gap &= sets[i].n != (size_t)n;
+        gap &= sets[i].n != n;
     }
     free(sets);
     return gap;
+}
+
+koksma_status koksma_plan_try(const char *pattern, size_t n, int dim)
+{
+    KOKSMA__REQUIRE(pattern);
+    const koksma_status status = try_set(pattern, n, dim);
+    if (status != KOKSMA_MISSING || !is_gap(pattern, n)) {
+        return status;
+    }
+    char text[1024];
+    snprintf(text, sizeof text, "%s", koksma_error_text());
+    return koksma__fail(KOKSMA_N, "%s", text);
 }
 
 /* Tries pattern p with all sizes and marks those that it cannot make. If there are any, appends the line
@@ -116,7 +129,7 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
         char text[sizeof reason] = "";
         snprintf(text, sizeof text, "%s", status ? koksma_error_text() : "");
         /* the error concerns a file or the system, not this number of points */
-        if (koksma_status_exit_code(status) > 2 && !is_gap(t->patterns->at[p], t->n->at[k])) {
+        if (koksma_status_exit_code(status) > 2 && !is_gap(t->patterns->at[p], (size_t)t->n->at[k])) {
             koksma__fail(status, "%s", text);
             return koksma__json_fail_in(t->node, status);
         }
