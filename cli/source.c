@@ -187,7 +187,8 @@ typedef struct sizes {
     const char *list; /* the list of -n, or NULL */
     uint64_t dim;
     bool all, used;
-    bool any_bare, any_other; /* whether there is a pattern without a size; whether there are other points */
+    bool any_bare;     /* whether there is a pattern without a size */
+    const char *other; /* the first operand that names other points, or NULL */
     char left_out[1024];
 } sizes;
 
@@ -198,7 +199,7 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
     const char *spec = strncmp(text, prefix, sizeof prefix - 1) ? text : text + sizeof prefix - 1;
     const bool bare = (cli_names_pattern(spec) || spec != text) && !is_counted(text);
     of->any_bare |= bare;
-    of->any_other |= !bare;
+    of->other = bare || of->other ? of->other : text;
     int code = bare && of->list ? CLI_YES : add_operand(arguments, text);
     for (size_t k = 0; bare && of->list && !code && cli_list_item(of->list, k, item, sizeof item); k++) {
         uint64_t n;
@@ -223,6 +224,17 @@ static bool takes_name_first(const cli_arguments *arguments)
     return !strcmp(arguments->command->name, "integrate") || !strcmp(arguments->command->name, "curve");
 }
 
+/* Reports that -d has no effect on the points of an operand, and what would have. Returns the exit code. */
+static int refuse_dim(const cli_arguments *arguments, const char *dim, const char *operand)
+{
+    const bool is_stdin = !strcmp(operand, "-");
+    return is_stdin || (!cli_source_is_pattern(operand) && !access(operand, F_OK))
+               ? cli_usage_error(arguments,
+                                 "-d %s: it needs a pattern without @N; %s has its own number of dimensions", dim,
+                                 is_stdin ? "standard input" : operand)
+               : cli_usage_error(arguments, "-d %s: it needs a pattern without @N; write SPEC@N@%s", dim, dim);
+}
+
 int cli_sources_expand(cli_arguments *arguments)
 {
     const char *patterns = cli_text(arguments, "patterns", NULL);
@@ -231,7 +243,7 @@ int cli_sources_expand(cli_arguments *arguments)
     int code = cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &of.dim) ? CLI_YES : CLI_USAGE;
     for (int i = 0; i < arguments->n_operands && !code; i++) {
         code = add_sizes(arguments, arguments->operands[i], &of);
-        of.any_other = of.any_other && (i > 0 || !takes_name_first(arguments));
+        of.other = i > 0 || !takes_name_first(arguments) ? of.other : NULL;
     }
     of.all = patterns && !strcmp(patterns, "all");
     if (!code && of.all && !of.list) {
@@ -249,8 +261,8 @@ int cli_sources_expand(cli_arguments *arguments)
                    : cli_usage_error(arguments, "-n %s: it needs a pattern without @N", of.list);
     }
     const char *dim = cli_text(arguments, "dim", NULL);
-    if (!code && dim && of.any_other && !of.any_bare) {
-        code = cli_usage_error(arguments, "-d %s: it needs a pattern without @N; write SPEC@N@%s", dim, dim);
+    if (!code && dim && of.other && !of.any_bare) {
+        code = refuse_dim(arguments, dim, of.other);
     }
     if (!code && *of.left_out && !cli_flag(arguments, "quiet")) {
         cli_say(arguments->command->name, "-p all leaves out patterns without such a set: %s", of.left_out);
