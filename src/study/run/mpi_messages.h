@@ -17,7 +17,7 @@
  *     PIECES   this rank's pieces of a shared search (koksma_study_mpi_processes)
  * Messages from rank 0:
  *     ASSIGNMENTS  jobs or tiles to do, or the end of the phase or of the run; if empty, the rank requests again
- *     PIXELS       two messages with a reference image: its width, height and number of channels, then its pixels
+ *     PIXELS       a reference image: koksma__image_head; its pixels follow in a second message, unless it failed
  *     PIECES       the pieces of all ranks
  */
 #ifndef KOKSMA_STUDY_RUN_MPI_MESSAGES_H
@@ -54,5 +54,12 @@ typedef struct koksma__failure {
     unsigned long long job;
     char text[KOKSMA__FAILURE_TEXT];
 } koksma__failure;
+
+/* The first message about a reference image. A rank that has rendered no tile of a reference learns here that an audit
+   can't render it; the rows that need it then fail on every rank. */
+typedef struct koksma__image_head {
+    int width, height, channels;
+    int failed; /* 1: koksma__reference_image.failed; no pixels follow, because no row is compared with them */
+} koksma__image_head;
 
 #endif

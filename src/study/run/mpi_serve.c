@@ -53,11 +53,14 @@ static void send_pixels(server *s, int to)
         index >= s->phase->tasks->study->n_references) {
         return;
     }
-    const koksma_image *image = &s->phase->tasks->study->references[index].image;
-    const int shape[3] = {image->width, image->height, image->channels};
-    const size_t pixels = (size_t)shape[0] * (size_t)shape[1] * (size_t)shape[2];
-    s->mpi->send(to, KOKSMA__TAG_PIXELS, shape, sizeof shape);
-    s->mpi->send(to, KOKSMA__TAG_PIXELS, image->pixels, pixels * sizeof *image->pixels);
+    const koksma__reference_image *reference = &s->phase->tasks->study->references[index];
+    const koksma_image *image = &reference->image;
+    const koksma__image_head head = {image->width, image->height, image->channels, reference->failed};
+    const size_t pixels = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    s->mpi->send(to, KOKSMA__TAG_PIXELS, &head, sizeof head);
+    if (!head.failed) {
+        s->mpi->send(to, KOKSMA__TAG_PIXELS, image->pixels, pixels * sizeof *image->pixels);
+    }
 }
 
 static void receive_results(server *s, unsigned char *message, size_t bytes)

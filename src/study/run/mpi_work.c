@@ -54,17 +54,21 @@ static koksma_status get_reference(worker *w, size_t index)
 {
     koksma__reference_image *r = &w->study->references[index];
     const unsigned long long number = index;
-    int shape[3];
-    if (r->image.pixels) {
+    koksma__image_head head;
+    if (r->image.pixels || r->failed) {
         return KOKSMA_OK;
     }
     if (!w->mpi->send(0, KOKSMA__TAG_NEED, &number, sizeof number) ||
-        !receive(w, KOKSMA__TAG_PIXELS, shape, sizeof shape, NULL)) {
+        !receive(w, KOKSMA__TAG_PIXELS, &head, sizeof head, NULL)) {
         return lost(w);
     }
-    const koksma_status status = koksma_image_init(&r->image, shape[0], shape[1], shape[2]);
+    if (head.failed) {
+        r->failed = true;
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma_image_init(&r->image, head.width, head.height, head.channels);
     if (!status) {
-        const size_t pixels = (size_t)shape[0] * (size_t)shape[1] * (size_t)shape[2];
+        const size_t pixels = (size_t)head.width * (size_t)head.height * (size_t)head.channels;
         if (!receive(w, KOKSMA__TAG_PIXELS, r->image.pixels, pixels * sizeof *r->image.pixels, NULL)) {
             return lost(w);
         }
