@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A hash table with open addressing, at most half full: a name that is taken by hash moves on to the next free slot.
+ * A digital search tree (Knuth, The Art of Computer Programming, volume 3, section 6.3): the bits of a name's hash lead
+ * from the root down, to the node that has this hash or to where it belongs. Every node at depth d has the first d bits
+ * of its hash in common with all nodes below it, so no path is longer than the hash's 64 bits, whatever names a file
+ * has; a hash table would take as many steps as there are names whose hashes begin alike, which are easy to craft.
  * Names themselves are not compared: two of a scene's names have the same 64 bits by chance once in 10^7 scenes of a
  * million names, and a file that does it on purpose only confuses its own names.
  */
@@ -9,58 +12,48 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/hash.h"
-#include "core/status.h"
 
-struct koksma__names_slot {
-    uint64_t hash; /* 0: free */
-    size_t index;
-};
-
-static uint64_t hash_of(const char *name)
+/* The index of the node that has this hash; if there is none, names->n, and *link is where the index of a new node has
+   to be written (NULL for the root). */
+static size_t node_of(const koksma__names *names, uint64_t hash, size_t **link)
 {
-    return koksma__hash(name, strlen(name)) | 1;
-}
-
-/* The slot of a hash, or the free one where it belongs. */
-static struct koksma__names_slot *slot_of(const koksma__names *names, uint64_t hash)
-{
-    size_t at = (size_t)(hash >> 1) & (names->capacity - 1);
-    while (names->slots[at].hash && names->slots[at].hash != hash) {
-        at = (at + 1) & (names->capacity - 1);
+    size_t at = 0;
+    *link = NULL;
+    for (uint64_t bits = hash; at < names->n && names->nodes[at].hash != hash; bits >>= 1) {
+        *link = &names->nodes[at].next[bits & 1];
+        at = **link ? **link : names->n;
     }
-    return &names->slots[at];
+    return at;
 }
 
 koksma_status koksma__names_put(koksma__names *names, const char *name, size_t index)
 {
-    if (2 * names->n >= names->capacity) {
-        koksma__names more = {.n = names->n, .capacity = names->capacity ? 2 * names->capacity : 64};
-        more.slots = calloc(more.capacity, sizeof *more.slots);
-        KOKSMA__REQUIRE_MEMORY(more.slots, more.capacity * sizeof *more.slots);
-        for (size_t i = 0; i < names->capacity; i++) {
-            if (names->slots[i].hash) {
-                *slot_of(&more, names->slots[i].hash) = names->slots[i];
-            }
+    const uint64_t hash = koksma__hash(name, strlen(name));
+    size_t *link;
+    KOKSMA__TRY(koksma__reserve(&names->nodes, &names->capacity, names->n + 1, sizeof *names->nodes));
+    const size_t at = node_of(names, hash, &link);
+    if (at == names->n) {
+        names->nodes[names->n++] = (koksma__names_node){.hash = hash};
+        if (link) {
+            *link = at;
         }
-        free(names->slots);
-        *names = more;
     }
-    struct koksma__names_slot *slot = slot_of(names, hash_of(name));
-    names->n += !slot->hash;
-    *slot = (struct koksma__names_slot){hash_of(name), index};
+    names->nodes[at].index = index;
     return KOKSMA_OK;
 }
 
 bool koksma__names_find(const koksma__names *names, const char *name, size_t *index)
 {
-    const struct koksma__names_slot *slot = names->capacity ? slot_of(names, hash_of(name)) : NULL;
-    *index = slot ? slot->index : 0;
-    return slot && slot->hash;
+    size_t *link;
+    const size_t at = node_of(names, koksma__hash(name, strlen(name)), &link);
+    *index = at < names->n ? names->nodes[at].index : 0;
+    return at < names->n;
 }
 
 void koksma__names_fini(koksma__names *names)
 {
-    free(names->slots);
+    free(names->nodes);
     *names = (koksma__names){0};
 }

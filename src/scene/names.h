@@ -5,9 +5,16 @@
 
 #include <koksma/koksma.h>
 
-/* A hash table of names, which are kept as hashes of 64 bits; zeroed at first. */
+/* A name in the tree. */
+typedef struct koksma__names_node {
+    uint64_t hash;
+    size_t index;
+    size_t next[2]; /* the nodes in which names go on whose next bit is 0 or 1; 0: none */
+} koksma__names_node;
+
+/* A tree of names, which are kept as hashes of 64 bits; zeroed at first. nodes[0] is the root. */
 typedef struct koksma__names {
-    struct koksma__names_slot *slots;
+    koksma__names_node *nodes;
     size_t n, capacity;
 } koksma__names;
 
