@@ -352,9 +352,13 @@ static koksma_status turn_image(const koksma_image *from, bool octahedral, const
     const int own = octahedral ? from->height : (from->width + 1) / 2, height = octahedral || own > FINE ? own : FINE;
     const int width = 2 * height;
     const size_t own_pixels = (size_t)from->width * (size_t)from->height, fine = (size_t)2 * FINE * FINE;
-    KOKSMA__FAIL_IF((size_t)width * (size_t)height > 2 * (own_pixels > fine ? own_pixels : fine), KOKSMA_MALFORMED,
-                    "an environment of %d x %d pixels is more than four times as wide as high", from->width,
-                    from->height);
+    KOKSMA__FAIL_IF(octahedral && from->width != from->height, KOKSMA_MALFORMED,
+                    "an environment of %d x %d pixels is not square, as the octahedral images of pbrt are: imgtool "
+                    "makeequiarea makes one of latitudes and longitudes",
+                    from->width, from->height);
+    KOKSMA__FAIL_IF(!octahedral && (size_t)width * (size_t)height > 2 * (own_pixels > fine ? own_pixels : fine),
+                    KOKSMA_MALFORMED, "an environment of %d x %d pixels is more than four times as wide as high",
+                    from->width, from->height);
     KOKSMA__TRY(koksma_image_init(out, width, height, from->channels));
     for (int i = 0; i < 4 * width * height; i++) {
         const int pixel = i / 4, px = pixel % width, py = pixel / width;

@@ -635,6 +635,52 @@ static void images_are_mapped_as_in_pbrt(void **state)
     unlink(path);
 }
 
+/* The environments of pbrt-v4 are square, of any size; it ends with another. Mitsuba's may be of any shape, but narrow
+   rows would become an image that is much larger. */
+static void environments_have_a_shape(void **state)
+{
+    static const struct {
+        const char *name, *text, *reason; /* NULL: it is accepted */
+        int width, height;
+    } cases[] = {
+#define PBRT_SKY "Camera \"perspective\" WorldBegin\nLightSource \"infinite\" \"string filename\" \"sky.pfm\""
+#define MITSUBA_SKY                                                                                                  \
+    "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>\n<emitter type=\"envmap\"><string name=\"filename\" "   \
+    "value=\"sky.pfm\"/></emitter></scene>"
+        {"a.pbrt", PBRT_SKY, NULL, 1, 1},
+        {"a.pbrt", PBRT_SKY, NULL, 37, 37},
+        {"a.pbrt", PBRT_SKY, NULL, 800, 800},
+        {"a.pbrt", PBRT_SKY, "a.pbrt:2: an environment of 600 x 1200 pixels is not square", 600, 1200},
+        {"a.pbrt", PBRT_SKY, "a.pbrt:2: an environment of 64 x 32 pixels is not square", 64, 32},
+        {"a.xml", MITSUBA_SKY, NULL, 600, 1200},
+        {"a.xml", MITSUBA_SKY, NULL, 64, 1},
+        {"a.xml", MITSUBA_SKY, "a.xml:2: an environment of 4097 x 1 pixels is more than four times as wide", 4097,
+         1}};
+    char path[128];
+    const bool xml = reads_xml();
+    (void)state;
+    snprintf(path, sizeof path, "%s/sky.pfm", folder);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        koksma_image sky;
+        koksma_scene *scene = NULL;
+        if (!xml && strstr(cases[i].name, ".xml")) {
+            continue;
+        }
+        assert_ok(koksma_image_init(&sky, cases[i].width, cases[i].height, 1));
+        assert_ok(koksma_image_write(path, &sky, NULL));
+        koksma_image_fini(&sky);
+        const koksma_status status = open_as(cases[i].name, cases[i].text, &scene);
+        if (status != (cases[i].reason ? KOKSMA_MALFORMED : KOKSMA_OK) ||
+            (status && !strstr(koksma_error_text(), cases[i].reason))) {
+            fail_msg("%d x %d: status %d, '%s'", cases[i].width, cases[i].height, (int)status,
+                     status ? koksma_error_text() : "");
+        }
+        assert_true(status || (scene->n_lights == 1 && scene->lights[0].image));
+        koksma_scene_close(scene);
+    }
+    unlink(path);
+}
+
 /* ---- Lights with two sides ------------------------------------------------------------------------------------------ */
 
 /* A square light, with a surface that reflects or without, seen from behind. */
@@ -1053,6 +1099,7 @@ int main(void)
         cmocka_unit_test(shutters_outlast_motions),
         cmocka_unit_test(media_of_mitsuba_are_read),
         cmocka_unit_test(images_are_mapped_as_in_pbrt),
+        cmocka_unit_test(environments_have_a_shape),
         cmocka_unit_test(lights_of_pbrt_may_have_two_sides),
         cmocka_unit_test(both_sides_light_alike),
         cmocka_unit_test(lights_of_pbrt_have_luminance_1),
