@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "core/capacity.h"
 #include "core/vector.h"
@@ -114,12 +115,13 @@ static const char *text(const reader *r, const node *n, const char *name, const 
     return value ? value : otherwise;
 }
 
-/* The index of the text in the list of those that are possible, which ends with NULL; without a text, 0. */
+/* The index of the text in the list of those that are possible, which ends with NULL; without a text, 0. Mitsuba, too,
+   compares most of these texts without case. */
 static size_t choice(const reader *r, const node *n, const char *name, const char *const *all)
 {
     const char *value = text(r, n, name, all[0]);
     size_t i = 0;
-    while (all[i] && strcmp(all[i], value) != 0) {
+    while (all[i] && strcasecmp(all[i], value) != 0) {
         i++;
     }
     if (!all[i]) {
@@ -269,12 +271,23 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
 /* Reads how an image is mapped. The third row and column of its transform have no effect. */
 static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
 {
-    static const char *const wraps[] = {"repeat", "clamp", "mirror", NULL}, *const filters[] = {"bilinear", "nearest",
-                                                                                                NULL};
-    static const koksma__wrap kinds[] = {KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR};
+    /* Mitsuba 0.6 has four more: it filters by MIP maps unless the file says "nearest" */
+    static const char *const wraps[] = {"repeat", "clamp", "mirror", "zero", "one", NULL};
+    static const char *const filters[] = {"bilinear", "nearest", "trilinear", "ewa", NULL};
+    static const koksma__wrap kinds[] = {KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR,
+                                         KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_CLAMP};
+    const size_t wrap = choice(r, n, "wrap_mode", wraps), filter = choice(r, n, "filter_type", filters);
     double m[12];
-    to->wrap[0] = to->wrap[1] = kinds[choice(r, n, "wrap_mode", wraps)];
-    to->nearest = choice(r, n, "filter_type", filters);
+    to->wrap[0] = to->wrap[1] = kinds[wrap];
+    to->nearest = filter == 1;
+    if (wrap > 2) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a texture's wrap mode '%s' is replaced by 'clamp'",
+                                           wraps[wrap]));
+    }
+    if (filter > 1) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a texture's filter '%s' is replaced by 'bilinear'",
+                                           filters[filter]));
+    }
     to->moved = property(r, n, "to_uv");
     KOKSMA__TRY(transform(r, n, "to_uv", m));
     for (int i = 0; i < 6; i++) {
@@ -379,7 +392,7 @@ static double index_of(const reader *r, const node *n, const char *name, double 
     const node *c = property(r, n, name);
     const char *value = c && is(c, "string") ? text(r, n, name, "") : NULL;
     for (size_t i = 0; value && i < sizeof known / sizeof *known; i++) {
-        if (!strcmp(known[i].name, value)) {
+        if (!strcasecmp(known[i].name, value)) {
             return known[i].ior;
         }
     }

@@ -151,6 +151,12 @@ static void odd_elements_of_mitsuba_are_refused(void **state)
          "int_ior: <string> 'bk9'"},
         {BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"q\"/></bsdf>"),
          "distribution: <string> 'q' is not a value that this property can have"},
+        {BALL("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
+              "value=\"a.png\"/><string name=\"filterType\" value=\"cubic\"/></texture></bsdf>"),
+         "filterType: <string> 'cubic' is not a value that this property can have"},
+        {BALL("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
+              "value=\"a.png\"/><string name=\"wrap_mode\" value=\"two\"/></texture></bsdf>"),
+         "wrap_mode: <string> 'two'"},
         {BALL("<bsdf/>"), "bsdf: no type"},
         {BALL("<transform name=\"to_world\"><rotate angle=\"9\"/></transform>"), "rotate: the axis has no direction"},
         {BALL("<transform name=\"to_world\"><rotate x=\"1\"/></transform>"), "rotate: no 'angle'"},

@@ -746,6 +746,11 @@ static void both_sides_light_alike(void **state)
     "</scene>"
 #define BALL(bsdf) MITSUBA("<shape type=\"sphere\">" bsdf "</shape>")
 
+#define IMAGE(inner)                                                                                                 \
+    MITSUBA(                                                                                                         \
+        "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"><string "    \
+        "name=\"filename\" value=\"white.pfm\"/>" inner "</texture></bsdf></shape>")
+
 #define FOG                                                                                                          \
     "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.1 0.2 0.3] \"rgb sigma_s\" [0 0.1 "  \
     "0.2] "                                                                                                          \
@@ -875,6 +880,25 @@ static const struct {
      BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"ggx\"/><float name=\"alpha_u\" "
           "value=\"0.2\"/></bsdf>"),
      "a.xml:2: anisotropic"},
+    /* choices of Mitsuba 0.6, and in other case */
+    {"a.xml", IMAGE("<string name=\"filterType\" value=\"nearest\"/><string name=\"wrapMode\" value=\"Mirror\"/>"),
+     NULL},
+    {"a.xml", IMAGE("<string name=\"filterType\" value=\"ewa\"/>"),
+     "a.xml:2: a texture's filter 'ewa' is replaced by 'bilinear'"},
+    {"a.xml", IMAGE("<string name=\"filterType\" value=\"Trilinear\"/>"),
+     "a.xml:2: a texture's filter 'trilinear' is replaced by 'bilinear'"},
+    {"a.xml", IMAGE("<string name=\"wrapMode\" value=\"zero\"/>"),
+     "a.xml:2: a texture's wrap mode 'zero' is replaced by 'clamp'"},
+    {"a.xml", IMAGE("<string name=\"wrapMode\" value=\"one\"/>"),
+     "a.xml:2: a texture's wrap mode 'one' is replaced by 'clamp'"},
+    {"a.xml", BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"GGX\"/></bsdf>"), NULL},
+    {"a.xml", BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"Beckmann\"/></bsdf>"),
+     "a.xml:2: Beckmann"},
+    {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"BK7\"/></bsdf>"), NULL},
+    {"a.xml",
+     "<scene version=\"3.0.0\"><sensor type=\"perspective\"><string name=\"fovAxis\" "
+     "value=\"Larger\"/></sensor></scene>",
+     NULL},
     {"a.xml", MITSUBA("<shape type=\"sdfgrid\"/>"), "a.xml:2: shape 'sdfgrid' is left out"},
     {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), NULL},
     {"a.xml",
@@ -898,7 +922,13 @@ static const struct {
 static void unknown_things_are_named(void **state)
 {
     const bool xml = reads_xml();
+    char path[128];
+    koksma_image white;
     (void)state;
+    snprintf(path, sizeof path, "%s/white.pfm", folder);
+    assert_ok(koksma_image_init(&white, 2, 2, 1));
+    assert_ok(koksma_image_write(path, &white, NULL));
+    koksma_image_fini(&white);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         char text[256] = "", warning[256];
         if (!xml && strstr(kinds[i].name, ".xml")) {
@@ -921,6 +951,7 @@ static void unknown_things_are_named(void **state)
         }
         koksma_scene_close(scene);
     }
+    unlink(path);
 }
 
 /* Of a light of pbrt-v4 with a sampled spectrum only the colour counts: it has luminance 1. */
