@@ -296,10 +296,117 @@ static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
     return KOKSMA_OK;
 }
 
-static koksma_status texture(reader *r, const node *n, koksma__import_colour *out, int depth)
+/* Fails if an object lacks a property that Mitsuba has no default for. */
+static koksma_status needed(const reader *r, const node *n, const char *name)
+{
+    return property(r, n, name) ? KOKSMA_OK
+                                : koksma__import_fail(n->place, "%s '%s': no '%s'", n->tag, type_of(n), name);
+}
+
+/* Whether an element is an object that stands for a colour; Mitsuba 3 takes its spectra for textures. */
+static bool is_texture(const node *n)
+{
+    return is(n, "texture") || (is(n, "spectrum") && koksma__xml_attribute(n, "type"));
+}
+
+static koksma_status texture(reader *r, const node *n, bool emits, koksma__import_colour *out, int depth);
+
+/* Reads the spectrum "d65", daylight times a colour or texture. Daylight itself is white. */
+static koksma_status in_daylight(reader *r, const node *n, bool emits, koksma__import_colour *out, int depth)
+{
+    const double scale = number(r, n, "scale", 1);
+    const node *inner = NULL;
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        if (is_texture(resolve(r, c))) {
+            KOKSMA__TRY(inner ? koksma__import_fail(c->place, "spectrum 'd65': more than one texture") : KOKSMA_OK);
+            r->used[c - r->xml.nodes] = true;
+            inner = resolve(r, c);
+        }
+    }
+    KOKSMA__TRY(inner ? texture(r, inner, emits, out, depth + 1) : colour(r, n, "color", 1, out, depth + 1));
+    for (int k = 0; k < 3; k++) {
+        out->rgb[k] *= scale;
+        out->second[k] *= scale;
+    }
+    return *out->image && scale != 1 ? koksma__import_unknown(r->im, n->place, "an image's scale is ignored")
+                                     : KOKSMA_OK;
+}
+
+/* Reads the spectra "regular" and "irregular": samples at equal distances, or at those that are listed. */
+static koksma_status samples(reader *r, const node *n, bool regular, bool emits, double rgb[3])
+{
+    const node *pairs = property(r, n, "value");
+    koksma__sampled_spectrum s = {0};
+    if (pairs) {
+        return value_of(r, resolve(r, pairs), emits, rgb);
+    }
+    KOKSMA__TRY(needed(r, n, "values"));
+    KOKSMA__TRY(needed(r, n, regular ? "wavelength_min" : "wavelengths"));
+    KOKSMA__TRY(regular ? needed(r, n, "wavelength_max") : KOKSMA_OK);
+    (void)text(r, n, "values", "");
+    if (regular) {
+        const double from = number(r, n, "wavelength_min", 360), to = number(r, n, "wavelength_max", 830);
+        KOKSMA__TRY(koksma__mitsuba_samples(property(r, n, "values"), NULL, from, to, &s));
+    } else {
+        (void)text(r, n, "wavelengths", "");
+        KOKSMA__TRY(koksma__mitsuba_samples(property(r, n, "values"), property(r, n, "wavelengths"), 0, 0, &s));
+    }
+    (emits ? koksma__sampled_spectrum_emission : koksma__sampled_spectrum_reflectance)(&s, rgb);
+    return KOKSMA_OK;
+}
+
+/* Reads the object of a spectrum as the RGB variants of Mitsuba do, and sampled ones as the observer sees them; *known
+   tells whether there is such a kind. */
+static koksma_status spectrum(reader *r, const node *n, bool emits, koksma__import_colour *out, int depth,
+                              bool *known)
+{
+    static const char *const all[] = {"d65", "uniform", "srgb", "regular", "irregular", "blackbody", NULL};
+    enum { D65, UNIFORM, SRGB, REGULAR, IRREGULAR, BLACK_BODY };
+    int kind = 0;
+    while (all[kind] && strcmp(all[kind], type_of(n)) != 0) {
+        kind++;
+    }
+    *known = all[kind] != NULL;
+    if (!*known) {
+        return KOKSMA_OK;
+    }
+    set_read(r, n);
+    switch (kind) {
+    case D65:
+        return in_daylight(r, n, emits, out, depth);
+    case UNIFORM:
+        KOKSMA__TRY(needed(r, n, "value"));
+        /* the range of wavelengths only tells where Mitsuba samples */
+        property(r, n, "wavelength_min");
+        property(r, n, "wavelength_max");
+        out->rgb[0] = out->rgb[1] = out->rgb[2] = number(r, n, "value", 1);
+        return KOKSMA_OK;
+    case SRGB:
+        KOKSMA__TRY(needed(r, n, "color"));
+        property(r, n, "unbounded");
+        return colour(r, n, "color", 1, out, depth + 1);
+    case BLACK_BODY: {
+        KOKSMA__TRY(needed(r, n, "temperature"));
+        const double kelvins = number(r, n, "temperature", 6500);
+        if (!(kelvins > 0)) {
+            return koksma__import_fail(n->place, "a temperature of %g kelvins; it must be above 0", kelvins);
+        }
+        koksma__import_black_body(kelvins, out->rgb);
+        return koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1");
+    }
+    default:
+        return samples(r, n, kind == REGULAR, emits, out->rgb);
+    }
+}
+
+static koksma_status texture(reader *r, const node *n, bool emits, koksma__import_colour *out, int depth)
 {
     const char *type = type_of(n);
     double m[12];
+    bool known;
+    if (depth > MOST_NESTED) {
+        return koksma__import_fail(n->place, "textures are nested more than %d deep", MOST_NESTED);
+    }
     if (!strcmp(type, "bitmap")) {
         const char *name = text(r, n, "filename", ""), *dot = strrchr(name, '.');
         const bool linear = dot && (koksma__xml_alike(dot, ".exr") || koksma__xml_alike(dot, ".pfm"));
@@ -324,7 +431,12 @@ static koksma_status texture(reader *r, const node *n, koksma__import_colour *ou
                                                      "only the scale along u of a checkerboard's transform is used")
                             : KOKSMA_OK;
     }
-    return koksma__import_unknown(r->im, n->place, "texture '%s' is replaced by grey", type);
+    KOKSMA__TRY(spectrum(r, n, emits, out, depth, &known));
+    if (!known && is(n, "spectrum")) {
+        out->rgb[0] = out->rgb[1] = out->rgb[2] = 1;
+        return koksma__import_unknown(r->im, n->place, "spectrum '%s' is replaced by white", type);
+    }
+    return known ? KOKSMA_OK : koksma__import_unknown(r->im, n->place, "texture '%s' is replaced by grey", type);
 }
 
 /* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
@@ -337,10 +449,8 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
         return KOKSMA_OK;
     }
     found = resolve(r, found);
-    if (depth > MOST_NESTED) {
-        return koksma__import_fail(found->place, "textures are nested more than %d deep", MOST_NESTED);
-    }
-    return is(found, "texture") ? texture(r, found, out, depth) : value_of(r, found, is(n, "emitter"), out->rgb);
+    const bool emits = is(n, "emitter");
+    return is_texture(found) ? texture(r, found, emits, out, depth) : value_of(r, found, emits, out->rgb);
 }
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */

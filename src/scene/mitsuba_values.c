@@ -204,6 +204,51 @@ koksma_status koksma__mitsuba_colour_read(const node *n, koksma__mitsuba_colour 
     return KOKSMA_OK;
 }
 
+/* How many words a list has. */
+static size_t words(const char *at)
+{
+    size_t n = 0;
+    for (at += strspn(at, SEPARATORS); *at; at += strspn(at, SEPARATORS)) {
+        at += strcspn(at, SEPARATORS);
+        n++;
+    }
+    return n;
+}
+
+/* Reads the next finite number of a list. */
+static bool take_item(const char **at, double *out)
+{
+    *at += strspn(*at, SEPARATORS);
+    return take_number(at, out) && isfinite(*out) && (!**at || strchr(SEPARATORS, **at));
+}
+
+koksma_status koksma__mitsuba_samples(const node *values, const node *wavelengths, double from, double to,
+                                      koksma__sampled_spectrum *out)
+{
+    const char *at = koksma__xml_attribute(values, "value");
+    const char *where = wavelengths ? koksma__xml_attribute(wavelengths, "value") : "";
+    const size_t n = at ? words(at) : 0, n_where = where ? words(where) : 0;
+    if (n < 2) {
+        return wrong(values, "value", "a list of two numbers or more");
+    }
+    if (wavelengths && n_where != n) {
+        return koksma__import_fail(values->place, "%zu values of a spectrum for %zu wavelengths", n, n_where);
+    }
+    for (size_t i = 0; i < n; i++) {
+        double value, wavelength = from + (to - from) * (double)i / (double)(n - 1);
+        if (!take_item(&at, &value)) {
+            return wrong(values, "value", "a list of numbers");
+        }
+        if (wavelengths && !take_item(&where, &wavelength)) {
+            return wrong(wavelengths, "value", "a list of numbers");
+        }
+        if (!koksma__sampled_spectrum_add(out, wavelength, value)) {
+            return koksma__import_fail(values->place, "wavelengths of a spectrum must increase");
+        }
+    }
+    return KOKSMA_OK;
+}
+
 bool koksma__mitsuba_is_number(const node *n)
 {
     return is(n, "float") || is(n, "integer");
@@ -305,6 +350,12 @@ static koksma_status check(const koksma__xml *xml, const node *n)
         if (is(n, objects[i]) && !koksma__xml_attribute(n, "type")) {
             return koksma__import_fail(n->place, "%s: no type", n->tag);
         }
+    }
+    if (is(n, "spectrum") && koksma__xml_attribute(n, "type")) { /* an object, whose values are its children */
+        return koksma__xml_attribute(n, "value") || koksma__xml_attribute(n, "filename")
+                   ? koksma__import_fail(
+                         n->place, "a spectrum with a 'type' has its values inside, not in 'value' or 'filename'")
+                   : KOKSMA_OK;
     }
     if (is(n, "transform")) {
         for (int c = n->first; c >= 0; c = xml->nodes[c].next) {

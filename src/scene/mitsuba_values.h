@@ -37,6 +37,11 @@ typedef struct koksma__mitsuba_colour {
 /* The form is KOKSMA__NO_COLOUR for a spectrum that is in another file. */
 koksma_status koksma__mitsuba_colour_read(const koksma__xml_node *n, koksma__mitsuba_colour *out);
 
+/* Samples of a spectrum, two at least: numbers in the `value` of one element, at the increasing wavelengths in that of
+   another, or, if that is NULL, at equal distances between two. */
+koksma_status koksma__mitsuba_samples(const koksma__xml_node *values, const koksma__xml_node *wavelengths,
+                                      double from, double to, koksma__sampled_spectrum *out);
+
 /* Whether the element is of a kind that stands for a number or for a colour. */
 bool koksma__mitsuba_is_number(const koksma__xml_node *n);
 bool koksma__mitsuba_is_colour(const koksma__xml_node *n);

@@ -746,10 +746,11 @@ static void both_sides_light_alike(void **state)
     "</scene>"
 #define BALL(bsdf) MITSUBA("<shape type=\"sphere\">" bsdf "</shape>")
 
-#define IMAGE(inner)                                                                                                 \
-    MITSUBA(                                                                                                         \
-        "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"><string "    \
-        "name=\"filename\" value=\"white.pfm\"/>" inner "</texture></bsdf></shape>")
+#define WHITE(inner)                                                                                                 \
+    "<texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" value=\"white.pfm\"/>" inner "</"       \
+    "texture>"
+#define IMAGED(colour) MITSUBA("<shape type=\"rectangle\"><bsdf type=\"diffuse\">" colour "</bsdf></shape>")
+#define IMAGE(inner) IMAGED(WHITE(inner))
 
 #define FOG                                                                                                          \
     "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.1 0.2 0.3] \"rgb sigma_s\" [0 0.1 "  \
@@ -880,6 +881,25 @@ static const struct {
      BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"ggx\"/><float name=\"alpha_u\" "
           "value=\"0.2\"/></bsdf>"),
      "a.xml:2: anisotropic"},
+    {"a.xml", BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" type=\"rawconstant\"/></bsdf>"),
+     "a.xml:2: spectrum 'rawconstant' is replaced by white"},
+    {"a.xml", BALL("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"d65\"/></bsdf>"), NULL},
+    {"a.xml",
+     MITSUBA("<emitter type=\"point\"><spectrum name=\"intensity\" type=\"blackbody\"><float name=\"temperature\" "
+             "value=\"5000\"/></spectrum></emitter>"),
+     "a.xml:2: a black body is replaced by its colour with luminance 1"},
+    {"a.xml",
+     MITSUBA("<emitter type=\"point\"><spectrum name=\"intensity\" type=\"d65\">\n<float name=\"gain\" value=\"2\"/>"
+             "</spectrum></emitter>"),
+     "a.xml:3: 'gain' of spectrum 'd65' is ignored"},
+    {"a.xml",
+     BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"ggx\"/>\n<spectrum name=\"alpha\" "
+          "type=\"uniform\"><float name=\"value\" value=\"0.1\"/></spectrum></bsdf>"),
+     "a.xml:3: 'alpha' of bsdf 'roughconductor' is ignored"},
+    {"a.xml",
+     IMAGED(
+         "<spectrum name=\"reflectance\" type=\"d65\"><float name=\"scale\" value=\"0.5\"/>" WHITE("") "</spectrum>"),
+     "a.xml:2: an image's scale is ignored"},
     /* choices of Mitsuba 0.6, and in other case */
     {"a.xml", IMAGE("<string name=\"filterType\" value=\"nearest\"/><string name=\"wrapMode\" value=\"Mirror\"/>"),
      NULL},
@@ -952,6 +972,68 @@ static void unknown_things_are_named(void **state)
         koksma_scene_close(scene);
     }
     unlink(path);
+}
+
+/* The spectra of Mitsuba 3 as a light's intensity and as a reflectance. Numbers: those of Mitsuba 3.9.1 (traverse() in
+   scalar_rgb) for the same texts; for samples, those of the same pairs in a <spectrum value="...">. */
+static void spectra_of_mitsuba_are_read(void **state)
+{
+#define SAMPLES 0.0865332, 0.246733, 0.128916
+    static const struct {
+        const char *inside; /* behind the attribute "name" */
+        double rgb[3], tolerance;
+    } cases[] = {
+        {"type=\"d65\"/>", {1, 1, 1}, 1e-6},
+        {"type=\"d65\"><float name=\"scale\" value=\"0.5\"/></spectrum>", {0.5, 0.5, 0.5}, 1e-6},
+        {"type=\"d65\"><rgb name=\"color\" value=\"0.1 0.2 0.3\"/><float name=\"scale\" value=\"2\"/></spectrum>",
+         {0.2, 0.4, 0.6},
+         1e-6},
+        {"type=\"d65\"><spectrum type=\"uniform\"><float name=\"value\" value=\"0.3\"/></spectrum></spectrum>",
+         {0.3, 0.3, 0.3},
+         1e-6},
+        {"type=\"uniform\"><float name=\"value\" value=\"0.3\"/><float name=\"wavelength_min\" "
+         "value=\"400\"/></spectrum>",
+         {0.3, 0.3, 0.3},
+         1e-6},
+        {"type=\"srgb\"><rgb name=\"color\" value=\"0.1 0.2 0.3\"/></spectrum>", {0.1, 0.2, 0.3}, 1e-6},
+        {"value=\"400:0.1,500:0.2,600:.3\"/>", {SAMPLES}, 0.005},
+        {"type=\"regular\"><float name=\"wavelength_min\" value=\"400\"/><float name=\"wavelength_max\" "
+         "value=\"600\"/><string name=\"values\" value=\"0.1, 0.2,0.3\"/></spectrum>",
+         {SAMPLES},
+         0.005},
+        {"type=\"irregular\"><string name=\"wavelengths\" value=\"400, 500 600\"/><string name=\"values\" value=\".1 "
+         ".2 "
+         ".3\"/></spectrum>",
+         {SAMPLES},
+         0.005},
+        {"type=\"irregular\"><spectrum name=\"value\" value=\"400:0.1,500:0.2,600:.3\"/></spectrum>",
+         {SAMPLES},
+         0.005}};
+#undef SAMPLES
+    double pairs[3] = {0};
+    (void)state;
+    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            MITSUBA("<spectrum id=\"s\" %s<emitter type=\"point\"><ref name=\"intensity\" id=\"s\"/></emitter>"
+                    "<shape type=\"disk\"><bsdf type=\"diffuse\"><spectrum name=\"reflectance\" %s</bsdf></shape>"),
+            cases[i].inside, cases[i].inside);
+        koksma_scene *scene = opened("a.xml", text);
+        const double *radiance = scene->lights[0].radiance, *albedo = scene->materials[0].albedo[0];
+        assert_int_equal(scene->n_unknown, 0);
+        for (int k = 0; k < 3; k++) {
+            assert_near(radiance[k], cases[i].rgb[k], cases[i].tolerance);
+            if (cases[i].tolerance < 1e-3) {
+                assert_near(albedo[k], cases[i].rgb[k], 1e-6);
+            } else if (strstr(cases[i].inside, "type")) {
+                assert_near(albedo[k], pairs[k], 1e-9);
+            } else {
+                pairs[k] = albedo[k];
+            }
+        }
+        koksma_scene_close(scene);
+    }
 }
 
 /* Of a light of pbrt-v4 with a sampled spectrum only the colour counts: it has luminance 1. */
@@ -1134,6 +1216,7 @@ int main(void)
         cmocka_unit_test(lights_of_pbrt_may_have_two_sides),
         cmocka_unit_test(both_sides_light_alike),
         cmocka_unit_test(lights_of_pbrt_have_luminance_1),
+        cmocka_unit_test(spectra_of_mitsuba_are_read),
         cmocka_unit_test(unknown_things_are_named),
         cmocka_unit_test(the_cameras_medium_is_read),
         cmocka_unit_test(fog_does_not_glow),
