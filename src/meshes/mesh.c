@@ -107,35 +107,60 @@ koksma_status koksma__mesh_check(koksma__mesh *m)
     return status;
 }
 
-/* For each vertex the first vertex at the same position: files repeat vertices where textures have seams. Returns
-   NULL when memory runs out; the caller frees the result. */
+/* Bits 8 * digit and up of a vertex's position, which are the same for 0 and -0. */
+static size_t byte_of(const koksma__mesh *m, size_t vertex, size_t digit)
+{
+    const float x = m->vertices[3 * vertex + digit / 4] + 0.0f;
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits >> 8 * (digit % 4) & 255;
+}
+
+static bool same_place(const koksma__mesh *m, size_t a, size_t b)
+{
+    const float *v = m->vertices + 3 * a, *w = m->vertices + 3 * b;
+    return v[0] == w[0] && v[1] == w[1] && v[2] == w[2];
+}
+
+/* For each vertex the first vertex at the same position: files repeat vertices where textures have seams. They are sorted
+   by the bytes of their positions, which takes as long for any positions; a hash table would take the square of that
+   for positions that are chosen so that their hashes agree. Returns NULL when memory runs out; the caller frees the
+   result. */
 static uint32_t *first_alike(const koksma__mesh *m)
 {
-    size_t room = 16;
-    while (room < 2 * m->n_vertices) {
-        room *= 2;
+    const size_t n = m->n_vertices;
+    uint32_t *order = malloc((n + 1) * sizeof *order), *other = malloc((n + 1) * sizeof *other);
+    if (!order || !other) {
+        free(order);
+        free(other);
+        return NULL;
     }
-    uint32_t *first = malloc((m->n_vertices + 1) * sizeof *first), *table = calloc(room, sizeof *table);
-    for (size_t i = 0; first && table && i < m->n_vertices; i++) {
-        const float *v = m->vertices + 3 * i;
-        const float place[3] = {v[0] + 0.0f, v[1] + 0.0f, v[2] + 0.0f}; /* -0 is 0 */
-        size_t at = koksma__hash(place, sizeof place) & (room - 1);
-        while (table[at]) { /* an entry is 1 + the index of a vertex; 0: free */
-            const float *w = m->vertices + 3 * (size_t)(table[at] - 1);
-            if (w[0] == v[0] && w[1] == v[1] && w[2] == v[2]) {
-                break;
-            }
-            at = (at + 1) & (room - 1);
+    for (size_t i = 0; i < n; i++) {
+        order[i] = (uint32_t)i;
+    }
+    for (size_t digit = 0; digit < 12; digit++) {
+        size_t starts[257] = {0};
+        for (size_t i = 0; i < n; i++) {
+            starts[byte_of(m, i, digit) + 1]++;
         }
-        table[at] = table[at] ? table[at] : (uint32_t)i + 1;
-        first[i] = table[at] - 1;
+        if (n && starts[byte_of(m, 0, digit) + 1] == n) {
+            continue; /* the byte is equal everywhere */
+        }
+        for (size_t b = 1; b < 257; b++) {
+            starts[b] += starts[b - 1];
+        }
+        for (size_t i = 0; i < n; i++) {
+            other[starts[byte_of(m, order[i], digit)]++] = order[i];
+        }
+        uint32_t *const sorted = other;
+        other = order;
+        order = sorted;
     }
-    const bool whole = first && table;
-    free(table);
-    if (!whole) {
-        free(first);
+    for (size_t i = 0; i < n; i++) { /* vertices at one position are in the order of the file */
+        other[order[i]] = i && same_place(m, order[i], order[i - 1]) ? other[order[i - 1]] : order[i];
     }
-    return whole ? first : NULL;
+    free(order);
+    return other;
 }
 
 koksma_status koksma__mesh_smooth(koksma__mesh *m)

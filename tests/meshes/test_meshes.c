@@ -503,6 +503,47 @@ static void pictures_of_a_scene_share_its_tree(void **state)
     unlink("ball.obj");
 }
 
+/* A soup of triangles whose corners lie on a grid around 0, some of them at -0: the normal of a corner is that of the sum
+   of the areas of all triangles that have a corner there. */
+static void normals_are_those_of_all_triangles_at_a_place(void **state)
+{
+    enum { N = 300 };
+    koksma__mesh mesh = {0};
+    uint32_t random = 1;
+    (void)state;
+    assert_ok(koksma__mesh_init(3 * N, N, false, false, &mesh));
+    for (uint32_t i = 0; i < 9 * N; i++) {
+        random = random * 1664525 + 1013904223;
+        mesh.vertices[i] = (float)(random >> 30) * (random & 1 << 20 ? 0.375f : -0.375f);
+        mesh.indices[i / 3] = i / 3;
+    }
+    assert_ok(koksma__mesh_check(&mesh));
+    assert_ok(koksma__mesh_smooth(&mesh));
+    for (size_t i = 0; i < 3 * N; i++) {
+        const float *v = mesh.vertices + 3 * i;
+        double sum[3] = {0}, length = 0;
+        for (size_t t = 0; t < N; t++) {
+            const float *w = mesh.vertices + 9 * t;
+            size_t touches = 0;
+            for (size_t c = 0; c < 3; c++) {
+                touches += w[3 * c] == v[0] && w[3 * c + 1] == v[1] && w[3 * c + 2] == v[2];
+            }
+            for (size_t k = 0; k < 3; k++) {
+                const size_t x = (k + 1) % 3, y = (k + 2) % 3;
+                sum[k] += (double)touches *
+                          (double)((w[3 + x] - w[x]) * (w[6 + y] - w[y]) - (w[3 + y] - w[y]) * (w[6 + x] - w[x]));
+            }
+        }
+        for (size_t k = 0; k < 3; k++) {
+            length += sum[k] * sum[k];
+        }
+        for (size_t k = 0; k < 3; k++) {
+            assert_float_equal((double)mesh.normals[3 * i + k], length > 0 ? sum[k] / sqrt(length) : 0, 1e-6);
+        }
+    }
+    koksma__mesh_fini(&mesh);
+}
+
 /* The normals of a corner of a tetrahedron, as Mitsuba 3.9.1 gives them for the same mesh (its vertex_normals), and of
    a cube's corner whose faces are cut so that one has two triangles there: its diagonal, whatever their areas. */
 static void normals_by_angles_are_those_of_mitsuba(void **state)
@@ -603,6 +644,7 @@ int main(void)
         cmocka_unit_test(an_instance_is_its_mesh_elsewhere),
         cmocka_unit_test(a_fine_ball_is_a_sphere),
         cmocka_unit_test(normals_are_smooth_in_all_sizes),
+        cmocka_unit_test(normals_are_those_of_all_triangles_at_a_place),
         cmocka_unit_test(normals_by_angles_are_those_of_mitsuba),
         cmocka_unit_test(loops_surface_has_its_limits),
         cmocka_unit_test(convex_bodies_do_not_shade_themselves),
