@@ -15,7 +15,7 @@
 #include "core/hash.h"
 #include "meshes/mesh_text.h"
 
-enum { MAX_LINE = 1000, SLOTS = 64 };
+enum { MAX_LINE = 1000 };
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
 
@@ -24,63 +24,24 @@ static koksma__mtl_name *name_at(const koksma__mtl_names *names, size_t i)
     return (koksma__mtl_name *)names->names.items + i;
 }
 
-/* The hash table's slot that holds the name, or the free slot for it. */
-static uint32_t *slot_of(const koksma__mtl_names *names, const char *name, size_t length)
-{
-    size_t at = koksma__hash(name, length) & (names->n_slots - 1);
-    while (names->slots[at]) {
-        const char *other = name_at(names, names->slots[at] - 1)->name;
-        if (koksma__text_is(name, length, other)) {
-            break;
-        }
-        at = (at + 1) & (names->n_slots - 1);
-    }
-    return &names->slots[at];
-}
-
-static bool make_slots(koksma__mtl_names *names)
-{
-    if (2 * (names->names.n + 1) <= names->n_slots) {
-        return true;
-    }
-    const size_t n = names->n_slots ? 2 * names->n_slots : SLOTS;
-    uint32_t *slots = calloc(n, sizeof *slots);
-    if (!slots) {
-        koksma__fail_memory(n * sizeof *slots);
-        return false;
-    }
-    free(names->slots);
-    names->slots = slots;
-    names->n_slots = n;
-    for (size_t i = 0; i < names->names.n; i++) {
-        const char *name = name_at(names, i)->name;
-        *slot_of(names, name, strlen(name)) = (uint32_t)i + 1;
-    }
-    return true;
-}
-
 koksma__mtl_name *koksma__mtl_find(koksma__mtl_names *names, koksma__mesh_file *f, const char *name, size_t length)
 {
     koksma__file_material *material;
-    if (!make_slots(names)) {
-        return NULL;
-    }
-    uint32_t *slot = slot_of(names, name, length);
-    if (*slot) {
-        return name_at(names, *slot - 1);
+    size_t known;
+    if (koksma__names_find(&names->places, name, length, &known)) {
+        return name_at(names, known);
     }
     koksma__mtl_name *new = koksma__list_add(&names->names, 1, sizeof *new);
-    char *copy = new ? malloc(length + 1) : NULL;
-    if (!copy || koksma__file_add_material(f, 0.6f, &material)) {
-        free(copy);
-        names->names.n -= new != NULL;
+    if (new) {
+        *new = (koksma__mtl_name){.name = malloc(length + 1), .material = f->materials.n};
+    }
+    if (!new || !new->name || koksma__names_put(&names->places, name, length, names->names.n - 1) ||
+        koksma__file_add_material(f, 0.6f, &material)) {
         koksma__fail_memory(length);
         return NULL;
     }
-    memcpy(copy, name, length);
-    copy[length] = '\0';
-    *new = (koksma__mtl_name){.name = copy, .material = f->materials.n - 1};
-    *slot = (uint32_t)names->names.n;
+    memcpy(new->name, name, length);
+    new->name[length] = '\0';
     return new;
 }
 
@@ -90,7 +51,7 @@ void koksma__mtl_names_fini(koksma__mtl_names *names)
         free(name_at(names, i)->name);
     }
     free(names->names.items);
-    free(names->slots);
+    koksma__names_fini(&names->places);
 }
 
 /* ---- Lines -------------------------------------------------------------------------------------------------- */

@@ -4,6 +4,7 @@
 #define KOKSMA_MESHES_MESH_MTL_H
 
 #include "meshes/mesh_file.h"
+#include "meshes/names.h"
 
 typedef struct koksma__mtl_name {
     char *name;      /* owned */
@@ -11,12 +12,9 @@ typedef struct koksma__mtl_name {
     bool made;       /* whether a material file defines the material; otherwise only usemtl lines name it */
 } koksma__mtl_name;
 
-/* A hash table of names with open addressing: a slot is 1 + the index of a name, or 0 if it is free. At most half of
-   the slots are in use. */
 typedef struct koksma__mtl_names {
-    koksma__list names;
-    uint32_t *slots;
-    size_t n_slots;
+    koksma__list names;   /* in the order of the file */
+    koksma__names places; /* the index of each in that list */
 } koksma__mtl_names;
 
 /* The entry of the name; a new name gets an entry with a grey material. NULL when memory runs out. The pointer is

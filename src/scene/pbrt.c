@@ -186,7 +186,7 @@ static koksma_status name_space(reader *r, const char *name, const double *start
     snprintf(space->name, sizeof space->name, "%s", name);
     memcpy(space->matrix[0], start, sizeof space->matrix[0]);
     memcpy(space->matrix[1], end, sizeof space->matrix[1]);
-    return koksma__names_put(&r->space_names, space->name, r->n_spaces - 1);
+    return koksma__names_put(&r->space_names, space->name, strlen(space->name), r->n_spaces - 1);
 }
 
 static koksma_status take_coordinate_system(reader *r, source *s)
@@ -201,7 +201,7 @@ static koksma_status take_coordinate_transform(reader *r, source *s)
     char name[64];
     KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
     size_t i;
-    if (koksma__names_find(&r->space_names, name, &i)) {
+    if (koksma__names_find(&r->space_names, name, strlen(name), &i)) {
         memcpy(r->now.matrix, r->spaces[i].matrix, sizeof r->now.matrix);
         return KOKSMA_OK;
     }
@@ -321,7 +321,8 @@ static koksma_status take_object_end(reader *r, source *s)
     if (!r->open) {
         return koksma__import_fail(s->place, "ObjectEnd without ObjectBegin");
     }
-    KOKSMA__TRY(koksma__names_put(&r->object_names, r->open->name, (size_t)(r->open - r->objects)));
+    KOKSMA__TRY(
+        koksma__names_put(&r->object_names, r->open->name, strlen(r->open->name), (size_t)(r->open - r->objects)));
     r->open = NULL;
     return pop(r, s, false);
 }
@@ -331,7 +332,7 @@ static koksma_status take_instance(reader *r, source *s)
     char name[256];
     KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
     size_t i;
-    if (!koksma__names_find(&r->object_names, name, &i)) {
+    if (!koksma__names_find(&r->object_names, name, strlen(name), &i)) {
         return koksma__import_fail(s->place, "no object '%s'", name);
     }
     const object *o = &r->objects[i];

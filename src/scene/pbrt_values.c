@@ -92,7 +92,7 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
 {
     if (!strcmp(p->type, "texture")) {
         size_t i;
-        if (koksma__names_find(&scene->texture_names, p->text, &i)) {
+        if (koksma__names_find(&scene->texture_names, p->text, strlen(p->text), &i)) {
             *out = scene->textures[i].colour;
             return KOKSMA_OK;
         }
@@ -241,7 +241,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
             status = koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind);
         }
     }
-    status = status ? status : koksma__names_put(&scene->texture_names, to->name, scene->n_textures);
+    status =
+        status ? status : koksma__names_put(&scene->texture_names, to->name, strlen(to->name), scene->n_textures);
     scene->n_textures += !status;
     return status;
 }
@@ -370,14 +371,14 @@ koksma_status koksma__pbrt_name_material(koksma__pbrt_scene *scene, const char *
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     snprintf(to->name, sizeof to->name, "%s", name);
     to->material = material;
-    return koksma__names_put(&scene->material_names, to->name, scene->n_materials - 1);
+    return koksma__names_put(&scene->material_names, to->name, strlen(to->name), scene->n_materials - 1);
 }
 
 koksma_status koksma__pbrt_find_material(koksma__pbrt_scene *scene, koksma__text_place place, const char *name,
                                          int *out)
 {
     size_t i;
-    if (koksma__names_find(&scene->material_names, name, &i)) {
+    if (koksma__names_find(&scene->material_names, name, strlen(name), &i)) {
         *out = scene->materials[i].material;
         return KOKSMA_OK;
     }

@@ -4,7 +4,7 @@
 #define KOKSMA_SCENE_PBRT_VALUES_H
 
 #include "scene/import.h"
-#include "scene/names.h"
+#include "meshes/names.h"
 #include "scene/pbrt_tokens.h"
 
 typedef struct koksma__pbrt_scene {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/hash.h"
-#include "scene/names.h"
+#include "meshes/names.h"
 #include "test.h"
 
 static void names_are_found(void **state)
@@ -14,20 +14,20 @@ static void names_are_found(void **state)
     char name[32];
     size_t index;
     (void)state;
-    assert_false(koksma__names_find(&names, "", &index));
+    assert_false(koksma__names_find(&names, "", 0, &index));
     for (size_t round = 0; round < 2; round++) {
         for (size_t i = 0; i < 100000; i++) {
             snprintf(name, sizeof name, "name %zu", i);
-            assert_ok(koksma__names_put(&names, name, i + round * (i % 3)));
+            assert_ok(koksma__names_put(&names, name, strlen(name), i + round * (i % 3)));
         }
     }
     for (size_t i = 0; i < 100000; i++) {
         snprintf(name, sizeof name, "name %zu", i);
-        assert_true(koksma__names_find(&names, name, &index));
+        assert_true(koksma__names_find(&names, name, strlen(name), &index));
         assert_int_equal(index, i + i % 3);
     }
-    assert_false(koksma__names_find(&names, "name 100000", &index));
-    assert_false(koksma__names_find(&names, "", &index));
+    assert_false(koksma__names_find(&names, "name 100000", 11, &index));
+    assert_false(koksma__names_find(&names, "", 0, &index));
     koksma__names_fini(&names);
 }
 
@@ -53,13 +53,13 @@ static size_t steps_of_alike(uint64_t mask, size_t n)
     for (uint64_t i = 0; names.n < n; i++) {
         snprintf(name, sizeof name, "%llx", (unsigned long long)i);
         if (!(koksma__hash(name, strlen(name)) & mask)) {
-            assert_ok(koksma__names_put(&names, name, (size_t)i));
+            assert_ok(koksma__names_put(&names, name, strlen(name), (size_t)i));
         }
     }
     for (size_t i = 0, found = 0; found < n; i++) {
         snprintf(name, sizeof name, "%llx", (unsigned long long)i);
         const bool is_alike = !(koksma__hash(name, strlen(name)) & mask);
-        assert_int_equal(koksma__names_find(&names, name, &index), is_alike);
+        assert_int_equal(koksma__names_find(&names, name, strlen(name), &index), is_alike);
         assert_int_equal(index, is_alike ? i : 0);
         found += is_alike;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds things of a scene by their names, of which there may be a million. */
-#ifndef KOKSMA_SCENE_NAMES_H
-#define KOKSMA_SCENE_NAMES_H
+/* Finds things of a scene or mesh file by their names, of which there may be a million. */
+#ifndef KOKSMA_MESHES_NAMES_H
+#define KOKSMA_MESHES_NAMES_H
 
 #include <koksma/koksma.h>
 
@@ -18,11 +18,11 @@ typedef struct koksma__names {
     size_t n, capacity;
 } koksma__names;
 
-/* Gives a name to the thing with this index, in place of an earlier thing of the same name. Error: MEMORY. */
-koksma_status koksma__names_put(koksma__names *names, const char *name, size_t index);
+/* Gives the name of `length` bytes to the thing with this index, in place of an earlier thing of the same name. Error: MEMORY. */
+koksma_status koksma__names_put(koksma__names *names, const char *name, size_t length, size_t index);
 
 /* Finds the index; returns false if there is none. */
-bool koksma__names_find(const koksma__names *names, const char *name, size_t *index);
+bool koksma__names_find(const koksma__names *names, const char *name, size_t length, size_t *index);
 
 void koksma__names_fini(koksma__names *names);
 

@@ -7,7 +7,7 @@
  * Names themselves are not compared: two of a scene's names have the same 64 bits by chance once in 10^7 scenes of a
  * million names, and a file that does it on purpose only confuses its own names.
  */
-#include "scene/names.h"
+#include "meshes/names.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,9 +28,9 @@ static size_t node_of(const koksma__names *names, uint64_t hash, size_t **link)
     return at;
 }
 
-koksma_status koksma__names_put(koksma__names *names, const char *name, size_t index)
+koksma_status koksma__names_put(koksma__names *names, const char *name, size_t length, size_t index)
 {
-    const uint64_t hash = koksma__hash(name, strlen(name));
+    const uint64_t hash = koksma__hash(name, length);
     size_t *link;
     KOKSMA__TRY(koksma__reserve(&names->nodes, &names->capacity, names->n + 1, sizeof *names->nodes));
     const size_t at = node_of(names, hash, &link);
@@ -44,10 +44,10 @@ koksma_status koksma__names_put(koksma__names *names, const char *name, size_t i
     return KOKSMA_OK;
 }
 
-bool koksma__names_find(const koksma__names *names, const char *name, size_t *index)
+bool koksma__names_find(const koksma__names *names, const char *name, size_t length, size_t *index)
 {
     size_t *link;
-    const size_t at = node_of(names, koksma__hash(name, strlen(name)), &link);
+    const size_t at = node_of(names, koksma__hash(name, length), &link);
     *index = at < names->n ? names->nodes[at].index : 0;
     return at < names->n;
 }
