@@ -18,7 +18,8 @@ typedef struct koksma__names {
     size_t n, capacity;
 } koksma__names;
 
-/* Gives the name of `length` bytes to the thing with this index, in place of an earlier thing of the same name. Error: MEMORY. */
+/* Gives the name of `length` bytes to the thing with this index, in place of an earlier thing of the same name. Error:
+   MEMORY. */
 koksma_status koksma__names_put(koksma__names *names, const char *name, size_t length, size_t index);
 
 /* Finds the index; returns false if there is none. */

@@ -3,8 +3,8 @@
 #ifndef KOKSMA_SCENE_PBRT_VALUES_H
 #define KOKSMA_SCENE_PBRT_VALUES_H
 
-#include "scene/import.h"
 #include "meshes/names.h"
+#include "scene/import.h"
 #include "scene/pbrt_tokens.h"
 
 typedef struct koksma__pbrt_scene {
