@@ -236,6 +236,82 @@ def impossible():
         check(told.stdout.count("poisson-disk: no 64 points") == 1, f"named once: {told}")
 
 
+# ---- Keys -----------------------------------------------------------------------------------------------------
+
+WIDE = """{"name": "w", "title": "w", "metric": "relmse", "metrics": ["smape"],
+  "discrepancies": [
+    {"patterns": ["random", "poisson-disk:d=0.2", "sobol"], "measures": ["star", "l2-star", "extreme", "l2-extreme"],
+     "integrands": ["wave"], "n": [4, 8], "trials": 2},
+    {"patterns": ["random"], "warps": ["polar-disk", "concentric-disk"], "measures": ["edge", "l2-edge"], "n": [4], "trials": 2},
+    {"patterns": ["file:p_{n}_{seed}.txt", "file:./p_16_1.txt"], "measures": ["star"], "n": [16], "trials": 9}],
+  "images": [
+    {"scenes": ["ball", "./mine.json"], "patterns": ["random", "n-rooks", "jittered;lens=file:p_16_1.txt"], "spp": [16], "size": [16, 12], "trials": 3,
+     "options": {"pairing": ["shuffled", "aligned"], "filter": ["box", "gaussian"], "splat": ["no", "yes"]},
+     "references": [{"name": "c", "pattern": "jittered", "spp": 64, "replicates": 2}, {"name": "d", "pattern": "n-rooks", "spp": 4}]},
+    {"scenes": ["ball"], "patterns": ["random"], "spp": [16], "size": [8, 6], "trials": 2,
+     "options": {"pairing": ["native"], "integrator": ["distribution", "whitted"], "lights": ["one"], "scope": ["image"]},
+     "references": [{"name": "c", "pattern": "jittered", "spp": 4, "replicates": 2}]},
+    {"scenes": ["ball"], "patterns": ["random"], "spp": [16], "size": [8, 6], "trials": 2,
+     "options": {"adaptive": ["none", "contrast", "two-stage:prior=2", "hierarchical:levels=3,threshold=0"]},
+     "references": [{"name": "c", "pattern": "jittered", "spp": 4, "replicates": 2}]}],
+  "figures": [{"id": "1", "title": "f", "pattern": "random", "n": 4}]}"""
+
+
+def keys():
+    """A key is the one that a run writes: every text canonical, every column without a use empty."""
+    for i in range(1, 5):
+        with open(f"p_16_{i}.txt", "w") as file:
+            file.writelines(f"{k / 16} {((2 * i + 1) * k + i) % 16 / 16}\n" for k in range(16))
+    with open("wide.json", "w") as file:
+        file.write(WIDE)
+    told = koksma("study", "run", "./wide.json", "-o", "wide", "-q")
+    check(told.returncode == 0, f"a study of everything: {told}")
+    told = audit("wide", "--rows", "all")
+    says(told, 0, r"\d+ rows drawn, of which \d+ agree: these are all", r"\d+ reference images rendered again, of which \d+ agree")
+    for columns, where in (("scene = 'checker'", "kind = 'discrepancy'"), ("width = 7", "kind = 'discrepancy'"), ("height = 7", "kind = 'discrepancy'"),
+                           ("dim = 5", "kind = 'image'"), ("dim = 5", "kind = 'coherence'"), ("dim = 5", "kind = 'metric'"),
+                           ("id = id + 2", "kind = 'image'"), ("options = 'zzz=1'", "kind = 'image' AND options = ''"),
+                           ("options = ','", "kind = 'image' AND options = ''"), ("options = 'lights=all'", "kind = 'metric' AND options = ''"),
+                           ("options = 'filter=box'", "kind = 'coherence' AND options = ''"), ("options = options||';'", "options = 'pairing=aligned'"),
+                           ("options = 'pairing=shuffled'", "kind = 'image' AND options = ''"),
+                           ("options = 'filter=gaussian;splat=yes'", "options = 'splat=yes;filter=gaussian'"),
+                           ("options = 'polar-disk'", "what LIKE 'error of %'"),
+                           ("what = 'star:'", "what = 'star'"), ("what = 'error of wave:'", "what LIKE 'error of %'"),
+                           ("what = 'c:jittered@064x2'", "what = 'c:jittered@64x2'"), ("what = 'c:jittered@+64x2'", "what = 'c:jittered@64x2'"),
+                           ("what = 'c:jittered:@64x2'", "what = 'c:jittered@64x2'"), ("metric = 'relmse:'", "metric = 'relmse'"),
+                           ("pattern = 'n-rooks:'", "kind = 'metric' AND pattern = 'n-rooks'"), ("pattern = 'poisson-disk:d=0.20'", "pattern LIKE 'poisson%'")):
+        copy("k", "wide")
+        change("k", f"UPDATE series SET {columns} WHERE {where} AND made_by NOT LIKE '%zzz%'")
+        told = audit("k", "--rows", "all")
+        says(told, 1, "differs: .* can't be computed again: no run writes such a key: .*")
+    copy("k", "wide")
+    change("k", "UPDATE reference SET options = 'pairing=aligned' WHERE options = '' AND scene = 'ball' AND width = 16")
+    says(audit("k"), 1, "differs: reference .*")
+    copy("k", "wide")
+    change("k", "UPDATE reference SET reference = 'c:jittered@064x2' WHERE reference = 'c:jittered@64x2' AND scene = 'ball' AND options = ''")
+    says(audit("k"), 1, "differs: reference c:jittered@064x2 of ball, .* no run writes such a key: reference = 'c:jittered@064x2', where .*")
+
+
+def decoys():
+    """Copies of series under keys that no run writes do not take the place of the real rows."""
+    with open("decoy.json", "w") as file:
+        json.dump({"name": "my", "title": "T", "images": [{"scenes": ["ball"], "patterns": ["random", "n-rooks"], "spp": [16], "size": [16, 12], "trials": 3,
+                                                          "references": [{"name": "c", "pattern": "jittered", "spp": 64, "replicates": 2}]}]}, file)
+    check(koksma("study", "run", "./decoy.json", "-o", "real", "-q").returncode == 0, "a study")
+    for kind in "image", "coherence", "metric":
+        of = f"kind = '{kind}' AND pattern = 'n-rooks' AND dim = 0 AND metric IN ('', 'relmse')"
+        real = f"(SELECT id FROM series WHERE {of})"
+        copy("r", "real")
+        change("r", "INSERT INTO series SELECT 404, kind, scene, scene_hash, options, pattern, n, 1, width, height, what, metric, made_by, measured_by "
+                    f"FROM series WHERE {of}",
+               f"INSERT INTO result SELECT (id >> 32 << 32) + 404, seed, v0, v1, v2, v3 FROM result WHERE id & 4294967295 = {real}",
+               f"UPDATE result SET v0 = v0 / 10 WHERE id & 4294967295 = {real}")
+        told = audit("r", "--rows", "all")
+        says(told, 1, f"differs: {kind} ball, n-rooks, .*: no run writes such a key: dim = 1, where runs write 0",
+             "39 rows drawn, of which 33 agree: these are all")
+        check(told.stdout.count("the stored value is") == 3, f"the real rows: {told}")
+
+
 # ---- The draw -------------------------------------------------------------------------------------------------
 
 
@@ -320,7 +396,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, operands, values, trials, impossible, long_names, draw, texts:
+    for part in references, reasons, operands, values, trials, impossible, long_names, keys, decoys, draw, texts:
         part()
 finally:
     here = os.getcwd()

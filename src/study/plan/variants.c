@@ -254,6 +254,23 @@ static koksma_status check_together(const char *text)
                : status;
 }
 
+koksma_status koksma__variant_canonical(const char *text, char out[KOKSMA__VARIANT_TEXT])
+{
+    out[0] = '\0';
+    for (int i = 0; i < N_KNOWN; i++) {
+        char word[MAX_WORD];
+        koksma__variant scratch;
+        memset(&scratch, 0, sizeof scratch);
+        word_of(text, &known[i], word);
+        KOKSMA__TRY(known[i].set(&scratch, word));
+        if (scratch.adaptive.method) {
+            koksma_adaptive_text(&scratch.adaptive, word);
+        }
+        append(out, &known[i], word);
+    }
+    return check_together(out);
+}
+
 static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *out)
 {
     size_t total = 1;

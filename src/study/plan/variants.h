@@ -35,6 +35,10 @@ koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma_
 koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__variant *variant, const koksma_run *run,
                                      koksma_image *out);
 
+/* Writes the canonical text of a variant; of words that it does not know, nothing. Errors: ARGUMENT (the value of an
+   option, or options that can't be combined). */
+koksma_status koksma__variant_canonical(const char *text, char out[KOKSMA__VARIANT_TEXT]);
+
 /* Writes the canonical text of an integrator and a filter, each NULL for the default. */
 void koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
                           char out[KOKSMA__VARIANT_TEXT]);

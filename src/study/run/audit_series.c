@@ -14,6 +14,7 @@
 #include "core/capacity.h"
 #include "core/status.h"
 #include "study/plan/made_by.h"
+#include "study/run/audit_key.h"
 #include "study/run/references.h"
 
 /* Runs compute trials in ascending order, so a trial number far above the number of rows means that the store is
@@ -250,10 +251,12 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
     series->state = KOKSMA__AUDIT_WRONG;
     koksma_status status =
         koksma__find_made_by(image, key->pattern, key->options, key->what, key->metric, false, here);
+    status = status ? status : koksma__audit_unused(key, series->is_reference);
     if (!status && (strcmp(here->points, key->made_by) != 0 || strcmp(here->value, key->measured_by) != 0)) {
         series->state = KOKSMA__AUDIT_OTHER;
         return KOKSMA_OK;
     }
+    status = status ? status : koksma__audit_texts(key, series->is_reference);
     if (!status && !image && (key->dim < 1 || key->dim > KOKSMA_MAX_DIM)) {
         status = koksma__fail(KOKSMA_DIM, "point sets of %lld dimensions are not supported", key->dim);
     }
