@@ -310,6 +310,57 @@ def decoys():
         says(told, 1, f"differs: {kind} ball, n-rooks, .*: no run writes such a key: dim = 1, where runs write 0",
              "39 rows drawn, of which 33 agree: these are all")
         check(told.stdout.count("the stored value is") == 3, f"the real rows: {told}")
+        copy("r", "real")
+        twin("r", f"INSERT INTO series SELECT 404, kind, scene, scene_hash, options, pattern, n, dim, width, height, what, metric, made_by, measured_by "
+                  f"FROM series WHERE {of}")
+        change("r", f"INSERT INTO result SELECT (id >> 32 << 32) + 404, seed, v0, v1, v2, v3 FROM result WHERE id & 4294967295 = (SELECT min(id) {real[10:]}",
+               f"UPDATE result SET v0 = v0 / 10 WHERE id & 4294967295 = (SELECT min(id) {real[10:]}")
+        told = audit("r", "--rows", "all")
+        says(told, 1, "39 rows drawn, of which 36 agree: these are all")
+        check(told.stdout.count("the stored value is") == 3, f"the real rows, with a twin: {told}")
+    # The same row twice, with another value: SQLite finds only one of them by its id, and a scan both.
+    copy("r", "real")
+    change("r", "INSERT INTO result SELECT id + 4, seed, v0 / 10, v1, v2, v3 FROM result ORDER BY id DESC LIMIT 1", sealed=False)
+    database = sqlite3.connect("r/results.sqlite")
+    (last,) = database.execute("SELECT max(id) FROM result").fetchone()
+    database.close()
+    with open("r/results.sqlite", "rb+") as file:
+        whole = file.read()
+        check(whole.count(varint(last)) == 1, "the row's id in the file")
+        file.seek(0)
+        file.write(whole.replace(varint(last), varint(last - 4)))
+    reseal("r")
+    says(audit("r", "--rows", "all"), 1, "differs: of 37 drawn rows, 36 agree and 0 differ, but the others were compared with nothing",
+         "37 rows drawn, of which 36 agree: these are all")
+
+
+def varint(number):
+    """A number of more than 7 bits as SQLite's file format has it."""
+    digits = [number & 127]
+    while number := number >> 7:
+        digits.insert(0, 128 | number & 127)
+    return bytes(digits)
+
+
+def twin(folder, statement):
+    """Executes a statement while the table `series` is not UNIQUE, as a forged file may have it."""
+    path = folder + "/results.sqlite"
+    database = sqlite3.connect(path)
+    database.execute("PRAGMA writable_schema = ON")
+    ((sql,),) = database.execute("SELECT sql FROM sqlite_master WHERE name = 'series'").fetchall()
+    (index,) = database.execute("SELECT * FROM sqlite_master WHERE type = 'index' AND tbl_name = 'series'").fetchall()
+    columns = re.search(r"UNIQUE (\([^)]*\))", sql)[1]
+    database.execute("UPDATE sqlite_master SET name = 'twins', sql = 'CREATE INDEX twins ON series " + columns + "' WHERE name = ?", (index[1],))
+    database.execute("UPDATE sqlite_master SET sql = ? WHERE name = 'series'", (re.sub(r"UNIQUE \([^)]*\)", "CHECK (1)", sql),))
+    database.commit()
+    database.close()
+    change(folder, statement, sealed=False)
+    database = sqlite3.connect(path)
+    database.execute("PRAGMA writable_schema = ON")
+    database.execute("UPDATE sqlite_master SET sql = ? WHERE name = 'series'", (sql,))
+    database.execute("UPDATE sqlite_master SET name = ?, sql = NULL WHERE name = 'twins'", (index[1],))
+    database.commit()
+    database.close()
 
 
 # ---- The draw -------------------------------------------------------------------------------------------------

@@ -34,8 +34,9 @@ typedef struct audit {
     koksma_audit *out;
     koksma_study *study;
     koksma__audit_list list;
-    pthread_mutex_t lock; /* guards *out, and calls of the caller's function */
+    pthread_mutex_t lock; /* guards *out, `wrong`, the bits of drawn rows, and calls of the caller's function */
     long long seen;       /* number of rows that the draw has considered */
+    long long wrong;      /* number of drawn rows for which a difference was named */
 } audit;
 
 static void differ(audit *a, const char *format, ...) KOKSMA_PRINTF(2, 3);
@@ -78,7 +79,38 @@ static void draw_row(void *context, long long id, long long trial)
         a->out->drawn++;
         if (s->drawn && trial < s->end) {
             s->drawn[trial / 8] |= (unsigned char)(1u << trial % 8);
+        } else { /* its series can't be computed again, or its trial number is too large: check() has named both */
+            a->wrong++;
         }
+    }
+}
+
+/* Counts a row if it was drawn, once. */
+static void settle(audit *a, const koksma__audit_series *s, long long trial, bool agrees)
+{
+    pthread_mutex_lock(&a->lock);
+    if (is_drawn(s, trial)) {
+        s->drawn[trial / 8] &= (unsigned char)~(1u << trial % 8);
+        a->out->agree += agrees;
+        a->wrong += !agrees;
+    }
+    pthread_mutex_unlock(&a->lock);
+}
+
+/* Checks that every drawn row was counted: that it agrees, differs or, if any job has failed, was left over. */
+static void check_all_counted(audit *a, bool failed)
+{
+    const long long left = a->out->drawn - a->out->agree - a->wrong;
+    long long open = 0;
+    for (size_t i = 0; i < a->list.n; i++) {
+        const koksma__audit_series *s = &a->list.at[i];
+        for (long long trial = 0; s->drawn && trial < s->end; trial++) {
+            open += is_drawn(s, trial);
+        }
+    }
+    if (left != open || (left && !failed)) {
+        differ(a, "of %lld drawn rows, %lld agree and %lld differ, but the others were compared with nothing",
+               a->out->drawn, a->out->agree, a->wrong);
     }
 }
 
@@ -133,6 +165,7 @@ static koksma_status check_seed(audit *a, const koksma__task *t, const koksma__a
         koksma__audit_name(&s->key, trial, name, sizeof name);
         differ(a, "%s: the stored seed %llu is not the seed that runs use for this row", name,
                (unsigned long long)row.seed);
+        settle(a, s, trial, false);
     }
     return status;
 }
@@ -189,11 +222,8 @@ static koksma_status put_job(void *context, const koksma__task *t, const koksma_
             koksma__audit_name(&s->key, row.trial, name, sizeof name);
             differ(a, "%s: the stored value is %.17g, but computing it again gives %.17g", name,
                    row.values[v % KOKSMA__RESULT_VALUES], results[k].values[v % KOKSMA__RESULT_VALUES]);
-        } else if (is_drawn(s, row.trial)) {
-            pthread_mutex_lock(&a->lock);
-            a->out->agree++;
-            pthread_mutex_unlock(&a->lock);
         }
+        settle(a, s, row.trial, same && v == KOKSMA__RESULT_VALUES);
     }
     return status;
 }
@@ -388,9 +418,13 @@ static koksma_status compare(audit *a, const koksma_run *run)
     }
     /* If a reference fails, counts that as a difference, so that the content of a store does not decide the exit
        code. */
-    if (status && !koksma__ends_all(status)) {
+    const bool cut_short = status && !koksma__ends_all(status);
+    if (cut_short) {
         differ(a, "%s", koksma_error_text());
         status = KOKSMA_OK;
+    }
+    if (!status) {
+        check_all_counted(a, cut_short || failures.n);
     }
     if (failures.n) {
         differ(a, "%zu rows can't be computed again, such as %s", failures.n, failures.text);

@@ -310,7 +310,7 @@ static koksma_status add_measure(koksma__plan *plan, koksma__audit_list *list, k
     const long long place = s->id % KOKSMA__RESULT_VALUES;
     koksma__discrepancy_block *b = plan->n_discrepancies ? &plan->discrepancies[plan->n_discrepancies - 1] : NULL;
     koksma_status status = KOKSMA_OK;
-    if (*row != s->id - place ||
+    if (*row != s->id - place || b->measures.n == KOKSMA__RESULT_VALUES ||
         !has_points_of(&list->discrepancies[plan->n_discrepancies - 1].members[0]->key, key)) {
         b = add_block((void **)&plan->discrepancies, &plan->n_discrepancies, sizeof *b, &list->discrepancies);
         *row = s->id - place;
@@ -374,13 +374,28 @@ static int compare_images(const void *a, const void *b)
     return order;
 }
 
+/* The index of a series among the members of the group of an image block to which it would be added. */
+static size_t place_of(const koksma__image_block *b, const koksma__audit_series *s)
+{
+    return !strcmp(s->key.kind, "metric") ? 2 + b->metrics.n : strcmp(s->key.kind, "coherence") ? 0 : 1;
+}
+
+/* Whether a series may be added to the last image block: its images have the same key, and no other series has its place.
+   One could in a forged file; it then gets a block of its own, so that both are compared. */
+static bool fits(const koksma__plan *plan, const koksma__audit_list *list, koksma__audit_series *const *images,
+                 size_t i)
+{
+    return i > 0 && !compare_images(&images[i - 1], &images[i]) &&
+           plan->images[plan->n_images - 1].metrics.n < KOKSMA__MOST_METRICS &&
+           !list->images[plan->n_images - 1].members[place_of(&plan->images[plan->n_images - 1], images[i])];
+}
+
 /* Adds a series to the last image block, whose key it has. */
 static koksma_status add_member(koksma__plan *plan, koksma__audit_list *list, koksma__audit_series *s)
 {
     koksma__image_block *b = &plan->images[plan->n_images - 1];
-    const bool metric = !strcmp(s->key.kind, "metric");
-    const size_t place = metric ? 2 + b->metrics.n : strcmp(s->key.kind, "coherence") ? 0 : 1;
-    const koksma_status status = metric ? set_text(&b->metrics, s->key.metric) : KOKSMA_OK;
+    const size_t place = place_of(b, s);
+    const koksma_status status = !strcmp(s->key.kind, "metric") ? set_text(&b->metrics, s->key.metric) : KOKSMA_OK;
     if (!status) {
         list->images[plan->n_images - 1].members[place] = s;
         b->trials = s->end > b->trials ? s->end : b->trials;
@@ -392,9 +407,7 @@ static koksma_status add_images(koksma__plan *plan, koksma__audit_list *list, ko
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < n; i++) {
-        const bool same = i > 0 && !compare_images(&images[i - 1], &images[i]) &&
-                          plan->images[plan->n_images - 1].metrics.n < KOKSMA__MOST_METRICS;
-        status = same ? KOKSMA_OK : add_image(plan, list, images[i]);
+        status = fits(plan, list, images, i) ? KOKSMA_OK : add_image(plan, list, images[i]);
         status = status ? status : add_member(plan, list, images[i]);
     }
     return status;
