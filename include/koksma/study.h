@@ -188,7 +188,7 @@ typedef struct koksma_audit {
     size_t references_other;             /* number of reference images made by versions whose revisions differ */
     size_t differences;                  /* number of differences found */
     char other[128];                     /* revisions of one of the other_rows or references_other and of this
-                                            program; empty if there are none */
+                                            program, with "of a newer version" if any is; empty if there are none */
 } koksma_audit;
 
 /* Audits a study: computes rows again from their keys, renders all reference images again, whichever rows are drawn,

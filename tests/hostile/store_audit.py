@@ -292,6 +292,36 @@ def keys():
     says(audit("k"), 1, "differs: reference c:jittered@064x2 of ball, .* no run writes such a key: reference = 'c:jittered@064x2', where .*")
 
 
+def revisions():
+    """Other revisions have the names that the row's texts give, and whole numbers; anything else is a difference."""
+    of = "kind = 'discrepancy' AND pattern = 'random'"
+    for column, table, texts_of in (
+            ("made_by", f"series WHERE {of}", ("", "random", "random -1", "random +1", "random 01", "random 1.0", "random  1", "random 1 ", "random 0, ",
+                                               "random 0, random 0", "jittered 0", "zzz 1", "random 99999999999", "random 2147483648", "random 1,", ", random 1")),
+            ("measured_by", f"series WHERE {of}", ("", "star", "star -1", "random 1", "star 1, l2-star 0")),
+            ("made_by", "series WHERE kind = 'image' AND scene = 'checker'", ("random 0", "random 0, renderer 1", "renderer 0", "renderer 0,random 0", "renderer 0; random 0",
+                                                                               "renderer 0, jittered 0", "renderer 0, random 0, jittered 0")),
+            ("measured_by", "series WHERE kind = 'metric' AND metric = 'relmse'", ("renderer 0, jittered 0", "renderer 0, relmse 0, jittered 0", "relmse 0, renderer 0, random 0")),
+            ("made_by", "reference WHERE scene = 'checker'", ("", "renderer 1", "renderer 0, random 0", "jittered 0", "renderer 0, jittered -1"))):
+        for text in texts_of:
+            copy("v")
+            name, where = table.split(" ", 1)
+            change("v", f"UPDATE {name} SET {column} = '{text}' {where}")
+            says(audit("v", "--rows", "1"), 1, r"differs: .* again: no version makes it by '.*', which would be '.*' here")
+    newest = "not compared: 1000 rows made by other revisions, such as "
+    for text, told in ("random 2147483647", "of a newer version "), ("random 1", "of a newer version "):
+        copy("v")
+        change("v", f"UPDATE series SET made_by = '{text}' WHERE {of} AND what = 'star'")
+        says(audit("v", "--rows", "1"), 0, newest + re.escape(f"{text}; star 0 {told}(here: random 0; star 0)"))
+    # An older revision, and a newer one beside it: the newer one is named.
+    copy("v")
+    change("v", "UPDATE series SET made_by = 'renderer 0, random 0' WHERE kind = 'image' AND scene = 'checker'")
+    says(audit("v"), 0, re.escape("not compared: 2 rows made by other revisions, such as renderer 0, random 0; renderer 1, jittered 0 "
+                                  "(here: renderer 1, random 0; renderer 1, jittered 0)"))
+    change("v", "UPDATE series SET made_by = 'renderer 7, random 0' WHERE kind = 'metric' AND scene <> 'checker' AND metric = 'smape'")
+    says(audit("v"), 0, "not compared: 4 rows made by other revisions, such as renderer 7, random 0; .* of a newer version .*")
+
+
 def decoys():
     """Copies of series under keys that no run writes do not take the place of the real rows."""
     with open("decoy.json", "w") as file:
@@ -401,10 +431,10 @@ def texts():
         check(line.startswith(f"left out: {escaped}, N = 32: ") and plain(told.stderr), f"{more}: {told}")
     evil = "char(27)||'[31m'||char(10)||'x'"
     for column, kind, change_of in (("scene", "a difference", f"UPDATE series SET scene = {evil} WHERE scene = 'checker'"),
-                                    ("made_by", "other revisions", f"UPDATE series SET made_by = {evil}"),
+                                    ("made_by", "a difference", f"UPDATE series SET made_by = {evil}"),
                                     ("pattern", "a difference", f"UPDATE series SET pattern = {evil}"),
                                     ("options", "a difference", f"UPDATE reference SET options = {evil}"),
-                                    ("made_by", "other references", f"UPDATE reference SET made_by = {evil}"),
+                                    ("made_by", "a reference", f"UPDATE reference SET made_by = {evil}"),
                                     ("left out", "a list", "INSERT OR REPLACE INTO meta VALUES ('left-out', char(27)||'[31mx'||char(10))"),
                                     ("left out", "a list", "INSERT OR REPLACE INTO meta VALUES ('failed', char(27)||'[31mx'||char(9)||'1'||"
                                      "char(9)||'1'||char(9)||'1'||char(9)||char(27))")):
@@ -447,7 +477,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, operands, values, trials, impossible, long_names, keys, decoys, draw, texts:
+    for part in references, reasons, operands, values, trials, impossible, long_names, keys, revisions, decoys, draw, texts:
         part()
 finally:
     here = os.getcwd()

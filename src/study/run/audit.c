@@ -37,6 +37,7 @@ typedef struct audit {
     pthread_mutex_t lock; /* guards *out, `wrong`, the bits of drawn rows, and calls of the caller's function */
     long long seen;       /* number of rows that the draw has considered */
     long long wrong;      /* number of drawn rows for which a difference was named */
+    bool newer;           /* whether out->other names revisions of a newer version */
 } audit;
 
 static void differ(audit *a, const char *format, ...) KOKSMA_PRINTF(2, 3);
@@ -325,7 +326,7 @@ static koksma_status put_reference(void *context, const koksma__reference_image 
 /* ---- The whole audit ----------------------------------------------------------------------------------- */
 
 /* Checks whether this build can compute a series or reference again. If not, counts a difference, or names the other
-   revisions that made it. */
+   revisions that made it, those of a newer version before older ones. */
 static koksma_status check(audit *a, koksma__audit_series *s)
 {
     koksma__made_by here;
@@ -348,11 +349,12 @@ static koksma_status check(audit *a, koksma__audit_series *s)
         differ(a, "%s: the trial numbers of %lld of the %lld rows of this series are too large", name, s->strays,
                s->rows);
     }
-    if (s->state == KOKSMA__AUDIT_OTHER && !a->out->other[0]) {
-        snprintf(a->out->other, sizeof a->out->other, "%.24s%s%.24s (here: %.24s%s%.24s)", s->key.made_by,
-                 s->is_reference ? "" : "; ", s->key.measured_by, here.points, s->is_reference ? "" : "; ",
-                 here.value);
+    if (s->state == KOKSMA__AUDIT_OTHER && (!a->out->other[0] || (s->newer && !a->newer))) {
+        const char *between = s->is_reference ? "" : "; ";
+        snprintf(a->out->other, sizeof a->out->other, "%.23s%s%.23s%s (here: %.23s%s%.23s)", s->key.made_by, between,
+                 s->key.measured_by, s->newer ? " of a newer version" : "", here.points, between, here.value);
         koksma_text_escape(a->out->other, sizeof a->out->other);
+        a->newer = s->newer;
     }
     return KOKSMA_OK;
 }

@@ -6,6 +6,8 @@
    without a use must be empty. */
 #include "study/run/audit_key.h"
 
+#include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <koksma/warp.h>
@@ -90,4 +92,56 @@ koksma_status koksma__audit_texts(const koksma__series *key, bool is_reference)
         status = status ? status : same_text("metric", key->metric, metric);
     }
     return status;
+}
+
+/* ---- Revisions ------------------------------------------------------------------------------------------------ */
+
+/* Reads a revision as runs write it, without sign or leading zeros; returns the position behind it, or NULL. */
+static const char *read_revision(const char *text, long *revision)
+{
+    const size_t digits = strspn(text, "0123456789");
+    if (!digits || digits > 10 || (text[0] == '0' && digits > 1)) {
+        return NULL;
+    }
+    *revision = strtol(text, NULL, 10);
+    return *revision <= INT_MAX ? text + digits : NULL;
+}
+
+/* Whether the text "name revision, name revision" has the names of `here`. *difference: sets a bit for a revision below
+   that of `here`, and the next for one above. */
+static bool have_names_of(const char *here, const char *stored, unsigned *difference)
+{
+    while (*here) {
+        const size_t item = strcspn(here, ",");
+        size_t name = item;
+        while (name > 0 && here[name - 1] != ' ') {
+            name--;
+        }
+        long of_here, of_stored;
+        const char *rest = strncmp(stored, here, name) ? NULL : read_revision(stored + name, &of_stored);
+        if (!rest || !read_revision(here + name, &of_here)) {
+            return false;
+        }
+        *difference |= of_stored < of_here ? 1 : of_stored > of_here ? 2 : 0;
+        const bool more = here[item] == ',';
+        if (more != !strncmp(rest, ", ", 2)) {
+            return false;
+        }
+        here += item + (more ? 2 : 0);
+        stored = rest + (more ? 2 : 0);
+    }
+    return !*stored;
+}
+
+koksma_status koksma__audit_revisions(const koksma__series *key, const koksma__made_by *here, bool *other,
+                                      bool *newer)
+{
+    unsigned difference = 0;
+    KOKSMA__FAIL_IF(!have_names_of(here->points, key->made_by, &difference) ||
+                        !have_names_of(here->value, key->measured_by, &difference),
+                    KOKSMA_MALFORMED, "no version makes it by '%.200s; %.200s', which would be '%.200s; %.200s' here",
+                    key->made_by, key->measured_by, here->points, here->value);
+    *other = difference != 0;
+    *newer = difference & 2;
+    return KOKSMA_OK;
 }

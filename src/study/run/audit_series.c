@@ -252,7 +252,9 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
     koksma_status status =
         koksma__find_made_by(image, key->pattern, key->options, key->what, key->metric, false, here);
     status = status ? status : koksma__audit_unused(key, series->is_reference);
-    if (!status && (strcmp(here->points, key->made_by) != 0 || strcmp(here->value, key->measured_by) != 0)) {
+    bool other = false;
+    status = status ? status : koksma__audit_revisions(key, here, &other, &series->newer);
+    if (!status && other) {
         series->state = KOKSMA__AUDIT_OTHER;
         return KOKSMA_OK;
     }

@@ -19,6 +19,7 @@ typedef struct koksma__audit_series {
     long long end, strays, last; /* strays: number of rows whose trial numbers are far too large (only a damaged store
                                     has such rows); end: 1 + the largest other trial number; last: the largest of all */
     koksma__audit_state state;
+    bool newer;           /* whether a newer version than this program made it; only in the state OTHER */
     bool is_reference;    /* whether it is a row of table `reference`, which has no pattern, trials and id */
     unsigned char *drawn; /* one bit per trial, which tells whether the trial was drawn for the audit */
 } koksma__audit_series;
