@@ -322,6 +322,46 @@ def revisions():
     says(audit("v"), 0, "not compared: 4 rows made by other revisions, such as renderer 7, random 0; .* of a newer version .*")
 
 
+def gaps():
+    """Rows that are not there are counted, as a killed run leaves gaps, too. A row without its value is a difference."""
+    gap = r"not there: {} rows of earlier trials: a run was cut short, jobs failed, or somebody removed them; the next run makes them"
+    trials_of = "id & 4294967295 = (SELECT min(id) & ~3 FROM series WHERE {})"
+    points, image = trials_of.format("kind = 'discrepancy'"), trials_of.format("kind = 'image' AND scene = 'checker'")
+    check("not there" not in audit("sound").stdout and json.loads(audit("sound", "--json").stdout)["rows_missing"] == 0, "no row is missing")
+    copy("g")
+    change("g", f"DELETE FROM result WHERE {points} AND id >> 32 IN (0, 7, 998)", f"DELETE FROM result WHERE {image} AND id >> 32 = 0")
+    says(audit("g", "--rows", "all"), 0, gap.format(13), "4011 rows drawn, of which 4011 agree: these are all")
+    check(json.loads(audit("g", "--json").stdout)["rows_missing"] == 13, "missing rows in JSON")
+    check(koksma("study", "run", "./plan.json", "-o", "g", "-q").returncode == 0 and "not there" not in audit("g").stdout, "the next run makes them")
+    copy("g")
+    change("g", f"DELETE FROM result WHERE {points} AND id >> 32 = 999")  # the end of a series leaves no gap
+    check("not there" not in audit("g").stdout, "the last row")
+    # A value of one of the row's measures may be missing: the study had fewer measures when the row was made.
+    copy("g")
+    change("g", f"UPDATE result SET v0 = NULL, v2 = NULL WHERE {points} AND id >> 32 = 3")
+    says(audit("g", "--rows", "all"), 0, gap.format(2), "4022 rows drawn, of which 4022 agree: these are all")
+    copy("g")
+    change("g", f"UPDATE result SET v0 = NULL, v1 = NULL, v2 = NULL, v3 = NULL WHERE {points} AND id >> 32 = 3")
+    says(audit("g", "--rows", "all"), 1, "differs: discrepancy random, n = 4, dim 2, star, trial 3: the stored value is none, but computing it again gives 0\\.[0-9]+",
+         gap.format(3))
+    for values in "v0 = NULL", "v1 = NULL", "v3 = NULL", "v0 = NULL, v1 = NULL, v2 = NULL, v3 = NULL":
+        for kind in "image", "coherence", "metric":
+            if kind == "metric" and values == "v3 = NULL":
+                continue  # runs write none
+            copy("g")
+            change("g", f"UPDATE result SET {values} WHERE {trials_of.format(f'kind = {kind!r}')} AND id >> 32 = 1")
+            says(audit("g", "--rows", "all"), 1, f"differs: {kind} .*, trial 1: the stored value is none, but computing it again gives .*",
+                 "4024 rows drawn, of which 4023 agree: these are all")
+    copy("g")
+    change("g", f"UPDATE result SET v3 = 1 WHERE {trials_of.format(chr(39).join(('kind = ', 'metric', '')))} AND id >> 32 = 1")
+    says(audit("g", "--rows", "all"), 1, "differs: metric .*, trial 1: the stored value is 1, but computing it again gives none")
+    # Values of no series, which no export shows.
+    for row in "404, 1, 0.5, NULL, NULL, NULL", "1 << 33 | 400000, 1, NULL, NULL, NULL, NULL":
+        copy("g")
+        change("g", f"INSERT INTO result VALUES ({row})")
+        says(audit("g", "--rows", "all"), 1, "differs: g/results.sqlite: 1 values are of no series")
+
+
 def decoys():
     """Copies of series under keys that no run writes do not take the place of the real rows."""
     with open("decoy.json", "w") as file:
@@ -477,7 +517,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, operands, values, trials, impossible, long_names, keys, revisions, decoys, draw, texts:
+    for part in references, reasons, operands, values, trials, impossible, long_names, keys, revisions, gaps, decoys, draw, texts:
         part()
 finally:
     here = os.getcwd()

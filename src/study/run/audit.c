@@ -196,35 +196,55 @@ static koksma_status look_up(void *context, koksma__tasks *tasks)
     return status;
 }
 
+/* Writes a value of the store: NaN stands for none. */
+static const char *value_text(double value, char text[32])
+{
+    koksma__snprintf(text, 32, isnan(value) ? "none" : "%.17g", value);
+    return text;
+}
+
+static bool is_same(double a, double b)
+{
+    return (isnan(a) && isnan(b)) || !memcmp(&a, &b, sizeof a);
+}
+
+/* Compares a job's result with the series' row in the store, if there is one. A row that lacks a value of this series but
+   has those of others is none: it is from before the series was. */
+static koksma_status compare_row(audit *a, const koksma__task *t, const koksma__audit_series *s,
+                                 const koksma__result *made)
+{
+    char name[KOKSMA__REFERENCE_NAME], before[32], now[32];
+    koksma__result row = {.trial = made->trial};
+    bool found = false;
+    int v = 0;
+    KOKSMA__TRY(stored(a, s, t->image != NULL, &row, &found));
+    pthread_mutex_lock(&a->lock);
+    found = found && (!isnan(row.values[0]) || is_drawn(s, row.trial));
+    pthread_mutex_unlock(&a->lock);
+    while (v < KOKSMA__RESULT_VALUES && is_same(row.values[v], made->values[v])) {
+        v++;
+    }
+    const bool same = row.seed == made->seed && v == KOKSMA__RESULT_VALUES;
+    if (found && !same) {
+        koksma__audit_name(&s->key, row.trial, name, sizeof name);
+        differ(a, "%s: the stored value is %s, but computing it again gives %s", name,
+               value_text(row.values[v % KOKSMA__RESULT_VALUES], before),
+               value_text(made->values[v % KOKSMA__RESULT_VALUES], now));
+    }
+    if (found) {
+        settle(a, s, row.trial, same);
+    }
+    return KOKSMA_OK;
+}
+
 /* Compares a job's results with the store. A job may also compute series that were not drawn: they are compared, but
    not counted as drawn rows that agree. */
 static koksma_status put_job(void *context, const koksma__task *t, const koksma__result *results)
 {
-    audit *a = context;
-    const koksma__audit_group *group = group_of(a, t);
+    const koksma__audit_group *group = group_of(context, t);
     koksma_status status = KOKSMA_OK;
     for (size_t k = 0; !status && k < t->n_series; k++) {
-        const koksma__audit_series *s = group->members[k];
-        koksma__result row = {.trial = results[k].trial};
-        bool found = false;
-        status = s ? stored(a, s, t->image != NULL, &row, &found) : KOKSMA_OK;
-        if (status || !found || isnan(row.values[0])) {
-            continue;
-        }
-        bool same = row.seed == results[k].seed;
-        int v = 0;
-        while (same && v < KOKSMA__RESULT_VALUES &&
-               ((isnan(row.values[v]) && isnan(results[k].values[v])) ||
-                !memcmp(&row.values[v], &results[k].values[v], sizeof *row.values))) {
-            v++;
-        }
-        if (!same || v < KOKSMA__RESULT_VALUES) {
-            char name[KOKSMA__REFERENCE_NAME];
-            koksma__audit_name(&s->key, row.trial, name, sizeof name);
-            differ(a, "%s: the stored value is %.17g, but computing it again gives %.17g", name,
-                   row.values[v % KOKSMA__RESULT_VALUES], results[k].values[v % KOKSMA__RESULT_VALUES]);
-        }
-        settle(a, s, row.trial, same && v == KOKSMA__RESULT_VALUES);
+        status = group->members[k] ? compare_row(context, t, group->members[k], &results[k]) : KOKSMA_OK;
     }
     return status;
 }
@@ -270,19 +290,13 @@ static koksma_status check_file(audit *a, const koksma__reference_image *referen
 static bool check_standard_error(audit *a, const koksma__reference_image *reference, const char *name,
                                  double stored_error, double made)
 {
-    char before[32] = "none", now[32] = "none";
-    if ((isnan(stored_error) && isnan(made)) || !memcmp(&stored_error, &made, sizeof made)) {
-        return true;
+    char before[32], now[32];
+    const bool same = is_same(stored_error, made);
+    if (!same) {
+        differ(a, "reference %s of %s: its stored standard error is %s, but computing it again gives %s", name,
+               reference->scene->name, value_text(stored_error, before), value_text(made, now));
     }
-    if (!isnan(stored_error)) {
-        koksma__snprintf(before, sizeof before, "%.17g", stored_error);
-    }
-    if (!isnan(made)) {
-        koksma__snprintf(now, sizeof now, "%.17g", made);
-    }
-    differ(a, "reference %s of %s: its stored standard error is %s, but computing it again gives %s", name,
-           reference->scene->name, before, now);
-    return false;
+    return same;
 }
 
 static void fail_reference(void *context, koksma__reference_image *reference, const char *text)
@@ -370,11 +384,15 @@ static koksma_status list_series(audit *a)
     if (!status && !koksma__store_is_sealed(a->study->store)) {
         differ(a, "%s: the rows are not those that runs wrote: some were changed, lost or added", path);
     }
+    if (!status && a->list.strangers) {
+        differ(a, "%s: %lld values are of no series", path, a->list.strangers);
+    }
     for (size_t i = 0; !status && i < a->list.n; i++) {
         koksma__audit_series *s = &a->list.at[i];
         if (s->rows) {
             status = check(a, s);
             *(s->state == KOKSMA__AUDIT_OTHER ? &a->out->other_rows : &a->out->rows) += s->rows;
+            a->out->missing += s->state == KOKSMA__AUDIT_OURS ? koksma__audit_gaps(s) : 0;
         }
     }
     for (size_t i = 0; !status && i < a->list.n_references; i++) {
@@ -406,7 +424,7 @@ static koksma_status compare(audit *a, const koksma_run *run)
     if (koksma_study_mpi_rank() > 0) {
         return koksma__mpi_work(a->study, &control.job);
     }
-    koksma_status status = koksma__store_scan(a->study->store, draw_row, a);
+    koksma_status status = koksma__store_scan_rows(a->study->store, draw_row, a);
     const double drawn = a->out->rows ? (double)a->out->drawn / (double)a->out->rows : 0;
     const double sets = drawn * koksma__run_work(a->study, false),
                  images = drawn * koksma__run_work(a->study, true) + work_of_references(a->study);

@@ -84,11 +84,20 @@ koksma__audit_series *koksma__audit_find(const koksma__audit_list *list, long lo
 
 static void see_row(void *context, long long id, long long trial)
 {
-    koksma__audit_series *s = koksma__audit_find(context, id);
+    koksma__audit_list *list = context;
+    koksma__audit_series *s = koksma__audit_find(list, id);
     if (s) {
         s->rows++;
         s->last = trial > s->last ? trial : s->last;
+    } else {
+        list->strangers++;
     }
+}
+
+long long koksma__audit_gaps(const koksma__audit_series *s)
+{
+    const long long rows = s->rows - s->strays;
+    return s->end > rows ? s->end - rows : 0;
 }
 
 /* What see_end needs: `holes` is the number of missing rows that each row may have before it. */
@@ -129,7 +138,7 @@ static koksma_status find_ends(koksma__store *store, koksma__audit_list *list, l
         for (size_t i = 0; i < list->n; i++) {
             list->at[i].end = 0;
         }
-        status = koksma__store_scan(store, see_end, &(ends){list, holes});
+        status = koksma__store_scan_rows(store, see_end, &(ends){list, holes});
     }
     *trials = 0;
     for (size_t i = 0; i < list->n; i++) {
@@ -145,7 +154,7 @@ koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *
         qsort(list->at, list->n, sizeof *list->at, compare_ids);
     }
     status = status ? status : koksma__store_visit_references(store, add_reference, list);
-    status = status ? status : koksma__store_scan(store, see_row, list);
+    status = status ? status : koksma__store_scan_rows(store, see_row, list);
     double trials = 0;
     status = status ? status : find_ends(store, list, MOST_HOLES, &trials);
     return status || trials <= (double)MOST_TRIALS ? status : find_ends(store, list, 1, &trials);

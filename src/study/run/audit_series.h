@@ -37,6 +37,7 @@ typedef struct koksma__audit_list {
     size_t n_references;
     koksma__audit_series *references;            /* rows of table `reference` */
     koksma__audit_group *discrepancies, *images; /* one group per block of the plan */
+    long long strangers;                         /* number of values that belong to no series */
     koksma__point_files files;
 } koksma__audit_list;
 
@@ -46,6 +47,9 @@ void koksma__audit_list_fini(koksma__audit_list *list);
 
 /* Finds the series with the given id; NULL if there is none. */
 koksma__audit_series *koksma__audit_find(const koksma__audit_list *list, long long id);
+
+/* The number of rows that a series lacks: trials before its last that have no row. */
+long long koksma__audit_gaps(const koksma__audit_series *series);
 
 /* Sets the state of a series or reference and opens its scene. Fails if the state is WRONG; the error text gives the
    reason. *here: the revisions of this build. */

@@ -82,6 +82,11 @@ koksma_status koksma__store_put(koksma__store *store, const long long *series, c
 koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
                                  void *context);
 
+/* Like koksma__store_scan, but passes on every row: one without a value as a result of the first series of its group.
+   Runs write such rows only for images whose error is no number. */
+koksma_status koksma__store_scan_rows(koksma__store *store,
+                                      void (*see)(void *context, long long series, long long trial), void *context);
+
 /* Reads the values of a trial in the four series from `group`, a multiple of four; *found: whether there is such
    a row. */
 koksma_status koksma__store_row(koksma__store *store, long long group, long long trial, uint64_t *seed,

@@ -27,20 +27,30 @@ static bool keep(koksma__kept_rows *kept, const koksma__row *row)
     return true;
 }
 
-typedef void see_result(void *context, long long series, long long trial);
+/* What a scan calls; `every`: also for rows without a value. */
+typedef struct visitor {
+    void (*see)(void *context, long long series, long long trial);
+    void *context;
+    bool every;
+} visitor;
 
-static void see_row(const koksma__store *store, const koksma__row *row, see_result *see, void *context)
+static void see_row(const koksma__store *store, const koksma__row *row, const visitor *v)
 {
     const long long first = row->id & 0xffffffff;
+    bool any = false;
     for (int k = 0; row->id >= 0 && k < KOKSMA__GROUP && (size_t)(first + k) < store->n_known; k++) {
         if (!isnan(row->values[k]) && (k == 0 || !store->known[first].alone)) {
-            see(context, first + k, row->id >> 32);
+            v->see(v->context, first + k, row->id >> 32);
+            any = true;
         }
+    }
+    if (v->every && !any && row->id >= 0) {
+        v->see(v->context, first, row->id >> 32);
     }
 }
 
 /* Reads all rows from the database, in the order of their ids. */
-static koksma_status read_rows(koksma__store *store, see_result *see, void *context, koksma__seal *found)
+static koksma_status read_rows(koksma__store *store, const visitor *v, koksma__seal *found)
 {
     koksma__statement *s = store->queries[KOKSMA__GET_IDS];
     koksma_status status = KOKSMA_OK;
@@ -51,7 +61,7 @@ static koksma_status read_rows(koksma__store *store, see_result *see, void *cont
         koksma__seal_add(found, 1, koksma__checksum_of_row(&row));
         kept.all = kept.all && keep(&kept, &row);
         if (!status) {
-            see_row(store, &row, see, context);
+            see_row(store, &row, v);
         }
     }
     koksma__statement_reset(s);
@@ -64,8 +74,8 @@ static koksma_status read_rows(koksma__store *store, see_result *see, void *cont
     return status;
 }
 
-/* Calls `see` for each result in the order of the rows' ids, and compares the rows with the store's seal. */
-static koksma_status scan(koksma__store *store, see_result *see, void *context)
+/* Calls v->see for each result in the order of the rows' ids, and compares the rows with the store's seal. */
+static koksma_status scan(koksma__store *store, const visitor *v)
 {
     koksma__seal found = {0};
     koksma_status status = koksma__store_write_rows(store);
@@ -73,10 +83,10 @@ static koksma_status scan(koksma__store *store, see_result *see, void *context)
     if (!status && store->kept.all) {
         found = store->kept.seal;
         for (size_t i = 0; i < store->kept.rows.n; i++) {
-            see_row(store, &store->kept.rows.at[i], see, context);
+            see_row(store, &store->kept.rows.at[i], v);
         }
     } else if (!status) {
-        status = read_rows(store, see, context, &found);
+        status = read_rows(store, v, &found);
     }
     status = status ? status : koksma__seal_rest(store, &found);
     store->found = found;
@@ -87,7 +97,14 @@ koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context
                                  void *context)
 {
     koksma__store_enter(store);
-    return koksma__store_leave(store, scan(store, see, context));
+    return koksma__store_leave(store, scan(store, &(visitor){see, context, false}));
+}
+
+koksma_status koksma__store_scan_rows(koksma__store *store,
+                                      void (*see)(void *context, long long series, long long trial), void *context)
+{
+    koksma__store_enter(store);
+    return koksma__store_leave(store, scan(store, &(visitor){see, context, true}));
 }
 
 static void see_end(void *context, long long series, long long trial)
@@ -107,7 +124,7 @@ static koksma_status find_ends(koksma__store *store)
 {
     koksma_status status = koksma__store_write_rows(store);
     if (!status && !store->knows_ends) {
-        status = scan(store, see_end, store);
+        status = scan(store, &(visitor){see_end, store, false});
         for (size_t i = 0; !status && i < store->n_known; i++) {
             const koksma__known_series *k = &store->known[i];
             if (k->end > MOST_HOLES + MOST_HOLES * k->count) {
