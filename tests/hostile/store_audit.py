@@ -130,6 +130,28 @@ def reasons():
     shutil.copy(HERE + "/../../scenes/checker.json", "mine.json")
 
 
+def families():
+    """Rows of a family of files are of all its files: one more file makes all of them anew."""
+    for i in range(1, 6):
+        with open(f"q_16_{i}.txt", "w") as file:
+            file.writelines(f"{k / 16} {((2 * i + 1) * k + i) % 16 / 16}\n" for k in range(16))
+    os.rename("q_16_5.txt", "fifth.txt")
+    with open("family.json", "w") as file:
+        json.dump({"name": "f", "title": "f", "discrepancies": [{"patterns": ["file:q_{n}_{seed}.txt"], "measures": ["star"], "n": [16], "trials": 4}]}, file)
+    run = "study", "run", "./family.json", "-o", "family", "-q"
+    check(koksma(*run).returncode == 0, "a study of a family")
+    says(audit("family"), 0, "4 rows drawn, of which 4 agree: these are all")
+    os.rename("fifth.txt", "q_16_5.txt")
+    check(koksma(*run, "--trials", "5").returncode == 0, "a study of a larger family")
+    changed = r"differs: discrepancy file:q_\{n\}_\{seed\}.txt, .* again: a file of its points has changed since, or their family has more or fewer files"
+    says(audit("family"), 1, changed, "9 rows drawn, of which 5 agree: these are all")
+    os.remove("q_16_5.txt")
+    says(audit("family"), 1, changed, "9 rows drawn, of which 4 agree: these are all")
+    for i in range(1, 5):
+        os.remove(f"q_16_{i}.txt")
+    says(audit("family"), 1, r"differs: .* again: the file of its points: q_\{n\}_\{seed\}.txt: no file has such a name")
+
+
 def values():
     """Standard errors that are missing or infinite, and times of runs that are."""
     of_checker = r"reference r:jittered@4x2 of checker"
@@ -517,7 +539,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, operands, values, trials, impossible, long_names, keys, revisions, gaps, decoys, draw, texts:
+    for part in references, reasons, families, operands, values, trials, impossible, long_names, keys, revisions, gaps, decoys, draw, texts:
         part()
 finally:
     here = os.getcwd()

@@ -53,13 +53,18 @@ static koksma_status visit_paths(const char *patterns, const char *reference,
     return has_reference ? visit_patterns(of_reference, visit, context) : status;
 }
 
+static bool is_family(const char *path)
+{
+    return koksma__file_has(path, "{n}") || koksma__file_has(path, "{seed}");
+}
+
 /* Hash of a file; for a family of files (file_names.h), the combined hash of all of them. 0: it can't be read. */
 static uint64_t hash_of_file(const char *path)
 {
     uint64_t hash = 0, all = 0;
     koksma__file_set *sets = NULL;
     size_t count = 0;
-    if (!koksma__file_has(path, "{n}") && !koksma__file_has(path, "{seed}")) {
+    if (!is_family(path)) {
         return koksma__hash_file(path, &hash) ? 0 : hash;
     }
     if (koksma__file_sets(path, &sets, &count)) {
@@ -129,7 +134,7 @@ static koksma_status can_be_read(void *context, const char *path)
     if (!path) {
         return KOKSMA_OK;
     }
-    if (!koksma__file_has(path, "{n}") && !koksma__file_has(path, "{seed}")) {
+    if (!is_family(path)) {
         return koksma__hash_file(path, &hash);
     }
     koksma_status status = koksma__file_sets(path, &sets, &count);
@@ -143,6 +148,19 @@ static koksma_status can_be_read(void *context, const char *path)
 koksma_status koksma__points_can_be_read(const char *patterns, const char *reference)
 {
     return visit_paths(patterns, reference, can_be_read, NULL);
+}
+
+static koksma_status find_family(void *context, const char *path)
+{
+    *(bool *)context |= path && is_family(path);
+    return KOKSMA_OK;
+}
+
+bool koksma__points_have_family(const char *patterns, const char *reference)
+{
+    bool found = false;
+    visit_paths(patterns, reference, find_family, &found);
+    return found;
 }
 
 void koksma__point_files_fini(koksma__point_files *known)

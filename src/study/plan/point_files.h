@@ -4,6 +4,7 @@
 #ifndef KOKSMA_STUDY_PLAN_POINT_FILES_H
 #define KOKSMA_STUDY_PLAN_POINT_FILES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -30,6 +31,9 @@ void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash
 
 /* Fails if a file that the patterns or the reference name can't be read, with the reason; OK also if they name none. */
 koksma_status koksma__points_can_be_read(const char *patterns, const char *reference);
+
+/* Whether the patterns or the reference name a family of files (file_names.h). */
+bool koksma__points_have_family(const char *patterns, const char *reference);
 
 void koksma__point_files_fini(koksma__point_files *known);
 

@@ -247,9 +247,14 @@ static koksma_status check_hash(koksma__audit_list *list, const koksma__audit_se
     if (status) {
         return koksma__fail_in(status == KOKSMA_MEMORY ? status : KOKSMA_MISSING, "the file of its points");
     }
-    const bool same_scene = !strncmp(key->scene_hash, scene, strlen(scene));
-    return koksma__fail(KOKSMA_MALFORMED, "%s has changed since",
-                        same_scene ? "the file of its points" : "its scene");
+    if (strncmp(key->scene_hash, scene, strlen(scene)) != 0) {
+        return koksma__fail(KOKSMA_MALFORMED, "its scene has changed since");
+    }
+    /* the key has one hash of all files, which does not tell which of them differs */
+    return koksma__fail(KOKSMA_MALFORMED, "%s",
+                        koksma__points_have_family(key->pattern, reference)
+                            ? "a file of its points has changed since, or their family has more or fewer files"
+                            : "the file of its points has changed since");
 }
 
 koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list, koksma__audit_series *series,
