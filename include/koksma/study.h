@@ -154,8 +154,8 @@ typedef enum koksma_export_format {
      format  CSV; JSON with one object per line; NPY with one record per row and texts as byte strings; SHA256: one
              line with the hash of the CSV
      path    file to write; "-" is standard output
-   Errors: MISSING, MALFORMED (the folder has no results of a study, or they are damaged or edited), IO (also if a
-   run is using the folder), MEMORY. */
+   Errors: ARGUMENT (the path leads to the study's results or their log, or into DIR/references), MISSING, MALFORMED (the
+   folder has no results of a study, or they are damaged or edited), IO (also if a run is using the folder), MEMORY. */
 KOKSMA_API koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path);
 
 /* Options of koksma_study_audit. The name of the folder has at most 1000 bytes, as in all functions on studies. */

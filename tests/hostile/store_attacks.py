@@ -336,7 +336,17 @@ def exports():
         told = study("export", "e", "--format", "csv", "-o", path)
         check(told.returncode == 2 and path in told.stderr, f"an export where SQLite expects a log: {told}")
         check(sorted(os.listdir("e")) == sorted([*os.listdir("sound"), "link.csv"]), f"an export to {path} made a file")
-    for name in "e/results.sqlite.csv", "e/results.csv", "results.sqlite-wal":
+    image = "e/references/" + os.listdir("e/references")[0]
+    os.symlink(image, "image.exr")
+    os.symlink("references", "e/into")
+    before = bytes_of("e")
+    for path in image, "e/references/new.csv", "./e/../e/references/new.csv", "image.exr", "e/into/new.csv":
+        told = study("export", "e", "--format", "csv", "-o", path)
+        check(told.returncode == 2 and f"{path}: the folder has the study's reference images" in told.stderr, f"an export among the references: {told}")
+        check(bytes_of("e") == before, f"an export among the references as {path}: they are changed")
+    told = subprocess.run([KOKSMA, "study", "export", "..", "-o", "-"], cwd="e/references", capture_output=True, text=True, timeout=60)
+    check(told.returncode == 0 and told.stdout, f"an export to standard output from there: {told}")
+    for name in "e/results.sqlite.csv", "e/results.csv", "results.sqlite-wal", "e/references/../results.csv":
         check(study("export", "e", "--format", "csv", "-o", name).returncode == 0, f"an export to {name}")
 
 

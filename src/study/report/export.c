@@ -324,14 +324,14 @@ static char *split(char **path)
     return name;
 }
 
-/* Fails if `path` leads to the store's file or one of its logs, also by another name, or to where SQLite would expect a
-   log. */
-static koksma_status check_target(const char *results, const char *path)
+/* Fails if `path` leads to the store's file or one of its logs, also by another name, to where SQLite would expect a log,
+   or into the folder of the study's reference images, whose files a run and a report read. */
+static koksma_status check_target(const char *study, const char *results, const char *path)
 {
     static const char *const endings[] = {"", "-wal", "-shm", "-journal"};
     char *store = koksma__atomic_target(results), *target = store ? koksma__atomic_target(path) : NULL;
     const int reason = errno;
-    bool same = false;
+    bool same = false, reference = false;
     for (size_t i = 0; target && i < sizeof endings / sizeof *endings; i++) {
         char name[2 * KOKSMA__PATH];
         snprintf(name, sizeof name, "%s%s", results, endings[i]);
@@ -345,14 +345,19 @@ static koksma_status check_target(const char *results, const char *path)
             same |= !strncmp(name, store_name, length) && !strcmp(name + length, endings[i]) &&
                     same_file(store_folder, folder);
         }
+        char references[2 * KOKSMA__PATH];
+        snprintf(references, sizeof references, "%s/references", study);
+        reference = strcmp(path, "-") && same_file(references, folder);
     }
     const bool no_memory = !target && reason == ENOMEM; /* with other reasons the path can't be opened either */
     KOKSMA__FREE(store, target);
-    return no_memory ? koksma__fail_memory(strlen(path))
-           : same    ? koksma__fail(KOKSMA_ARGUMENT,
-                                    "%s: the export would replace the study's results or their log; choose another file",
-                                    path)
-                     : KOKSMA_OK;
+    return no_memory   ? koksma__fail_memory(strlen(path))
+           : same      ? koksma__fail(KOKSMA_ARGUMENT,
+                                      "%s: the export would replace the study's results or their log; choose another file",
+                                      path)
+           : reference ? koksma__fail(KOKSMA_ARGUMENT,
+                                      "%s: the folder has the study's reference images; choose another folder", path)
+                       : KOKSMA_OK;
 }
 
 koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path)
@@ -363,7 +368,7 @@ koksma_status koksma_study_export(const char *folder, koksma_export_format forma
     koksma__atomic_file file;
     writer w = {0};
     KOKSMA__TRY(koksma__results_path(folder, results));
-    KOKSMA__TRY(check_target(results, path));
+    KOKSMA__TRY(check_target(folder, results, path));
     KOKSMA__TRY(koksma__store_open(results, KOKSMA__STORE_READ, NULL, &store));
     koksma_status status = koksma__atomic_open(NULL, path, &file);
     if (!status) {
