@@ -187,11 +187,10 @@ typedef struct koksma_audit {
                                             a scene whose file is missing; these are differences */
     size_t references_other;             /* number of reference images made by versions whose revisions differ */
     size_t differences;                  /* number of differences found */
-    long long
-        missing;     /* number of rows of this version that are not there, of trials before the last of their series.
-                          A run that is killed and a job that fails leave such gaps, and nothing tells them from rows
-                          that somebody removed with a forged seal: they are no differences. Rows that were removed
-                          behind the last trial leave none */
+    /* Number of rows of this version that are not there, of trials before the last of their series. A run that is
+       killed and a job that fails leave such gaps, and nothing tells them from rows that somebody removed with a forged
+       seal: they are no differences. Rows that were removed behind the last trial leave none. */
+    long long rows_missing;
     char other[128]; /* revisions of one of the other_rows or references_other and of this
                                             program, with "of a newer version" if any is; empty if there are none */
 } koksma_audit;

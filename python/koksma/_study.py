@@ -70,7 +70,8 @@ class Audit:
     were drawn, it is the part that differs. `other_rows` are of other versions and cannot be compared; `other` names one.
     Of `references`, the reference images, all of which are rendered again, `references_agree` were equal, and
     `references_missing` have no file; `references_failed` more cannot be rendered again, and `references_other` are of
-    other versions. `differences` is a line for each thing that differs.
+    other versions. `differences` is a line for each thing that differs. `rows_missing` rows before the last trials of their
+    series are not there: killed runs and failed jobs leave such gaps, as do rows that somebody removed.
     """
 
     rows: int
@@ -85,6 +86,7 @@ class Audit:
     references_failed: int
     references_other: int
     differences: tuple[str, ...]
+    rows_missing: int
     other: str
 
     def __bool__(self) -> bool:
@@ -289,7 +291,8 @@ def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] 
     raw = s.Audit()
     call(lab().koksma_study_audit, byref(options), byref(raw), threads=threads, run_at=1, progress=progress)
     return Audit(raw.rows, raw.other_rows, used, raw.drawn, raw.agree, raw.bound, raw.references, raw.references_agree,
-                 raw.references_missing, raw.references_failed, raw.references_other, tuple(lines), raw.other.decode(errors="replace"))
+                 raw.references_missing, raw.references_failed, raw.references_other, tuple(lines), raw.rows_missing,
+                 raw.other.decode(errors="replace"))
 
 
 def plans() -> List[str]:

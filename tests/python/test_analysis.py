@@ -228,8 +228,8 @@ class Studies(unittest.TestCase):
             (theirs,) = rows("study", "audit", folder, "--rows", "20", "--seed", "3")
             self.assertTrue(found)
             self.assertEqual((found.rows, found.drawn, found.agree, found.other_rows, found.differences), (60, 20, 20, 0, ()))
-            self.assertEqual([found.rows, found.drawn, found.agree, found.bound],
-                             [theirs[key] for key in ("rows", "drawn", "agree", "wrong_below")])
+            self.assertEqual([found.rows, found.drawn, found.agree, found.bound, found.rows_missing],
+                             [theirs[key] for key in ("rows", "drawn", "agree", "wrong_below", "rows_missing")])
             self.assertTrue(0.05 < found.bound < 1 - 0.05 ** (1 / 20) + 1e-12)  # of draws with replacement at most that
             self.assertTrue(done and all(0 <= f <= 1 for f in done))
             drawn = [koksma.audit(folder, rows=20) for _ in range(2)]
@@ -255,6 +255,13 @@ class Studies(unittest.TestCase):
             self.assertEqual((found.rows - found.agree, len(found.differences)), (1, 1))
             self.assertEqual(found.bound, 1 / 60)
             self.assertIn("sobol", found.differences[0])
+            store = sqlite3.connect(os.path.join(folder, "results.sqlite"))
+            store.execute("DELETE FROM result WHERE id = (SELECT min(id) FROM result)")  # of the first trial
+            store.commit()
+            store.close()
+            subprocess.run([sys.executable, str(reseal), folder], check=True)
+            found = koksma.audit(folder, rows=None)
+            self.assertEqual((found.rows, found.rows_missing), (58, 2))  # one of each measure
 
     def test_audit_of_nothing(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -392,7 +392,7 @@ static koksma_status list_series(audit *a)
         if (s->rows) {
             status = check(a, s);
             *(s->state == KOKSMA__AUDIT_OTHER ? &a->out->other_rows : &a->out->rows) += s->rows;
-            a->out->missing += s->state == KOKSMA__AUDIT_OURS ? koksma__audit_gaps(s) : 0;
+            a->out->rows_missing += s->state == KOKSMA__AUDIT_OURS ? koksma__audit_gaps(s) : 0;
         }
     }
     for (size_t i = 0; !status && i < a->list.n_references; i++) {
