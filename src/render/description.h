@@ -149,7 +149,8 @@ typedef struct koksma__unknown {
 } koksma__unknown;
 
 struct koksma_scene {
-    uint64_t hash;
+    uint64_t hash;       /* of the texts, models and meshes; the readers add to it */
+    uint64_t image_hash; /* of the images; koksma__scene_hash joins both */
     char title[128];
     int width, height;
     koksma__camera camera;
@@ -182,5 +183,11 @@ struct koksma_scene {
     char (*notes)[256];
     koksma__scene_cache *cache;
 };
+
+/* The hash by which stored studies find the scene. */
+static inline uint64_t koksma__scene_hash(const koksma_scene *scene)
+{
+    return scene->hash ^ scene->image_hash;
+}
 
 #endif

@@ -70,26 +70,8 @@ static bool has_grey_values(const koksma__material *m)
     return grey;
 }
 
-/* Adds the pixels of images in other files to the scene's hash, because a scene with other pixels is another
-   scene. */
-static void add_pixels(koksma_scene *scene)
-{
-    for (size_t i = 0; i < scene->n_materials; i++) {
-        const koksma__material *m = &scene->materials[i];
-        scene->hash ^= m->image ? koksma__scene_image_hash(scene, m->image) + i : 0;
-        for (size_t k = 0; k < KOKSMA__N_MAPS; k++) {
-            const uint64_t key = 1 + i + KOKSMA__MAX_MATERIALS * (k + 1);
-            scene->hash ^= m->maps[k].image ? koksma__scene_image_hash(scene, m->maps[k].image) * (2 * key + 1) : 0;
-        }
-    }
-    for (size_t i = 0; i < scene->n_lights; i++) {
-        scene->hash ^= scene->lights[i].image
-                           ? koksma__scene_image_hash(scene, scene->lights[i].image) + scene->n_materials + i
-                           : 0;
-    }
-}
-
-/* Computes the members of a scene that follow from others, such as whether it has colours. */
+/* Computes the members of a scene that follow from others, such as whether it has colours. A second call changes
+   nothing. */
 void koksma__scene_finish(koksma_scene *scene)
 {
     scene->grey = is_grey(scene->background) && is_grey(scene->ambient) && is_grey(scene->medium.absorption) &&
@@ -104,7 +86,7 @@ void koksma__scene_finish(koksma_scene *scene)
         const koksma__light *l = &scene->lights[i];
         scene->grey &= is_grey(l->radiance) && !(l->image && l->image->channels == 3);
     }
-    add_pixels(scene);
+    scene->image_hash = koksma__scene_images_hash(scene);
     const double *m = scene->camera.motion;
     scene->moves = m[0] != 0 || m[1] != 0 || m[2] != 0;
     for (size_t i = 0; i < scene->n_shapes; i++) {

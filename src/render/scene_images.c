@@ -72,6 +72,39 @@ static entry *entry_of(const koksma_scene *scene, const koksma_image *image)
     return i < scene->n_images ? scene->images[i] : NULL;
 }
 
+/* A place of a scene that may show an image, and how the image's hash enters the scene's: times `times`, plus `plus`. */
+typedef struct shown {
+    const koksma_image *image; /* or NULL */
+    uint64_t times, plus;
+} shown;
+
+/* Finds place i: first those of the materials, then those of the lights. Returns false after the last one. */
+static bool show(const koksma_scene *scene, size_t i, shown *out)
+{
+    enum { EACH = 1 + KOKSMA__N_MAPS };
+    const size_t m = i / EACH, k = i % EACH, light = i - EACH * scene->n_materials;
+    if (m >= scene->n_materials) {
+        *out =
+            light < scene->n_lights ? (shown){scene->lights[light].image, 1, scene->n_materials + light} : (shown){0};
+        return light < scene->n_lights;
+    }
+    const koksma__material *material = &scene->materials[m];
+    *out = k ? (shown){material->maps[k - 1].image, 2 * (1 + m + KOKSMA__MAX_MATERIALS * k) + 1, 0}
+             : (shown){material->image, 1, m};
+    return true;
+}
+
+static bool is_shown(const koksma_scene *scene, const koksma_image *image)
+{
+    shown s;
+    for (size_t i = 0; show(scene, i, &s); i++) {
+        if (s.image == image) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static uint64_t bytes_of(const koksma_image *image)
 {
     return (uint64_t)image->width * (uint64_t)image->height * (uint64_t)image->channels * sizeof *image->pixels;
@@ -131,17 +164,7 @@ void koksma__scene_image_drop(koksma_scene *scene, const koksma_image *image)
     while (at < scene->n_images && &scene->images[at]->image != image) {
         at++;
     }
-    bool used = at == scene->n_images;
-    for (size_t i = 0; i < scene->n_lights; i++) {
-        used |= scene->lights[i].image == image;
-    }
-    for (size_t i = 0; i < scene->n_materials; i++) {
-        used |= scene->materials[i].image == image;
-        for (int k = 0; k < KOKSMA__N_MAPS; k++) {
-            used |= scene->materials[i].maps[k].image == image;
-        }
-    }
-    if (!used) {
+    if (at < scene->n_images && !is_shown(scene, image)) {
         scene->image_bytes -= bytes_of(image);
         koksma_image_fini(&scene->images[at]->image);
         KOKSMA__FREE(scene->images[at]->text, scene->images[at]);
@@ -286,12 +309,26 @@ void koksma__scene_image_mean(const koksma_scene *scene, const koksma_image *ima
     memcpy(mean, e->mean, sizeof e->mean);
 }
 
-uint64_t koksma__scene_image_hash(const koksma_scene *scene, const koksma_image *image)
+static uint64_t hash_of(entry *e)
 {
-    entry *e = entry_of(scene, image);
     if (!e->hashed) {
-        e->hash = koksma__hash(image->pixels, bytes_of(image));
+        e->hash = koksma__hash(e->image.pixels, bytes_of(&e->image));
         e->hashed = true;
     }
     return e->hash;
+}
+
+uint64_t koksma__scene_images_hash(const koksma_scene *scene)
+{
+    uint64_t hash = 0;
+    shown s;
+    for (size_t i = 0; show(scene, i, &s); i++) {
+        hash ^= s.image ? hash_of(entry_of(scene, s.image)) * s.times + s.plus : 0;
+    }
+    for (size_t i = 0; i < scene->n_images; i++) {
+        const bool left = scene->images[i]->image.pixels && !is_shown(scene, &scene->images[i]->image);
+        const uint64_t parts[2] = {left ? hash_of(scene->images[i]) : 0, i};
+        hash ^= left ? koksma__hash(parts, sizeof parts) : 0;
+    }
+    return hash;
 }

@@ -210,7 +210,7 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
                            .radiance = {radiance, radiance, radiance},
                            .image = pixels};
     koksma__scene_image_drop(scene, old);
-    const uint64_t parts[2] = {scene->hash, koksma__hash(&radiance, sizeof radiance)};
+    const uint64_t parts[2] = {koksma__scene_hash(scene), koksma__hash(&radiance, sizeof radiance)};
     scene->hash = koksma__hash(parts, sizeof parts);
     koksma__scene_finish(scene);
     return koksma__medium_check(scene);

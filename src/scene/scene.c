@@ -170,7 +170,7 @@ const char *koksma_scene_title(const koksma_scene *scene)
 uint64_t koksma_scene_hash(const koksma_scene *scene)
 {
     KOKSMA__REQUIRE_OR(0, scene);
-    return scene->hash;
+    return koksma__scene_hash(scene);
 }
 
 int koksma_scene_rays_per_sample(const koksma_scene *scene)

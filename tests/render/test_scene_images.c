@@ -10,6 +10,18 @@
 #include "render/scene_images.h"
 #include "test.h"
 
+/* The images' part of the hash of a scene with a light that shows the image. */
+static uint64_t hash_with(koksma_scene *scene, koksma_image *image)
+{
+    koksma__light light = {.image = image};
+    scene->lights = &light;
+    scene->n_lights = 1;
+    const uint64_t hash = koksma__scene_images_hash(scene);
+    scene->lights = NULL;
+    scene->n_lights = 0;
+    return hash;
+}
+
 /* Two rows of one grey pixel: 0.25 above, 0.5 below. */
 static void write_two(const char *path)
 {
@@ -42,7 +54,9 @@ static void a_file_is_read_once_for_each_use(void **state)
     assert_true(tinted->channels == 3 && tinted->pixels[3] == 0.5f && tinted->pixels[5] == 0.25f);
     koksma__scene_image_mean(&scene, tinted, mean);
     assert_true(mean[0] == 0.375 && mean[2] == 0.1875);
-    assert_int_not_equal(koksma__scene_image_hash(&scene, plain), koksma__scene_image_hash(&scene, turned));
+    assert_int_not_equal(hash_with(&scene, plain), hash_with(&scene, turned));
+    assert_int_equal(hash_with(&scene, plain), hash_with(&scene, plain));
+    assert_int_not_equal(koksma__scene_images_hash(&scene), 0); /* no material or light shows any of them */
     assert_int_equal(scene.n_images, 3);
     assert_int_equal(scene.image_bytes, 8 + 8 + 24);
     unlink("other.pfm");
