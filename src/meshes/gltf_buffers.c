@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/hash.h"
 #include "core/read_file.h"
 #include "core/status.h"
 
@@ -80,7 +79,7 @@ static koksma_status load(koksma__gltf *g, const field *f, const char *uri, koks
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__read_file(file, KOKSMA__FILE_BUFFER, KOKSMA__BY_FILE, NULL, &bytes, &size));
-    g->out->hash += koksma__hash(bytes, size);
+    koksma__mesh_file_hash(g->out, bytes, size);
     return keep(g, bytes, size, out);
 }
 

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "core/capacity.h"
+#include "core/hash.h"
 #include "core/status.h"
 
 enum { MAX_PLACEMENTS = 1 << 20 };
@@ -71,6 +72,11 @@ bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MA
         found = ways[i](other) && koksma__path_beside(model, other, out) && koksma__is_file(out);
     }
     return found || (*name && koksma__path_beside(model, name, out) && exists(out));
+}
+
+void koksma__mesh_file_hash(koksma__mesh_file *file, const unsigned char *bytes, size_t size)
+{
+    file->hash += koksma__hash(bytes, size) * (2 * (uint64_t)file->n_named++ + 1);
 }
 
 /* ---- What readers share ------------------------------------------------------------------------------------- */

@@ -71,14 +71,20 @@ typedef struct koksma__file_light {
 
 typedef struct koksma__mesh_file {
     const char *path;
-    long part;     /* the index of the only mesh to read, for formats with several numbered meshes; -1: all */
-    uint64_t hash; /* sum of the hashes of all files read, each counted as often as mesh_read.c explains */
+    long part; /* the index of the only mesh to read, for formats with several numbered meshes; -1: all */
+    /* sum of the hashes of all files read: the model's as often as mesh_read.c explains, those that it names once, three
+       times, five times, ..., so that their order counts */
+    uint64_t hash;
+    size_t n_named; /* the number of files that it names and that were read */
     koksma__list meshes, materials, placements, lights;
     size_t n_vertices, n_triangles; /* numbers of vertices and of triangles in all meshes together */
     double yfov_rad, camera[12];    /* the camera; yfov_rad 0: there is none */
     koksma__unread unread;
     koksma__list owned; /* blocks of memory that hold textures' bytes */
 } koksma__mesh_file;
+
+/* Adds the bytes of a file that the model names to its hash. */
+void koksma__mesh_file_hash(koksma__mesh_file *file, const unsigned char *bytes, size_t size);
 
 /* Frees all that the file owns. */
 void koksma__mesh_file_fini(koksma__mesh_file *file);

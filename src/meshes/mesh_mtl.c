@@ -205,7 +205,7 @@ koksma_status koksma__mtl_read(const char *path, koksma__mtl_names *names, koksm
     if (status) {
         return status;
     }
-    f->hash += koksma__hash(bytes, size);
+    koksma__mesh_file_hash(f, bytes, size);
     koksma__text t = koksma__text_open(path, bytes, size);
     while (!status && koksma__text_line(&t)) {
         status = take_line(&t, names, f, &current);

@@ -150,7 +150,9 @@ typedef struct koksma__unknown {
 
 struct koksma_scene {
     uint64_t hash;       /* of the texts, models and meshes; the readers add to it */
-    uint64_t image_hash; /* of the images; koksma__scene_hash joins both */
+    uint64_t files_hash; /* of the images, and of the order of meshes; koksma__scene_hash joins both */
+    uint64_t mesh_order; /* hash of the meshes from files, in their order */
+    size_t n_mesh_files; /* the number of meshes in mesh_order */
     char title[128];
     int width, height;
     koksma__camera camera;
@@ -187,7 +189,7 @@ struct koksma_scene {
 /* The hash by which stored studies find the scene. */
 static inline uint64_t koksma__scene_hash(const koksma_scene *scene)
 {
-    return scene->hash ^ scene->image_hash;
+    return scene->hash ^ scene->files_hash;
 }
 
 #endif

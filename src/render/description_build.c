@@ -86,7 +86,7 @@ void koksma__scene_finish(koksma_scene *scene)
         const koksma__light *l = &scene->lights[i];
         scene->grey &= is_grey(l->radiance) && !(l->image && l->image->channels == 3);
     }
-    scene->image_hash = koksma__scene_images_hash(scene);
+    scene->files_hash = koksma__scene_images_hash(scene) ^ (scene->n_mesh_files > 1 ? scene->mesh_order : 0);
     const double *m = scene->camera.motion;
     scene->moves = m[0] != 0 || m[1] != 0 || m[2] != 0;
     for (size_t i = 0; i < scene->n_shapes; i++) {

@@ -21,7 +21,7 @@ koksma_status koksma__scene_note(koksma_scene *scene, const char *text);
 /* Sets the albedo of a material with an image to the image's mean. */
 void koksma__material_mean(const koksma_scene *scene, koksma__material *material);
 
-/* Computes the members that follow from the others: grey, moves and image_hash. It may be called again. */
+/* Computes the members that follow from the others: grey, moves and files_hash. It may be called again. */
 void koksma__scene_finish(koksma_scene *scene);
 
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/hash.h"
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 
@@ -18,6 +19,17 @@ koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out)
 {
     *out = koksma__add_one(&scene->meshes, &scene->n_meshes, sizeof **out);
     return *out ? KOKSMA_OK : KOKSMA_MEMORY;
+}
+
+/* The XOR of sums alone would often stay the same when two meshes are exchanged or change alike: (a + 1) ^ (a + 2) is 1
+   for every odd a. It is kept for scenes with one mesh, whose hash stays what it was. */
+void koksma__scene_hash_mesh(koksma_scene *scene, bool in_file)
+{
+    const uint64_t hash = koksma__mesh_hash(&scene->meshes[scene->n_meshes - 1]),
+                   parts[2] = {scene->mesh_order, hash};
+    scene->hash ^= hash + scene->n_meshes;
+    scene->mesh_order = in_file ? koksma__hash(parts, sizeof parts) : scene->mesh_order;
+    scene->n_mesh_files += in_file;
 }
 
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out)

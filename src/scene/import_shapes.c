@@ -48,7 +48,9 @@ void koksma__import_shapes_fini(koksma__import *im)
 
 /* ---- Meshes ------------------------------------------------------------------------------------------------ */
 
-koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out)
+/* in_file: the mesh is from a file; otherwise the scene's text has it. */
+static koksma_status add_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, bool in_file,
+                              int *out)
 {
     koksma__mesh *to = NULL;
     *out = -1;
@@ -65,8 +67,13 @@ koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, 
     *twin = -1;
     *to = *mesh;
     *out = (int)im->scene->n_meshes - 1;
-    im->scene->hash ^= koksma__mesh_hash(to) + im->scene->n_meshes;
+    koksma__scene_hash_mesh(im->scene, in_file);
     return KOKSMA_OK;
+}
+
+koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out)
+{
+    return add_mesh(im, place, mesh, false, out);
 }
 
 /* Appends a mesh to the list of those made; copies the path, which may be NULL. */
@@ -127,7 +134,7 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
         koksma__mesh_fini(&mesh);
         return koksma__import_fail_at(place, status);
     }
-    KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, &made.mesh));
+    KOKSMA__TRY(add_mesh(im, place, &mesh, true, &made.mesh));
     *out = made.mesh;
     return remember(im, &made);
 }

@@ -132,7 +132,7 @@ static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_s
         koksma__json_fail(f, "%s%s", koksma_error_text(), status == KOKSMA_MISSING ? koksma__package_hint(path) : "");
         return status;
     }
-    scene->hash ^= koksma__mesh_hash(mesh) + scene->n_meshes;
+    koksma__scene_hash_mesh(scene, true);
     return add_placement(f, scene, (int)scene->n_meshes - 1, shape->material);
 }
 
