@@ -312,14 +312,17 @@ void koksma__scene_image_mean(const koksma_scene *scene, const koksma_image *ima
 static uint64_t hash_of(entry *e)
 {
     if (!e->hashed) {
-        e->hash = koksma__hash(e->image.pixels, bytes_of(&e->image));
+        const koksma_image *m = &e->image;
+        const uint64_t parts[4] = {koksma__hash(m->pixels, bytes_of(m)), (uint64_t)m->width, (uint64_t)m->height,
+                                   (uint64_t)m->channels};
+        e->hash = koksma__hash(parts, sizeof parts);
         e->hashed = true;
     }
     return e->hash;
 }
 
 /* The XOR of sums alone would often stay the same when two images are exchanged or change alike: a ^ (a + 1) is 1 for
-   every even a. It is kept for scenes with one such image, whose hash stays what it was. The bytes of an image within a
+   every even a. It stays beside the hash of the order, which covers files alone. The bytes of an image within a
    model are in the model's hash. */
 uint64_t koksma__scene_images_hash(const koksma_scene *scene)
 {

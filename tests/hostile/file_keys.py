@@ -51,8 +51,8 @@ def png(levels, channels=3):
             + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
 
 
-def pfm(levels):
-    return f"PF\n{SIDE} {SIDE}\n-1\n".encode() + struct.pack(f"<{len(levels)}f", *(level / 100 for level in levels))
+def pfm(levels, width=SIDE, height=SIDE):
+    return f"PF\n{width} {height}\n-1\n".encode() + struct.pack(f"<{len(levels)}f", *(level / 100 for level in levels))
 
 
 def versions(write, **how):
@@ -367,11 +367,23 @@ def check_several(checks, bench):
         checks.check(None in seen or len({one[0] for one in seen}) == len(seen), f"{what}: a file named twice changes, the hash does not")
 
 
+def check_shapes(checks, bench):
+    """The same levels in lines of another length are another image."""
+    levels = [100 + i * 37 % 50 for i in range(3 * SIDE * SIDE)]
+    sky = scene(light={"kind": "environment", "image": "t.pfm"})
+    seen = [bench.render("a sky of another shape", "s.json", {"s.json": sky, "t.pfm": pfm(levels, *shape)})
+            for shape in ((SIDE, SIDE), (2 * SIDE, SIDE // 2))]
+    if all(seen):
+        checks.check(seen[0][0] != seen[1][0], "an image changes its shape, the hash does not")
+        checks.check(seen[0][1] != seen[1][1], "the picture does not show the shape of its image")
+
+
 def main():
     checks = files.Checks()
     bench = Bench(sys.argv[1], checks)
     check_ways(checks, bench)
     check_several(checks, bench)
+    check_shapes(checks, bench)
     checks.end()
 
 
