@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma optimise`: searches for a point set with a small value of a measure, and writes the best set to a file
-   after each improvement. Under mpirun the ranks share the search; rank 0 writes the file and prints. */
+   after each improvement, or at the end to a stream, where sets would follow each other. Under mpirun the ranks share the
+   search; rank 0 writes the file and prints. */
 #include <koksma/spectrum.h>
 #include <koksma/study.h>
 
@@ -10,6 +11,7 @@
 #include <string.h>
 
 #include "optimise_scene.h"
+#include "output.h"
 #include "source.h"
 
 enum { MOST_PROJECTIONS = 4096 };
@@ -27,6 +29,7 @@ typedef struct job {
     koksma_processes ranks;
     double *power; /* --power: the target at each frequency; NULL: minimise a measure */
     double first;  /* the value of the initial set */
+    bool stream;   /* whether the set is written to a stream, once */
     char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
 } job;
 
@@ -50,7 +53,7 @@ static bool progress(void *context, const koksma_optimum *best)
     if (best->steps == 0 || best->last_gain > j->last_gain) {
         j->last_gain = best->last_gain;
         j->gained_s = now_s;
-        j->written = write_best(j, best);
+        j->written = j->stream ? KOKSMA_OK : write_best(j, best);
         j->first = best->steps == 0 ? best->value : j->first;
     }
     char bound[48] = "";
@@ -240,14 +243,18 @@ static int run(const cli_arguments *arguments)
             return cli_usage_error(arguments, "--%s has an effect only with --scene", of_scenes[i]);
         }
     }
-    const char *power = cli_text(arguments, "power", NULL);
+    const char *power = cli_text(arguments, "power", NULL), *output = cli_text(arguments, "output", NULL);
     if (arguments->n_operands != !power) {
         return cli_usage_error(arguments, power ? "it takes a measure or --power, not both"
                                                 : "it takes one measure, such as star or l2-disk:r=0.25");
     }
-    if (!cli_text(arguments, "output", NULL)) {
+    if (!output) {
         return cli_usage_error(arguments, "-o FILE, the file for the best set, is missing");
     }
+    if (!cli_check_output(arguments, output)) {
+        return CLI_USAGE;
+    }
+    j.stream = cli_is_stream(output);
     koksma_status status = power ? KOKSMA_OK : koksma_measure_spec(arguments->operands[0], &measure);
     if (status) {
         return cli_fail(arguments, status);
@@ -274,8 +281,10 @@ static int run(const cli_arguments *arguments)
         j.work.run.keep_going = j.ranks.rank > 0 ? NULL : j.work.run.keep_going;
         status = status ? status : koksma_optimise(power ? NULL : &measure, &j.options, &j.work.run, &best);
         cli_work_end();
+        j.last_gain = best.last_gain;
+        j.written = j.stream && best.points.n && !j.written ? write_best(&j, &best) : j.written;
         status = j.written ? j.written : status;
-        if (best.points.n && !j.written && j.ranks.rank == 0) {
+        if (best.points.n && !j.written && j.ranks.rank == 0 && !cli_is_stdout(output)) {
             code = report(&j, &best);
         }
         code = status ? cli_fail(arguments, status) : code;
@@ -298,9 +307,10 @@ static const cli_option options[] = {
     {0, "weights", "W,..", "weights of the projections in the root mean square of their values (default: 1)"},
     {0, "steps", "K", "number of steps, each of a fixed amount of work; equal --seed and --steps give equal sets"},
     {0, "time-limit", "SECONDS",
-     "time limit in seconds; the search ends after the step that exceeds it (default: 60; with --steps: no limit)"},
+     "time limit in seconds; the search ends after the step that exceeds it; 0: no limit (default: 60; with --steps: 0)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
-    {'o', "output", "FILE.txt|.csv|.npy", "the best set; the file is rewritten after each gain"},
+    {'o', "output", "FILE.txt|.csv|.npy",
+     "the best set; a file is rewritten after each gain, -, a pipe or a device gets only the last set"},
     {0, "power", "step|gaussian|PATTERN|FILE",
      "instead of MEASURE: a target for the radial mean of the power spectrum of 2D points"},
     {0, "band", "B", "with --power: frequencies up to B sqrt(n) (default: 2)"},
@@ -330,7 +340,9 @@ const cli_command cli_command_optimise = {
         "and minimises all other measures. Equal arguments with --steps give equal sets, on any number of threads. "
         "If a time limit ends the search, the printed row has the number of steps; --steps with this number gives "
         "the same set. FILE\n"
-        "always holds the best set: after Ctrl-C (exit code 130) or a kill, --from FILE continues the search.\n"
+        "always holds the best set: after Ctrl-C (exit code 130) or a kill, --from FILE continues the search. A "
+        "stream (-, a pipe, a device) gets the best set once, at the end or after Ctrl-C. With -o - the table is not "
+        "printed; comments above the points have the value, the seed and the steps.\n"
         "\n"
         "--keep latin permutes the coordinates on each axis; --keep net moves each coordinate only within its "
         "interval of length 1/n. --keep sequence changes the generator matrices of a digital sequence in base 2;\n"

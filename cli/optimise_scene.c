@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * `koksma optimise --scene SCENE -n SPP`: reads the options, calls koksma_optimise_scene, writes the set to the file
- * as soon as there is one, and prints a row for each scene in which the set was tested.
+ * as soon as there is one (to a stream at the end), and prints a row for each scene in which the set was tested.
  */
 #include "optimise_scene.h"
 
@@ -12,6 +12,7 @@
 
 #include <koksma/study.h>
 
+#include "output.h"
 #include "source.h"
 
 typedef struct scene_job {
@@ -23,10 +24,8 @@ typedef struct scene_job {
     koksma_scene_optimum best;
 } scene_job;
 
-/* Writes the set: at first the first candidate, in case the search is interrupted, and later the chosen one. */
-static koksma_status write_set(void *context, const koksma_scene_optimum *best)
+static koksma_status write_set(const scene_job *j, const koksma_scene_optimum *best)
 {
-    const scene_job *j = context;
     char comment[KOKSMA_MAX_SPEC + 256];
     snprintf(comment, sizeof comment,
              "optimised for the scene %.400s, %d samples a pixel\nmeasure %s\nphase %zu\nseed %llu\nkoksma %s",
@@ -35,11 +34,21 @@ static koksma_status write_set(void *context, const koksma_scene_optimum *best)
     return koksma_points_write(cli_text(j->arguments, "output", NULL), &best->points, comment, NULL);
 }
 
+/* Writes the set to a file: at first the first candidate, in case the search is interrupted, and later the chosen one. */
+static koksma_status found(void *context, const koksma_scene_optimum *best)
+{
+    const scene_job *j = context;
+    return cli_is_stream(cli_text(j->arguments, "output", "-")) ? KOKSMA_OK : write_set(j, best);
+}
+
 /* Prints the row of one scene or, if g->trials is 0, of the mean over the held-out scenes. */
 static void put_gain(const scene_job *j, cli_rows *rows, const koksma_scene_gain *g, const char *role)
 {
     const bool scene = g->trials > 0;
     const koksma_scene_optimum *best = &j->best;
+    if (cli_is_stdout(cli_text(j->arguments, "output", "-"))) {
+        return; /* standard output has the set */
+    }
     cli_row_text(rows, "scene", g->scene);
     cli_row_text(rows, "role", role);
     cli_row_number(rows, "error", scene ? g->error : (double)NAN);
@@ -127,6 +136,9 @@ static bool parse(scene_job *j)
         !cli_size(arguments, &o->width, &o->height) || !parse_lists(j)) {
         return false;
     }
+    if (!cli_check_output(arguments, cli_text(arguments, "output", "-"))) {
+        return false;
+    }
     o->spp = (int)spp;
     o->candidates = candidates;
     o->phases = phases;
@@ -134,6 +146,7 @@ static bool parse(scene_job *j)
     return cli_work_begin(arguments, "optimising for a scene", &j->work);
 }
 
+/* Prints the rows, unless the set is on standard output, and the message. Returns the exit code. */
 static int report(const scene_job *j)
 {
     const koksma_scene_optimum *best = &j->best;
@@ -166,12 +179,16 @@ int cli_optimise_scene(const cli_arguments *arguments)
     }
     j->arguments = arguments;
     j->options.scene = cli_text(arguments, "scene", NULL);
-    j->options.found = write_set;
+    j->options.found = found;
     j->options.context = j;
     int code = CLI_USAGE;
     if (parse(j)) {
-        const koksma_status status = koksma_optimise_scene(&j->options, &j->work.run, &j->best);
+        koksma_status status = koksma_optimise_scene(&j->options, &j->work.run, &j->best);
         cli_work_end();
+        if (j->best.points.n && cli_is_stream(cli_text(arguments, "output", "-"))) {
+            const koksma_status written = write_set(j, &j->best);
+            status = status ? status : written;
+        }
         code = j->best.n_gains ? report(j) : CLI_YES;
         code = status ? cli_fail(arguments, status) : code;
     }

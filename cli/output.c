@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -47,4 +48,33 @@ int cli_end_output(int code)
         return koksma_status_exit_code(KOKSMA_IO);
     }
     return code;
+}
+
+bool cli_is_stream(const char *path)
+{
+    static const char *const names[] = {"/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/self/fd/"};
+    struct stat info;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (!strncmp(path, names[i], strlen(names[i]))) {
+            return true; /* also if the stream was redirected to a plain file */
+        }
+    }
+    return !strcmp(path, "-") || (!stat(path, &info) && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode));
+}
+
+bool cli_is_stdout(const char *path)
+{
+    struct stat info, out;
+    return !strcmp(path, "-") ||
+           (cli_is_stream(path) && strcmp(path, "/dev/stderr") != 0 && !stat(path, &info) &&
+            !fstat(STDOUT_FILENO, &out) && info.st_dev == out.st_dev && info.st_ino == out.st_ino);
+}
+
+bool cli_check_output(const cli_arguments *arguments, const char *path)
+{
+    if (cli_flag(arguments, "json") && cli_is_stdout(path)) {
+        cli_usage_error(arguments, "--json: it excludes -o %s, which writes the points to standard output", path);
+        return false;
+    }
+    return true;
 }
