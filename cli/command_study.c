@@ -444,8 +444,10 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'p', "patterns", "LIST", "quick: patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
-    {'m', "measures", "LIST", "quick: the measures (default: star,l2-star)"},
-    {0, "integrands", "INTEGRAND,..", "quick: integrands whose integration errors are measured, too (default: none)"},
+    {'m', "measures", "LIST",
+     "quick: measures; all: every one that accepts the numbers of points (default: star,l2-star)"},
+    {0, "integrands", "INTEGRAND,..|all",
+     "quick: integrands whose integration errors are measured, too; all: every one (default: none)"},
     {'n', "points", "LIST", "quick: the numbers of points (default: 16,64,256,1024)"},
     {0, "scene", "LIST", "quick: scenes to render as well (default: none)"},
     CLI_UNKNOWN_OPTION,

@@ -132,7 +132,7 @@ static bool put_plan(FILE *out, const cli_arguments *arguments, const cli_quick 
     fputs("{\n  \"comment\": \"Made by koksma study quick; studies/README.md has all fields.\",\n"
           "  \"name\": \"quick\",\n  \"title\": \"Patterns by ",
           out);
-    put_characters(out, measures, SIZE_MAX);
+    put_characters(out, strcmp(cli_text(arguments, "measures", ""), "all") ? measures : "all measures", SIZE_MAX);
     fputs(scenes ? ", and in " : "", out);
     put_characters(out, scenes ? scenes : "", SIZE_MAX);
     fputs("\",\n  \"discrepancies\": [\n    {", out);
@@ -207,10 +207,14 @@ static int write_temporary_plan(const char *text, cli_quick_plan *plan)
 
 int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cli_quick_plan *plan)
 {
+    char all_measures[CLI_QUICK_LIST], all_integrands[CLI_QUICK_LIST];
+    const char *points = cli_text(arguments, "points", "16,64,256,1024");
+    const char *measures = cli_text(arguments, "measures", "star,l2-star");
+    const char *integrands = cli_text(arguments, "integrands", NULL);
     const cli_quick quick = {.patterns = cli_text(arguments, "patterns", default_patterns),
-                             .measures = cli_text(arguments, "measures", "star,l2-star"),
-                             .integrands = cli_text(arguments, "integrands", NULL),
-                             .points = cli_text(arguments, "points", "16,64,256,1024"),
+                             .measures = cli_quick_measures(arguments, measures, points, all_measures),
+                             .integrands = cli_quick_integrands(integrands, all_integrands),
+                             .points = points,
                              .scenes = cli_text(arguments, "scene", NULL),
                              .spp = cli_text(arguments, "spp", "4,16,64")};
     char *text = NULL;

@@ -73,6 +73,79 @@ static koksma_status parse_scene(const char *item, char text[PATH_MAX])
     return status;
 }
 
+static bool stop_at_once(void *context, double fraction)
+{
+    (void)context;
+    (void)fraction;
+    return false;
+}
+
+/* Whether a measure accepts n points in the plane. koksma_evaluate checks the number before its first call of
+   keep_going. Numbers above MOST_TRIED are not tried. */
+static bool accepts(const koksma_measure *measure, uint64_t n)
+{
+    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
+    koksma_points points;
+    koksma_spec spec;
+    koksma_value value;
+    if (n < 1 || n > MOST_TRIED || koksma_measure_spec(measure->name, &spec) ||
+        koksma_points_init(&points, (size_t)n, 2)) {
+        return true;
+    }
+    for (size_t i = 0; i < points.n; i++) { /* a regular lattice */
+        points.xs[2 * i] = (double)i / (double)n;
+        points.xs[2 * i + 1] = 0.5;
+    }
+    const koksma_status status = koksma_evaluate(&spec, &points, &briefly, &value);
+    koksma_points_fini(&points);
+    return status != KOKSMA_N;
+}
+
+static void append(char *list, const char *name)
+{
+    const size_t used = strlen(list);
+    snprintf(list + used, CLI_QUICK_LIST - used, "%s%s", used ? "," : "", name);
+}
+
+const char *cli_quick_measures(const cli_arguments *arguments, const char *list, const char *points,
+                               char names[CLI_QUICK_LIST])
+{
+    char text[PATH_MAX], left_out[CLI_QUICK_LIST] = "";
+    const koksma_measure *measure;
+    if (strcmp(list, "all") != 0) {
+        return list;
+    }
+    *names = '\0';
+    for (size_t i = 0; (measure = koksma_measure_at(i)); i++) {
+        bool fits = true;
+        for (size_t k = 0; fits && cli_list_item(points, k, text, sizeof text); k++) {
+            fits = accepts(measure, strtoull(text, NULL, 10));
+        }
+        append(!fits || parse_measure(measure->name, text) ? left_out : names, measure->name);
+    }
+    if (*left_out && !cli_flag(arguments, "quiet") && koksma_study_mpi_rank() == 0) {
+        cli_say(arguments->command->name, "-m all leaves out measures that do not accept -n %s: %s", points,
+                left_out);
+    }
+    return names;
+}
+
+const char *cli_quick_integrands(const char *list, char names[CLI_QUICK_LIST])
+{
+    char text[PATH_MAX];
+    const koksma_integrand *integrand;
+    if (!list || strcmp(list, "all") != 0) {
+        return list;
+    }
+    *names = '\0';
+    for (size_t i = 0; (integrand = koksma_integrand_at(i)); i++) {
+        if (!parse_integrand(integrand->name, text)) {
+            append(names, integrand->name);
+        }
+    }
+    return names;
+}
+
 /* The canonical texts of the items of a list. */
 typedef struct canonical {
     size_t n;

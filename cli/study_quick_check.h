@@ -15,4 +15,13 @@ typedef struct cli_quick {
    not CLI_YES after an error that names the option. */
 int cli_quick_check(const cli_arguments *arguments, const cli_quick *quick);
 
+/* Size of a text with the names of all measures or integrands. */
+enum { CLI_QUICK_LIST = 4096 };
+
+/* Return the list of an option, or for "all" the measures that accept the numbers of points of the list `points`, or
+   the integrands, in 2 dimensions; this list is written to `names`. A message lists the measures that are left out. */
+const char *cli_quick_measures(const cli_arguments *arguments, const char *list, const char *points,
+                               char names[CLI_QUICK_LIST]);
+const char *cli_quick_integrands(const char *list, char names[CLI_QUICK_LIST]);
+
 #endif
