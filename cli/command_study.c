@@ -463,7 +463,8 @@ static const cli_option options[] = {
     {0, "metric", "METRIC,..",
      "quick, images: metric of the error that ranks: mae (default), relmse, hdr-flip, ...; quick: also further "
      "metrics to measure"},
-    {0, "format", "csv|json|npy|sha256", "export: the format (default: by the file's ending, else csv)"},
+    {0, "format", "csv|json|npy|sha256",
+     "export: the format; json: one object per line (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -497,7 +498,8 @@ const cli_command cli_command_study = {
         "new: writes an example plan; it overwrites no file.\n"
         "estimate: times some jobs and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
-        "'sha256' is the hash of the CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
+        "'json' is JSON Lines: one object per line, with a key for each column of the CSV. 'sha256' is the hash of the "
+        "CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
         "results, fail while a run uses DIR, and fail if anything but a run has changed the results.\n"
         "report: writes DIR/report.html.\n"
         "audit: computes rows of DIR and, whichever rows are drawn, all reference images again, and compares them "
