@@ -354,7 +354,8 @@ static const cli_option options[] = {
     {0, "paired", NULL,
      "with --trials: also print the difference of every further source or warp from the first, set by set, with its "
      "95 % interval"},
-    {0, "time-limit", "SECONDS", "time limit for each value; a measure that exceeds it gives bounds"},
+    {0, "time-limit", "SECONDS",
+     "time limit in seconds for each value; a measure that exceeds it gives bounds (default: 0, no limit)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},

@@ -307,7 +307,8 @@ static const cli_option options[] = {
     {0, "weights", "W,..", "weights of the projections in the root mean square of their values (default: 1)"},
     {0, "steps", "K", "number of steps, each of a fixed amount of work; equal --seed and --steps give equal sets"},
     {0, "time-limit", "SECONDS",
-     "time limit in seconds; the search ends after the step that exceeds it; 0: no limit (default: 60; with --steps: 0)"},
+     "time limit in seconds; the search ends after the step that exceeds it; 0: no limit (default: 60; with --steps: "
+     "0)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
     {'o', "output", "FILE.txt|.csv|.npy",
      "the best set; a file is rewritten after each gain, -, a pipe or a device gets only the last set"},

@@ -311,7 +311,7 @@ static int run(const cli_arguments *arguments)
             return cli_usage_error(arguments, "--spp %s: it takes numbers of samples, such as 4,16,64", list);
         }
     }
-    if (!cli_real(arguments, "time-limit", 60, 0.1, 1e9, &time_limit_s) ||
+    if (!cli_real(arguments, "time-limit", 60, 0, 1e9, &time_limit_s) ||
         !cli_integrator_and_filter(arguments, &integrator, &filter) || !cli_size(arguments, &width, &height) ||
         !cli_whole(arguments, "max-trials", 4096, 8, KOKSMA_MAX_RANK_TRIALS, &max_trials) ||
         !cli_one_metric(arguments, &metric) || !cli_work_begin(arguments, "ranking", &work)) {
@@ -324,7 +324,7 @@ static int run(const cli_arguments *arguments)
     work.limit_s = time_limit_s;
     for (size_t i = 0; !status && i < n_spp; i++) {
         cli_work_part(&work, i, n_spp);
-        const double left_s = fmax(time_limit_s - (cli_seconds() - start_s), 1e-3);
+        const double left_s = fmax(time_limit_s - (cli_seconds() - start_s), time_limit_s > 0 ? 1e-3 : 0);
         bool settled = false;
         const koksma_rank_options options = {.scene = arguments->operands[0],
                                              .patterns = p.at,
@@ -367,7 +367,7 @@ static const cli_option options[] = {
     {'m', "metric", "METRIC",
      "error metric by which patterns are ranked: mae (default), rmse, relmse, smape, ldr-flip or hdr-flip, with "
      "parameters"},
-    {0, "time-limit", "S", "time limit in seconds for all rankings together (default: 60)"},
+    {0, "time-limit", "S", "time limit in seconds for all rankings together; 0: no limit (default: 60)"},
     CLI_UNKNOWN_OPTION,
     {0, "max-trials", "N", "largest number of images of each pattern at each size, 8 to 65536 (default: 4096)"},
     CLI_ROW_OPTIONS,

@@ -153,7 +153,7 @@ static bool study_options(const cli_arguments *arguments, koksma_study_options *
 {
     uint64_t trials;
     if (!cli_whole(arguments, "trials", 0, 1, 100000000, &trials) || !cli_work_begin(arguments, "studying", work) ||
-        !cli_real(arguments, "time-limit", 0, 1e-3, 1e9, &work->run.time_limit_s)) {
+        !cli_real(arguments, "time-limit", 0, 0, 1e9, &work->run.time_limit_s)) {
         return false;
     }
     *options = (koksma_study_options){.plans = (const char *const *)arguments->operands + 1,
@@ -236,6 +236,10 @@ static int estimate(const cli_arguments *arguments)
     }
     if (!study_options(arguments, &options, &work)) {
         return CLI_USAGE;
+    }
+    if (cli_text(arguments, "time-limit", NULL) && work.run.time_limit_s == 0) {
+        return cli_usage_error(arguments, "--time-limit 0: without a limit an estimate would run the whole study; it "
+                                          "takes the seconds for sample jobs, such as 5");
     }
     if (koksma_study_mpi_rank() > 0) { /* under MPI only rank 0 estimates the time that the study takes */
         return CLI_YES;
@@ -456,7 +460,8 @@ static const cli_option options[] = {
     {0, "trials", "T", "run, quick, estimate: number of trials, instead of the numbers in the plan"},
     {0, "quick", NULL, "run, quick, estimate: use the 'quick' number of trials of each block"},
     {0, "time-limit", "S",
-     "run: stop after S seconds, with exit code 1 if jobs remain; estimate: time for sample jobs (default: 5)"},
+     "run, quick: stop after S seconds, with exit code 1 if jobs remain (default: 0, no limit); estimate: time for "
+     "sample jobs, above 0 (default: 5)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
     {'s', "seed", "SEED", "audit: seed of the random draw (default: a random one, which is printed)"},
     {0, "reference", "FILE", "images: the reference image"},
@@ -498,7 +503,8 @@ const cli_command cli_command_study = {
         "new: writes an example plan; it overwrites no file.\n"
         "estimate: times some jobs and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
-        "'json' is JSON Lines: one object per line, with a key for each column of the CSV. 'sha256' is the hash of the "
+        "'json' is JSON Lines: one object per line, with a key for each column of the CSV. 'sha256' is the hash of "
+        "the "
         "CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
         "results, fail while a run uses DIR, and fail if anything but a run has changed the results.\n"
         "report: writes DIR/report.html.\n"
