@@ -161,7 +161,11 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
         cli_row_number(rows, "coherence_noise", row->coherence.noise_high);
         cli_row_number(rows, "coherence_p", row->coherence.p);
     }
-    cli_row_flag(rows, "coherent", row->coherence.coherent);
+    if (isnan(row->coherence.coherence)) { /* fewer than 8 trials */
+        cli_row_json(rows, "coherent", "null", "-");
+    } else {
+        cli_row_flag(rows, "coherent", row->coherence.coherent);
+    }
     cli_row_whole(rows, "width", (uint64_t)ranking->width);
     cli_row_whole(rows, "height", (uint64_t)ranking->height);
     char metric[KOKSMA_MAX_SPEC];
