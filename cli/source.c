@@ -64,6 +64,30 @@ bool cli_source_is_pattern(const char *text)
            (is_counted(text) && (cli_names_pattern(text) || (!strchr(text, '/') && access(text, F_OK))));
 }
 
+/* Whether a text is a pattern that names no file, with an '@' that no valid numbers of points and dimensions follow. A
+   wrong number of dimensions alone is not reported. */
+static bool is_miscounted(const char *text)
+{
+    char copy[KOKSMA_MAX_SPEC], name[64];
+    size_t n = 0;
+    int dim;
+    text += strncmp(text, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ":@"), text);
+    snprintf(copy, sizeof copy, "%s", text);
+    const koksma_pattern *pattern = koksma_pattern_find(name);
+    return pattern && !pattern->operand && strchr(text, '@') &&
+           (!split(copy, &n, &dim) || n == 0 || strchr(copy, '@'));
+}
+
+static int fail_miscounted(const cli_arguments *arguments, const char *text)
+{
+    return cli_usage_error(
+        arguments,
+        "'%s' is not of the form SPEC@N or SPEC@N@DIM; N and DIM are whole numbers from 1 on, as in "
+        "sobol@16",
+        text);
+}
+
 int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_source *source)
 {
     char copy[KOKSMA_MAX_SPEC], spec[KOKSMA_MAX_SPEC];
@@ -71,6 +95,9 @@ int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_sourc
     *source = (cli_source){.is_pattern = true};
     snprintf(copy, sizeof copy, "%s", text);
     snprintf(spec, sizeof spec, "%s", text);
+    if (is_miscounted(text)) {
+        return fail_miscounted(arguments, text);
+    }
     if (!split(copy, &source->n, &source->dim)) {
         source->n = 0;
         source->dim = 0;
@@ -200,7 +227,9 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
     const bool bare = (cli_names_pattern(spec) || spec != text) && !is_counted(text);
     of->any_bare |= bare;
     of->other = bare || of->other ? of->other : text;
-    int code = bare && of->list ? CLI_YES : add_operand(arguments, text);
+    int code = is_miscounted(text) && (spec != text || access(text, F_OK)) ? fail_miscounted(arguments, text)
+               : bare && of->list                                          ? CLI_YES
+                                                                           : add_operand(arguments, text);
     for (size_t k = 0; bare && of->list && !code && cli_list_item(of->list, k, item, sizeof item); k++) {
         uint64_t n;
         of->used = true;
@@ -216,6 +245,22 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
         }
     }
     return code;
+}
+
+/* Checks an item of -p: a pattern, which has @N unless there is -n, or a file. `generate` makes some patterns without a
+   number of points. Returns the exit code. */
+static int check_item(const cli_arguments *arguments, const char *item, bool counted)
+{
+    const char *spec = strncmp(item, prefix, sizeof prefix - 1) ? item : item + sizeof prefix - 1;
+    koksma_spec known;
+    if (is_counted(item) || is_miscounted(item) || !strcmp(arguments->command->name, "generate") ||
+        (spec == item && !access(item, F_OK))) {
+        return CLI_YES;
+    }
+    const koksma_status status = koksma_pattern_spec(spec, &known);
+    return status    ? cli_fail(arguments, status)
+           : counted ? CLI_YES
+                     : cli_usage_error(arguments, "-n N, the number of points, is missing; -p %s has no @N", item);
 }
 
 /* Whether the first operand names no points, but an integrand or a curve. */
@@ -250,7 +295,8 @@ int cli_sources_expand(cli_arguments *arguments)
         code = cli_usage_error(arguments, "-p all takes -n N, the number of points");
     }
     for (size_t i = 0; !code && patterns && cli_pattern_item(patterns, i, spec); i++) {
-        code = add_sizes(arguments, spec, &of);
+        code = check_item(arguments, spec, of.list != NULL);
+        code = code ? code : add_sizes(arguments, spec, &of);
     }
     if (!code && of.list && !of.used) {
         const char *last = arguments->n_made ? arguments->made[arguments->n_made - 1] : "-";
@@ -289,6 +335,12 @@ bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n)
         char *at = end;
         while (at > spec && at[-1] >= '0' && at[-1] <= '9') {
             at--;
+        }
+        char whole[KOKSMA_MAX_SPEC];
+        snprintf(whole, sizeof whole, "%.*s", (int)(end - spec), spec);
+        if (is_miscounted(whole)) {
+            fail_miscounted(arguments, whole);
+            return false;
         }
         const uint64_t count = at > spec && at < end && at[-1] == '@' ? strtoull(at, NULL, 10) : 0;
         if (count && *n && *n != count) {

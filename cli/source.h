@@ -30,7 +30,7 @@ bool cli_names_pattern(const char *text);
 bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC]);
 
 /* Removes "pattern:" and "@N" from each pattern of `text`, "[USE=]SPEC@N;..", and stores N, the number of samples a pixel,
-   in *n. *n is 0 until a number is found. Returns false after an error if two numbers differ. */
+   in *n. *n is 0 until a number is found. Returns false after an error if two numbers differ or N is not a number. */
 bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n);
 
 /* A parsed operand: a file, or a pattern with its number of points and dimensions. */
