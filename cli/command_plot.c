@@ -51,14 +51,18 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(arguments,
                                "--compare excludes --curve %s, because --compare draws a fixed set of charts", name);
     }
+    const cli_curve *curve = cli_curve_find(CLI_DRAWN, name);
     if (arguments->n_operands < 1 || !cli_text(arguments, "output", NULL)) {
-        return cli_usage_error(arguments, "it takes points and a picture, as in points.txt -o points.svg");
+        return curve && curve->plot.of_filters
+                   ? cli_usage_error(
+                         arguments,
+                         "--curve %s takes names of filters and a picture, as in box mitchell -o filters.svg", name)
+                   : cli_usage_error(arguments, "it takes points and a picture, as in points.txt -o points.svg");
     }
     if (arguments->n_operands > CLI_MAX_PANELS) {
         return cli_usage_error(arguments, "%d sets of points: a picture has up to %d", arguments->n_operands,
                                CLI_MAX_PANELS);
     }
-    const cli_curve *curve = cli_curve_find(CLI_DRAWN, name);
     if (!curve) {
         cli_curve_names(CLI_DRAWN, NULL, ", ", " or ", names, sizeof names);
         char meant[96];
