@@ -109,8 +109,10 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
         }
     }
     if (!is_path(name_or_path)) {
-        return koksma__fail_unknown("scene", name_or_path, shipped_name, NULL,
-                                    "'koksma list scenes' names them, and a file's name ends in .json");
+        return koksma__fail_unknown(
+            "scene", name_or_path, shipped_name, NULL,
+            "'koksma list scenes' names them, and a scene's file ends in .json, .pbrt, .xml or "
+            "as a model, such as .obj, .ply or .gltf");
     }
     if (koksma__is_mesh_file(name_or_path)) {
         return open_model(name_or_path, by, out);
