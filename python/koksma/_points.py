@@ -278,7 +278,7 @@ def as_points(points: npt.ArrayLike) -> PointArray:
         raise ArgumentError("points must not have masked coordinates")
     array = array if array.flags.aligned else array.copy()
     if array.ndim != 2 or 0 in array.shape:
-        raise ArgumentError(f"points must be an array of shape (n, dim), not {array.shape}")
+        raise ArgumentError(f"points must be an array of shape (n, dim), with n and dim of at least 1, not {array.shape}")
     return array
 
 

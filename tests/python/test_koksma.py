@@ -350,6 +350,11 @@ class OddArrays(unittest.TestCase):
                 with self.subTest(bad=bad, function=function.__name__), self.assertRaises(ValueError):
                     function(bad)
 
+    def test_points_of_no_size(self):
+        for shape in ((0, 2), (3, 0), (4,)):
+            with self.subTest(shape), self.assertRaisesRegex(koksma.ArgumentError, r"n and dim of at least 1, not \(" + str(shape[0])):
+                koksma.measure(np.zeros(shape), "star")
+
     def test_what_is_no_number(self):
         for arguments in ({"n": 1.5}, {"n": "4"}, {"n": 4, "dim": 2.5}, {"n": 4, "seed": 1.5}, {"n": 4, "seed": None}):
             with self.subTest(arguments), self.assertRaises(TypeError):
