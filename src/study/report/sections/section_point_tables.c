@@ -227,6 +227,30 @@ static koksma_status add_rows(sizes_table *s)
     return status;
 }
 
+static bool has_published(const koksma__table *t)
+{
+    for (size_t r = 0; r < t->n_rows; r++) {
+        if (t->rows[r].n_published) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Says over how many sets the means are, and how slopes are computed: of published means, too, if the table has some. */
+static void say_means(koksma__document *d, const koksma__table *t, size_t sets, bool differ)
+{
+    const bool published = has_published(t);
+    koksma__doc_paragraph(
+        d,
+        published
+            ? "Published means are over 100 sets, ours over %s%zu. A slope is computed from the first and the last "
+              "published mean, and from our means by least squares; _theory_ is the known exponent of the pattern."
+            : "Means are over %s%zu sets. A slope is computed from them by least squares; _theory_ is the known "
+              "exponent of the pattern.",
+        differ ? "up to " : "", sets);
+}
+
 static koksma_status add_sizes_table(koksma_study *study, koksma__document *d, const koksma__table *t)
 {
     char title[200];
@@ -243,11 +267,7 @@ static koksma_status add_sizes_table(koksma_study *study, koksma__document *d, c
     koksma__published_say_z(d, &s.together);
     status = status ? status : koksma__table_sets(study, t, &sets, &differ);
     if (!status) {
-        koksma__doc_paragraph(
-            d,
-            "Published means are over 100 sets, ours over %s%zu. A slope is computed from the first and the last "
-            "published mean, and from our means by least squares; _theory_ is the known exponent of the pattern.",
-            differ ? "up to " : "", sets);
+        say_means(d, t, sets, differ);
     }
     koksma__doc_end(&s.chart);
     koksma__doc_append(d, &s.chart);
