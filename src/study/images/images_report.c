@@ -306,7 +306,7 @@ koksma_status koksma__images_report(const koksma__images *images, const char *fo
     koksma__json_end(&d.json);
     koksma__json_end(&d.json);
     status = status ? status : d.json.status;
-    status = status ? status : koksma__page_write(folder, d.json.text);
+    status = status ? status : koksma__page_write(folder, KOKSMA__PAGE_IMAGES, d.json.text);
     koksma__json_writer_fini(&d.json);
     return status;
 }

@@ -154,13 +154,10 @@ koksma_status koksma_datasheet(const koksma_datasheet_options *options, const ko
 koksma_status koksma_datasheet_page(const char *json, char **page)
 {
     KOKSMA__REQUIRE(json, page);
-    const char *before = koksma__page_before(), *after = koksma__page_after();
-    const size_t size = strlen(before) + strlen(json) + strlen(after) + 1;
     *page = NULL;
     KOKSMA__FAIL_IF(strncmp(json, "{\"format\":\"koksma-datasheet\"", 27) != 0 || strstr(json, "</"), KOKSMA_ARGUMENT,
                     "json: it must be the text that koksma_datasheet returned");
-    *page = malloc(size);
-    KOKSMA__REQUIRE_MEMORY(*page, size);
-    snprintf(*page, size, "%s%s%s", before, json, after);
+    *page = koksma__page_text(KOKSMA__PAGE_DATASHEET, json);
+    KOKSMA__REQUIRE_MEMORY(*page, strlen(json));
     return KOKSMA_OK;
 }
