@@ -1,7 +1,7 @@
 # Koksma's entry points. Each target installs the Debian packages that it needs and then does what its line says.
 #
 #   Use
-#   make demo        build; reproduce the tables and figures of two papers; print where the report is (2 to 3 minutes)
+#   make demo        build; reproduce the tables and figures of two papers; print where the report is (4 to 5 minutes on 2 cores)
 #                    DEMO=DIR: where (demo); TRIALS=N: trials for each table row (fewer than in the papers)
 #   make install     install the release build; PREFIX=/usr/local, DESTDIR= as usual
 #   make explorer    build the page for a browser: build/explorer/koksma-explorer.html
