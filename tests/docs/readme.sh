@@ -2,7 +2,7 @@
 # readme.sh PROGRAM: the commands that README.md, docs/commands.md and the examples of every --help show are run, in their
 # order and in one folder; rankings and studies of papers, which take minutes, with their --help, searches with fewer points
 # and one step. Files that they speak of are there before. Every command has an example, in its manual page as well;
-# README says how many patterns there are.
+# README and the change log say how many patterns there are.
 set -u
 program=$(readlink -f "$1")
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -57,10 +57,18 @@ while read -r command; do
   fi
   count=$((count + 1))
 done <commands
-# README's number of patterns: those that need no file, program or numbers of the user.
-own=$(koksma list patterns --json | grep -c '"reads":"-"')
-grep -q "^| patterns | $own |" "$root/README.md" || {
-  echo "README.md: the row 'patterns' does not say $own"
+# The numbers of patterns in README and the change log: patterns of the library, each counted once, and patterns that read a
+# file, program or numbers of the user.
+koksma list patterns --json >patterns
+own=$(grep '"reads":"-"' patterns | grep -vc '"what":"another name for ')
+reading=$(grep -vc '"reads":"-"' patterns)
+grep -q "^| patterns | $own, and $reading that read yours |" "$root/README.md" || {
+  echo "README.md: the row 'patterns' does not say $own and $reading"
+  failed=$((failed + 1))
+}
+tr -s '\n ' '  ' <"$root/CHANGELOG.md" |
+  grep -q "[*]Patterns[*][*]: $own, in .* and $reading that read points.* has $(grep -c . patterns) lines" || {
+  echo "CHANGELOG.md: the item 'Patterns' does not say $own, $reading and $(grep -c . patterns)"
   failed=$((failed + 1))
 }
 echo "$count commands, $failed failed"
