@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, check, lab, text, texts
+from ._library import ArgumentError, check, lab, quoted, text, texts
 from ._points import Named, named
 
 FEW_PIXELS = 0.5  #: the share of the error in 0.1 % of the pixels from which on koksma warns
@@ -95,7 +95,7 @@ def as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
     try:
         given = np.asanyarray(image)
     except (TypeError, ValueError):
-        raise ArgumentError(f"an image must be an array of real numbers, not {image!r:.60}") from None
+        raise ArgumentError(f"an image must be an array of real numbers, not {quoted(image)}") from None
     if given.dtype.kind not in "buifO":
         raise ArgumentError(f"pixels must be real numbers, not {given.dtype}")
     if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
@@ -103,7 +103,7 @@ def as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
     try:
         array = np.require(given, np.float32, ["C", "A"])
     except (TypeError, ValueError):
-        raise ArgumentError(f"pixels must be real numbers, not {given!r:.60}") from None
+        raise ArgumentError(f"pixels must be real numbers, not {quoted(given)}") from None
     array = array[:, :, np.newaxis] if array.ndim == 2 else array
     if array.ndim != 3 or 0 in array.shape or array.shape[2] not in (1, 3) or max(array.shape) > s.MAX_IMAGE_SIDE:
         raise ArgumentError("an image must be an array of shape (height, width), (height, width, 1) or (height, width, 3), "
@@ -155,7 +155,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
         except ValueError:
             several = [images]
     elif not hasattr(images, "__iter__"):
-        raise TypeError(f"images must be an array, or several of them, not {images!r:.60}")
+        raise TypeError(f"images must be an array, or several of them, not {quoted(images)}")
     target = as_image(reference)
     c_target, raw, error, values = view_image(target), s.Coherence(), s.ImageError(), s.CoherenceValues()
     errors: List[List[float]] = []

@@ -9,7 +9,7 @@ from ctypes import byref, c_char_p, c_void_p
 from typing import Any, Callable, Dict, Optional, Sequence, SupportsIndex, Union
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, flag, lab, text, texts
+from ._library import ArgumentError, call, check, flag, lab, quoted, text, texts
 from ._plot import _free
 
 
@@ -52,7 +52,7 @@ class Datasheet:
         for block in blocks(self.data["content"]):
             if block["kind"] == "table" and block["name"] == name:
                 return [dict(zip([c["name"] for c in block["columns"]], row)) for row in block["rows"]]
-        raise ArgumentError(f"no table '{name}' in this datasheet")
+        raise ArgumentError(f"no table {quoted(name)} in this datasheet")
 
     def __repr__(self) -> str:
         return f"<koksma.Datasheet of {self.data['samplers'][0]}>"

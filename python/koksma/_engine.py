@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, OutOfMemoryError, spec, text, whole
+from ._library import ArgumentError, OutOfMemoryError, one_line, quoted, spec, text, whole
 from ._optimise import optimise
 from ._points import PointArray, generate, has_ranges, is_sequence, measures
 
@@ -87,23 +87,26 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
             try:
                 seed = np.random.default_rng(rng)  # as SPEC 7 has it: also a BitGenerator or several ints
             except (TypeError, ValueError) as error:
-                raise type(error)(f"rng: NumPy makes no generator of {rng!r} ({error}): give an integer, a SeedSequence, "
-                                  "a Generator or None") from None
+                raise type(error)(f"rng: NumPy makes no generator of {quoted(rng)} ({one_line(str(error))}): give an integer, "
+                                  "a SeedSequence, a Generator or None") from None
         elif isinstance(seed, np.random.SeedSequence):
             seed = np.random.default_rng(seed)  # scipy takes none
         seed = rng if seed is None else seed
         if optimization is not None:
             text(optimization, "optimization")
         scipys = optimization is None or optimization.lower() in _SCIPYS
-        super().__init__(d=d, optimization=optimization if scipys else None, seed=seed)
+        try:
+            super().__init__(d=d, optimization=optimization if scipys else None, seed=seed)
+        except (TypeError, ValueError) as error:  # the base class's, of a seed or d, which may be an array
+            raise type(error)(one_line(str(error))) from None
         self.d: int = int(d)
         if not scipys:
             self._measure: str = str(optimization)
             if self._measure.partition(":")[0] not in {m.name for m in measures()}:
-                raise ArgumentError(f"{optimization!r} is not a valid optimization method: give {', '.join(_SCIPYS)} or a measure "
+                raise ArgumentError(f"{quoted(optimization)} is not a valid optimization method: give {', '.join(_SCIPYS)} or a measure "
                                     "(koksma.measures() names them)")
             if spec("measure", self._measure).measure.contents.answer != 0:
-                raise ArgumentError(f"optimization {optimization!r}: the measure must have exact values, as star and l2-star have")
+                raise ArgumentError(f"optimization {quoted(optimization)}: the measure must have exact values, as star and l2-star have")
             self.optimization_method: Any = self._optimised
         self._init_quad: Dict[str, Any] = {"pattern": pattern, "d": d, "optimization": optimization}  # for qmc_quad
         self.pattern = pattern

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, UnsupportedError, call, check, core, flag, real, several, spec, text, whole
+from ._library import ArgumentError, UnsupportedError, call, check, core, flag, quoted, real, several, spec, text, whole
 from ._points import Member, PointArray, as_points, canonical, generate, table, view
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
@@ -178,7 +178,7 @@ def _opened(function: Function, dim: int, raised: List[BaseException]) -> Iterat
     if isinstance(function, str):
         check(core().koksma_integral_open(text(function, "function"), dim, byref(handle)))
     elif not callable(function):
-        raise TypeError(f"function must be a str or callable, not {function!r:.60}")
+        raise TypeError(f"function must be a str or callable, not {quoted(function)}")
     else:
         def at(x: Any, _dim: int, _context: object) -> float:
             try:
@@ -228,7 +228,7 @@ def integrand(name: str, dim: SupportsIndex = 2) -> Integrand:
     True
     """
     if not isinstance(name, str):
-        raise TypeError(f"name must be a str, not {name!r:.60}")
+        raise TypeError(f"name must be a str, not {quoted(name)}")
     with _opened(name, whole("dim", dim, 1, s.MAX_DIM), []) as handle:
         return _facts(handle)
 
@@ -361,7 +361,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
     if isinstance(pattern, (list, tuple)) or hasattr(pattern, "__array__"):
         points = as_points(pattern)
         if n is not None:
-            raise ArgumentError(f"n must be None, not {n!r:.60}: points have their own number")
+            raise ArgumentError(f"n must be None, not {quoted(n)}: points have their own number")
         source: Union[str, PointArray] = points
         sizes, dim, trials = [len(points)], points.shape[1], 1
     elif n is None:

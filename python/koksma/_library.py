@@ -20,6 +20,7 @@ from ._signals import Signals
 ABI = 0
 _PACE_S = 0.005  # how often a long call runs handlers of signals
 _QUICK_S = 0.01  # nobody wants to stop a call that took no longer when it was made before
+_MOST_QUOTED = 60  # characters of a wrong value in a message
 _SPECS: Dict[Tuple[str, str], s.Spec] = {}
 quick: Set[Hashable] = set()  # what was seen to be short: of measures and patterns (text, shape)
 
@@ -323,7 +324,7 @@ def call(function: Callable[..., int], *arguments: object, threads: SupportsInde
     time, so that one is short if another was."""
     time_limit = seconds_of("time_limit", time_limit)
     if progress is not None and not callable(progress):
-        raise TypeError(f"progress must be callable, not {progress!r:.60}")
+        raise TypeError(f"progress must be callable, not {quoted(progress)}")
     threads = whole("threads", threads, 0, s.MAX_INT)
     if (short or same in quick) and time_limit is None and progress is None:
         check(function(*arguments[:run_at], byref(s.Run(threads)), *arguments[run_at:]))
@@ -369,14 +370,28 @@ def kept_spec(kind: str, name: str) -> Optional[s.Spec]:
     return _SPECS.get((kind, name))
 
 
+def one_line(words: str) -> str:
+    """A text without its line breaks: a message is one line."""
+    return " ".join(words.split())
+
+
+def quoted(value: Any) -> str:
+    """A value of the caller's as a message has it: its beginning, on one line. NumPy writes arrays on several."""
+    try:
+        words = one_line(repr(value))
+    except Exception:  # noqa: BLE001  of a class of the caller's, or of an int with more digits than Python writes
+        words = f"an object of type {type(value).__name__}"
+    return words if len(words) <= _MOST_QUOTED else words[:_MOST_QUOTED - 3] + "..."
+
+
 def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
     """A whole number within its range, so that it is itself in C: ctypes takes any, modulo 2^32 or 2^64."""
     try:
         number = index(value)
     except TypeError:
-        raise TypeError(f"{name} must be an int, not {value!r:.60}") from None
+        raise TypeError(f"{name} must be an int, not {quoted(value)}") from None
     if not low <= number <= high:
-        raise ArgumentError(f"{name} must be {low} to {high}, not {number}")
+        raise ArgumentError(f"{name} must be {low} to {high}, not {quoted(number)}")
     return number
 
 
@@ -385,7 +400,7 @@ def seconds_of(name: str, value: Any) -> Optional[float]:
     if value is None:
         return None
     if not real(name, value, 0) > 0:
-        raise ArgumentError(f"{name} must be more than 0 seconds, not {value!r}")
+        raise ArgumentError(f"{name} must be more than 0 seconds, not {quoted(value)}")
     return float(value)
 
 
@@ -394,17 +409,17 @@ def several(name: str, values: Any) -> List[Any]:
     try:
         return list(values)
     except TypeError:
-        raise TypeError(f"{name} must be a sequence, not {values!r:.60}") from None
+        raise TypeError(f"{name} must be a sequence, not {quoted(values)}") from None
 
 
 def texts(name: str, values: Iterable[str]) -> List[str]:
     """Several texts. One alone would pass as the list of its letters."""
     if isinstance(values, str):
-        raise ArgumentError(f"{name} must be a list of texts, not {values!r}")
+        raise ArgumentError(f"{name} must be a list of texts, not {quoted(values)}")
     found = several(name, values)
     for value in found:
         if not isinstance(value, (str, bytes, os.PathLike)):
-            raise TypeError(f"{name} must be a list of texts, not {values!r:.60}")
+            raise TypeError(f"{name} must be a list of texts, not {quoted(values)}")
     return found
 
 
@@ -413,7 +428,7 @@ def pair(name: str, values: Tuple[SupportsIndex, SupportsIndex]) -> Tuple[Suppor
     try:
         width, height = values
     except (TypeError, ValueError):
-        raise ArgumentError(f"{name} must be (width, height), not {values!r}") from None
+        raise ArgumentError(f"{name} must be (width, height), not {quoted(values)}") from None
     return width, height
 
 
@@ -422,27 +437,27 @@ def real(name: str, value: Any, least: float = -inf, most: float = inf, nan_too:
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise TypeError(f"{name} must be a number, not {value!r}") from None
+        raise TypeError(f"{name} must be a number, not {quoted(value)}") from None
     if not (least <= number <= most or (nan_too and number != number)):
         bounds = f"at least {least:g}" if most == inf else f"{least:g} to {most:g}"
-        raise ArgumentError(f"{name} must be {bounds}, not {value!r}")
+        raise ArgumentError(f"{name} must be {bounds}, not {quoted(value)}")
     return number
 
 
 def text(value: Any, name: str = "a name or path") -> bytes:
     """A name or path as the library takes it. name: of the argument, for messages."""
     if not isinstance(value, (str, bytes, os.PathLike)):
-        raise TypeError(f"{name} must be a str, not {value!r}")
+        raise TypeError(f"{name} must be a str, not {quoted(value)}")
     try:
         return without_zero(name, os.fsencode(value))
     except UnicodeEncodeError:
-        raise ArgumentError(f"{name} must be a text that can be encoded, not {value!r}") from None
+        raise ArgumentError(f"{name} must be a text that can be encoded, not {quoted(value)}") from None
 
 
 def choice(name: str, value: Any, values: Sequence[str]) -> int:
     """The place of an argument among the words that it may be."""
     if not isinstance(value, str) or value not in values:
-        raise ArgumentError(f"{name} must be one of {', '.join(values)}, not {value!r:.60}")
+        raise ArgumentError(f"{name} must be one of {', '.join(values)}, not {quoted(value)}")
     return values.index(value)
 
 
@@ -451,7 +466,7 @@ def flag(name: str, value: Any) -> bool:
     try:
         return bool(value)
     except (TypeError, ValueError):
-        raise TypeError(f"{name} must be True or False, not {value!r}") from None
+        raise TypeError(f"{name} must be True or False, not {quoted(value)}") from None
 
 
 def without_zero(what: str, raw: bytes) -> bytes:

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, choice, core, spec, text, whole
+from ._library import ArgumentError, call, choice, core, quoted, spec, text, whole
 from ._points import PointArray, as_points, numbers, shown, view
 
 _KEEP = ("none", "latin", "net", "sequence")
@@ -166,7 +166,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     """
     kept = choice("keep", keep, _KEEP)
     if progress is not None and not callable(progress):
-        raise TypeError(f"progress must be callable, not {progress!r:.60}")
+        raise TypeError(f"progress must be callable, not {quoted(progress)}")
     first = None if start is None else as_points(start)
     if n is not None:
         n = whole("n", n, 1, s.MAX_COORDINATES)
@@ -180,12 +180,12 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
         raise ArgumentError("the search would never end: give steps, time_limit or progress")
     if isinstance(projections, str):
         if projections != "pairs":
-            raise ArgumentError(f"projections must be groups of coordinates, such as [(0, 1), (0, 2)], or 'pairs', not {projections!r}")
+            raise ArgumentError(f"projections must be groups of coordinates, such as [(0, 1), (0, 2)], or 'pairs', not {quoted(projections)}")
         projections = [(k, j) for k in range(min(int(dim), 64)) for j in range(k)]
     try:
         groups = [{whole("projections", k, 0, 63) for k in u} for u in projections]
     except TypeError:
-        raise TypeError(f"projections must be groups of coordinates, such as [(0, 1), (0, 2)], not {projections!r:.60}") from None
+        raise TypeError(f"projections must be groups of coordinates, such as [(0, 1), (0, 2)], not {quoted(projections)}") from None
     heavy = None if weights is None else numbers("weights", weights)
     if heavy is not None and heavy.shape != (len(groups),):
         raise ArgumentError(f"weights must be one for each of the {len(groups)} projections, not the shape {heavy.shape}")

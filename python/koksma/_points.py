@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, allow_exec as allowing_exec, call, check, choice, core, kept_spec, lab, quick, spec, text, texts, whole
+from ._library import (ArgumentError, allow_exec as allowing_exec, call, check, choice, core, kept_spec, lab, quick, quoted, spec, text,
+                       texts, whole)
 
 PointArray = npt.NDArray[np.float64]
 SEQUENCE, STRATIFIED, LATIN = 1 << 1, 1 << 3, 1 << 4  # KOKSMA_CLAIM_SEQUENCE and so on
@@ -271,7 +272,7 @@ def as_points(points: npt.ArrayLike) -> PointArray:
         kind, masked = given.dtype.kind, isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given)
         array = np.ascontiguousarray(given, dtype=np.float64) if kind in "buifO" else given
     except (TypeError, ValueError):
-        raise ArgumentError(f"points must be an array of real numbers, not {points!r:.60}") from None
+        raise ArgumentError(f"points must be an array of real numbers, not {quoted(points)}") from None
     if kind not in "buifO":
         raise ArgumentError(f"points must be real numbers, not {given.dtype}")
     if masked:
@@ -287,7 +288,7 @@ def numbers(name: str, values: npt.ArrayLike) -> PointArray:
     try:
         return np.ascontiguousarray(values, dtype=np.float64) if np.ndim(values) else np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise TypeError(f"{name} must be numbers, not {values!r:.60}") from None
+        raise TypeError(f"{name} must be numbers, not {quoted(values)}") from None
 
 
 class _Memory:
@@ -456,7 +457,7 @@ def find_warp(name: str) -> Any:
     """A warp of the library."""
     found = core().koksma_warp_find(text(name, "warp"))
     if not found:
-        raise ArgumentError(f"no warp '{name}'; koksma.warps() names them")
+        raise ArgumentError(f"no warp {quoted(name)}; koksma.warps() names them")
     return found
 
 

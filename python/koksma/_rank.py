@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._compare import as_image, _metric
-from ._library import ArgumentError, call, flag, in_python, lab, pair, seconds_of, text, texts, whole
+from ._library import ArgumentError, call, flag, in_python, lab, pair, quoted, seconds_of, text, texts, whole
 from ._points import canonical
 from ._render import _found, _scene_name
 
@@ -205,7 +205,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         raise ArgumentError("reference has an effect only with renderer: Koksma's own references are jittered")
     time_limit = seconds_of("time_limit", time_limit)
     if renderer is not None and not callable(renderer):
-        raise TypeError(f"renderer must be callable, not {renderer!r:.60}")
+        raise TypeError(f"renderer must be callable, not {quoted(renderer)}")
     other = _Renderer(renderer) if renderer is not None else None
     names = [canonical(pattern) if other is None else pattern for pattern in texts("patterns", patterns)]
     if not names or len(set(names)) < len(names):

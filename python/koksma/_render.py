@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, choice, core, flag, lab, pair, real, text, texts, whole
+from ._library import ArgumentError, call, check, choice, core, flag, lab, pair, quoted, real, text, texts, whole
 from ._points import Named, free_with, named, shown
 
 
@@ -175,7 +175,7 @@ def _choice(argument: str, kind: str, word: str) -> int:
 def _found(kind: str, name: str) -> int:
     found: int = getattr(lab(), f"koksma_{kind}_find")(text(name, kind))
     if not found:
-        raise ArgumentError(f"no {kind} '{name}'; koksma.{kind}s() names them")
+        raise ArgumentError(f"no {kind} {quoted(name)}; koksma.{kind}s() names them")
     return found
 
 
@@ -337,7 +337,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
             method = s.AdaptiveOptions()
             check(lab().koksma_adaptive_parse(text(adaptive, "adaptive"), byref(method)))
             if not 0 <= real("budget", budget) < math.inf:
-                raise ArgumentError(f"budget must be samples a pixel, or 0 for no limit, not {budget!r}")
+                raise ArgumentError(f"budget must be samples a pixel, or 0 for no limit, not {quoted(budget)}")
             if method.method.contents.own_samples and pattern != "n-rooks":
                 raise ArgumentError(f"pattern '{pattern}': the adaptive method {adaptive} places its own samples")
             method.budget, method.probes = budget, whole("probes", probes, 0, s.MAX_INT)

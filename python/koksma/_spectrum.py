@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, flag, real, whole
+from ._library import ArgumentError, call, check, core, flag, quoted, real, whole
 from ._matplotlib import curve
 from ._points import as_points, shown, view
 
@@ -69,7 +69,7 @@ def _each(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]") -> "Iterable[npt.Arra
         single = isinstance(rows, Sequence) and len(rows) > 0 and np.ndim(rows[0]) == 1
         return [rows] if single else iter(rows)
     except (TypeError, ValueError):
-        raise TypeError(f"sets must be an array of points, or several of them, not {rows!r:.60}") from None
+        raise TypeError(f"sets must be an array of points, or several of them, not {quoted(rows)}") from None
 
 
 def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: SupportsIndex = 64, *,

@@ -32,7 +32,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex,
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ArgumentError, Error, UnsupportedError
+from ._library import ArgumentError, Error, UnsupportedError, quoted
 from ._points import canonical, generate
 from ._rank import Asked, Ranking
 from ._rank import rank as _rank
@@ -272,7 +272,7 @@ def _canonical(pattern: str) -> str:
         return canonical(pattern)
     except Error as error:
         if str(error).startswith("no pattern") and "did you mean" not in str(error):
-            raise ArgumentError(f"no sampler {pattern!r}: Mitsuba has {', '.join(OWN)}; koksma.patterns() ours") from None
+            raise ArgumentError(f"no sampler {quoted(pattern)}: Mitsuba has {', '.join(OWN)}; koksma.patterns() ours") from None
         raise
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Every parameter of every public function, wrong in turn: what comes is koksma's, Python's TypeError or ValueError, in words of
-Python, and a TypeError names the parameter. Nothing crashes: that would end this process."""
+Python, on one line, and a TypeError names the parameter. Nothing crashes: that would end this process."""
 import ctypes
 import inspect
 import os
@@ -87,6 +87,7 @@ class WrongArguments(unittest.TestCase):
                         except (koksma.Error, TypeError, ValueError) as error:
                             self.assertNotIsInstance(error, ctypes.ArgumentError)
                             self.assertNotRegex(str(error), NEVER)
+                            self.assertNotIn("\n", str(error))
                             if type(error) is TypeError and not callable(wrong):
                                 self.assertRegex(str(error), rf"\b({SYNONYMS.get(name, name)})\b")
         koksma._library.core().koksma_allow_exec(0.0)
