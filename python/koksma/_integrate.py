@@ -373,7 +373,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
     seed, samples = whole("seed", seed, 0, s.MAX_SEED - trials), whole("samples", samples, 0, 1 << 20)
     if not 1 <= len(sizes) <= s.MAX_SIZES:
         raise ArgumentError(f"n must be 1 to {s.MAX_SIZES} sizes, not {len(sizes)}")
-    options = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(*sizes), len(sizes), seed, trials)
+    options, each = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(*sizes), len(sizes), seed, trials), flag("anova", anova)
     raised: List[BaseException] = []
     with _opened(function, dim, raised) as handle:
         if isinstance(function, str):
@@ -385,7 +385,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
             result = _summary(integral, variance, options, _estimates(function, source, sizes, dim, trials, seed, threads))
         rows = result.rows[:len(sizes)]
         components = _components(handle, function, source, sizes, seed, trials, rows[int(np.argmax(sizes))].rmse, samples, threads,
-                                 raised) if flag("anova", anova) else ()
+                                 raised) if each else ()
     columns = {key: np.array([getattr(row, key) for row in rows]) for key in ("rmse", "low", "high", "mean", "sd", "gain")}
     return Integration(name, canonical(source) if isinstance(source, str) else "points", dim, rows[0].trials, np.array(sizes), **columns,
                        slope=result.slope.value, slope_error=result.slope.standard_error, slope_low=result.slope.low,

@@ -14,6 +14,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any, Callable, Dict, Hashable, Iterable, Iterator, List, Optional, Sequence, Set, SupportsIndex, Tuple
 
+import numpy as np
+
 from . import _structs as s
 from ._signals import Signals
 
@@ -433,11 +435,15 @@ def pair(name: str, values: Tuple[SupportsIndex, SupportsIndex]) -> Tuple[Suppor
 
 
 def real(name: str, value: Any, least: float = -inf, most: float = inf, nan_too: bool = False) -> float:
-    """A number from `least` to `most`; NaN only where that means that it is not known."""
+    """A number from `least` to `most`; NaN only where that means that it is not known. float() would also take a text,
+    a truth value, and of NumPy's complex numbers the real part."""
+    kind = getattr(getattr(value, "dtype", None), "kind", "O")
     try:
-        number = float(value)
+        number = None if isinstance(value, (str, bytes, bytearray, bool)) or kind not in "uifO" else float(value)
     except (TypeError, ValueError, OverflowError):
-        raise TypeError(f"{name} must be a number, not {quoted(value)}") from None
+        number = None
+    if number is None:
+        raise TypeError(f"{name} must be a number, not {quoted(value)}")
     if not (least <= number <= most or (nan_too and number != number)):
         bounds = f"at least {least:g}" if most == inf else f"{least:g} to {most:g}"
         raise ArgumentError(f"{name} must be {bounds}, not {quoted(value)}")
@@ -462,11 +468,10 @@ def choice(name: str, value: Any, values: Sequence[str]) -> int:
 
 
 def flag(name: str, value: Any) -> bool:
-    """Whether an argument is true; arrays of several numbers are neither."""
-    try:
-        return bool(value)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} must be True or False, not {quoted(value)}") from None
+    """True or False, of Python or NumPy, and nothing with a truth value: 'no', -1 and NaN are true in Python."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be True or False, not {quoted(value)}")
+    return bool(value)
 
 
 def without_zero(what: str, raw: bytes) -> bytes:

@@ -14,8 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import (ArgumentError, allow_exec as allowing_exec, call, check, choice, core, kept_spec, lab, quick, quoted, spec, text,
-                       texts, whole)
+from ._library import (ArgumentError, allow_exec as allowing_exec, call, check, choice, core, flag, kept_spec, lab, quick, quoted,
+                       spec, text, texts, whole)
 
 PointArray = npt.NDArray[np.float64]
 SEQUENCE, STRATIFIED, LATIN = 1 << 1, 1 << 3, 1 << 4  # KOKSMA_CLAIM_SEQUENCE and so on
@@ -379,12 +379,12 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     """
     shape: Any = (n, 2 if dim is None else dim) if out is None else out.shape if type(out) is np.ndarray and n is dim is None else None
     if (type(seed) is int and type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
-            and density is on is warp is None and type(first) is int and first == 0 and set(map(type, shape or ())) == {int}
-            and (pattern, shape) in quick):
+            and type(allow_exec) is bool and density is on is warp is None and type(first) is int and first == 0
+            and set(map(type, shape or ())) == {int} and (pattern, shape) in quick):
         quickly = _quick_points(pattern, shape, seed, threads, out)
         if quickly is not None:
             return quickly
-    if allow_exec:
+    if flag("allow_exec", allow_exec):
         with allowing_exec():
             return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, density=density, on=on, warp=warp)
     if warp is not None:

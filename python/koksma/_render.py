@@ -304,8 +304,8 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     """
     handle, options, image, every, report = c_void_p(), s.RenderOptions(), s.Image(), s.Layers(), s.AdaptiveReport()
     further = s.Aovs()
-    aov = texts("aov", aov)
-    if aov and not layers:
+    aov, splat = texts("aov", aov), flag("splat", splat)
+    if not flag("layers", layers) and aov:
         raise ArgumentError("aov needs layers=True")
     if aov:
         check(lab().koksma_aovs_parse(text(",".join(aov), "aov"), byref(further)))
@@ -332,7 +332,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
             options.filter = _found("filter", filter)
         if depth is not None:
             options.depth = whole("depth", depth, 0, s.MAX_DEPTH)
-        options.splat = flag("splat", splat)
+        options.splat = splat
         if adaptive is not None:
             method = s.AdaptiveOptions()
             check(lab().koksma_adaptive_parse(text(adaptive, "adaptive"), byref(method)))

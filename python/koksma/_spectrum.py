@@ -96,12 +96,12 @@ def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: SupportsInde
     >>> bool(found.ring_power[0] < 0.5 < found.ring_power[-1])
     True
     """
-    raw = s.Spectrum()
+    raw, method = s.Spectrum(), 0 if flag("exact", exact) else 1
     check(core().koksma_spectrum_init(byref(raw), whole("half", half, 1, s.MAX_HALF)))
     try:
         for points in _each(sets):
             c_points = view(array := as_points(points))
-            call(core().koksma_spectrum_add, byref(raw), byref(c_points), 0 if flag("exact", exact) else 1, threads=threads, run_at=3)
+            call(core().koksma_spectrum_add, byref(raw), byref(c_points), method, threads=threads, run_at=3)
             del array
         if not raw.sets:
             raise ArgumentError("a spectrum takes at least one set of points")

@@ -79,8 +79,6 @@ class WrongArguments(unittest.TestCase):
         for function, given in self.calls():
             for name in inspect.signature(function).parameters:
                 for wrong in WRONG:
-                    if isinstance(wrong, np.ndarray) and name in ("layers", "first", "n", "dim", "quick"):
-                        continue  # NumPy's own word for arrays that are taken for a truth value
                     with self.subTest(function=getattr(function, "__qualname__", function), parameter=name, wrong=f"{wrong!r:.40}"):
                         try:
                             self.call(function, {**given, name: wrong})
@@ -91,6 +89,41 @@ class WrongArguments(unittest.TestCase):
                             if type(error) is TypeError and not callable(wrong):
                                 self.assertRegex(str(error), rf"\b({SYNONYMS.get(name, name)})\b")
         koksma._library.core().koksma_allow_exec(0.0)
+
+    def test_flags(self):
+        """What has a truth value is not yet True or False, least of all the texts 'no' and 'False', which are true."""
+        seen = set()
+        for function, given in self.calls():
+            for name, parameter in inspect.signature(function).parameters.items():
+                if parameter.annotation not in ("bool", "Optional[bool]"):
+                    continue
+                seen.add(name)
+                for wrong in ("no", "False", "", -1, 0, 1, float("nan"), [], [True], np.array([True]), 0 * 1j):
+                    with self.subTest(function=getattr(function, "__qualname__", function), parameter=name, wrong=repr(wrong)):
+                        with self.assertRaisesRegex(TypeError, f"^{name} must be True or False, not "):
+                            self.call(function, {**given, name: wrong})
+                for right in (True, False, np.True_, np.False_):
+                    self.call(function, {**given, name: right})
+        self.assertLessEqual({"allow_exec", "anova", "exact", "layers", "local_discrepancy", "one_size", "prefixes", "quick", "splat"}, seen)
+
+    def test_programs_are_not_run(self):
+        """allow_exec guards the execution of code: only True runs a program, also where the same call was made before."""
+        with open("evil.sh", "w") as program:
+            program.write("#!/bin/sh\n: > was_run\nexit 1\n")
+        os.chmod("evil.sh", 0o755)
+        for wrong in ("no", "False", -1, 1, float("nan"), [False], np.array([True])):
+            with self.subTest(wrong=repr(wrong)):
+                self.assertRaises(TypeError, koksma.generate, "exec:./evil.sh", 4, 2, allow_exec=wrong)
+        for wrong in ("no", "60", True, np.True_, None):  # a number of seconds, not a yes
+            self.assertRaises(TypeError, koksma.allow_exec(wrong).__enter__)
+        for _ in range(3):
+            koksma.generate("jittered", 16, 2)
+        self.assertRaises(TypeError, koksma.generate, "jittered", 16, 2, allow_exec="no")
+        for right in (False, np.False_):
+            self.assertRaises(koksma.ForbiddenError, koksma.generate, "exec:./evil.sh", 4, 2, allow_exec=right)
+        self.assertFalse(os.path.exists("was_run"))
+        self.assertRaises(koksma.Error, koksma.generate, "exec:./evil.sh", 4, 2, allow_exec=np.True_)
+        self.assertTrue(os.path.exists("was_run"))
 
 
 if __name__ == "__main__":
