@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, UnsupportedError, call, check, core, flag, quoted, real, several, spec, text, whole
-from ._points import Member, PointArray, as_points, canonical, generate, table, view
+from ._points import Member, PointArray, as_points, canonical, generate, numbers, table, view
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
 
@@ -182,8 +182,7 @@ def _opened(function: Function, dim: int, raised: List[BaseException]) -> Iterat
     else:
         def at(x: Any, _dim: int, _context: object) -> float:
             try:
-                values = np.asarray(function(np.array(x[:dim])[None, :]), dtype=np.float64)
-                return float(values.reshape(-1)[0])
+                return float(_values(function, np.array(x[:dim])[None, :]).reshape(-1)[0])
             except BaseException as error:  # noqa: BLE001
                 raised.append(error)
                 return math.nan
@@ -233,14 +232,28 @@ def integrand(name: str, dim: SupportsIndex = 2) -> Integrand:
         return _facts(handle)
 
 
+def _values(function: Callable[[PointArray], npt.ArrayLike], points: PointArray) -> PointArray:
+    """The function's values at the points, of whatever shape."""
+    return numbers(f"the values of the function {_name_of(function)}", function(points))
+
+
 def _mean(function: Callable[[PointArray], npt.ArrayLike], points: PointArray) -> float:
     """Of the function's values at the points."""
     n, dim = points.shape
-    values = np.asarray(function(points), dtype=np.float64)
+    values = _values(function, points)
     if values.shape != (n,):
         raise ArgumentError(f"{_name_of(function)}: for points of shape ({n}, {dim}) it returned the shape {values.shape}, "
                             f"not ({n},)")
     return math.fsum(values) / int(n)
+
+
+def _known(name: str, value: float, least: float) -> float:
+    """An integral or a variance: finite, or NaN if it is not known."""
+    number = real(name, value, nan_too=True)
+    if math.isinf(number) or number < least:
+        bound = "" if math.isinf(least) else f", {least:g} or more"
+        raise ArgumentError(f"{name} must be a finite number{bound}, or NaN if it is not known, not {quoted(value)}")
+    return number
 
 
 def _estimates(function: Callable[[PointArray], npt.ArrayLike], source: Union[str, PointArray], sizes: Sequence[int], dim: int,
@@ -320,7 +333,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
     Parameters
     ----------
     function : str or callable
-        A spec of an integrand, or a function of an (n, dim) array of points that returns its n values.
+        A spec of an integrand, or a function of an (n, dim) array of points that returns its n values, real numbers.
     pattern : str or array_like of shape (n, dim)
         A spec, such as "sobol:scramble=owen"; or points, which are one set.
     n : int or sequence of int
@@ -330,7 +343,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
     trials, seed : int
         Sets of each size with the seeds seed .. seed + trials - 1; one of a deterministic pattern.
     integral, variance : float
-        Of a callable, where they are known.
+        Of a callable, where they are known: finite, and the variance not negative.
     anova : bool
         Says in `components` which coordinates, and up to 16 coordinates which pairs, carry the variance, and for products of
         functions of one coordinate, which carry the error at the largest n.
@@ -374,14 +387,14 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
     if not 1 <= len(sizes) <= s.MAX_SIZES:
         raise ArgumentError(f"n must be 1 to {s.MAX_SIZES} sizes, not {len(sizes)}")
     options, each = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(*sizes), len(sizes), seed, trials), flag("anova", anova)
+    integral, variance = _known("integral", integral, -math.inf), _known("variance", variance, 0)
     raised: List[BaseException] = []
     with _opened(function, dim, raised) as handle:
         if isinstance(function, str):
             facts, result = _facts(handle), _errors(handle, source, options, threads)
             name, integral, variance = facts.spec, facts.value, facts.variance
         else:
-            name, integral = _name_of(function), real("integral", integral, nan_too=True)
-            variance = real("variance", variance, nan_too=True)
+            name = _name_of(function)
             result = _summary(integral, variance, options, _estimates(function, source, sizes, dim, trials, seed, threads))
         rows = result.rows[:len(sizes)]
         components = _components(handle, function, source, sizes, seed, trials, rows[int(np.argmax(sizes))].rmse, samples, threads,

@@ -24,6 +24,7 @@ _XS, _DOUBLE, _c_void_p = s.Points.xs.offset, np.dtype(np.float64), ctypes.c_voi
 _DATA = -(-20 // ctypes.sizeof(_c_void_p) - 2) * ctypes.sizeof(_c_void_p)  # in PyArrayInterface: 20 bytes, aligned, then shape, strides, data
 _capsule_pointer = ctypes.pythonapi.PyCapsule_GetPointer
 _capsule_pointer.argtypes, _capsule_pointer.restype = [ctypes.py_object, ctypes.c_char_p], _c_void_p
+_NO_REAL_NUMBERS = (type(None), complex, np.complexfloating, str, bytes)
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
@@ -284,11 +285,23 @@ def as_points(points: npt.ArrayLike) -> PointArray:
 
 
 def numbers(name: str, values: npt.ArrayLike) -> PointArray:
-    """An argument as a C-contiguous array of doubles."""
+    """An argument, or what a function of the caller's returned, as a C-contiguous array of doubles.
+
+    As in as_points, nothing is cut down to real numbers: NumPy would drop imaginary parts with no more than a warning.
+    """
     try:
-        return np.ascontiguousarray(values, dtype=np.float64) if np.ndim(values) else np.asarray(values, dtype=np.float64)
+        given = np.asanyarray(values)
+        kind, masked = given.dtype.kind, isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given)
+        array = np.asarray(given, dtype=np.float64, order="C") if kind in "buifO" else None
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be numbers, not {quoted(values)}") from None
+    if array is None:
+        raise TypeError(f"{name} must be real numbers, not {given.dtype}")
+    if kind == "O" and any(isinstance(value, _NO_REAL_NUMBERS) for value in given.flat):  # None would be NaN
+        raise TypeError(f"{name} must be real numbers, not {quoted(values)}")
+    if masked:
+        raise TypeError(f"{name} must be numbers, without masked ones")
+    return array
 
 
 class _Memory:

@@ -8,6 +8,7 @@ import os
 import subprocess
 import tempfile
 import unittest
+from fractions import Fraction
 
 import numpy as np
 
@@ -133,6 +134,27 @@ class Integrate(unittest.TestCase):
         with self.assertRaises(ZeroDivisionError):
             koksma.sensitivity(lambda x: 1 // 0, 0, samples=16)
         self.assertEqual([m.name for m in koksma.integrands()][:2], ["x", "x2"])
+
+    def test_values_that_are_no_real_numbers(self):
+        """NumPy would drop the imaginary part, read texts as numbers and count masked values."""
+        for wrong in (lambda x: x[:, 0] * 1j, lambda x: x[:, 0].astype(str), lambda x: np.ma.masked_less(x[:, 0], 0.6),
+                      lambda x: [None] * len(x), lambda x: np.array([1j] * len(x), dtype=object), lambda x: x[:, 0].astype("datetime64[s]")):
+            with self.assertRaisesRegex(TypeError, "^the values of the function <lambda> must be (real )?numbers, "):
+                koksma.integrate(wrong, "sobol", 4)
+            with self.assertRaisesRegex(TypeError, "^the values of the function <lambda> must be (real )?numbers, "):
+                koksma.sensitivity(wrong, 0, samples=16)
+        for right in (lambda x: x[:, 0] < 0.5, lambda x: [Fraction(1, 2)] * len(x), lambda x: x[:, 0].astype(np.float32)):
+            self.assertAlmostEqual(koksma.integrate(right, "sobol", 256).mean[0], 0.5, places=2)
+        for wrong in (1j, np.complex128(1j), np.complex128(0.5), np.array(1j), "0.5", True, None):
+            for name in ("integral", "variance"):
+                with self.assertRaisesRegex(TypeError, f"^{name} must be a number, not "):
+                    koksma.integrate(lambda x: x[:, 0], "sobol", 4, **{name: wrong})
+        for given in ({"integral": math.inf}, {"integral": -math.inf}, {"variance": math.inf}, {"variance": -1}, {"variance": -5e-324}):
+            with self.assertRaisesRegex(koksma.ArgumentError, f"^{[*given][0]} must be a finite number"):
+                koksma.integrate(lambda x: x[:, 0], "sobol", 4, **given)
+        self.assertTrue(math.isnan(koksma.integrate(lambda x: x[:, 0], "jittered", 4, integral=math.nan, variance=0).integral))
+        with self.assertRaisesRegex(TypeError, "^weights must be real numbers, not complex128"):
+            koksma.optimise("l2-star", 4, 3, projections="pairs", weights=[1j, 1, 1], steps=1)
 
 
 def bernoulli(r, x):
