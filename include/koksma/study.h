@@ -117,8 +117,9 @@ typedef struct koksma_study_summary {
    A job fails when its pattern finds no set, or when the search of its measure is cut short and finds only bounds.
    All other jobs are done, and koksma_study_left_out_at lists the failed ones.
    Errors: INTERRUPTED (finished jobs are kept), IMPOSSIBLE (jobs failed in a block without `skip`; the message names
-   the first, and the report can be written. A run whose reference image fails ends at once), IO, and those of
-   koksma_generate, koksma_evaluate and koksma_render. */
+   the first, and the report can be written. A run whose reference image fails ends at once), MISSING (a family of files,
+   such as file:my_{n}_{seed}.npy, has no file: each run counts them anew, and a plan with a relative path has its files
+   in the process's present directory), IO, and those of koksma_generate, koksma_evaluate and koksma_render. */
 KOKSMA_API koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary);
 
 /* The estimated cost of a study. */

@@ -728,6 +728,32 @@ class Unknown(unittest.TestCase):
             np.testing.assert_array_equal(before, koksma.render(path, spp=1))
 
 
+class Families(unittest.TestCase):
+    """Families of files, file:my_{n}_{seed}.npy, in studies."""
+
+    def test_files_that_are_gone(self):
+        """Each run counts the files anew, of a plan with a relative path from the present directory. None is an error, as on the command line, and not fewer jobs."""
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere:
+            try:
+                os.chdir(folder)
+                for n, seed in ((4, 1), (4, 2), (4, 5), (9, 1), (9, 2), (9, 5)):
+                    koksma.write(f"p_{n}_{seed}.txt", koksma.generate("jittered", n, seed=seed))
+                block = {"patterns": ["random", "file:p_{n}_{seed}.txt"], "measures": ["star"], "n": [4, 9], "trials": 8}
+                pathlib.Path("plan.json").write_text(json.dumps({"name": "m", "title": "M", "discrepancies": [block]}))
+                with koksma.Study("plan.json", os.path.join(folder, "out")) as study:
+                    self.assertEqual(study.run().jobs, 2 * 8 + 2 * 3)
+                    os.chdir(elsewhere)
+                    for call in (study.run, study.estimate):
+                        with self.assertRaisesRegex(koksma.MissingError, r"^file:p_\{n\}_\{seed\}.txt: there is no file p_\*_\*.txt with "):
+                            call()
+                    os.chdir(folder)
+                    again = study.run()
+                    self.assertEqual((again.jobs, again.done_now, again.complete), (2 * 8 + 2 * 3, 0, True))
+            finally:
+                os.chdir(before)
+
+
 class Code(unittest.TestCase):
     """exec: and plugin: run by the caller's word alone."""
 

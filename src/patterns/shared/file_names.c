@@ -104,6 +104,17 @@ static int compare_sets(const void *a, const void *b)
     return p->n != q->n ? (p->n < q->n ? -1 : 1) : p->seed != q->seed ? (p->seed < q->seed ? -1 : 1) : 0;
 }
 
+static koksma_status fail_none(const char *path)
+{
+    char looked_for[KOKSMA_MAX_SPEC], first[KOKSMA_MAX_SPEC];
+    koksma__file_glob(path, false, looked_for, sizeof looked_for);
+    KOKSMA__TRY(koksma__file_name(path, 256, 0, first));
+    return koksma__fail(KOKSMA_MISSING,
+                        "file:%s: there is no file %s with whole numbers in place of the stars, such as %s%s%s", path,
+                        looked_for, first, koksma__file_has(path, place_n) ? " of 256 points" : "",
+                        koksma__file_has(path, place_seed) ? " for seed 0" : "");
+}
+
 koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_t *count)
 {
     char pattern[2 * KOKSMA_MAX_SPEC];
@@ -123,6 +134,11 @@ koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_
     }
     globfree(&found);
     KOKSMA__REQUIRE_MEMORY(*sets, sizeof **sets);
+    if (!*count) {
+        free(*sets);
+        *sets = NULL;
+        return fail_none(path);
+    }
     qsort(*sets, *count, sizeof **sets, compare_sets);
     return KOKSMA_OK;
 }

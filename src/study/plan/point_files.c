@@ -137,10 +137,7 @@ static koksma_status can_be_read(void *context, const char *path)
     if (!is_family(path)) {
         return koksma__hash_file(path, &hash);
     }
-    koksma_status status = koksma__file_sets(path, &sets, &count);
-    if (!status && !count) {
-        status = koksma__fail(KOKSMA_MISSING, "%s: no file has such a name", path);
-    }
+    const koksma_status status = koksma__file_sets(path, &sets, &count);
     free(sets);
     return status;
 }

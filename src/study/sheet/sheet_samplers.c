@@ -138,18 +138,6 @@ static void count_sets(const koksma__sheet *sheet, koksma__sheet_sampler *sample
     }
 }
 
-static koksma_status fail_none(const char *path)
-{
-    char looked_for[KOKSMA_MAX_SPEC], first[KOKSMA_MAX_SPEC];
-    koksma__file_glob(path, false, looked_for, sizeof looked_for);
-    const koksma_status status = koksma__file_name(path, 256, 0, first);
-    return status ? status
-                  : koksma__fail(KOKSMA_MISSING,
-                                 "%s: there is no file %s with whole numbers in place of the stars, such as %s%s%s",
-                                 path, looked_for, first, koksma__file_has(path, "{n}") ? " of 256 points" : "",
-                                 koksma__file_has(path, "{seed}") ? " for seed 0" : "");
-}
-
 /* Reads a file whose name does not contain the size, and makes its size the only one of the sheet. */
 static koksma_status size_of_file(koksma__sheet *sheet, koksma__sheet_sampler *sampler)
 {
@@ -170,9 +158,7 @@ static koksma_status look_at_files(koksma__sheet *sheet, koksma__sheet_sampler *
     const char *path = sampler->spec.path;
     const bool first = sampler == sheet->all;
     koksma_status status = is_family(path) ? koksma__file_sets(path, &sets, &count) : KOKSMA_OK;
-    if (!status && is_family(path) && !count) {
-        status = fail_none(path);
-    } else if (!status && koksma__file_has(path, "{n}") && first) {
+    if (!status && koksma__file_has(path, "{n}") && first) {
         status = choose_sizes_of_family(sheet, sampler, sets, count);
     } else if (!status && count) {
         sampler->seed = sets[0].seed;
