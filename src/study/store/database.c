@@ -55,16 +55,27 @@ static koksma_status fail_busy(const koksma__database *database)
                         database->path);
 }
 
+/* Returns the system's error number behind SQLite's last error, or 0. SQLite keeps one for the connection, which a
+   rollback after the error may have overwritten, and one for each file: the database, and its write-ahead log or
+   journal, to which most writes go. */
+static int system_error(sqlite3 *file)
+{
+    sqlite3_file *log = NULL;
+    int number = sqlite3_system_errno(file);
+    if (!number && file) { /* without memory there is no connection */
+        sqlite3_file_control(file, NULL, SQLITE_FCNTL_LAST_ERRNO, &number);
+    }
+    if (!number && file && sqlite3_file_control(file, NULL, SQLITE_FCNTL_JOURNAL_POINTER, &log) == SQLITE_OK && log &&
+        log->pMethods && log->pMethods->xFileControl) { /* a journal in memory has none */
+        log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &number);
+    }
+    return number;
+}
+
 static koksma_status fail(koksma__database *database)
 {
     const char *path = database->path, *reason = sqlite3_errmsg(database->file);
-    const int code = sqlite3_errcode(database->file);
-    int system = sqlite3_system_errno(database->file), last = 0;
-    /* a rollback after the error may have overwritten the first number; without memory there is no connection */
-    if (!system && database->file &&
-        sqlite3_file_control(database->file, NULL, SQLITE_FCNTL_LAST_ERRNO, &last) == SQLITE_OK) {
-        system = last;
-    }
+    const int code = sqlite3_errcode(database->file), system = system_error(database->file);
     switch (code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
