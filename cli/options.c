@@ -133,7 +133,9 @@ static int parse_failure(const cli_arguments *arguments, int code, char **argv)
 {
     /* The faulty option is optopt if it is a short one; a long one is the word before optind. */
     if (optopt > 0 && optopt < LONG_BASE) {
-        return cli_usage_error(arguments, code == ':' ? "option -%c takes an argument" : "no option -%c", optopt);
+        return code == ':' ? cli_usage_error(arguments, "option -%c takes an argument", optopt)
+                           : cli_usage_error(arguments, "no option -%c; 'koksma %s --help' names them", optopt,
+                                             arguments->command->name);
     }
     const char *word = argv[optind - 1];
     return code == ':' ? cli_usage_error(arguments, "option %s takes an argument", word)
@@ -231,12 +233,31 @@ static bool ending_fits(const cli_arguments *arguments, const char *argument, co
     return !used;
 }
 
+/* Returns whether an option names a file or folder with an empty text, which no system accepts; it then prints an
+   error. */
+static bool is_empty_name(const cli_arguments *arguments, const cli_option *o, const char *value)
+{
+    const bool folder = o->argument && !strcmp(o->argument, "DIR"), output = !strcmp(o->name, "output");
+    const bool names_path = folder || output || (o->argument && !strncmp(o->argument, "FILE", 4));
+    if (!names_path || !value || *value) {
+        return false;
+    }
+    cli_usage_error(arguments, "--%s: the name is empty; it takes the name of a %s", o->name,
+                    folder                         ? "folder"
+                    : !strcmp(o->argument, "PATH") ? "file or folder"
+                                                   : "file");
+    return true;
+}
+
 /* Reads the options that have the same meaning in all commands. Returns the exit code. */
 static int read_shared_options(cli_arguments *arguments)
 {
     uint64_t digits = CLI_DIGITS;
     for (int i = 0; arguments->command->options[i].name; i++) {
         const char *argument = arguments->command->options[i].argument, *value = arguments->values[i];
+        if (is_empty_name(arguments, &arguments->command->options[i], value)) {
+            return CLI_USAGE;
+        }
         if (value && argument && !strncmp(argument, "FILE.", 5) && !ending_fits(arguments, argument, value)) {
             return CLI_USAGE;
         }

@@ -317,6 +317,7 @@ koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__
 {
     static const cookie_io_functions_t functions = {.write = put};
     *file = (koksma__atomic_file){0};
+    KOKSMA__FAIL_IF(!folder && !*path, KOKSMA_IO, "the path of the file to write is empty");
     output *o = malloc(sizeof *o);
     if (o) {
         *o = (output){
@@ -385,6 +386,7 @@ static bool sync_above(const char *path)
 
 koksma_status koksma__atomic_folder(const char *path)
 {
+    KOKSMA__FAIL_IF(!*path, KOKSMA_IO, "the path of the folder is empty");
     KOKSMA__FAIL_IF(mkdir(path, 0777) && errno != EEXIST, KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
     return sync_above(path) ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: can't be synced: %s", path, strerror(errno));
 }

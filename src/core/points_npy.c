@@ -42,6 +42,7 @@ static koksma_status find_value(const char *name, const char *header, const char
 static koksma_status parse_shape(const char *name, const char *shape, layout *out)
 {
     unsigned long long sizes[2] = {0, 1};
+    char digits[2][32] = {"0", "1"}; /* for messages: a number may be larger than any integer of C */
     int n_sizes = 0;
     const char *s = shape + 1;
     s += strspn(s, " ");
@@ -50,7 +51,9 @@ static koksma_status parse_shape(const char *name, const char *shape, layout *ou
         if (*s < '0' || *s > '9' || n_sizes == 2) {
             return malformed(name, "the shape is not (n,) or (n, dim)");
         }
-        sizes[n_sizes++] = strtoull(s, &end, 10);
+        sizes[n_sizes] = strtoull(s, &end, 10); /* ULLONG_MAX for a larger number */
+        const bool fits = end - s < (ptrdiff_t)sizeof digits[0];
+        snprintf(digits[n_sizes++], sizeof digits[0], "%.*s%s", fits ? (int)(end - s) : 28, s, fits ? "" : "...");
         s = end + strspn(end, " ");
         if (*s == ',') {
             s += 1 + strspn(s + 1, " ");
@@ -62,8 +65,8 @@ static koksma_status parse_shape(const char *name, const char *shape, layout *ou
         return malformed(name, "no points");
     }
     KOKSMA__FAIL_IF(sizes[1] > KOKSMA_MAX_DIM || sizes[0] > KOKSMA_MAX_COORDINATES / sizes[1], KOKSMA_MALFORMED,
-                    "%s: npy header: claims %llu points of %llu dimensions, which is more than one set can have",
-                    name, sizes[0], sizes[1]);
+                    "%s: npy header: claims %s points of %s dimensions, which is more than one set can have", name,
+                    digits[0], digits[1]);
     out->n = (size_t)sizes[0];
     out->dim = (size_t)sizes[1];
     return KOKSMA_OK;

@@ -283,6 +283,8 @@ static koksma_status take_line(reader *r)
 static koksma_status check_promises(const reader *r, size_t n)
 {
     const int dim = r->points->dim;
+    KOKSMA__FAIL_IF(r->line_number == 0, KOKSMA_MALFORMED, "%s: the file is empty; it takes one point a line",
+                    r->name);
     KOKSMA__FAIL_IF(n == 0, KOKSMA_MALFORMED, "%s: line %zu: no points in the file", r->name, r->line_number);
     KOKSMA__FAIL_IF(r->promised_n && r->promised_n != n, KOKSMA_MALFORMED,
                     "%s: line %zu: the file ends after %zu of %llu points", r->name, r->line_number, n,

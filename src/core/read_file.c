@@ -73,6 +73,7 @@ static koksma_status open_path(const char *path, koksma__file_kind kind, koksma_
     enum { FLAGS = O_RDONLY | O_CLOEXEC | O_NOCTTY };
     struct stat info;
     *descriptor = -1;
+    KOKSMA__FAIL_IF(!*path, KOKSMA_MISSING, "the path of the file to read is empty");
     if (stat(path, &info)) {
         return fail_read(path, errno);
     }

@@ -170,7 +170,8 @@ koksma_status koksma_image_check_path(const char *path)
     const koksma__image_format *format = format_of_name(path);
     if (!format) {
         char names[128];
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: the name of an image file must end in %s", path,
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: the name of an image file must end in %s",
+                            *path ? path : "the path is empty",
                             list_names(".", false, ", ", " or ", names, sizeof names));
     }
     return missing(format) ? koksma__fail_in(no_library(format), path) : KOKSMA_OK;

@@ -161,11 +161,32 @@ static koksma_status read_text(koksma__json *d, json_error_t *error)
     return KOKSMA_OK;
 }
 
+enum { REASON = 2 * JSON_ERROR_TEXT_LENGTH };
+
+/* The reason of a malformed text. Where jansson's names a constant or a limit of its own, it is in words of JSON. */
+static const char *reason_of(const json_error_t *error, char out[REASON])
+{
+    static const struct {
+        const char *theirs, *ours;
+    } words[] = {
+        {"\\u0000 is not allowed without JSON_ALLOW_NUL", "a text must not contain the zero character \\u0000"},
+        {"NUL byte in object key not supported", "a key must not contain the zero character \\u0000"}};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        const size_t length = strlen(words[i].theirs);
+        if (!strncmp(error->text, words[i].theirs, length)) {
+            snprintf(out, REASON, "%s%s", words[i].ours, error->text + length);
+            return out;
+        }
+    }
+    return error->text;
+}
+
 /* Parses the document. After an error it parses a second time, because jansson may report a malformed text when
    memory runs out. */
 static koksma_status load(koksma__json *d)
 {
     json_error_t error;
+    char reason[REASON];
     koksma_status status = read_text(d, &error);
     status = status || d->root ? status : read_text(d, &error);
     if (status) {
@@ -173,7 +194,7 @@ static koksma_status load(koksma__json *d)
     }
     return d->root ? KOKSMA_OK
                    : koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %d: %s", d->kind, d->name,
-                                  error.line > 0 ? error.line : 1, error.text);
+                                  error.line > 0 ? error.line : 1, reason_of(&error, reason));
 }
 
 koksma_status koksma__json_open(const char *kind, const char *name, const char *text, size_t size, koksma__json **out)

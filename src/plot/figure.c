@@ -260,7 +260,8 @@ koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format
             return KOKSMA_OK;
         }
     }
-    return koksma__fail(KOKSMA_ARGUMENT, "%s: a picture's name ends in .svg, .pdf or .png", path);
+    return koksma__fail(KOKSMA_ARGUMENT, "%s: a picture's name ends in .svg, .pdf or .png",
+                        *path ? path : "the path is empty");
 }
 
 koksma_status koksma_plot_write(const char *path, const unsigned char *bytes, size_t size)
