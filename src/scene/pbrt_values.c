@@ -410,7 +410,7 @@ static koksma_status take_indices(const koksma__pbrt_parameters *p, const koksma
         const size_t at = quads ? i / 6 * 4 + corners[i % 6] : i;
         const double index = indices ? indices->numbers[at] : (double)at;
         if (!(index >= 0 && index < (double)mesh->n_vertices)) {
-            return koksma__import_fail(p->place, "indices: there is no vertex %g; the mesh has %zu", index,
+            return koksma__import_fail(p->place, "indices: there is no vertex %.15g; the mesh has %zu", index,
                                        mesh->n_vertices);
         }
         mesh->indices[i] = (uint32_t)index;

@@ -1114,6 +1114,8 @@ static const struct {
      "indices: there is no vertex 3"},
     {"b.pbrt", PBRT "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 -1]",
      "indices: there is no vertex -1"},
+    {"b.pbrt", PBRT "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 99999999]",
+     "indices: there is no vertex 99999999"},
     {"b.pbrt", PBRT "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"normal N\" [0 0 1]",
      "N: 3 numbers for 3"},
     {"b.pbrt", PBRT "Translate 1e9 0 0 Shape \"sphere\"", "a shape reaches beyond 1e6"},
