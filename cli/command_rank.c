@@ -437,8 +437,11 @@ const cli_command cli_command_rank = {
         "(environment variable KOKSMA_PYTHON; default: python3). It starts Mitsuba for every image and takes\n"
         "seconds for each; koksma.mitsuba.rank in Python starts it once.\n"
         "\n"
+        "A pattern that has no set of N points is left out, and a message says why. A pattern whose file is missing\n"
+        "or malformed, or whose program fails or may not run (--allow-exec), ends the ranking before it renders.\n"
+        "\n"
         "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least\n"
-        "one.\n",
+        "one; 2, 3, 4 and 130 as for all commands (koksma --help).\n",
     .examples = "koksma rank ball --spp 16 -p random,n-rooks,sobol:scramble=owen\n"
                 "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"
                 "koksma rank cornell --integrator path --time-limit 300\n"

@@ -443,8 +443,10 @@ typedef struct koksma_ranking {
    are decided, and no pattern is reported as best while one is postponed. The trials of a pattern are independent
    of each other and of the trials of other patterns.
      rows  receives options->n_patterns rows
-   Errors: UNKNOWN, MISSING, MALFORMED, ARGUMENT (no pattern can render this scene, or max_trials is out of range),
-   MEMORY, INTERRUPTED. A time limit is not an error. */
+   A pattern that has no set of spp points is not ranked, and its row says why. A pattern whose file is missing or
+   malformed, or whose program may not run, is an error before anything is rendered.
+   Errors: UNKNOWN, MISSING, MALFORMED, FORBIDDEN (koksma_allow_exec was not called), ARGUMENT (no pattern can render
+   this scene, or max_trials is out of range), MEMORY, INTERRUPTED. A time limit is not an error. */
 KOKSMA_API koksma_status koksma_rank_patterns(const koksma_rank_options *options, const koksma_run *run,
                                               koksma_rank_row *rows, koksma_ranking *out);
 

@@ -164,7 +164,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     scene : str or path
         As of `render`.
     patterns : sequence of str
-        Each once; those of Shirley's thesis when left out.
+        Each once; those of Shirley's thesis when left out. One that has no set of spp points is not ranked (`reason` of its row);
+        one whose file is missing or malformed, or whose program may not run, raises.
     spp : int
         Samples a pixel.
     size : (width, height), optional

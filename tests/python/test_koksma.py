@@ -255,9 +255,13 @@ class ErrorsSpeakPython(unittest.TestCase):
             koksma.generate(16, "random")
 
     def test_reasons(self):
-        """Why a pattern is left out of a ranking."""
-        ranking = koksma.rank("ball", ["exec:./x", "random"], 4, size=(8, 6), max_trials=8, one_size=True)
-        self.assertIn("koksma.allow_exec()", {row.pattern: row.reason for row in ranking.rows}["exec:./x"])
+        """Why a pattern is left out of a ranking, and which ones end it."""
+        ranking = koksma.rank("ball", ["jittered", "random"], 7, size=(8, 6), max_trials=8, one_size=True)
+        self.assertIn("n = 4 or 9 would do", {row.pattern: row.reason for row in ranking.rows}["jittered"])
+        with self.assertRaisesRegex(koksma.ForbiddenError, r"koksma\.allow_exec\(\)"):
+            koksma.rank("ball", ["exec:./x", "random"], 4, size=(8, 6), max_trials=8, one_size=True)
+        with self.assertRaisesRegex(koksma.MissingError, "none.txt"):
+            koksma.rank("ball", ["random", "file:none.txt"], 4, size=(8, 6), max_trials=8, one_size=True)
 
 
 class Datasheets(unittest.TestCase):

@@ -348,6 +348,13 @@ koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
 
 /* ---- The whole ------------------------------------------------------------------------------------------ */
 
+/* Whether a pattern's failure is a mistake in the command, a file or a program that is missing, malformed or not
+   allowed to run, rather than a set that does not exist: it ends the ranking before anything is rendered. */
+static bool is_mistake(koksma_status status)
+{
+    return status == KOKSMA_MISSING || status == KOKSMA_MALFORMED || status == KOKSMA_FORBIDDEN;
+}
+
 koksma_status koksma__contest_try_patterns(koksma__contest *c)
 {
     koksma_status status = KOKSMA_OK;
@@ -360,7 +367,8 @@ koksma_status koksma__contest_try_patterns(koksma__contest *c)
             status = koksma__image_pattern_text(c->options->patterns[work.contestant->pattern], text);
         }
         if (!status && !c->options->render) {
-            status = take_out(&work, 0, koksma__image_pattern_try(text, (size_t)c->options->spp, &run));
+            status = koksma__image_pattern_try(text, (size_t)c->options->spp, &run);
+            status = is_mistake(status) ? status : take_out(&work, 0, status);
         }
         c->table.entrants[i].out = atomic_load(&work.contestant->refused);
         c->table.entrants[i].aside = atomic_load(&work.contestant->late);

@@ -59,7 +59,8 @@ koksma_status koksma__contest_init(koksma__contest *contest, const koksma_rank_o
 void koksma__contest_fini(koksma__contest *contest);
 
 /* Excludes the patterns that cannot make spp points, and postpones those for which finding this out takes too long.
-   Errors: MEMORY, INTERRUPTED. */
+   Errors: MISSING, MALFORMED (a file or program of a pattern), FORBIDDEN (a program that may not run), MEMORY,
+   INTERRUPTED. */
 koksma_status koksma__contest_try_patterns(koksma__contest *contest);
 
 /* Runs rounds until the goal is decided or max_rounds is reached. Errors: those of rendering the reference, MEMORY,
