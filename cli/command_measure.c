@@ -130,6 +130,7 @@ static void tell_cuts(const measuring *j)
 static void choose_columns(measuring *j)
 {
     j->bounds = j->time_limit_s > 0;
+    j->residuals = measuring_has_residuals(j);
     for (size_t m = 0; m < j->n_measures; m++) {
         j->bounds = j->bounds || j->measures[m].measure->answer == KOKSMA_ANSWER_BOUND;
         j->sampled = j->sampled || j->measures[m].measure->answer == KOKSMA_ANSWER_SAMPLED;
@@ -377,8 +378,10 @@ const cli_command cli_command_measure = {
         "a measure does not accept, such as one point for min-distance.\n"
         "--prefixes and --sizes print the fitted slope beside the proven exponent for the pattern and the best "
         "possible one (up to\n"
-        "powers of logarithms). The standard error of a slope comes from the trials. With one set it is replaced by "
-        "residual_error, the scatter of the values about the fitted line.\n"
+        "powers of logarithms). The standard error of a slope comes from the trials. With one set, which is all that "
+        "a deterministic\n"
+        "pattern has for any --trials, it is replaced by residual_error, the scatter of the values about the fitted "
+        "line.\n"
         "\n"
         "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row whose time "
         "ran out has proven bounds, lower and upper. Rows of trials, differences and slopes count how many of\n"

@@ -73,7 +73,7 @@ static void put_tail(measuring *j, tail t)
         cli_row_number(j->rows, "high", t.high);
     }
     if (measuring_by_size(j)) {
-        if (j->trials == 1) {
+        if (j->residuals) {
             cli_row_number(j->rows, "residual_error", t.residual_error);
         }
         cli_row_number(j->rows, "theory", t.theory);
@@ -107,6 +107,22 @@ static bool prefixes_are_sets(const koksma_pattern *pattern)
     const bool independent =
         pattern->claims & KOKSMA_CLAIM_INDEPENDENT && !(pattern->claims & KOKSMA_CLAIM_STRATIFIED);
     return pattern->claims & KOKSMA_CLAIM_SEQUENCE || independent;
+}
+
+/* Returns whether all trials of a source have the same points. */
+static bool has_one_set(const cli_source *source)
+{
+    return !source->is_pattern || koksma_has_one_set(&source->spec);
+}
+
+bool measuring_has_residuals(const measuring *j)
+{
+    bool any = j->trials == 1;
+    for (int i = 0; i < j->arguments->n_operands && !any && measuring_by_size(j); i++) {
+        cli_source parts;
+        any = !cli_source_open(j->arguments, j->arguments->operands[i], &parts) && has_one_set(&parts);
+    }
+    return any;
 }
 
 bool measuring_check_prefixes(const measuring *j)
@@ -161,9 +177,10 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
     cli_row_number(j->rows, "sd", NAN);
     cli_row_number(j->rows, "min", NAN);
     cli_row_number(j->rows, "max", NAN);
-    put_tail(j, (tail){n_exact_of(j, measure, j->n_whole[measure]), NAN, NAN,
-                       known ? -koksma_rate(&parts.spec, m, dim) : (double)NAN,
-                       j->warp ? (double)NAN : -koksma_best_rate(m, dim), line.slope_error});
+    put_tail(j,
+             (tail){n_exact_of(j, measure, j->n_whole[measure]), NAN, NAN,
+                    known ? -koksma_rate(&parts.spec, m, dim) : (double)NAN,
+                    j->warp ? (double)NAN : -koksma_best_rate(m, dim), trials > 1 ? (double)NAN : line.slope_error});
 }
 
 static void put_tallies(measuring *j, const char *source, int dim)
@@ -280,7 +297,7 @@ static koksma_status tally_set(measuring *j, const koksma_points *points, size_t
 }
 
 /* Evaluates the measures for all prefixes of a trial. points: the whole set, or NULL if `source` generates a set of
-   each size. */
+   each size. A source that has the same set in every trial is one trial of its slopes. */
 static koksma_status tally_points(measuring *j, const koksma_points *points, const cli_source *source, uint64_t trial,
                                   bool first)
 {
@@ -301,7 +318,7 @@ static koksma_status tally_points(measuring *j, const koksma_points *points, con
             return status;
         }
     }
-    for (size_t m = 0; m < j->n_measures; m++) {
+    for (size_t m = 0; m < j->n_measures && (trial == 0 || !has_one_set(source)); m++) {
         koksma_joint_add(&j->joints[m], j->n_prefixes, v.values[m]);
         j->n_whole[m] += v.whole[m];
     }

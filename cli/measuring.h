@@ -22,8 +22,9 @@ typedef struct measuring {
     const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the warp that is being measured, or NULL */
     size_t n_warps;
     size_t prefixes[MAX_PREFIXES], n_prefixes;
-    bool powers;   /* --prefixes powers: the prefixes are the powers of two */
-    bool own_sets; /* --sizes: generate a new set for each size instead of measuring prefixes of one set */
+    bool powers;    /* --prefixes powers: the prefixes are the powers of two */
+    bool residuals; /* rows have a column for the residual error of slopes that are fitted to one set */
+    bool own_sets;  /* --sizes: generate a new set for each size instead of measuring prefixes of one set */
     double time_limit_s;
     cli_work work;
     size_t n_evaluated; /* number of evaluations begun, for the progress line */
@@ -55,6 +56,9 @@ koksma_status measuring_forgive(measuring *j, koksma_status status);
 
 /* Returns whether --prefixes or --sizes asks for values at several sizes, with a slope. */
 bool measuring_by_size(const measuring *j);
+
+/* Returns whether slopes of some source are fitted to one set: there is one trial, or the pattern has only one set. */
+bool measuring_has_residuals(const measuring *j);
 
 /* Refuses --prefixes for a pattern whose first points are not a set of the pattern. Returns false after an error on
    stderr. */

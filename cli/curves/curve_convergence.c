@@ -87,7 +87,7 @@ static int tally_sizes(cli_curves *c, const koksma_spec *measure, const cli_sour
                 koksma_tally_add(&v->tallies[i], value.value);
             }
         }
-        if (!status) {
+        if (!status && (t == 0 || !koksma_has_one_set(&source->spec))) {
             koksma_joint_add(&v->joint, v->count, values);
         }
     }
@@ -118,7 +118,7 @@ static void push_slopes(cli_chart_store *s, const koksma_line *line, double theo
 }
 
 /* Appends the fitted slope of a source to its label in the legend, with its standard error, which comes from the
-   trials or, for one set, from the residuals. */
+   trials or, for one set, which is all that a deterministic pattern has, from the residuals. */
 static void label_slope(char *label, const means *v, const koksma_line *line)
 {
     const size_t used = strlen(label);
@@ -224,7 +224,8 @@ const cli_curve cli_curve_convergence = {
     .name = "convergence",
     .meaning =
         "the mean of a measure over trials against n on logarithmic axes, with the fitted slope and its standard "
-        "error; a dashed line has the slope that theory gives for the pattern, or else the best possible slope; "
+        "error, from the trials or, for the one set of a deterministic pattern, from the residuals; a dashed line "
+        "has the slope that theory gives for the pattern, or else the best possible slope; "
         "a file is measured by its first n points",
     .cite = "-",
     .plot = {.options = "measure sizes trials", .draw = draw, .mixes_files = true},

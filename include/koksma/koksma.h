@@ -291,6 +291,11 @@ KOKSMA_API koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed,
    Returns the previous value of `seconds` of this thread. */
 KOKSMA_API double koksma_allow_exec(double seconds);
 
+/* Returns whether a pattern with these parameters gives the same points for every seed: it claims DETERMINISTIC, and
+   neither a random modifier, nor a parameter scramble or shuffle, nor {seed} in the path of a file makes it random. A
+   mean over the seeds of such a pattern is the value of one set. False for the spec of a measure. */
+KOKSMA_API bool koksma_has_one_set(const koksma_spec *spec);
+
 /* Returns whether koksma_generate_range supports a pattern with these parameters. */
 KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
 

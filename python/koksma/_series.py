@@ -88,7 +88,8 @@ class Convergence:
     values : ndarray of shape (trials, k)
     slope, slope_error : float
         By least squares. The error comes from the trials (their values vary together when they are prefixes of one
-        sequence); with one trial it is that of the residuals. NaN with fewer than three sizes.
+        sequence); with one set, which is all that a deterministic pattern has for any number of trials, it is that of the
+        residuals. NaN with fewer than three sizes.
     proven, best : float
         The exponents that are proven for the pattern, and the best that any points can have; NaN if unknown.
     """
@@ -248,8 +249,8 @@ def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[Su
         call(core().koksma_evaluate_prefixes, byref(measured), byref(c_points), (c_size_t * len(numbers))(*numbers),
              len(numbers), raw, threads=threads, run_at=4)
         values[t] = [v.value for v in raw]
-    slope, error = _slope(np.array(numbers, dtype=float), values)
     parsed, axes = spec("pattern", pattern), whole("dim", dim, 1, s.MAX_DIM)
+    slope, error = _slope(np.array(numbers, dtype=float), values[:1] if core().koksma_has_one_set(byref(parsed)) else values)
     proven, best = (-core().koksma_rate(byref(parsed), measured.measure, axes), -core().koksma_best_rate(measured.measure, axes)
                     ) if warp is None else (math.nan, math.nan)
     return Convergence(canonical(pattern), canonical_measure(measure), axes, np.array(numbers), values, slope, error, proven, best)

@@ -35,9 +35,13 @@ static const koksma_pattern *pattern_of(const koksma_spec *spec)
     return spec->pattern && spec->pattern->alias_of ? koksma_pattern_find(spec->pattern->alias_of) : spec->pattern;
 }
 
-bool koksma__spec_is_deterministic(const koksma_spec *spec)
+bool koksma_has_one_set(const koksma_spec *spec)
 {
+    KOKSMA__REQUIRE_OR(false, spec);
     const koksma_pattern *p = pattern_of(spec);
+    if (!p) {
+        return false;
+    }
     bool deterministic = !koksma__modifiers_are_random(spec->modifiers) && p->claims & KOKSMA_CLAIM_DETERMINISTIC &&
                          !(koksma__reads_points(p) && koksma__file_has(spec->path, "{seed}"));
     for (int k = 0; p->params && p->params[k].name; k++) {

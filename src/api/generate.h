@@ -6,10 +6,6 @@
 
 #include "core/visibility.h"
 
-/* Returns whether the spec gives the same points for every seed. This holds if the pattern claims DETERMINISTIC and
-   neither a modifier nor a parameter "scramble" or "shuffle" makes it random. */
-KOKSMA__LAB bool koksma__spec_is_deterministic(const koksma_spec *spec);
-
 /* Checks a pattern's spec for points of `dim` dimensions: its parameters, modifiers and path. Errors: ARGUMENT, DIM. */
 KOKSMA__LAB koksma_status koksma__generate_check(const koksma_spec *spec, const koksma_pattern *p, int dim);
 

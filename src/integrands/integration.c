@@ -13,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/generate.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "integrands/integrands.h"
@@ -197,7 +196,7 @@ koksma_status koksma_integration_errors(const koksma_integral *integral, const k
     KOKSMA__TRY(check_options(options));
     KOKSMA__FAIL_IF(!pattern->pattern, KOKSMA_ARGUMENT, "koksma_integration_errors: it takes the spec of a pattern");
     koksma_integration_options o = *options;
-    o.trials = koksma__spec_is_deterministic(pattern) ? 1 : o.trials;
+    o.trials = koksma_has_one_set(pattern) ? 1 : o.trials;
     const size_t jobs = (size_t)o.trials * o.n_sizes;
     const bool together = jobs >= (size_t)koksma__threads(run);
     const koksma_run one = {.threads = 1},

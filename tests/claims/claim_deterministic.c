@@ -4,7 +4,7 @@
 
 void claim_DETERMINISTIC(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
-    const bool deterministic = koksma__spec_is_deterministic(spec);
+    const bool deterministic = koksma_has_one_set(spec);
     koksma_points other;
     assert_ok(koksma_points_init(&other, points->n, points->dim));
     assert_ok(koksma_generate(spec, seed + 1, NULL, &other));

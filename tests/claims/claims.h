@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/generate.h"
 #include "patterns/shared/packing.h"
 #include "test.h"
 

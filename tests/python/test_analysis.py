@@ -63,6 +63,18 @@ class Series(unittest.TestCase):
         line = np.polyfit(np.log(sizes), np.log(ours.mean), 1)[0]
         self.assertAlmostEqual(ours.slope, line, delta=1e-12)
 
+    def test_one_set_has_residuals(self):
+        """The slope of a deterministic pattern has the error of the residuals, however many trials; a shift makes it random."""
+        sizes = [16, 64, 256]
+        one, five = (koksma.convergence("sobol", "min-distance", sizes, trials=t) for t in (1, 5))
+        x, y = np.log(sizes), np.log(one.mean)
+        residuals = y - np.polyval(np.polyfit(x, y, 1), x)
+        error = math.sqrt(residuals @ residuals / (len(x) - 2) / ((x - x.mean()) @ (x - x.mean())))
+        self.assertAlmostEqual(one.slope_error, error, delta=1e-12)
+        self.assertEqual((five.slope, five.slope_error), (one.slope, one.slope_error))
+        shifted = koksma.convergence("sobol:shift=1", "min-distance", sizes, trials=5)  # the same distances for every shift
+        self.assertLess(shifted.slope_error, 1e-12)
+
     def test_no_sequence_has_sets_of_each_size(self):
         ours = koksma.convergence("n-rooks", "star", [16, 64, 256], trials=3)
         for k, n in enumerate(ours.sizes):

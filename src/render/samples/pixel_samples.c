@@ -14,7 +14,6 @@
 
 #include <stdlib.h>
 
-#include "api/generate.h"
 #include "core/modifiers.h"
 #include "core/parallel.h"
 #include "core/random.h"
@@ -360,7 +359,7 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
     KOKSMA__REQUIRE_MEMORY(xs, 2 * n * sizeof *xs);
     koksma_status status = koksma__check_single_use(spec);
     status = status ? status : generate(spec, options->seed, n, dims, &alone, xs);
-    if (!status && koksma__spec_is_deterministic(spec)) {
+    if (!status && koksma_has_one_set(spec)) {
         status = keep_fixed(xs, n, dims, 0, dims == 2, fixed);
     }
     free(xs);
@@ -424,7 +423,7 @@ static koksma_status try_group(pixel_samples *samples, int g)
         const int u = group->uses[i];
         samples->shuffles[u] = options->pairing == KOKSMA_PAIRING_SHUFFLED &&
                                !(group->pattern.pattern->claims & KOKSMA_CLAIM_EXCHANGEABLE);
-        if (koksma__spec_is_deterministic(&group->pattern)) {
+        if (koksma_has_one_set(&group->pattern)) {
             status = keep_fixed(xs, n, dim, samples->places[u].first, koksma_use_at((size_t)u)->dim == 2,
                                 &samples->fixed[u]);
         }

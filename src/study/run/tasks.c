@@ -13,7 +13,6 @@
 #include <koksma/integrate.h>
 #include <koksma/warp.h>
 
-#include "api/generate.h"
 #include "core/capacity.h"
 #include "core/csv.h"
 #include "core/hash.h"
@@ -70,7 +69,7 @@ static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
 bool koksma__has_one_set(const char *pattern)
 {
     koksma_spec spec;
-    return !koksma_pattern_spec(pattern, &spec) && koksma__spec_is_deterministic(&spec);
+    return !koksma_pattern_spec(pattern, &spec) && koksma_has_one_set(&spec);
 }
 
 /* A family of files, such as file:my_{n}_{seed}.npy, has one set for each file: trial t has the file with the t-th smallest

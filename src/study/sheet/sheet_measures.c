@@ -3,7 +3,8 @@
  * Measures the samplers at several sizes over several trials. A job is one trial of one sampler at one size, on
  * one thread. Each job stores its values in its own array elements; they are added up afterwards in the order of
  * trials, as in `koksma measure --sizes --trials`, so that the numbers equal those of that command to the last
- * bit. A set that is the same for every seed is measured once and counted for every trial.
+ * bit. A set that is the same for every seed is measured once and counted for every trial of the means; its slope has
+ * the error of the residuals, as has the slope of any single set.
  *
  * Samplers are compared by Welch's test (1947) on means over trials, each at a level of 5 % divided by the number
  * of tests (Bonferroni), so that all decisions of a sheet hold together with 95 %. Means of sets that never vary
@@ -83,7 +84,9 @@ static void add_up(const evaluation *e, size_t s, size_t m)
             v->measures[m].n_bounds += e->status[job * v->n_measures + m] == 1;
             koksma_tally_add(&v->tallies[(s * v->n_measures + m) * v->n_sizes + i], values[i]);
         }
-        koksma_joint_add(&v->joints[s * v->n_measures + m], v->n_sizes, values);
+        if (t == 0 || !v->samplers[s]->same) { /* slopes have one trial of the same set */
+            koksma_joint_add(&v->joints[s * v->n_measures + m], v->n_sizes, values);
+        }
     }
 }
 
@@ -186,10 +189,12 @@ static koksma__estimate slope_of(const koksma__sheet_values *v, size_t s, size_t
         sizes[i] = (double)v->sizes[i];
         means[i] = koksma__sheet_tally(v, s, m, i)->mean;
     }
-    if (!koksma_joint_line(&v->joints[s * v->n_measures + m], v->n_sizes, sizes, means, &line)) {
+    const koksma_joint *joint = &v->joints[s * v->n_measures + m];
+    if (!koksma_joint_line(joint, v->n_sizes, sizes, means, &line)) {
         return (koksma__estimate){NAN, NAN, NAN};
     }
-    const double half = v->trials[s] > 1 ? koksma_student_975(v->trials[s] - 1) * line.slope_error : (double)NAN;
+    const size_t degrees = joint->count > 1 ? (size_t)joint->count - 1 : line.count - 2;
+    const double half = koksma_student_975(degrees) * line.slope_error;
     return (koksma__estimate){line.slope, line.slope - half, line.slope + half};
 }
 

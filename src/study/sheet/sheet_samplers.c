@@ -15,7 +15,6 @@
 
 #include <koksma/render.h>
 
-#include "api/generate.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
 
@@ -55,7 +54,7 @@ static koksma_status parse(const char *text, koksma__sheet_sampler *out)
                                               KOKSMA_MAX_SPEC - sizeof file_prefix - 1);
     if (!status) {
         koksma_spec_text(&out->spec, out->text);
-        out->same = koksma__spec_is_deterministic(&out->spec);
+        out->same = koksma_has_one_set(&out->spec);
         out->sets = SIZE_MAX;
     }
     return status;

@@ -74,8 +74,8 @@ def same(a, b):
 
 
 def student(degrees):
-    """The 97.5 % quantile of Student's t for the numbers of trials here (Abramowitz and Stegun, table 26.10)."""
-    return {3: 3.182, 4: 2.776, 7: 2.365, 15: 2.131}[degrees]
+    """The 97.5 % quantile of Student's t for the numbers of trials and sizes here (Abramowitz and Stegun, table 26.10)."""
+    return {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 7: 2.365, 15: 2.131}[degrees]
 
 
 def check_measure(command, rows, data):
@@ -89,7 +89,10 @@ def check_measure(command, rows, data):
         if row["measure"].startswith("slope of "):
             mine = slopes[sampler, row["measure"].removeprefix("slope of ")]["slope"]
             expect(same(mine[0], row["value"]), f"{command}: slope {mine} is {row['value']}")
-            half = student(row["trials"] - 1) * row["standard_error"]
+            of_residuals = row["trials"] == 1  # a deterministic sampler has one set: its slope has the error of the residuals
+            sizes = sum(1 for r in rows if (r["source"], "slope of " + r["measure"]) == (row["source"], row["measure"]))
+            half = student(sizes - 2) * row["residual_error"] if of_residuals else student(row["trials"] - 1) * row["standard_error"]
+            expect(of_residuals == (sampler in ("sobol", "regular")), f"{command}: {row}")
             expect(math.isclose(mine[2] - mine[0], half, rel_tol=1e-3, abs_tol=1e-12), f"{command}: half of the interval: {mine}, {half}")
             continue
         mine = (deep if row["dim"] > 2 else values)[sampler, row["measure"], row["n"]]
@@ -253,12 +256,23 @@ def check_single_file():
     check_commands(data)
 
 
+def check_one_set():
+    """The values of a deterministic sampler are exact, but its slopes have the errors of their residuals."""
+    _, data = sheet("regular", "--beside", "none", "--scenes", "none", "--quick")
+    for row in tables(data)["values"]:
+        expect(len(set(row["mean"])) == 1, f"the one set of regular: {row}")
+    slopes = [r["slope"] for r in tables(data)["slopes"] if None not in r["slope"]]
+    expect(sum(s[1] < s[0] < s[2] for s in slopes) > 10, f"slopes of regular: {slopes}")  # some means are exactly n^-1/2
+    check_commands(data)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         check_patterns()
         check_family()
         check_single_file()
+        check_one_set()
     print(f"{problems} problems")
     return problems > 0
 
