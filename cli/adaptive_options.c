@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "id_colours.h"
+
 /* Returns false, after a usage error, if an option is given that has no effect with a method that places its own
    samples. */
 static bool check_idle(const cli_arguments *arguments, const koksma_adaptive *method)
@@ -99,7 +101,6 @@ void cli_adaptive_put(cli_rows *rows, const cli_adaptive *adaptive, double pixel
 koksma_status cli_adaptive_counts(const cli_arguments *arguments, koksma_image *samples)
 {
     const char *path = cli_text(arguments, "counts", NULL);
-    const char *end = path ? strrchr(path, '.') : NULL;
     const size_t pixels = (size_t)samples->width * (size_t)samples->height;
     float most = 0;
     if (!path) {
@@ -108,7 +109,7 @@ koksma_status cli_adaptive_counts(const cli_arguments *arguments, koksma_image *
     for (size_t i = 0; i < pixels; i++) {
         most = samples->pixels[i] > most ? samples->pixels[i] : most;
     }
-    for (size_t i = 0; end && !strcmp(end, ".png") && most > 0 && i < pixels; i++) {
+    for (size_t i = 0; cli_has_eight_bits(path) && most > 0 && i < pixels; i++) {
         samples->pixels[i] /= most;
     }
     return koksma_image_write(path, samples, "samples of each pixel");

@@ -15,7 +15,8 @@
         {0, "probe", "K",                                                                                            \
          "with --adaptive: take K more samples to test whether each split was needed (default: 0)"},                 \
     {                                                                                                                \
-        0, "counts", "FILE", "write an image of the number of samples of each pixel; in .png white is the largest"   \
+        0, "counts", "FILE",                                                                                         \
+            "write an image of the number of samples of each pixel; in .png and .jpg white is the largest"           \
     }
 
 /* Options and results of adaptive sampling. Without --adaptive, options.method is NULL and every pixel has the same
@@ -34,8 +35,8 @@ bool cli_adaptive_options(const cli_arguments *arguments, cli_adaptive *adaptive
    pixels of the image. */
 void cli_adaptive_put(cli_rows *rows, const cli_adaptive *adaptive, double pixels);
 
-/* Writes the image of --counts if that option is given. For a .png file it first divides the numbers in `samples` by
-   the largest. */
+/* Writes the image of --counts if that option is given. For a .png or .jpg file it first divides the numbers in
+   `samples` by the largest. */
 koksma_status cli_adaptive_counts(const cli_arguments *arguments, koksma_image *samples);
 
 /* Writes the drawing of --strata if that option is given, and then frees the strata. */

@@ -11,6 +11,7 @@
 
 #include "adaptive_options.h"
 #include "cli.h"
+#include "id_colours.h"
 #include "render_options.h"
 
 static int put_row(const cli_arguments *arguments, const koksma_render_options *options, const cli_adaptive *adaptive,
@@ -99,7 +100,8 @@ static koksma_status write_image(const cli_arguments *arguments, const koksma_sc
             all[n++] = (koksma_layer){names[i], &aovs->images[i]};
         } else if (snprintf(path, sizeof path, "%.*s.%s%s", (int)(dot - output), output, names[i], dot) <
                    (int)sizeof path) {
-            status = koksma_image_write(path, &aovs->images[i], metadata);
+            status = (strcmp(aovs->names[i], "id") != 0 ? koksma_image_write : cli_write_ids)(path, &aovs->images[i],
+                                                                                              metadata);
         }
     }
     status = status ? status : koksma_image_write_layers(output, all, n, metadata);
@@ -291,7 +293,9 @@ const cli_command cli_command_render = {
         "--aov direct,indirect or bounce:0,bounce:1,... splits the light into layers that add up to the image: the "
         "light of bounce:N was reflected N times, and direct is bounce:0 + bounce:1. id has the number of the object "
         "in a pixel (as\n"
-        "'koksma scene check' lists them, from 1; 0: none). half gives two layers, half-even and half-odd: the means "
+        "'koksma scene check' lists them, from 1; 0: none); a .png or .jpg shows each number in its own colour and 0 "
+        "in "
+        "black. half gives two layers, half-even and half-odd: the means "
         "of the samples with even and with odd index.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"

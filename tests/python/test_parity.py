@@ -116,6 +116,23 @@ class Rendering(unittest.TestCase):
         np.testing.assert_allclose(found.aovs["direct"] + found.aovs["indirect"], found.image, atol=1e-5)
         np.testing.assert_allclose((found.aovs["half:even"] + found.aovs["half:odd"]) / 2, found.image, atol=1e-5)
         self.assertGreater(found.aovs["indirect"].max(), 0)
+
+    def test_colours_of_objects(self):
+        """Where a file has 8 bits, the program writes one colour for each object, the same in every picture; 0 is black."""
+        colours = {}
+        with tempfile.TemporaryDirectory() as folder:
+            for scene in ("many-lights", "cornell"):
+                for ending in ("pfm", "png", "jpg"):
+                    program("render", scene, "--size", "64x48", "-n", "1", "-q", "--aov", "id", "-o", os.path.join(folder, f"image.{ending}"))
+                ids, png, jpg = (koksma.read_image(os.path.join(folder, f"image.id.{ending}")) for ending in ("pfm", "png", "jpg"))
+                self.assertGreater(len(np.unique(ids)), 8)
+                for number, colour in {(int(i), tuple(c.tolist())) for i, c in zip(ids.ravel(), png.reshape(-1, 3))}:
+                    self.assertEqual(colours.setdefault(number, colour), colour, number)  # one colour for each number
+                self.assertLess(np.abs(jpg - png).mean(), 0.03)
+        self.assertEqual(len(set(colours.values())), len(colours))  # and one number for each colour
+        self.assertEqual(colours[0], (0, 0, 0))
+        for number, colour in colours.items():
+            self.assertTrue(number == 0 or max(colour) > 0.3, (number, colour))
         self.assertEqual(list(koksma.render("ball", spp=4, size=(8, 8), layers=True, aov=["half"]).aovs), ["half:even", "half:odd"])
         for arguments, said in ((dict(aov=["direct"]), "layers=True"), (dict(aov="direct", layers=True), "a list of texts"),
                                 (dict(aov=["odd"], layers=True), "odd"),
