@@ -153,6 +153,44 @@ koksma_status measuring_forgive(measuring *j, koksma_status status)
     return KOKSMA_OK;
 }
 
+static bool stop_at_once(void *context, double fraction_done)
+{
+    (void)context;
+    (void)fraction_done;
+    return false;
+}
+
+int measuring_check_dim(measuring *j, int dim)
+{
+    const koksma_run run = {.threads = 1, .keep_going = stop_at_once};
+    koksma_points points;
+    koksma_status status = koksma_points_init(&points, 1, dim);
+    for (size_t m = 0; m < j->n_measures && !status && !j->all && !j->by_default; m++) {
+        koksma_value value;
+        const koksma_status found = j->warp ? koksma_warp_evaluate(j->warp, &j->measures[m], &points, &run, &value)
+                                            : koksma_evaluate(&j->measures[m], &points, &run, &value);
+        status = found == KOKSMA_DIM || found == KOKSMA_UNSUPPORTED ? found : KOKSMA_OK;
+    }
+    const int code = status ? cli_fail(j->arguments, status) : CLI_YES;
+    koksma_points_fini(&points);
+    return code;
+}
+
+/* Checks the measures for all patterns before the first of them is generated. Returns the exit code. */
+static int check_patterns(measuring *j)
+{
+    int code = CLI_YES;
+    for (int i = 0; !code && i < j->arguments->n_operands; i++) {
+        cli_source parts;
+        code = cli_source_open(j->arguments, j->arguments->operands[i], &parts);
+        for (size_t w = 0; !code && parts.is_pattern && w < (j->n_warps ? j->n_warps : 1); w++) {
+            j->warp = j->warps[w];
+            code = measuring_check_dim(j, parts.dim);
+        }
+    }
+    return code;
+}
+
 static int measure_source(measuring *j, const char *source)
 {
     koksma_points points = {0};
@@ -160,7 +198,8 @@ static int measure_source(measuring *j, const char *source)
     if (j->trials > 1 || j->n_prefixes > 0 || j->powers || j->paired) {
         return measuring_trials(j, source);
     }
-    const int code = cli_source_points(j->arguments, source, j->seed, &j->work.run, &points);
+    int code = cli_source_points(j->arguments, source, j->seed, &j->work.run, &points);
+    code = code ? code : measuring_check_dim(j, points.dim);
     if (code) {
         koksma_points_fini(&points);
         return code;
@@ -322,7 +361,7 @@ static int run(const cli_arguments *arguments)
     }
     choose_columns(&j);
     j.rows = cli_rows_open(cli_flag(arguments, "json"));
-    int code = measuring_open(&j) ? CLI_YES : cli_no_memory();
+    int code = measuring_open(&j) ? check_patterns(&j) : cli_no_memory();
     for (int i = 0; !code && i < arguments->n_operands; i++) {
         for (size_t w = 0; !code && w < (j.n_warps ? j.n_warps : 1); w++) {
             j.warp = j.warps[w];

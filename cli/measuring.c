@@ -341,6 +341,9 @@ int measuring_trials(measuring *j, const char *source)
         }
         if (!code) {
             dim = own_sets ? parts.dim : points.dim;
+            code = measuring_check_dim(j, dim);
+        }
+        if (!code) {
             code = own_sets ? CLI_YES : choose_prefixes(j, points.n);
         }
         if (!code) {
