@@ -36,6 +36,19 @@ koksma_run koksma__sheet_part(koksma__sheet *sheet, double share, double pass_sh
     return (koksma_run){.threads = sheet->run ? sheet->run->threads : 0, .keep_going = keep_going, .context = sheet};
 }
 
+static bool keep_going_in_set(void *context, double fraction)
+{
+    const koksma__sheet *sheet = context;
+    const double now = sheet->passed + (1 - sheet->passed) * sheet->pass_share * sheet->fraction;
+    (void)fraction; /* a single set does not count as progress */
+    return koksma__keep_going(sheet->run, sheet->done + sheet->share * now);
+}
+
+koksma_run koksma__sheet_one_set(koksma__sheet *sheet)
+{
+    return (koksma_run){.threads = 1, .keep_going = keep_going_in_set, .context = sheet};
+}
+
 /* ---- Notes and commands ------------------------------------------------------------------------------------ */
 
 void koksma__sheet_note_error(koksma__sheet *sheet, const char *what)

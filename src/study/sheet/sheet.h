@@ -94,6 +94,10 @@ typedef struct koksma__sheet {
    the part before it (1 for a part of one pass). The returned run's context is the sheet. */
 koksma_run koksma__sheet_part(koksma__sheet *sheet, double share, double pass_share);
 
+/* Returns the run for work on a single set, on the caller's thread: one thread, which asks whether to go on and counts
+   as no progress. */
+koksma_run koksma__sheet_one_set(koksma__sheet *sheet);
+
 /* Appends a note: `what`, then the text of this thread's last error. */
 void koksma__sheet_note_error(koksma__sheet *sheet, const char *what);
 

@@ -20,13 +20,15 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "stats/quantiles.h"
+#include "study/run/run_control.h"
 #include "study/sheet/sheet_samplers.h"
 
 /* ---- Evaluation -------------------------------------------------------------------------------------------- */
 
 typedef struct evaluation {
     koksma__sheet_values *values;
-    size_t trials;         /* the largest number of trials of any sampler */
+    const koksma__run_control *control; /* whose `job` asks within a set whether to go on, on any thread */
+    size_t trials;                      /* the largest number of trials of any sampler */
     double *found;         /* a value's index is ((sampler * sizes + size) * trials + trial) * measures + measure */
     unsigned char *status; /* has the same indices as `found`; 0: a value, 1: a bound, 2: no value */
 } evaluation;
@@ -37,15 +39,17 @@ static koksma_status evaluate_set(void *context, size_t job)
     koksma__sheet_values *v = e->values;
     const size_t t = job % e->trials, i = job / e->trials % v->n_sizes, s = job / e->trials / v->n_sizes;
     const koksma__sheet_sampler *sampler = v->samplers[s];
-    const koksma_run alone = {.threads = 1};
+    const koksma_run *alone = &e->control->job;
     koksma_points points = {0};
     if (t >= v->trials[s] || (sampler->same && t > 0)) {
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma__sheet_points(sampler, v->sizes[i], v->dim, t, &points);
+    koksma_status status = koksma__sheet_points(sampler, v->sizes[i], v->dim, t, alone, &points);
     for (size_t m = 0; m < v->n_measures && !status; m++) {
         koksma_value value = {.value = NAN};
-        const bool none = koksma_evaluate(&v->measures[m].spec, &points, &alone, &value) != KOKSMA_OK;
+        const koksma_status found = koksma_evaluate(&v->measures[m].spec, &points, alone, &value);
+        const bool none = found != KOKSMA_OK;
+        status = found == KOKSMA_INTERRUPTED ? found : KOKSMA_OK;
         e->found[job * v->n_measures + m] = value.value;
         e->status[job * v->n_measures + m] = none ? 2 : !value.exact;
     }
@@ -62,9 +66,8 @@ static void note_missing(koksma__sheet *sheet, const evaluation *e, size_t m)
         koksma_value value;
         const size_t t = job % e->trials, i = job / e->trials % v->n_sizes, s = job / e->trials / v->n_sizes;
         if (e->status[job * v->n_measures + m] == 2 &&
-            !koksma__sheet_points(v->samplers[s], v->sizes[i], v->dim, t, &points)) {
-            const koksma_run alone = {.threads = 1};
-            koksma_evaluate(&v->measures[m].spec, &points, &alone, &value);
+            !koksma__sheet_points(v->samplers[s], v->sizes[i], v->dim, t, &e->control->job, &points)) {
+            koksma_evaluate(&v->measures[m].spec, &points, &e->control->job, &value);
             koksma_points_fini(&points);
             koksma__sheet_note_error(sheet, v->measures[m].name);
             return;
@@ -92,7 +95,9 @@ static void add_up(const evaluation *e, size_t s, size_t m)
 
 koksma_status koksma__sheet_evaluate(koksma__sheet *sheet, koksma__sheet_values *v, const koksma_run *run)
 {
-    evaluation e = {.values = v};
+    koksma__run_control control;
+    evaluation e = {.values = v, .control = &control};
+    koksma__run_control_begin(run, 0, &control);
     for (size_t s = 0; s < v->n_samplers; s++) {
         e.trials = v->trials[s] > e.trials ? v->trials[s] : e.trials;
     }
@@ -102,7 +107,7 @@ koksma_status koksma__sheet_evaluate(koksma__sheet *sheet, koksma__sheet_values 
     v->tallies = calloc(rows * v->n_sizes, sizeof *v->tallies);
     v->joints = calloc(rows, sizeof *v->joints);
     koksma_status status = e.found && e.status && v->tallies && v->joints
-                               ? koksma__parallel(run, jobs, evaluate_set, &e)
+                               ? koksma__parallel(&control.run, jobs, evaluate_set, &e)
                                : koksma__fail_memory(jobs * v->n_measures * sizeof *e.found);
     for (size_t m = 0; m < v->n_measures && !status; m++) {
         for (size_t job = 0; job < jobs; job++) {

@@ -38,13 +38,15 @@ static void draw(koksma__document *d, const koksma_points *points, int a, int b,
     koksma__doc_figure_end(d);
 }
 
+static const koksma_run alone = {.threads = 1};
+
 /* Draws a set. If `first`, the set belongs to the sampler that the sheet describes, and the caption does not repeat
    its name. */
 static koksma_status draw_set(const koksma__sheet_sampler *sampler, size_t n, bool first, koksma__document *d)
 {
     char what[KOKSMA_MAX_SPEC + 64];
     koksma_points points = {0};
-    const koksma_status status = koksma__sheet_points(sampler, n, 2, 0, &points);
+    const koksma_status status = koksma__sheet_points(sampler, n, 2, 0, &alone, &points);
     if (!status) {
         snprintf(what, sizeof what, "%s, n = %zu", sampler->text, n);
         draw(d, &points, 0, 1, WIDTH, what, first ? strrchr(what, ',') + 2 : what);
@@ -154,12 +156,12 @@ static void put_verify_command(koksma__sheet *sheet, const koksma__sheet_sampler
 koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d)
 {
     const size_t n = koksma__sheet_size(sheet, VERIFIED);
-    const koksma_run run = koksma__sheet_part(sheet, 0.02, 0.3);
+    const koksma_run run = koksma__sheet_part(sheet, 0.02, 0.3), one_set = koksma__sheet_one_set(sheet);
     koksma_findings findings[KOKSMA__SHEET_SAMPLERS] = {{0}};
     koksma_status status = KOKSMA_OK;
     for (size_t s = 0; s < sheet->n_samplers && !status; s++) {
         koksma_points points = {0};
-        status = koksma__sheet_points(sheet->samplers[s], n, 2, 0, &points);
+        status = koksma__sheet_points(sheet->samplers[s], n, 2, 0, &one_set, &points);
         status = status ? status : koksma_verify(&points, &run, &findings[s]);
         koksma_points_fini(&points);
     }
@@ -193,7 +195,7 @@ koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d)
 static koksma_status draw_pairs(const koksma__sheet_sampler *sampler, size_t n, int dim, koksma__document *d)
 {
     koksma_points points = {0};
-    const koksma_status status = koksma__sheet_points(sampler, n, dim, 0, &points);
+    const koksma_status status = koksma__sheet_points(sampler, n, dim, 0, &alone, &points);
     for (int k = 0; k < dim && !status; k++) {
         char what[64];
         const int a = k + 1 < dim ? k : 0, b = k + 1 < dim ? k + 1 : dim - 1;
@@ -211,7 +213,7 @@ static bool choose_deep(koksma__sheet *sheet, size_t n, int dim, bool note, koks
     *count = 0;
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma_points points = {0};
-        const bool there = !koksma__sheet_points(sheet->samplers[s], n, dim, 0, &points);
+        const bool there = !koksma__sheet_points(sheet->samplers[s], n, dim, 0, &alone, &points);
         koksma_points_fini(&points);
         if (there) {
             samplers[(*count)++] = sheet->samplers[s];
@@ -250,7 +252,7 @@ koksma_status koksma__sheet_projections(koksma__sheet *sheet, koksma__document *
         v.trials[s] = koksma__sheet_trials(samplers[s], sheet->trials);
     }
     koksma_status status = koksma__sheet_evaluate(sheet, &v, &run);
-    status = status ? status : koksma__sheet_points(samplers[0], n, v.dim, 0, &points);
+    status = status ? status : koksma__sheet_points(samplers[0], n, v.dim, 0, &alone, &points);
     status = status ? status : koksma_verify(&points, &run, &findings);
     if (!status) {
         koksma__doc_section(d, "projections", "More dimensions");

@@ -197,12 +197,11 @@ static koksma_status find_dimensions(koksma__sheet *sheet)
 /* ---- Choosing samplers and sizes ----------------------------------------------------------------------- */
 
 koksma_status koksma__sheet_points(const koksma__sheet_sampler *sampler, size_t n, int dim, size_t trial,
-                                   koksma_points *out)
+                                   const koksma_run *run, koksma_points *out)
 {
-    const koksma_run alone = {.threads = 1};
     koksma_status status = koksma_points_init(out, n, dim);
     if (!status) {
-        status = koksma_generate(&sampler->spec, sampler->seed + trial, &alone, out);
+        status = koksma_generate(&sampler->spec, sampler->seed + trial, run, out);
         if (status) {
             koksma_points_fini(out);
         }
@@ -225,12 +224,13 @@ size_t koksma__sheet_size(const koksma__sheet *sheet, size_t most)
 }
 
 /* Checks that a sampler has a first set of every size. */
-static koksma_status try_sizes(const koksma__sheet *sheet, const koksma__sheet_sampler *sampler)
+static koksma_status try_sizes(koksma__sheet *sheet, const koksma__sheet_sampler *sampler)
 {
+    const koksma_run run = koksma__sheet_one_set(sheet);
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < sheet->n_sizes; i++) {
         koksma_points points = {0};
-        status = koksma__sheet_points(sampler, sheet->sizes[i], 2, 0, &points);
+        status = koksma__sheet_points(sampler, sheet->sizes[i], 2, 0, &run, &points);
         koksma_points_fini(&points);
     }
     return status;
@@ -255,7 +255,8 @@ static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by
     }
     status = koksma__reads_points(sampler->spec.pattern) ? look_at_files(sheet, sampler) : KOKSMA_OK;
     status = status ? status : try_sizes(sheet, sampler);
-    if (status && !first && status != KOKSMA_MISSING && status != KOKSMA_MALFORMED && status != KOKSMA_MEMORY) {
+    if (status && !first && status != KOKSMA_MISSING && status != KOKSMA_MALFORMED && status != KOKSMA_MEMORY &&
+        status != KOKSMA_INTERRUPTED) {
         koksma__sheet_note_error(sheet, sampler->text);
         return KOKSMA_OK;
     }

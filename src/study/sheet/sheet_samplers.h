@@ -8,9 +8,9 @@
 /* Chooses samplers, sizes, trials and samples per pixel. Errors: those of koksma_datasheet about samplers. */
 koksma_status koksma__sheet_choose(koksma__sheet *sheet);
 
-/* Generates the points of a trial. */
+/* Generates the points of a trial; run: of one thread. */
 koksma_status koksma__sheet_points(const koksma__sheet_sampler *sampler, size_t n, int dim, size_t trial,
-                                   koksma_points *out);
+                                   const koksma_run *run, koksma_points *out);
 
 /* The number of sets to measure: `wanted`, or fewer if the sampler has fewer. */
 size_t koksma__sheet_trials(const koksma__sheet_sampler *sampler, size_t wanted);

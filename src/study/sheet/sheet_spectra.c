@@ -15,6 +15,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "study/run/run_control.h"
 #include "study/sheet/sheet_samplers.h"
 
 enum { POINTS = 1024, QUALITY_PER_ROOT = 7, RADIAL_PER_ROOT = 2, BINS = 100, WHITE = 2, SIDE = 200 };
@@ -27,17 +28,18 @@ typedef struct spectra {
     koksma_spectrum radial, wide;
     koksma_tally pairs[BINS];
     double r_max;
+    const koksma__run_control *control; /* whose `job` asks within a set whether to go on, on any thread */
 } spectra;
 
 static koksma_status add_set(spectra *s, size_t t)
 {
     double values[BINS];
     koksma_points points = {0};
-    const koksma_run alone = {.threads = 1};
-    koksma_status status = koksma__sheet_points(s->sampler, s->n, 2, t, &points);
-    status = status ? status : koksma_spectrum_add(&s->radial, &points, KOKSMA_SPECTRUM_FAST, &alone);
-    status = status ? status : koksma_spectrum_add(&s->wide, &points, KOKSMA_SPECTRUM_FAST, &alone);
-    status = status ? status : koksma_pair_correlation(&points, s->r_max, BINS, &alone, values);
+    const koksma_run *alone = &s->control->job;
+    koksma_status status = koksma__sheet_points(s->sampler, s->n, 2, t, alone, &points);
+    status = status ? status : koksma_spectrum_add(&s->radial, &points, KOKSMA_SPECTRUM_FAST, alone);
+    status = status ? status : koksma_spectrum_add(&s->wide, &points, KOKSMA_SPECTRUM_FAST, alone);
+    status = status ? status : koksma_pair_correlation(&points, s->r_max, BINS, alone, values);
     for (size_t b = 0; b < BINS && !status; b++) {
         koksma_tally_add(&s->pairs[b], values[b]);
     }
@@ -202,13 +204,16 @@ koksma_status koksma__sheet_spectra(koksma__sheet *sheet, koksma__document *d)
 {
     spectra *all = calloc(KOKSMA__SHEET_SAMPLERS, sizeof *all);
     const koksma_run run = koksma__sheet_part(sheet, 0.08, 1);
+    koksma__run_control control;
+    koksma__run_control_begin(&run, 0, &control);
     koksma_status status = all ? KOKSMA_OK : koksma__fail_memory(KOKSMA__SHEET_SAMPLERS * sizeof *all);
     for (size_t s = 0; s < sheet->n_samplers && !status; s++) {
         all[s] = (spectra){.sampler = sheet->samplers[s],
+                           .control = &control,
                            .n = koksma__sheet_size(sheet, POINTS),
                            .trials = koksma__sheet_trials(sheet->samplers[s], sheet->trials)};
     }
-    status = status ? status : koksma__parallel(&run, sheet->n_samplers, compute, all);
+    status = status ? status : koksma__parallel(&control.run, sheet->n_samplers, compute, all);
     status = status ? status : put_section(sheet, all, d);
     for (size_t s = 0; all && s < sheet->n_samplers; s++) {
         koksma_spectrum_fini(&all[s].radial);
