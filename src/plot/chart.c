@@ -72,6 +72,20 @@ static void find_ranges(const koksma_chart *c, axis *x, axis *y)
     }
 }
 
+/* Ranges below this part of the values are rounding noise, or too small for labels of 8 digits to show. */
+#define NOISE 1e-6
+
+/* Widens the range of values that differ only by noise: by half the value, or half a decade, at both ends. */
+static void widen_noise(axis *a)
+{
+    const double middle = a->low / 2 + a->high / 2, size = fmax(fabs(a->low), fabs(a->high));
+    if (a->high - a->low <= NOISE * (a->log ? 1 / log(10) : size)) {
+        const double half = a->log || size == 0 ? 0.5 : size / 2;
+        a->low = middle - half;
+        a->high = middle + half;
+    }
+}
+
 /* Extends the range a little at both ends; a linear axis whose low end is positive and small begins at exactly 0.
    Returns false if the axis has no values. */
 static bool settle(axis *a, double room)
@@ -79,7 +93,8 @@ static bool settle(axis *a, double room)
     if (!(a->high >= a->low)) {
         return false;
     }
-    const double span = a->high > a->low ? a->high - a->low : fmax(fabs(a->high), 1) * 0.5;
+    widen_noise(a);
+    const double span = a->high - a->low;
     const bool from_zero = !a->log && a->low >= 0 && a->low < 0.3 * a->high;
     a->low = from_zero ? 0 : a->low - room * span;
     a->high += room * span;
