@@ -138,6 +138,9 @@ typedef struct cli_work {
     const char *what;    /* the text before the progress bar; may be changed while running */
     double begin, share; /* a progress p of `run`, 0 to 1, is shown as begin + share * p */
     double fraction;     /* the progress shown so far, 0 to 1; it never decreases */
+    double reached;      /* the largest progress that `run` reported in this part */
+    bool unknown;        /* the progress of this part is not known: the line shows the time so far */
+    double part_s;       /* the start of this part */
     double limit_s;      /* the work takes at most this number of seconds; 0: unknown */
     bool hidden;         /* show nothing */
     double started_s, updated_s;
@@ -148,6 +151,8 @@ typedef struct cli_work {
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
 /* Begins part i (0..) of n equal parts of the progress bar. */
 void cli_work_part(cli_work *work, size_t i, size_t n);
+/* Begins work of unknown length, such as making the points of a part, up to the next call of cli_work_part. */
+void cli_work_unknown(cli_work *work, const char *what);
 /* Clears the progress line and shows none from now on, because the output that follows would mix with it on the
    terminal. */
 void cli_work_hide(cli_work *work);

@@ -198,6 +198,7 @@ static int measure_source(measuring *j, const char *source)
     if (j->trials > 1 || j->n_prefixes > 0 || j->powers || j->paired) {
         return measuring_trials(j, source);
     }
+    cli_work_unknown(&j->work, "points");
     int code = cli_source_points(j->arguments, source, j->seed, &j->work.run, &points);
     code = code ? code : measuring_check_dim(j, points.dim);
     if (code) {

@@ -106,11 +106,16 @@ int cli_curves_each_set(cli_curves *c, const char *source,
 {
     cli_source opened;
     int code = cli_source_open(c->arguments, source, &opened);
-    for (uint64_t t = 0; t < (opened.is_pattern ? c->trials : 1) && !code; t++) { /* a file has only one set, also if
-                                                                                     --trials is above 1 */
+    const uint64_t sets = code || opened.is_pattern ? c->trials : 1; /* a file has only one set */
+    const size_t all = (size_t)c->arguments->n_operands * c->trials;
+    for (uint64_t t = 0; t < sets && !code; t++) {
         koksma_points points;
+        cli_work_unknown(&c->work, "points");
         code = cli_source_points(c->arguments, source, c->seed + t, &c->work.run, &points);
         if (!code) {
+            c->work.what = "curves";
+            cli_work_part(&c->work, c->n_sets < all ? c->n_sets : all - 1, all);
+            c->n_sets++;
             const koksma_status status = add(c, &points, context);
             cli_work_end();
             code = status              ? cli_fail(c->arguments, status)

@@ -24,6 +24,7 @@ typedef struct cli_curves {
     double r_max;
     koksma_spectrum_method method;
     cli_work work;
+    size_t n_sets;        /* number of sets begun, for the progress line */
     const char *output;   /* the file of --output, or NULL */
     double width, height; /* size of the picture; 0: the default size */
     bool dark;

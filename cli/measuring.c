@@ -306,6 +306,7 @@ static koksma_status tally_points(measuring *j, const koksma_points *points, con
         koksma_points own = {0};
         koksma_status status = KOKSMA_OK;
         if (!points) {
+            cli_work_unknown(&j->work, "points");
             status = koksma_points_init(&own, j->prefixes[i], source->dim);
             status = status ? status : koksma_generate(&source->spec, j->seed + trial, &j->work.run, &own);
         }
@@ -337,6 +338,7 @@ int measuring_trials(measuring *j, const char *source)
     for (uint64_t t = 0; t < j->trials && !code; t++) {
         koksma_points points = {0};
         if (!own_sets) {
+            cli_work_unknown(&j->work, "points");
             code = cli_source_points(j->arguments, source, j->seed + t, &j->work.run, &points);
         }
         if (!code) {

@@ -78,23 +78,48 @@ const char *cli_duration(double seconds, char text[CLI_NUMBER])
 
 static bool shown; /* a progress line is shown */
 
+/* A progress that falls by more than this began anew: `run` reports several phases, each from 0. */
+#define ANEW 0.05
+
+/* Notes the progress of the part. Once it began anew, it says nothing about the part. */
+static void note(cli_work *work, double fraction)
+{
+    work->unknown = work->unknown || fraction < work->reached - ANEW;
+    work->reached = fmax(work->reached, fraction);
+    if (!work->unknown) {
+        work->fraction = fmax(work->fraction, fmin(work->begin + work->share * fraction, 1));
+    }
+}
+
+/* The seconds left: those of this part, and for each later part the mean time of the parts up to this one. */
+static double seconds_left(const cli_work *work, double now)
+{
+    const double in_part = now - work->part_s, part_s = in_part / work->reached;
+    const double before = work->begin / work->share, after = (1 - work->begin - work->share) / work->share;
+    return part_s - in_part + after * (work->part_s - work->started_s + part_s) / (before + 1);
+}
+
 /* Prints the progress line. The line is cut to the terminal's width, because a wrapped line could not be cleared. */
 static void show(cli_work *work, double fraction)
 {
     const double now = cli_seconds(), elapsed = now - work->started_s;
     char text[256], left[CLI_NUMBER];
-    work->fraction = fmax(work->fraction, fmin(work->begin + work->share * fraction, 1));
+    note(work, fraction);
     if (work->hidden || now - work->updated_s < 1.0 / 6) {
         return;
     }
     work->updated_s = now;
-    const int used = snprintf(text, sizeof text, "%.150s %3.0f %%", work->what, 100 * work->fraction);
+    int used = snprintf(text, sizeof text, "%.150s", work->what);
+    if (!work->unknown) {
+        used += snprintf(text + used, sizeof text - (size_t)used, " %3.0f %%", 100 * work->fraction);
+    }
     if (work->limit_s > 0) {
         snprintf(text + used, sizeof text - (size_t)used, ", at most %s left",
                  cli_duration(fmax(work->limit_s - elapsed, 0), left));
-    } else if (work->fraction > 0.01 && elapsed > 1) {
-        snprintf(text + used, sizeof text - (size_t)used, ", %s left",
-                 cli_duration(elapsed * (1 - work->fraction) / work->fraction, left));
+    } else if (work->unknown && elapsed > 1) {
+        snprintf(text + used, sizeof text - (size_t)used, ", %s so far", cli_duration(elapsed, left));
+    } else if (work->reached > 0.01 && elapsed > 1) {
+        snprintf(text + used, sizeof text - (size_t)used, ", %s left", cli_duration(seconds_left(work, now), left));
     }
     const int width = cli_terminal_width(STDERR_FILENO);
     fprintf(stderr, "\r\033[K%.*s", width ? width - 1 : (int)sizeof text, text);
@@ -131,6 +156,7 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     }
     const bool visible = !cli_flag(arguments, "quiet") && (always || (automatic && isatty(STDERR_FILENO)));
     *work = (cli_work){.what = what, .share = 1, .started_s = cli_seconds()};
+    work->part_s = work->started_s;
     work->run = (koksma_run){
         .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
     /* with SIGXFSZ ignored, a write beyond the limit on file sizes fails instead of killing the program */
@@ -144,6 +170,15 @@ void cli_work_part(cli_work *work, size_t i, size_t n)
 {
     work->begin = (double)i / (double)n;
     work->share = 1 / (double)n;
+    work->part_s = cli_seconds();
+    work->reached = 0;
+    work->unknown = false;
+}
+
+void cli_work_unknown(cli_work *work, const char *what)
+{
+    work->what = what;
+    work->unknown = true;
 }
 
 void cli_work_hide(cli_work *work)

@@ -67,6 +67,7 @@ static int tally_sizes(cli_curves *c, const koksma_spec *measure, const cli_sour
                        means *v)
 {
     koksma_status status = KOKSMA_OK;
+    cli_work_unknown(&c->work, "convergence"); /* the largest sets take most of the time */
     for (uint64_t t = 0; t < (file ? 1 : c->trials) && !status; t++) {
         double values[MAX_SIZES];
         for (size_t i = 0; i < v->count && !status; i++) {

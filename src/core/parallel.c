@@ -7,6 +7,7 @@
  */
 #include "core/parallel.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -52,6 +53,25 @@ int koksma__threads(const koksma_run *run)
 bool koksma__keep_going(const koksma_run *run, double fraction_done)
 {
     return !run || !run->keep_going || run->keep_going(run->context, fraction_done);
+}
+
+static bool keep_going_in_phase(void *context, double fraction)
+{
+    koksma__phases *phases = context;
+    const double now = phases->begin + phases->share * fmin(fraction, 1);
+    phases->reached = fmax(phases->reached, now);
+    return koksma__keep_going(phases->run, phases->reached);
+}
+
+koksma_run koksma__phase_run(koksma__phases *phases, const koksma_run *run, double share)
+{
+    koksma_run phase = run ? *run : (koksma_run){0};
+    phases->run = run;
+    phases->begin += phases->share;
+    phases->share = share;
+    phase.keep_going = keep_going_in_phase;
+    phase.context = phases;
+    return phase;
 }
 
 bool koksma__paced(void *pacing, double fraction_done)

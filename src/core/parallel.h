@@ -25,6 +25,18 @@ KOKSMA__LAB int koksma__threads(const koksma_run *run);
 /* Calls run->keep_going and returns its result; returns true if run or run->keep_going is NULL. */
 KOKSMA__LAB bool koksma__keep_going(const koksma_run *run, double fraction_done);
 
+/* A phase of a call whose work has several: the fractions 0 to 1 that the phase reports to koksma__phase_run count as
+   begin .. begin + share of the call, and never fall. The phases of a call take one after another the same struct, of
+   zeros at first. share = 0: a phase that is short beside the others. */
+typedef struct koksma__phases {
+    const koksma_run *run; /* of the call; may be NULL */
+    double begin, share;
+    double reached; /* the largest fraction of the call that was reported */
+} koksma__phases;
+
+/* Begins the next phase, which follows the one before, and returns its run. The struct must not be moved in memory. */
+KOKSMA__LAB koksma_run koksma__phase_run(koksma__phases *phases, const koksma_run *run, double share);
+
 /* For callbacks that cost much, such as those of an interpreter: koksma__paced is a keep_going whose context is a
    koksma__pacing. It calls the member `keep_going` at most once in every interval_s, first after one interval, and
    otherwise returns true; once the member has returned false, it always returns false. The Python package has the same

@@ -16,6 +16,7 @@
  */
 #include <math.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "measures/measures.h"
 #include "measures/shared/deadline.h"
@@ -25,6 +26,9 @@
 #include "measures/shared/star_search.h"
 
 enum { FIRST_STEPS = 200, FIRST_RESTARTS = 1 };
+
+/* Part of the progress that the short search reports. */
+#define SEARCH_SHARE 0.02
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
@@ -38,9 +42,12 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     const double half_s = koksma__deadline_s(args->run, 0.5), end_s = koksma__deadline_s(args->run, 0.95);
     bool complete = false;
     const size_t steps = points->n / 5 < FIRST_STEPS ? points->n / 5 : FIRST_STEPS;
+    koksma__phases phases = {.share = 0};
+    koksma_run phase = koksma__phase_run(&phases, args->run, SEARCH_SHARE);
     koksma_status status =
-        koksma__star_search(points, args->run, 1, steps, FIRST_RESTARTS, koksma__deadline_s(args->run, 0.4), out);
-    status = status ? status : koksma__star_partition(points, args->run, half_s, out, &complete);
+        koksma__star_search(points, &phase, 1, steps, FIRST_RESTARTS, koksma__deadline_s(args->run, 0.4), out);
+    phase = koksma__phase_run(&phases, args->run, 1 - SEARCH_SHARE);
+    status = status ? status : koksma__star_partition(points, &phase, half_s, out, &complete);
     if (!status && !complete) {
         out->exact = false;
         out->lower = out->value;

@@ -170,8 +170,11 @@ koksma_status koksma__power_fast(const koksma_points *points, int half, const ko
     for (size_t i = 0; i < points->n; i++) {
         spread(&j, points->xs + i * (size_t)points->dim);
     }
-    koksma_status status = koksma__parallel(run, j.m / (2 * LANES), transform_columns, &j);
-    status = status ? status : koksma__parallel(run, (rows + LANES - 1) / LANES, transform_rows, &j);
+    koksma__phases phases = {.share = 0};
+    koksma_run phase = koksma__phase_run(&phases, run, 0.5);
+    koksma_status status = koksma__parallel(&phase, j.m / (2 * LANES), transform_columns, &j);
+    phase = koksma__phase_run(&phases, run, 0.5);
+    status = status ? status : koksma__parallel(&phase, (rows + LANES - 1) / LANES, transform_rows, &j);
     free(j.grid);
     return status;
 }

@@ -433,8 +433,11 @@ static koksma_status search_blocks(plane *p, size_t n_blocks, bool complete, con
         p->upper[block] = -1;
     }
     if (!complete || p->method != KOKSMA__EXTREME_EITHER) {
-        KOKSMA__TRY(koksma__parallel(run, n_blocks, search_block, p));
-        return bound_rest(p, n_blocks, run);
+        koksma__phases phases = {.share = 0};
+        koksma_run phase = koksma__phase_run(&phases, run, 0.95);
+        KOKSMA__TRY(koksma__parallel(&phase, n_blocks, search_block, p));
+        phase = koksma__phase_run(&phases, run, 0.05);
+        return bound_rest(p, n_blocks, &phase);
     }
     return koksma__keep_going(run, 1) ? KOKSMA_OK : koksma__fail_interrupted();
 }

@@ -169,7 +169,9 @@ static void add_up(const total *totals, size_t count, koksma__dd *sum)
 
 static koksma_status run_job(job *j, const koksma_run *run, koksma__dd *sum)
 {
-    koksma_status status = koksma__parallel(run, j->n_chunks, count_chunk, j);
+    koksma__phases phases = {.share = 0};
+    koksma_run phase = koksma__phase_run(&phases, run, 0.1);
+    koksma_status status = koksma__parallel(&phase, j->n_chunks, count_chunk, j);
     for (size_t part = 0; part < PARTS && !status; part++) {
         node before = {{0, 0}, 0};
         for (size_t chunk = 0; chunk < j->n_chunks; chunk++) {
@@ -178,10 +180,12 @@ static koksma_status run_job(job *j, const koksma_run *run, koksma__dd *sum)
             add(&before, &here);
         }
     }
-    status = status ? status : koksma__parallel(run, j->n_chunks, deal_chunk, j);
+    phase = koksma__phase_run(&phases, run, 0.2);
+    status = status ? status : koksma__parallel(&phase, j->n_chunks, deal_chunk, j);
     if (!status) {
         add_up(j->totals, j->n_chunks, sum);
-        status = j->rest > 0 ? koksma__parallel(run, (size_t)1 << j->bits, solve_part, j) : KOKSMA_OK;
+        phase = koksma__phase_run(&phases, run, 0.7);
+        status = j->rest > 0 ? koksma__parallel(&phase, (size_t)1 << j->bits, solve_part, j) : KOKSMA_OK;
     }
     if (!status && j->rest > 0) {
         add_up(j->totals, (size_t)1 << j->bits, sum);

@@ -299,9 +299,16 @@ static koksma_status two_pieces(void *context, size_t block)
 
 static koksma_status divide(divider *d, const koksma_run *run)
 {
-    koksma_status status = koksma__parallel(run, (d->n + PIECE - 1) / PIECE, piece, d);
+    koksma__phases phases = {.share = 0};
+    double levels = 1; /* each takes about as long as the others */
+    for (size_t width = PIECE; width < d->n; width *= 2) {
+        levels++;
+    }
+    koksma_run phase = koksma__phase_run(&phases, run, 1 / levels);
+    koksma_status status = koksma__parallel(&phase, (d->n + PIECE - 1) / PIECE, piece, d);
     for (d->width = PIECE; d->width < d->n && !status; d->width *= 2) {
-        status = koksma__parallel(run, (d->n + 2 * d->width - 1) / (2 * d->width), two_pieces, d);
+        phase = koksma__phase_run(&phases, run, 1 / levels);
+        status = koksma__parallel(&phase, (d->n + 2 * d->width - 1) / (2 * d->width), two_pieces, d);
         item *const other = d->items;
         d->items = d->spare;
         d->spare = other;

@@ -334,13 +334,18 @@ static koksma_status prepare(plane *p, const koksma_run *run, size_t n_blocks)
 static koksma_status evaluate_all(plane *p, const koksma_run *run, size_t n_blocks, double *square)
 {
     dd below = {0, 0};
-    koksma_status status = prepare(p, run, n_blocks);
+    koksma__phases phases = {.share = 0};
+    koksma_run phase = koksma__phase_run(&phases, run, 0.2);
+    koksma_status status = prepare(p, &phase, n_blocks);
+    phase = koksma__phase_run(&phases, run, p->dim == 1 ? 0.8 : 0.1);
     if (p->dim == 1) {
-        status = status ? status : koksma__parallel(run, n_blocks, sum_line, p);
+        status = status ? status : koksma__parallel(&phase, n_blocks, sum_line, p);
     } else {
-        status = status ? status : koksma__parallel(run, n_blocks, sum_by_x, p);
-        status = status ? status : koksma__parallel(run, n_blocks, sum_by_y, p);
-        status = status ? status : koksma__l2_sum_below(run, p->n, p->by_y, p->by_x, &below);
+        status = status ? status : koksma__parallel(&phase, n_blocks, sum_by_x, p);
+        phase = koksma__phase_run(&phases, run, 0.1);
+        status = status ? status : koksma__parallel(&phase, n_blocks, sum_by_y, p);
+        phase = koksma__phase_run(&phases, run, 0.6);
+        status = status ? status : koksma__l2_sum_below(&phase, p->n, p->by_y, p->by_x, &below);
     }
     if (!status) {
         below = (dd){ldexp(below.hi, -2 * p->bits), ldexp(below.lo, -2 * p->bits)};

@@ -190,11 +190,13 @@ koksma_status koksma__order(const koksma_run *run, size_t n, const double *xs, s
     s.to = s.from + n;
     s.starts = (uint32_t(*)[MAX_VALUES])(s.to + n);
     s.mask = (1u << bits) - 1;
-    koksma_status status = koksma__parallel(run, s.n_blocks, load, &s);
+    koksma__phases sorting = {.share = 0}; /* what sorts takes longer after it, and reports its own progress */
+    const koksma_run quiet = koksma__phase_run(&sorting, run, 0);
+    koksma_status status = koksma__parallel(&quiet, s.n_blocks, load, &s);
     for (s.shift = 0; s.shift < 32 && !status; s.shift += bits) {
-        status = pass(&s, run);
+        status = pass(&s, &quiet);
     }
-    status = status ? status : koksma__parallel(run, s.n_blocks, store, &s);
+    status = status ? status : koksma__parallel(&quiet, s.n_blocks, store, &s);
     free(memory);
     return status;
 }

@@ -131,9 +131,12 @@ koksma_status koksma__star_2d_by(bool kinetic, const koksma_points *points, cons
     s.rank = s.order + n;
     double best[2];
     size_t at[2];
-    koksma_status status = prepare(points, run, &s);
+    koksma__phases phases = {.share = 0};
+    koksma_run phase = koksma__phase_run(&phases, run, 0);
+    koksma_status status = prepare(points, &phase, &s);
     if (!status && kinetic) {
-        status = koksma__star_kinetic(n, s.x, s.rank, s.y, run, best, at);
+        phase = koksma__phase_run(&phases, run, 1);
+        status = koksma__star_kinetic(n, s.x, s.rank, s.y, &phase, best, at);
     } else if (!status) {
         koksma__kernels()->star_sweep(n, s.x, s.rank, s.y, s.count, best, at);
     }

@@ -259,9 +259,15 @@ static bool keeps_going(walks *w, double fraction_done)
     return !atomic_load(&w->stopped);
 }
 
+/* The fraction of all walks that is done when `done` of the `all` points of a walk are; walks begin in their order. */
+static double fraction_at(const walks *w, size_t block, size_t done, size_t all)
+{
+    return ((double)block + (double)done / (double)all) / (2 * (double)w->parts);
+}
+
 /* Finds the best value among points `from` to `end`. sign 1: the excess, evaluated after each insertion; sign -1: the
    deficit, evaluated before each insertion. */
-static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sign, best_box *best)
+static koksma_status walk(walks *w, tree *t, size_t block, size_t from, size_t end, double sign, best_box *best)
 {
     const size_t n = w->n;
     /* Rounding can lower a bound by at most this much: at most n additions compute it, and each rounds a number of at
@@ -273,7 +279,7 @@ static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sig
     *best = (best_box){-INFINITY, from};
     start(t, w, from, sign);
     for (size_t i = from; i < end; i++) {
-        if (i % CHECK_EVERY == 0 && !keeps_going(w, (double)i / (double)n)) {
+        if (i % CHECK_EVERY == 0 && !keeps_going(w, fraction_at(w, block, i - from, end - from))) {
             return koksma__fail_interrupted();
         }
         if (!t->exact && i < n && t->looks > too_many * (i - from) + 4 * t->n_blocks) {
@@ -312,7 +318,7 @@ static koksma_status walk_one(void *context, size_t block)
     KOKSMA__REQUIRE_MEMORY(t.nodes, bytes);
     t.k = (double *)(t.nodes + 2 * t.n_blocks);
     t.b = t.k + t.n_blocks * BLOCK;
-    const koksma_status status = walk(w, &t, from, end, deficit ? -1 : 1, &w->best[deficit][part]);
+    const koksma_status status = walk(w, &t, block, from, end, deficit ? -1 : 1, &w->best[deficit][part]);
     free(t.nodes);
     return status;
 }
