@@ -487,8 +487,9 @@ const cli_command cli_command_study = {
                 "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
                 "images 'PLACES' --reference FILE [-o DIR] [--json]",
     .details =
-        "PLAN is the name of a plan in the library, or a JSON file (./plan.json). Paths in a plan are relative to\n"
-        "the plan's file.\n"
+        "PLAN is the name of a plan in the library, a JSON file (./plan.json), or the plan itself, which begins with "
+        "'{'. Paths in a plan are relative to\n"
+        "the plan's file, or without a file to the current folder.\n"
         "run: runs all jobs; each result is written to DIR/results.sqlite when it is finished. An interrupted run "
         "continues when it is\n"
         "started again. If a pattern fails for some trials, the summary, the report and 'export' list them with the "

@@ -70,8 +70,9 @@ KOKSMA_API koksma_status koksma_study_mpi_processes(koksma_processes *out);
 
 /* Options of koksma_study_open. */
 typedef struct koksma_study_options {
-    /* names of plans in the library, or paths of JSON files if the text has a '/' or ends in ".json". Several plans
-       are joined to one plan with the name "a+b" */
+    /* names of plans in the library; paths of JSON files if the text has a '/' or ends in ".json"; or, if it begins with
+       '{', plans as JSON texts, whose relative paths start at the current folder. Several plans are joined to one plan
+       with the name "a+b" */
     const char *const *plans;
     size_t n_plans;     /* number of plans; 0: use the plan stored in the folder, to which nothing is written before
                            a run */

@@ -100,7 +100,8 @@ class Study:
     ----------
     plan : str, path, dict, or a sequence of them
         The name of a plan that ships ("shirley1991"), a JSON file, or the plan itself; studies/README.md lists the
-        fields. Empty: the plan that the folder has.
+        fields. Relative paths in a plan start at the folder of its file, those of a dict at the present directory.
+        Empty: the plan that the folder has.
     folder : path, optional
         Where results are kept; created if it does not exist. Without one only `estimate` can be called.
     trials : int, optional
@@ -137,25 +138,21 @@ class Study:
         self._handle = c_void_p()
         self.folder: Optional[Path] = None if folder is None else Path(os.fsdecode(text(folder, "folder")))
         plans = [plan] if isinstance(plan, (str, os.PathLike, dict)) else several("plan", plan)
-        with tempfile.TemporaryDirectory(prefix="koksma-plan-") as room:
-            names = []
-            for i, one in enumerate(plans):
-                if isinstance(one, dict):
-                    path = Path(room) / f"plan-{i}.json"
-                    path.write_text(json.dumps(one, indent=1, allow_nan=False), encoding="utf-8")
-                    names.append(text(path))
-                else:  # a path is a file, a text may be a name
-                    names.append(text(os.path.join(os.curdir, one) if isinstance(one, os.PathLike) else one, "plan"))
-            options = s.StudyOptions((c_char_p * len(names))(*names), len(names),
-                                     None if folder is None else text(folder, "folder"),
-                                     0 if trials is None else whole("trials", trials, 1, 100000000), flag("quick", quick))
-            try:
-                check(lab().koksma_study_open(byref(options), byref(self._handle)))
-            except MalformedError as error:  # of a dict: the file of its lines is gone
-                said = re.sub(rf"plan '{re.escape(room)}/[^']*': line (\d+): ", r"line \1 of json.dumps(plan, indent=1): ", str(error))
-                again = MalformedError(said)
-                again.status = error.status
-                raise again from None
+        names = []
+        for one in plans:
+            if isinstance(one, dict):
+                names.append(json.dumps(one, indent=1, allow_nan=False).encode())
+            else:  # a path is a file, a text may be a name
+                names.append(text(os.path.join(os.curdir, one) if isinstance(one, os.PathLike) else one, "plan"))
+        options = s.StudyOptions((c_char_p * len(names))(*names), len(names),
+                                 None if folder is None else text(folder, "folder"),
+                                 0 if trials is None else whole("trials", trials, 1, 100000000), flag("quick", quick))
+        try:
+            check(lab().koksma_study_open(byref(options), byref(self._handle)))
+        except MalformedError as error:
+            again = MalformedError(re.sub(r"plan '\(text\)': line (\d+): ", r"line \1 of json.dumps(plan, indent=1): ", str(error)))
+            again.status = error.status
+            raise again from None
 
     def _open(self) -> c_void_p:
         if not self._handle:

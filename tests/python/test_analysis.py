@@ -295,6 +295,24 @@ class Studies(unittest.TestCase):
             study.run()
         self.assertIn("shirley1991", koksma.plans())
 
+    def test_paths(self):
+        """Relative paths of a dict start at the present directory, and its rows have the pattern's text as it is."""
+        before = os.getcwd()
+        plan = {"name": "p", "title": "P", "discrepancies": [{"patterns": ["file:p.txt"], "measures": ["star"], "n": [4], "trials": 1}]}
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                np.savetxt("p.txt", koksma.generate("sobol", 4))
+                with koksma.Study(plan, "s") as study:
+                    self.assertEqual(study.run().done_now, 1)
+                    self.assertEqual(study.rows()["pattern"].tolist(), ["file:p.txt"])
+                with koksma.Study((), "s") as study:  # the text is in the folder
+                    self.assertEqual(study.run().done_before, 1)
+                    study.report()
+                self.assertEqual(sorted(os.listdir()), ["p.txt", "s"])
+            finally:
+                os.chdir(before)
+
 
 class Docstrings(unittest.TestCase):
     def test_examples(self):

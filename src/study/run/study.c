@@ -22,6 +22,17 @@ static const char *plan_name_at(const void *table, size_t i)
     return koksma_plan_name_at(i);
 }
 
+static bool is_text(const char *plan)
+{
+    return *plan == '{';
+}
+
+/* The name of a plan in messages and in the store; its folder, if it has one, is where the plan's relative paths start. */
+static const char *name_of(const char *plan)
+{
+    return is_text(plan) ? "(text)" : plan;
+}
+
 static koksma_status load_plan(const char *name, const koksma__plan_trials *trials, koksma__plan *plan,
                                char **text_out)
 {
@@ -29,7 +40,11 @@ static koksma_status load_plan(const char *name, const koksma__plan_trials *tria
     unsigned char *text = NULL;
     size_t size = 0;
     koksma_status status = KOKSMA_OK;
-    if (!strchr(name, '/') && !(length > 5 && !strcmp(name + length - 5, ".json"))) {
+    if (is_text(name)) {
+        size = length;
+        text = (unsigned char *)strdup(name);
+        status = text ? KOKSMA_OK : koksma__fail_memory(size);
+    } else if (!strchr(name, '/') && !(length > 5 && !strcmp(name + length - 5, ".json"))) {
         const char *shipped = koksma__plan_shipped(name, &size);
         char meant[KOKSMA__MEANT];
         KOKSMA__FAIL_IF(!shipped, KOKSMA_UNKNOWN,
@@ -40,7 +55,7 @@ static koksma_status load_plan(const char *name, const koksma__plan_trials *tria
     } else {
         status = koksma__read_file(name, KOKSMA__FILE_PLAN, KOKSMA__BY_USER, koksma__check_text, &text, &size);
     }
-    status = status ? status : koksma__plan_parse(name, (const char *)text, size, trials, plan);
+    status = status ? status : koksma__plan_parse(name_of(name), (const char *)text, size, trials, plan);
     *text_out = (char *)text;
     return status;
 }
@@ -126,7 +141,7 @@ static koksma_status keep_plan(koksma_study *study, const koksma_study_options *
         snprintf(key, sizeof key, "plan-text-%zu", i);
         status = koksma__store_set_text(study->store, key, texts[i]);
         snprintf(key, sizeof key, "plan-name-%zu", i);
-        status = status ? status : koksma__store_set_text(study->store, key, options->plans[i]);
+        status = status ? status : koksma__store_set_text(study->store, key, name_of(options->plans[i]));
     }
     snprintf(value, sizeof value, "%zu %lld %d", options->n_plans, options->trials, options->quick);
     status = status ? status : koksma__store_set_text(study->store, "plan-texts", value);
@@ -180,7 +195,8 @@ static koksma_status recall_plan(koksma_study *study)
 static koksma_status check_text(const koksma_study_options *options, char *const *texts, size_t i)
 {
     for (size_t k = 0; k < i; k++) {
-        KOKSMA__FAIL_IF(!strcmp(texts[k], texts[i]), KOKSMA_ARGUMENT, "plan '%s' is listed twice", options->plans[i]);
+        KOKSMA__FAIL_IF(!strcmp(texts[k], texts[i]), KOKSMA_ARGUMENT, "plan '%s' is listed twice",
+                        name_of(options->plans[i]));
     }
     return KOKSMA_OK;
 }
