@@ -98,18 +98,16 @@ static double percent(double part, double of)
 
 static const double RUN_SHARE = 0.95; /* fraction of the progress bar for the run; the rest is for the report */
 
-/* Opens a study, runs it, reports and closes it. The plan `made`, or NULL, is removed if the study can't be opened, and
-   if it is temporary. Returns the exit code. */
+/* Opens a study, runs it, reports and closes it. The plan `made`, or NULL, is removed if the study can't be opened.
+   Returns the exit code. */
 static int run_study(const cli_arguments *arguments, const koksma_study_options *options, const cli_quick_plan *made,
                      cli_work *work)
 {
     koksma_study *study;
     koksma_study_summary summary = {0};
     koksma_status status = koksma_study_open(options, &study);
-    if (status || (made && made->temporary)) {
-        cli_remove_quick_plan(options->folder, made);
-    }
     if (status) {
+        cli_remove_quick_plan(options->folder, made);
         return cli_fail(arguments, status);
     }
     work->share = options->folder ? RUN_SHARE : 1;
@@ -199,11 +197,12 @@ static int run_quick(const cli_arguments *arguments)
     if (code) {
         return code;
     }
-    const char *plan = made.path;
+    const char *plan = made.text ? made.text : made.path;
     options.plans = &plan;
     options.n_plans = 1;
     options.folder = koksma_study_mpi_rank() > 0 ? NULL : folder;
     code = run_study(arguments, &options, &made, &work);
+    free(made.text);
     cli_work_end();
     return code;
 }

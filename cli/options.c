@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <koksma/image.h>
 #include <koksma/render.h>
@@ -421,7 +422,8 @@ int cli_usage_error(const cli_arguments *arguments, const char *format, ...)
 {
     va_list list;
     complained = true;
-    if (is_other_rank(arguments)) {
+    if (is_other_rank(arguments)) { /* mpirun may end all ranks once one has failed: rank 0 has time to say why */
+        nanosleep(&(struct timespec){.tv_sec = 5}, NULL);
         return CLI_USAGE;
     }
     va_start(list, format);

@@ -7,14 +7,13 @@
  * is written (study_quick_check.c), and an existing plan.json of another text stays (koksma_plan_write).
  *
  * Under mpirun only rank 0 uses DIR, which may be on its machine alone. Every rank makes the same text from the same
- * options; the other ranks write it to a temporary file, because koksma_study_open reads files.
+ * options, and the other ranks open it as a text.
  */
 #include "study_quick.h"
 
 #include "metric_option.h"
 #include "study_quick_check.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -182,29 +181,6 @@ static int write_plan(const cli_arguments *arguments, const char *folder, const 
                                       : CLI_YES;
 }
 
-/* Writes the plan's text to a temporary file, for a rank other than 0. Returns the exit code. */
-static int write_temporary_plan(const char *text, cli_quick_plan *plan)
-{
-    const char *parent = getenv("TMPDIR");
-    parent = parent && *parent ? parent : "/tmp";
-    errno = ENAMETOOLONG;
-    const int length = snprintf(plan->path, sizeof plan->path, "%s/koksma-plan-XXXXXX", parent);
-    const int descriptor = length < (int)sizeof plan->path ? mkstemp(plan->path) : -1;
-    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
-    plan->temporary = descriptor >= 0;
-    bool good = file && fputs(text, file) >= 0;
-    good = file ? !fclose(file) && good : false;
-    if (!file && descriptor >= 0) {
-        close(descriptor);
-    }
-    if (!good) {
-        cli_say("study", "%s: the plan of MPI rank %d can't be written there: %s; TMPDIR names another folder",
-                parent, koksma_study_mpi_rank(), strerror(errno));
-        cli_remove_quick_plan(NULL, plan);
-    }
-    return good ? CLI_YES : koksma_status_exit_code(KOKSMA_IO);
-}
-
 int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cli_quick_plan *plan)
 {
     char all_measures[CLI_QUICK_LIST], all_integrands[CLI_QUICK_LIST];
@@ -230,17 +206,19 @@ int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cli
     }
     const bool good = put_plan(out, arguments, &quick);
     const bool closed = !fclose(out);
-    const int code = !good                         ? CLI_USAGE
-                     : !closed                     ? cli_no_memory()
-                     : koksma_study_mpi_rank() > 0 ? write_temporary_plan(text, plan)
-                                                   : write_plan(arguments, folder, text, plan);
-    free(text);
+    const bool keeps = good && closed && koksma_study_mpi_rank() > 0;
+    const int code = !good     ? CLI_USAGE
+                     : !closed ? cli_no_memory()
+                     : keeps   ? CLI_YES
+                               : write_plan(arguments, folder, text, plan);
+    plan->text = keeps ? text : NULL;
+    free(keeps ? NULL : text);
     return code;
 }
 
 void cli_remove_quick_plan(const char *folder, const cli_quick_plan *plan)
 {
-    if (plan && (plan->new_file || plan->temporary)) {
+    if (plan && plan->new_file) {
         unlink(plan->path);
     }
     if (plan && plan->new_folder) {
