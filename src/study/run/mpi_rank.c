@@ -17,6 +17,9 @@ static const char *problem; /* NULL, or the reason why MPI cannot be used althou
 static void finish(void)
 {
     const bool others_wait = here.rank == 0 && here.size > 1 && !here.released; /* for rank 0 */
+    if (others_wait) { /* mpirun may drop what it has not yet passed on when ranks are aborted: the reason of the error */
+        koksma__mpi_rest(0.5);
+    }
     here.mpi->finish(others_wait ? koksma_status_exit_code(KOKSMA_IO) : 0);
 }
 
