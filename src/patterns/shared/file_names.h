@@ -26,6 +26,12 @@ static inline bool koksma__reads_points(const koksma_pattern *pattern)
 /* Returns whether a path contains the placeholder `place`, "{n}" or "{seed}". */
 KOKSMA__LAB bool koksma__file_has(const char *path, const char *place);
 
+/* Returns whether a path has a placeholder, so that it names a family of files. */
+static inline bool koksma__file_is_family(const char *path)
+{
+    return koksma__file_has(path, "{n}") || koksma__file_has(path, "{seed}");
+}
+
 /* Makes the path of the set of n points with this seed. Errors: ARGUMENT (the path is too long). */
 KOKSMA__LAB koksma_status koksma__file_name(const char *path, size_t n, uint64_t seed, char out[KOKSMA_MAX_SPEC]);
 

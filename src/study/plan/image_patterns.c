@@ -31,15 +31,22 @@ koksma_status koksma__image_pattern_text(const char *text, char out[KOKSMA_MAX_S
     return KOKSMA_OK;
 }
 
+const koksma_spec *koksma__image_pattern_at(const koksma_render_options *options, size_t i)
+{
+    enum { GROUPS = 1 + KOKSMA_N_USES };
+    return i == 0                               ? &options->pattern
+           : i < GROUPS                         ? &options->patterns[i - 1]
+           : i < GROUPS + KOKSMA_MAX_USE_GROUPS ? &options->groups[i - GROUPS].pattern
+                                                : NULL;
+}
+
 bool koksma__image_pattern_is_one(const char *text)
 {
     koksma_render_options options = {0};
+    const koksma_spec *spec;
     bool one = !koksma__image_pattern_set(text, &options);
-    for (int u = 0; u < KOKSMA_N_USES; u++) {
-        one = one && !options.patterns[u].pattern;
-    }
-    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
-        one = one && !options.groups[g].n_uses;
+    for (size_t i = 1; (spec = koksma__image_pattern_at(&options, i)); i++) {
+        one = one && !spec->pattern;
     }
     return one;
 }

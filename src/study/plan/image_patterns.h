@@ -13,6 +13,10 @@ koksma_status koksma__image_pattern_set(const char *text, koksma_render_options 
    KOKSMA_MAX_SPEC characters or more. */
 koksma_status koksma__image_pattern_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
+/* Returns spec i of the options: the common pattern, those of single uses, those of groups; NULL past the last. The
+   pattern of a spec is NULL if a use or group has none. */
+const koksma_spec *koksma__image_pattern_at(const koksma_render_options *options, size_t i);
+
 /* Whether all uses have the same pattern, which native pairing and adaptive methods with their own strata
    require. */
 bool koksma__image_pattern_is_one(const char *text);

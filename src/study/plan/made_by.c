@@ -76,14 +76,11 @@ static koksma_status of_points(const char *pattern, const char *warp_name, const
 static koksma_status of_image(const char *pattern, bool first, char text[KOKSMA__MADE_BY])
 {
     koksma_render_options options = {0};
+    const koksma_spec *spec;
     KOKSMA__TRY(koksma__image_pattern_set(pattern, &options));
     add(text, "renderer", first ? 0 : KOKSMA__RENDERER_REVISION);
-    add_pattern(text, &options.pattern, first);
-    for (int u = 0; u < KOKSMA_N_USES; u++) {
-        add_pattern(text, &options.patterns[u], first);
-    }
-    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
-        add_pattern(text, &options.groups[g].pattern, first);
+    for (size_t i = 0; (spec = koksma__image_pattern_at(&options, i)); i++) {
+        add_pattern(text, spec, first);
     }
     return KOKSMA_OK;
 }

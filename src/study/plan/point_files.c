@@ -14,6 +14,7 @@
 #include "core/read_file.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
+#include "study/plan/image_patterns.h"
 #include "study/plan/made_by.h"
 
 /* Calls `visit` for every path in the patterns of an image's uses, or in the single pattern of a set of points, and with
@@ -22,22 +23,14 @@ static koksma_status visit_patterns(const char *patterns, koksma_status (*visit)
                                     void *context)
 {
     koksma_render_options options = {0};
-    const koksma_spec *specs[1 + KOKSMA_N_USES + KOKSMA_MAX_USE_GROUPS];
-    size_t n = 0;
+    const koksma_spec *spec;
     koksma_status status = KOKSMA_OK;
     if (!patterns[0] || koksma_render_patterns(patterns, &options)) {
         return KOKSMA_OK;
     }
-    specs[n++] = &options.pattern;
-    for (int u = 0; u < KOKSMA_N_USES; u++) {
-        specs[n++] = &options.patterns[u];
-    }
-    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
-        specs[n++] = &options.groups[g].pattern;
-    }
-    for (size_t i = 0; !status && i < n; i++) {
-        const koksma_pattern *p = specs[i]->pattern;
-        status = p && p->operand ? visit(context, koksma__names_path(p) ? specs[i]->path : NULL) : KOKSMA_OK;
+    for (size_t i = 0; !status && (spec = koksma__image_pattern_at(&options, i)); i++) {
+        const koksma_pattern *p = spec->pattern;
+        status = p && p->operand ? visit(context, koksma__names_path(p) ? spec->path : NULL) : KOKSMA_OK;
     }
     return status;
 }
@@ -53,18 +46,13 @@ static koksma_status visit_paths(const char *patterns, const char *reference,
     return has_reference ? visit_patterns(of_reference, visit, context) : status;
 }
 
-static bool is_family(const char *path)
-{
-    return koksma__file_has(path, "{n}") || koksma__file_has(path, "{seed}");
-}
-
 /* Hash of a file; for a family of files (file_names.h), the combined hash of all of them. 0: it can't be read. */
 static uint64_t hash_of_file(const char *path)
 {
     uint64_t hash = 0, all = 0;
     koksma__file_set *sets = NULL;
     size_t count = 0;
-    if (!is_family(path)) {
+    if (!koksma__file_is_family(path)) {
         return koksma__hash_file(path, &hash) ? 0 : hash;
     }
     if (koksma__file_sets(path, &sets, &count)) {
@@ -134,7 +122,7 @@ static koksma_status can_be_read(void *context, const char *path)
     if (!path) {
         return KOKSMA_OK;
     }
-    if (!is_family(path)) {
+    if (!koksma__file_is_family(path)) {
         return koksma__hash_file(path, &hash);
     }
     const koksma_status status = koksma__file_sets(path, &sets, &count);
@@ -149,7 +137,7 @@ koksma_status koksma__points_can_be_read(const char *patterns, const char *refer
 
 static koksma_status find_family(void *context, const char *path)
 {
-    *(bool *)context |= path && is_family(path);
+    *(bool *)context |= path && koksma__file_is_family(path);
     return KOKSMA_OK;
 }
 

@@ -32,15 +32,10 @@ static bool ends_with(const char *text, const char *end)
     return length > n && !strcmp(text + length - n, end);
 }
 
-static bool is_family(const char *text)
-{
-    return koksma__file_has(text, "{n}") || koksma__file_has(text, "{seed}");
-}
-
 static bool is_file(const char *text)
 {
-    return is_family(text) || ends_with(text, ".npy") || ends_with(text, ".csv") || ends_with(text, ".txt") ||
-           (!koksma_pattern_find(text) && !strchr(text, ':') && !access(text, F_OK));
+    return koksma__file_is_family(text) || ends_with(text, ".npy") || ends_with(text, ".csv") ||
+           ends_with(text, ".txt") || (!koksma_pattern_find(text) && !strchr(text, ':') && !access(text, F_OK));
 }
 
 static koksma_status parse(const char *text, koksma__sheet_sampler *out)
@@ -156,7 +151,7 @@ static koksma_status look_at_files(koksma__sheet *sheet, koksma__sheet_sampler *
     size_t count = 0;
     const char *path = sampler->spec.path;
     const bool first = sampler == sheet->all;
-    koksma_status status = is_family(path) ? koksma__file_sets(path, &sets, &count) : KOKSMA_OK;
+    koksma_status status = koksma__file_is_family(path) ? koksma__file_sets(path, &sets, &count) : KOKSMA_OK;
     if (!status && koksma__file_has(path, "{n}") && first) {
         status = choose_sizes_of_family(sheet, sampler, sets, count);
     } else if (!status && count) {
