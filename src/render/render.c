@@ -159,8 +159,7 @@ bool koksma_render_warning(const koksma_scene *scene, const koksma_render_option
     KOKSMA__REQUIRE_OR(false, scene, options, text);
     KOKSMA__REQUIRE_OR(false, options->integrator);
     KOKSMA__REQUIRE_OR(false, options->integrator->flags);
-    const koksma__integrator_flags *flags = options->integrator->flags;
-    return koksma__scene_warning(scene, (flags->followed & KOKSMA__LOBE_DIFFUSE) != 0, i, text, size);
+    return koksma__scene_warning(scene, options->integrator->flags, i, text, size);
 }
 
 static koksma_status render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,

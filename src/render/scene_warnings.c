@@ -232,11 +232,15 @@ static bool of_all(const koksma_scene *scene, asked *a)
     return of_unknown(scene, a) || of_unread(&scene->unread, a) || of_names(&scene->unread, a);
 }
 
-bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, char *text, size_t size)
+bool koksma__scene_warning(const koksma_scene *scene, const koksma__integrator_flags *flags, size_t i, char *text,
+                           size_t size)
 {
     asked a = {i, text, size};
+    const bool lit = !flags || !flags->replace_scene;
+    const bool by_paths = lit && (!flags || flags->followed & KOKSMA__LOBE_DIFFUSE);
     const bool found = of_materials(scene, &a) || of_all(scene, &a) || of_meshes(scene, &a) ||
-                       of_placements(scene, &a) || of_lights(scene, &a) || (by_paths && of_hidden_lights(scene, &a));
+                       of_placements(scene, &a) || (lit && of_lights(scene, &a)) ||
+                       (by_paths && of_hidden_lights(scene, &a));
     if (found && size) {
         koksma_text_escape(text, size);
     }
@@ -246,7 +250,7 @@ bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, c
 bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
 {
     KOKSMA__REQUIRE_OR(false, scene, text);
-    return koksma__scene_warning(scene, true, i, text, size);
+    return koksma__scene_warning(scene, NULL, i, text, size);
 }
 
 bool koksma_scene_unknown(const koksma_scene *scene, size_t i, char *text, size_t size)

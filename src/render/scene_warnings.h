@@ -3,9 +3,10 @@
 #define KOKSMA_RENDER_SCENE_WARNINGS_H
 
 #include "render/description.h"
+#include "render/integrators/integrator_flags.h"
 
-/* Warning i of koksma_scene_warning. If by_paths is false, warnings that concern only path-tracing integrators are
-   left out. */
-bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, char *text, size_t size);
+/* Warning i of koksma_scene_warning, of those that concern the integrator. flags: NULL for all integrators. */
+bool koksma__scene_warning(const koksma_scene *scene, const koksma__integrator_flags *flags, size_t i, char *text,
+                           size_t size);
 
 #endif

@@ -202,15 +202,16 @@ static void direct_light_is_the_form_factor(void **state)
     }
 }
 
-/* The sky but for the disk, which is a surface or a light; lights, the sky's radiance, ambient light and materials count
-   for nothing. At the edge of a wall without end half the sky is left. */
+/* The sky but for the disk, which is a surface or a light; lights, the sky's radiance, ambient light, materials and the
+   limit of samples count for nothing. At the edge of a wall without end half the sky is left. */
 static void ambient_occlusion_is_the_rest_of_the_sky(void **state)
 {
     (void)state;
     static const char *const disks[] = {
         LIT, ", {" DISK "\"normal\": [0, -1, 0], \"material\": \"m\"}]",
         ", {" DISK "\"normal\": [0, 1, 0], \"material\": \"m\"}], \"lights\": [{\"kind\": \"environment\", "
-        "\"radiance\": 7, \"visible\": true}, {\"kind\": \"point\", \"centre\": [1, 1, 1], \"intensity\": 3}]"};
+        "\"radiance\": 7, \"visible\": true}, {\"kind\": \"point\", \"centre\": [1, 1, 1], \"intensity\": 3}]",
+        LIT ", \"clamp\": 0.2"};
     double error;
     for (size_t i = 0; i < sizeof disks / sizeof *disks; i++) {
         const double seen = floor_by(disks[i], "ambient-occlusion", -1, &error);
@@ -221,6 +222,27 @@ static void ambient_occlusion_is_the_rest_of_the_sky(void **state)
                                  "ambient-occlusion", -1, &error);
     assert_near(wall, 0.5, 4 * error + 0.005);
     assert_true(floor_by("]", "ambient-occlusion", 0, &error) == 0); /* no ray looks at the sky */
+}
+
+/* Ambient occlusion needs no light, so that a scene without any is as intended. */
+static void warnings_of_light_are_for_integrators_with_light(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(
+        "{\"camera\": {\"eye\": [0, 0, 4], \"target\": [0, 0, 0], \"fov_deg\": 30}, \"materials\": [{\"name\": "
+        "\"m\", \"kind\": \"mirror\", \"reflectance\": 1}], \"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, "
+        "0], \"radius\": "
+        "1, \"material\": \"m\"}]}");
+    for (size_t i = 0; koksma_integrator_at(i); i++) {
+        koksma_render_options options;
+        koksma_render_options_init(&options, scene);
+        options.integrator = koksma_integrator_at(i);
+        char text[256];
+        const bool warned = koksma_render_warning(scene, &options, 0, text, sizeof text);
+        assert_int_equal(warned, strcmp(options.integrator->name, "ambient-occlusion") != 0);
+        assert_true(!warned || strstr(text, "the picture will be black"));
+    }
+    koksma_scene_close(scene);
 }
 
 /* A disk of the material, under a rectangle that no ray sees: grey and still, through a lens, in colour, or moving.
@@ -354,6 +376,7 @@ int main(void)
         cmocka_unit_test(specular_bodies_show_the_sky),
         cmocka_unit_test(direct_light_is_the_form_factor),
         cmocka_unit_test(ambient_occlusion_is_the_rest_of_the_sky),
+        cmocka_unit_test(warnings_of_light_are_for_integrators_with_light),
         cmocka_unit_test(pipelines_agree),
         cmocka_unit_test(order_does_not_matter),
     };

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Replaces the scene by one whose path-traced image is its ambient occlusion: all surfaces become white and diffuse,
- * all lights become black, and the background has radiance 1. A direction sampled from a surface with the density cos
- * / pi then contributes 1 if its ray leaves the scene and 0 if the ray hits anything. The shapes, the camera and the
- * cached geometry remain those of the original scene.
+ * all lights become black, samples are not clamped, and the background has radiance 1. A direction sampled from a
+ * surface with the density cos / pi then contributes 1 if its ray leaves the scene and 0 if the ray hits anything. The
+ * shapes, the camera and the cached geometry remain those of the original scene.
  */
 #include "render/integrators/ambient_occlusion.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,6 +39,7 @@ koksma_status koksma__ambient_occlusion_scene(const koksma_scene *scene, koksma_
         l->visible = false;
     }
     copy->medium.is_there = false;
+    copy->clamp = INFINITY; /* the scene's limit is one of its light */
     for (int k = 0; k < 3; k++) {
         copy->background[k] = 1;
         copy->ambient[k] = 0;
