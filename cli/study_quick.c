@@ -163,6 +163,11 @@ static bool put_plan(FILE *out, const cli_arguments *arguments, const cli_quick 
     return true;
 }
 
+static void store_path(const char *folder, char path[CLI_QUICK_PATH])
+{
+    snprintf(path, CLI_QUICK_PATH, "%s/results.sqlite", folder);
+}
+
 /* Writes the plan's text and notes which names are new. Returns the exit code. */
 static int write_plan(const cli_arguments *arguments, const char *folder, const char *text, cli_quick_plan *plan)
 {
@@ -171,10 +176,12 @@ static int write_plan(const cli_arguments *arguments, const char *folder, const 
     if (strlen(folder) > 1000) { /* as the library's functions on studies have it */
         return cli_usage_error(arguments, "the name of a study's folder is longer than 1000 bytes: %.40s...", folder);
     }
-    const bool new_folder = lstat(folder, &info), new_file = lstat(plan->path, &info);
-    const koksma_status status = koksma_plan_write(folder, text);
+    const bool new_folder = lstat(folder, &info);
+    char store[CLI_QUICK_PATH];
+    store_path(folder, store);
+    plan->had_store = !lstat(store, &info);
+    const koksma_status status = koksma_plan_write(folder, text, &plan->new_file);
     plan->new_folder = !status && new_folder;
-    plan->new_file = !status && new_file;
     /* the text comes from the command line, and no file is malformed */
     return status == KOKSMA_MALFORMED ? cli_usage_error(arguments, "%s", koksma_error_text())
            : status                   ? cli_fail(arguments, status)
@@ -218,10 +225,16 @@ int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cli
 
 void cli_remove_quick_plan(const char *folder, const cli_quick_plan *plan)
 {
-    if (plan && plan->new_file) {
+    char path[CLI_QUICK_PATH];
+    struct stat info;
+    if (!plan) {
+        return;
+    }
+    store_path(folder, path);
+    if (plan->new_file && (plan->had_store || lstat(path, &info))) { /* otherwise another run has begun this plan */
         unlink(plan->path);
     }
-    if (plan && plan->new_folder) {
+    if (plan->new_folder) {
         rmdir(folder);
     }
 }

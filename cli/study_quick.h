@@ -10,6 +10,7 @@ enum { CLI_QUICK_PATH = 1024 };
 typedef struct cli_quick_plan {
     char path[CLI_QUICK_PATH];
     bool new_file, new_folder; /* whether this run made the file or the folder */
+    bool had_store;            /* whether the folder had results before */
     char *text; /* the plan of a rank other than 0 of mpirun, which the caller frees, or NULL: it is in the file */
 } cli_quick_plan;
 

@@ -48,9 +48,12 @@ KOKSMA_API koksma_status koksma_plan_try(const char *pattern, size_t n, int dim)
    nothing. An existing DIR/plan.json is never replaced, and a link of that name is not followed.
      folder  folder of the study; its parent must exist
      text    a plan in JSON, as in the files that koksma_study_open reads
+     made    receives whether this call made the file; false if it was there with the same text; may be NULL
+   Of several processes that write at once, one makes the file; on file systems that can't rename without replacing,
+   such as NFS, two may.
    Errors: MALFORMED (the text; the message names line and reason), ARGUMENT (the folder has a plan.json with another
    text, or one that is not a plain file), IO, MEMORY. */
-KOKSMA_API koksma_status koksma_plan_write(const char *folder, const char *text);
+KOKSMA_API koksma_status koksma_plan_write(const char *folder, const char *text, bool *made);
 
 /* Sets *out to question type i of those that a plan may contain, or to section i of the report; returns false past
    the last one. The title is the heading in the report. */
@@ -70,9 +73,9 @@ KOKSMA_API koksma_status koksma_study_mpi_processes(koksma_processes *out);
 
 /* Options of koksma_study_open. */
 typedef struct koksma_study_options {
-    /* names of plans in the library; paths of JSON files if the text has a '/' or ends in ".json"; or, if it begins with
-       '{', plans as JSON texts, whose relative paths start at the current folder. Several plans are joined to one plan
-       with the name "a+b" */
+    /* names of plans in the library; paths of JSON files if the text has a '/' or ends in ".json"; or plans as JSON texts,
+       which begin with '{' and then white space, '"' or '}', and whose relative paths start at the current folder. Several
+       plans are joined to one plan with the name "a+b" */
     const char *const *plans;
     size_t n_plans;     /* number of plans; 0: use the plan stored in the folder, to which nothing is written before
                            a run */

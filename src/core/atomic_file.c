@@ -16,7 +16,7 @@
  * it. If another process removed the new file before the writer locked it, the writer finds that its file has no link
  * any more, and makes a new one. On a file system without locks, left-over files are not removed.
  */
-#define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH */
+#define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH, renameat2 */
 #include "core/atomic_file.h"
 
 #include <dirent.h>
@@ -42,6 +42,7 @@ typedef struct koksma__output {
     int folder; /* descriptor of the folder; -1: the target is not a plain file */
     int descriptor;
     int reason; /* errno of the first write that failed */
+    bool *made; /* NULL: a file of that name is replaced; else it stays, and this receives whether there was none */
 } output;
 
 /* Writes bytes and stores errno of the first failure, which stdio would lose. */
@@ -391,6 +392,24 @@ koksma_status koksma__atomic_folder(const char *path)
     return sync_above(path) ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: can't be synced: %s", path, strerror(errno));
 }
 
+/* Gives the temporary file its name. Returns -1 and sets errno if it fails. File systems that cannot rename without
+   replacing, such as NFS, are asked first whether the name is taken; another process may then take it in between. */
+static int place(const output *o)
+{
+    struct stat info;
+    if (o->made) {
+        const int code = renameat2(o->folder, o->temporary, o->folder, o->name, RENAME_NOREPLACE);
+        if (!code || (errno != EINVAL && errno != ENOSYS)) {
+            return code;
+        }
+        if (!fstatat(o->folder, o->name, &info, AT_SYMLINK_NOFOLLOW)) {
+            errno = EEXIST;
+            return -1;
+        }
+    }
+    return renameat(o->folder, o->temporary, o->folder, o->name);
+}
+
 koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
 {
     output *o = file->output;
@@ -406,11 +425,14 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     if (o->folder >= 0 && keep && !o->reason) {
         if (fsync(o->descriptor)) {
             o->reason = errno;
-        } else if (renameat(o->folder, o->temporary, o->folder, o->name)) {
-            o->reason = errno;
+        } else if (place(o)) {
+            o->reason = o->made && errno == EEXIST ? 0 : errno;
             what = "can't be written";
         } else {
             placed = true;
+            if (o->made) {
+                *o->made = true;
+            }
             o->reason = sync_folder(o->folder) ? 0 : errno;
         }
     }
@@ -430,12 +452,24 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     return status;
 }
 
-koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size)
+static koksma_status put_file(const char *folder, const char *path, const void *bytes, size_t size, bool *made)
 {
     koksma__atomic_file file;
     const koksma_status status = koksma__atomic_open(folder, path, &file);
     if (!status) {
+        file.output->made = made;
         fwrite(bytes, 1, size, file.stream);
     }
     return status ? status : koksma__atomic_close(&file, true);
+}
+
+koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size)
+{
+    return put_file(folder, path, bytes, size, NULL);
+}
+
+koksma_status koksma__atomic_put_new(const char *folder, const char *path, const void *bytes, size_t size, bool *made)
+{
+    *made = false;
+    return put_file(folder, path, bytes, size, made);
 }

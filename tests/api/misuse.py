@@ -175,7 +175,7 @@ ALLOWED = [
     r"koksma_rank_patterns options->(render|render_context|reference) = .*",
     r"koksma_optimise_scene options->(candidates|phases|n_held_out|held_out|against) = (0|NULL) .*",
     r"koksma_datasheet options->(beside = NULL|scenes = NULL|n_beside = 0|n_scenes = 0|metric = NULL) .*",
-    r"koksma_study_images metric = NULL .*",
+    r"koksma_study_images metric = NULL .*", r"koksma_plan_write made = NULL .*",
     r"(\w+ path|koksma_plan_write folder) = .(%s%n|nothing:of).*",  # names of files like others
 ]
 

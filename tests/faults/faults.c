@@ -164,6 +164,7 @@ int __real_memfd_create(const char *name, unsigned flags);
 ssize_t __real_write(int descriptor, const void *bytes, size_t size);
 int __real_fsync(int descriptor);
 int __real_renameat(int from_folder, const char *from, int folder, const char *to);
+int __real_renameat2(int from_folder, const char *from, int folder, const char *to, unsigned flags);
 int __real_unlinkat(int folder, const char *path, int flags);
 int __real_close(int descriptor);
 int __real_mkdir(const char *path, mode_t bits);
@@ -180,6 +181,7 @@ int __wrap_memfd_create(const char *name, unsigned flags);
 ssize_t __wrap_write(int descriptor, const void *bytes, size_t size);
 int __wrap_fsync(int descriptor);
 int __wrap_renameat(int from_folder, const char *from, int folder, const char *to);
+int __wrap_renameat2(int from_folder, const char *from, int folder, const char *to, unsigned flags);
 int __wrap_unlinkat(int folder, const char *path, int flags);
 int __wrap_close(int descriptor);
 int __wrap_mkdir(const char *path, mode_t bits);
@@ -423,12 +425,18 @@ int __wrap_fsync(int descriptor)
 
 int __wrap_renameat(int from_folder, const char *from, int folder, const char *to)
 {
+    return __wrap_renameat2(from_folder, from, folder, to, 0);
+}
+
+int __wrap_renameat2(int from_folder, const char *from, int folder, const char *to, unsigned flags)
+{
     if (fault_here(FAULT_RENAME, NULL)) {
         errno = EACCES;
         return -1;
     }
     pthread_mutex_lock(&names_lock);
-    const int code = __real_renameat(from_folder, from, folder, to);
+    const int code = flags ? __real_renameat2(from_folder, from, folder, to, flags)
+                           : __real_renameat(from_folder, from, folder, to);
     if (!code) {
         fault_note("rename %llu %s %s\n", inode(folder), from, to);
     }

@@ -8,6 +8,7 @@ what dead runs leave is removed by the next one, and what living runs write is n
 (tests/faults). With sanitizers there are fewer kills and pairs of processes, of fewer points.
 """
 import glob
+import json
 import os
 import random
 import shutil
@@ -114,6 +115,24 @@ def check_quick(checks, program, folder):
         shutil.rmtree(planted)
     for _ in range(2):
         good(checks, "the same plan again", files.run(program, *quick, "planted", cwd=folder))
+
+
+def check_quick_at_once(checks, program, folder):
+    """Several `study quick` in one new folder: one plan wins, and the folder has no rows of another one."""
+    for i in range(3 if files.SANITIZED else 12):
+        study = os.path.join(folder, f"study{i}")
+        sizes = [16 + k if i % 2 else 16 for k in range(4)]
+        runs = [subprocess.Popen([program, "study", "quick", "-p", "random", "-m", "star", "-n", str(n), "--trials", "2", "-q", "-o",
+                                  study], stdout=subprocess.PIPE, stderr=subprocess.PIPE) for n in sizes]
+        ends = [(run.communicate(timeout=files.SECONDS)[1].decode(), run.returncode) for run in runs]
+        with open(os.path.join(study, "plan.json"), encoding="utf-8") as stream:
+            n = json.load(stream)["discrepancies"][0]["n"][0]
+        rows = files.run(program, "study", "export", study).out.decode().splitlines()[1:]
+        checks.check(rows and all(row.split(",")[6] == str(n) for row in rows), f"rows beside a plan of {n}: {rows}")
+        for own, (error, code) in zip(sizes, ends):
+            other = code == 2 and "another plan, which is not replaced" in error
+            held = code == 4 and "is using it" in error
+            checks.check(code == 0 and own == n or other and own != n or held and own == n, f"{own} at {n}: {code}, {error}")
 
 
 def check_user_names(checks, program, folder):
@@ -314,7 +333,8 @@ def check_streams(checks, program, folder):
 def main():
     program, faults = map(os.path.abspath, sys.argv[1:3])
     checks = files.Checks()
-    cases = [(check_planted_links, [program]), (check_own_names, [program]), (check_quick, [program]), (check_user_names, [program]),
+    cases = [(check_planted_links, [program]), (check_own_names, [program]), (check_quick, [program]),
+             (check_quick_at_once, [program]), (check_user_names, [program]),
              (check_equal_numbers, [program]), (check_leftovers, [program, faults]), (check_others, [program]),
              (check_living, [program]), (check_full, [program, faults]), (check_stores, [program]),
              (check_streams, [program])]

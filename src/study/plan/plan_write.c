@@ -42,8 +42,12 @@ static koksma_status compare(const char *path, const char *text, bool *there)
                                "%s: the folder has another plan, which is not replaced; use another folder", path);
 }
 
-koksma_status koksma_plan_write(const char *folder, const char *text)
+koksma_status koksma_plan_write(const char *folder, const char *text, bool *made)
 {
+    bool here = false;
+    if (made) {
+        *made = false;
+    }
     KOKSMA__REQUIRE(folder, text);
     KOKSMA__FAIL_IF(!*folder, KOKSMA_ARGUMENT, "the folder's name is empty");
     koksma__plan plan;
@@ -57,8 +61,12 @@ koksma_status koksma_plan_write(const char *folder, const char *text)
     status = status ? status : compare(path, text, &there);
     if (!status && !there) {
         status = koksma__atomic_folder(folder);
-        status = status ? status : koksma__atomic_put(folder, file_name, text, strlen(text));
+        status = status ? status : koksma__atomic_put_new(folder, file_name, text, strlen(text), &here);
+        status = status || here ? status : compare(path, text, &there); /* another process was faster */
     }
     free(path);
+    if (made) {
+        *made = here;
+    }
     return status;
 }
