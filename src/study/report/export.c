@@ -325,13 +325,15 @@ static char *split(char **path)
 }
 
 /* Fails if `path` leads to the store's file or one of its logs, also by another name, to where SQLite would expect a log,
-   or into the folder of the study's reference images, whose files a run and a report read. */
+   to a file that runs and reports write into the study's folder, or into the folder of the study's reference images, whose
+   files a run and a report read. */
 static koksma_status check_target(const char *study, const char *results, const char *path)
 {
     static const char *const endings[] = {"", "-wal", "-shm", "-journal"};
+    static const char *const own[] = {"plan.json", "report.json", "report.html"};
     char *store = koksma__atomic_target(results), *target = store ? koksma__atomic_target(path) : NULL;
     const int reason = errno;
-    bool same = false, reference = false;
+    bool same = false, is_own = false, reference = false;
     for (size_t i = 0; target && i < sizeof endings / sizeof *endings; i++) {
         char name[2 * KOKSMA__PATH];
         snprintf(name, sizeof name, "%s%s", results, endings[i]);
@@ -345,16 +347,20 @@ static koksma_status check_target(const char *study, const char *results, const 
             same |= !strncmp(name, store_name, length) && !strcmp(name + length, endings[i]) &&
                     same_file(store_folder, folder);
         }
+        for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
+            is_own |= !strcmp(name, own[i]) && same_file(study, folder);
+        }
         char references[2 * KOKSMA__PATH];
         snprintf(references, sizeof references, "%s/references", study);
         reference = strcmp(path, "-") && same_file(references, folder);
     }
     const bool no_memory = !target && reason == ENOMEM; /* with other reasons the path can't be opened either */
     KOKSMA__FREE(store, target);
-    return no_memory   ? koksma__fail_memory(strlen(path))
-           : same      ? koksma__fail(KOKSMA_ARGUMENT,
-                                      "%s: the export would replace the study's results or their log; choose another file",
-                                      path)
+    return no_memory ? koksma__fail_memory(strlen(path))
+           : same    ? koksma__fail(KOKSMA_ARGUMENT,
+                                    "%s: the export would replace the study's results or their log; choose another file",
+                                    path)
+           : is_own ? koksma__fail(KOKSMA_ARGUMENT, "%s: the study has a file of this name; choose another one", path)
            : reference ? koksma__fail(KOKSMA_ARGUMENT,
                                       "%s: the folder has the study's reference images; choose another folder", path)
                        : KOKSMA_OK;

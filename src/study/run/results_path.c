@@ -14,6 +14,7 @@ koksma_status koksma__results_path(const char *folder, char path[KOKSMA__PATH])
 {
     KOKSMA__FAIL_IF(strlen(folder) > LONGEST_FOLDER, KOKSMA_ARGUMENT,
                     "the name of a study's folder is longer than %d bytes: %.40s...", LONGEST_FOLDER, folder);
+    KOKSMA__FAIL_IF(!*folder, KOKSMA_ARGUMENT, "the name of a study's folder is empty");
     snprintf(path, KOKSMA__PATH, "%s/results.sqlite", folder);
     return KOKSMA_OK;
 }
