@@ -150,7 +150,12 @@ class Study:
         try:
             check(lab().koksma_study_open(byref(options), byref(self._handle)))
         except MalformedError as error:
-            again = MalformedError(re.sub(r"plan '\(text\)': line (\d+): ", r"line \1 of json.dumps(plan, indent=1): ", str(error)))
+            found = re.match(r"plan '\(text(?: (\d+))?\)': line (\d+): ", str(error))
+            which = int(found[1] or 1) - 1 if found else 0
+            if not found or not isinstance(plans[which], dict):
+                raise
+            name = f"plan[{which}]" if len(plans) > 1 else "plan"
+            again = MalformedError(f"line {found[2]} of json.dumps({name}, indent=1): {str(error)[found.end():]}")
             again.status = error.status
             raise again from None
 

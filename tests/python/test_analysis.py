@@ -287,6 +287,11 @@ class Studies(unittest.TestCase):
         for plan in ({"name": "x"}, "nosuch", {**PLAN, "colour": 1}):
             with self.assertRaises(koksma.Error):
                 koksma.Study(plan)
+        wrong = {"name": "x", "title": "x", "colour": 1}
+        for plans, where in ((wrong, r"^line 4 of json.dumps\(plan, indent=1\): "), ([PLAN, wrong], r"^line 4 of json.dumps\(plan\[1\], "),
+                             ([json.dumps(wrong)], r"^plan '\(text\)': line 1: "), ([PLAN, json.dumps(wrong)], r"^plan '\(text 2\)': ")):
+            with self.assertRaisesRegex(koksma.MalformedError, where):
+                koksma.Study(plans)
         study = koksma.Study(PLAN)
         self.assertGreater(study.estimate(time_limit=0.1).jobs, 0)
         study.close()

@@ -22,9 +22,11 @@ static const char *plan_name_at(const void *table, size_t i)
     return koksma_plan_name_at(i);
 }
 
+/* Whether it is a plan's text rather than its name: a file may have a name such as "{p}.json". */
 static bool is_text(const char *plan)
 {
-    return *plan == '{';
+    plan += strspn(plan, " \t\n\r");
+    return *plan == '{' && plan[1] && strchr(" \t\n\r\"}", plan[1]);
 }
 
 /* The name of a plan in messages and in the store; its folder, if it has one, is where the plan's relative paths start. */
@@ -33,8 +35,17 @@ static const char *name_of(const char *plan)
     return is_text(plan) ? "(text)" : plan;
 }
 
-static koksma_status load_plan(const char *name, const koksma__plan_trials *trials, koksma__plan *plan,
-                               char **text_out)
+enum { LABEL = 32 };
+
+/* The name of plan i in messages: of several texts each has its number. */
+static const char *label_of(const koksma_study_options *options, size_t i, char label[LABEL])
+{
+    snprintf(label, LABEL, "(text %zu)", i + 1);
+    return options->n_plans > 1 && is_text(options->plans[i]) ? label : name_of(options->plans[i]);
+}
+
+static koksma_status load_plan(const char *name, const char *label, const koksma__plan_trials *trials,
+                               koksma__plan *plan, char **text_out)
 {
     const size_t length = strlen(name);
     unsigned char *text = NULL;
@@ -55,7 +66,7 @@ static koksma_status load_plan(const char *name, const koksma__plan_trials *tria
     } else {
         status = koksma__read_file(name, KOKSMA__FILE_PLAN, KOKSMA__BY_USER, koksma__check_text, &text, &size);
     }
-    status = status ? status : koksma__plan_parse(name_of(name), (const char *)text, size, trials, plan);
+    status = status ? status : koksma__plan_parse(label, (const char *)text, size, trials, plan);
     *text_out = (char *)text;
     return status;
 }
@@ -194,9 +205,10 @@ static koksma_status recall_plan(koksma_study *study)
 /* Fails if plan i has the same text as an earlier plan, because all its jobs and questions would be repeated. */
 static koksma_status check_text(const koksma_study_options *options, char *const *texts, size_t i)
 {
+    char label[LABEL];
     for (size_t k = 0; k < i; k++) {
         KOKSMA__FAIL_IF(!strcmp(texts[k], texts[i]), KOKSMA_ARGUMENT, "plan '%s' is listed twice",
-                        name_of(options->plans[i]));
+                        label_of(options, i, label));
     }
     return KOKSMA_OK;
 }
@@ -207,7 +219,8 @@ static koksma_status load_plans(koksma_study *study, const koksma_study_options 
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < options->n_plans; i++) {
         koksma__plan plan = {0};
-        status = load_plan(options->plans[i], &trials, &plan, &texts[i]);
+        char label[LABEL];
+        status = load_plan(options->plans[i], label_of(options, i, label), &trials, &plan, &texts[i]);
         status = status ? status : check_text(options, texts, i);
         status = status ? status : append_plan(study, &plan);
         koksma__plan_fini(&plan);
