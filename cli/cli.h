@@ -151,6 +151,8 @@ typedef struct cli_work {
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
 /* Begins part i (0..) of n equal parts of the progress bar. */
 void cli_work_part(cli_work *work, size_t i, size_t n);
+/* Begins the last part of the progress bar, from `begin` to its end. */
+void cli_work_rest(cli_work *work, double begin);
 /* Begins work of unknown length, such as making the points of a part, up to the next call of cli_work_part. */
 void cli_work_unknown(cli_work *work, const char *what);
 /* Clears the progress line and shows none from now on, because the output that follows would mix with it on the

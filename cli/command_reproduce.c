@@ -66,8 +66,7 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     status = *refused ? KOKSMA_OK : status;
     cli_study_left_out(arguments, study);
     if (!status && options->folder) {
-        work->begin = work->share;
-        work->share = 1 - work->begin;
+        cli_work_rest(work, work->share);
         status = koksma_study_report(study, &work->run);
     }
     const bool all = wanted && !strcmp(table, "all");

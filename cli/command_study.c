@@ -116,8 +116,7 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
     status = refused ? KOKSMA_OK : status;
     if (!status && options->folder) {
         work->run.time_limit_s = 0;
-        work->begin = RUN_SHARE;
-        work->share = 1 - RUN_SHARE;
+        cli_work_rest(work, RUN_SHARE);
         status = koksma_study_report(study, &work->run);
     }
     cli_study_left_out(arguments, study);

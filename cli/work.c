@@ -175,6 +175,13 @@ void cli_work_part(cli_work *work, size_t i, size_t n)
     work->unknown = false;
 }
 
+void cli_work_rest(cli_work *work, double begin)
+{
+    cli_work_part(work, 0, 1);
+    work->begin = begin;
+    work->share = 1 - begin;
+}
+
 void cli_work_unknown(cli_work *work, const char *what)
 {
     work->what = what;

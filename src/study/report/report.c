@@ -7,6 +7,7 @@
  */
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "study/report/export.h"
 #include "study/report/page.h"
@@ -25,17 +26,42 @@ static const struct {
 #undef SECTION
 };
 
+/* The progress of a report: the rows are hashed once, then each section takes an equal share. */
+typedef struct progress {
+    koksma__phases phases;
+    const koksma_run *run;
+    double share;
+} progress;
+
+static void begin_progress(const koksma__plan *plan, const koksma_run *run, progress *p)
+{
+    size_t n = 1;
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
+        n += sections[i].section->of_each_plan ? plan->n_parts : 1;
+    }
+    *p = (progress){.run = run, .share = 1 / (double)n};
+}
+
 /* Appends the sections that every plan has (of_each_plan), or those that the whole study has once. */
-static koksma_status add_sections(const koksma__report_scope *scope, bool of_each_plan, koksma__document *d)
+static koksma_status add_sections(koksma__report_scope *scope, progress *p, bool of_each_plan, koksma__document *d)
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < sizeof sections / sizeof *sections; i++) {
         const koksma__section *s = sections[i].section;
         koksma__document content = {0};
-        if (s->of_each_plan != of_each_plan || !s->is_shown(scope)) {
+        if (s->of_each_plan != of_each_plan) {
             continue;
         }
+        const koksma_run part = koksma__phase_run(&p->phases, p->run, p->share);
+        if (!koksma__keep_going(&part, 0)) {
+            return koksma__fail_interrupted();
+        }
+        if (!s->is_shown(scope)) {
+            continue;
+        }
+        scope->run = &part;
         status = s->write(scope, &content);
+        scope->run = NULL;
         if (!koksma__doc_is_empty(&content)) {
             koksma__doc_section(d, sections[i].name, s->heading);
             koksma__doc_append(d, &content);
@@ -46,17 +72,17 @@ static koksma_status add_sections(const koksma__report_scope *scope, bool of_eac
 }
 
 /* Appends the sections of one plan, under the plan's title and description if the study has several plans. */
-static koksma_status add_plan(const koksma__report_scope *scope, koksma__document *d)
+static koksma_status add_plan(koksma__report_scope *scope, progress *p, koksma__document *d)
 {
     const koksma__plan_part *plan = koksma__plan_of(scope);
     if (scope->study->plan.n_parts == 1) {
-        return add_sections(scope, true, d);
+        return add_sections(scope, p, true, d);
     }
     koksma__doc_section(d, NULL, plan->title);
     if (plan->about) {
         koksma__doc_paragraph(d, "%s", plan->about);
     }
-    const koksma_status status = add_sections(scope, true, d);
+    const koksma_status status = add_sections(scope, p, true, d);
     koksma__doc_end(d);
     return status;
 }
@@ -64,7 +90,13 @@ static koksma_status add_plan(const koksma__report_scope *scope, koksma__documen
 static koksma_status build(koksma_study *study, const koksma_run *run, koksma__document *d)
 {
     const koksma__plan *plan = &study->plan;
-    koksma__report_scope scope = {.study = study, .run = run};
+    koksma__report_scope scope = {.study = study};
+    progress p;
+    begin_progress(plan, run, &p);
+    const koksma_run first = koksma__phase_run(&p.phases, run, p.share);
+    if (!koksma__keep_going(&first, 0)) {
+        return koksma__fail_interrupted();
+    }
     koksma_status status = koksma__rows_sha256(study->store, scope.rows);
     d->json.in_html = true;
     koksma__json_begin_object(&d->json, NULL);
@@ -77,9 +109,9 @@ static koksma_status build(koksma_study *study, const koksma_run *run, koksma__d
     koksma__json_write_text(&d->json, "rows_sha256", scope.rows);
     koksma__json_begin_array(&d->json, "content");
     for (; !status && scope.plan < plan->n_parts; scope.plan++) {
-        status = add_plan(&scope, d);
+        status = add_plan(&scope, &p, d);
     }
-    status = status ? status : add_sections(&scope, false, d);
+    status = status ? status : add_sections(&scope, &p, false, d);
     koksma__json_end(&d->json);
     koksma__json_end(&d->json);
     return status ? status : d->json.status;
