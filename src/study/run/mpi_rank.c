@@ -2,6 +2,7 @@
 /* Finds this process's rank and the number of ranks. MPI is loaded only if the environment shows that mpirun or srun
    started this process. If rank 0 exits before the others are released, it aborts them, because they would wait for
    it. */
+#define _GNU_SOURCE /* on_exit */
 #include "study/run/mpi_rank.h"
 
 #include <stdlib.h>
@@ -14,13 +15,15 @@
 static koksma__mpi here;
 static const char *problem; /* NULL, or the reason why MPI cannot be used although mpirun started several processes */
 
-static void finish(void)
+/* code: of this process, which mpirun then has as well. */
+static void finish(int code, void *context)
 {
+    (void)context;
     const bool others_wait = here.rank == 0 && here.size > 1 && !here.released; /* for rank 0 */
     if (others_wait) { /* mpirun may drop what it has not yet passed on when ranks are aborted: the reason of the error */
         koksma__mpi_rest(0.5);
     }
-    here.mpi->finish(others_wait ? koksma_status_exit_code(KOKSMA_IO) : 0);
+    here.mpi->finish(!others_wait ? 0 : code ? code : koksma_status_exit_code(KOKSMA_IO));
 }
 
 /* The number of ranks according to the launcher's environment variables; 0 without a launcher. */
@@ -44,7 +47,7 @@ static void start(void)
         }
     }
     if (here.mpi) {
-        atexit(finish);
+        on_exit(finish, NULL);
     } else if (expected <= 1) {
         problem = NULL;
     }
