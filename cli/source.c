@@ -298,6 +298,9 @@ int cli_sources_expand(cli_arguments *arguments)
         code = check_item(arguments, spec, of.list != NULL);
         code = code ? code : add_sizes(arguments, spec, &of);
     }
+    if (!code && of.all && *of.left_out && !arguments->n_made) {
+        code = cli_usage_error(arguments, "-p all: no pattern has such a set: %s", koksma_error_text());
+    }
     if (!code && of.list && !of.used) {
         const char *last = arguments->n_made ? arguments->made[arguments->n_made - 1] : "-";
         koksma_spec unknown;

@@ -183,7 +183,9 @@ static int check_items(const cli_arguments *arguments, const char *option, const
     }
     int code = CLI_YES;
     for (size_t i = 0; !code && cli_list_item(list, i, item, sizeof item); i++) {
-        code = check_item(arguments, option, item, parser, texts);
+        code = strcmp(item, "all") || parser == parse_scene
+                   ? check_item(arguments, option, item, parser, texts)
+                   : cli_usage_error(arguments, "--%s: 'all' stands alone, without other items", option);
     }
     code = code || texts->n ? code : cli_usage_error(arguments, "--%s: an empty list", option);
     for (size_t i = 0; i < texts->n; i++) {
