@@ -168,6 +168,14 @@ bool koksma__import_metal(const char *name, double rgb[3])
     return false;
 }
 
+void koksma__import_fresnel(const double eta[3], const double k[3], double rgb[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const double n = fmin(fmax(eta[i], 0), FAR), absorbed = fmin(fmax(k[i], 0), FAR);
+        rgb[i] = ((n - 1) * (n - 1) + absorbed * absorbed) / ((n + 1) * (n + 1) + absorbed * absorbed);
+    }
+}
+
 /* ---- Materials -------------------------------------------------------------------------------------------- */
 
 /* Finishes the reading of an image: one that can't be decoded is left out with a warning, any other error is one of

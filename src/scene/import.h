@@ -120,6 +120,10 @@ void koksma__import_black_body(double kelvin, double rgb[3]);
    unknown. */
 bool koksma__import_metal(const char *name, double rgb[3]);
 
+/* The reflectance of a metal along the normal from its refractive index eta and its absorption k; each is clamped to
+   [0, 1e6]. */
+void koksma__import_fresnel(const double eta[3], const double k[3], double rgb[3]);
+
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
                                           const koksma__import_material *from, int *out);
 

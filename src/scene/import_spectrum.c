@@ -6,11 +6,14 @@
  * most 1.2 % of the largest channel. D65 is interpolated linearly in a table with steps of 20 nm. Linear sRGB follows
  * by the matrix of IEC 61966-2-1. Mitsuba converts spectra in the same way for its RGB variants: reflectances are
  * multiplied by daylight (D65) and emission is not, so that an emission that is equal at all wavelengths is reddish.
+ * Unbounded values, such as refractive indices, are converted as reflectances are, and may be above 1.
  */
 #include "scene/import_spectrum.h"
 
 #include <math.h>
 #include <string.h>
+
+#define LARGEST 1e30
 
 enum { FIRST = 360, LAST = 830 };
 
@@ -53,10 +56,11 @@ static void add(koksma__sampled_spectrum *s, int wavelength, double value)
 
 bool koksma__sampled_spectrum_add(koksma__sampled_spectrum *s, double wavelength, double value)
 {
-    const double from = s->n ? s->last[0] : wavelength, before = s->n ? s->last[1] : value;
-    if (!isfinite(wavelength) || !isfinite(value) || (s->n && !(wavelength > from))) {
+    if (!isfinite(wavelength) || !isfinite(value) || (s->n && !(wavelength > s->last[0]))) {
         return false;
     }
+    value = fmin(fmax(value, -LARGEST), LARGEST);
+    const double from = s->n ? s->last[0] : wavelength, before = s->n ? s->last[1] : value;
     int w = (int)ceil(fmin(fmax(from, FIRST), LAST + 1));
     w += s->n && w == from; /* the wavelength of the previous sample has been added already */
     for (; w <= LAST && w <= wavelength; w++) {
@@ -87,22 +91,15 @@ static koksma__sampled_spectrum even(void)
     return s;
 }
 
-void koksma__sampled_spectrum_reflectance(const koksma__sampled_spectrum *s, double rgb[3])
+void koksma__sampled_spectrum_colour(const koksma__sampled_spectrum *s, koksma__spectrum_use use, double rgb[3])
 {
     const koksma__sampled_spectrum all = even();
-    double white[3];
-    to_rgb(s->in_light, rgb);
-    to_rgb(all.in_light, white);
-    for (int k = 0; k < 3; k++) {
-        rgb[k] = fmin(fmax(rgb[k] / white[k], 0), 1);
+    double white[3] = {all.seen[1], all.seen[1], all.seen[1]};
+    to_rgb(use == KOKSMA__EMISSION ? s->seen : s->in_light, rgb);
+    if (use != KOKSMA__EMISSION) {
+        to_rgb(all.in_light, white);
     }
-}
-
-void koksma__sampled_spectrum_emission(const koksma__sampled_spectrum *s, double rgb[3])
-{
-    const koksma__sampled_spectrum all = even();
-    to_rgb(s->seen, rgb);
     for (int k = 0; k < 3; k++) {
-        rgb[k] = fmax(rgb[k] / all.seen[1], 0);
+        rgb[k] = fmin(fmax(rgb[k] / white[k], 0), use == KOKSMA__REFLECTANCE ? 1 : (double)INFINITY);
     }
 }

@@ -14,15 +14,18 @@ typedef struct koksma__sampled_spectrum {
     double in_light[3]; /* XYZ of daylight (CIE D65) multiplied by the spectrum */
 } koksma__sampled_spectrum;
 
-/* Adds a sample; between samples the spectrum is linear, and 0 before the first and after the last one. Returns false if
-   the wavelength, in nm, is not above the one before. */
+/* Adds a sample; between samples the spectrum is linear, and 0 before the first and after the last one. A value is
+   clamped to +-1e30, so that sums are finite. Returns false if the wavelength, in nm, is not above the one before. */
 bool koksma__sampled_spectrum_add(koksma__sampled_spectrum *s, double wavelength, double value);
 
-/* The colour of a reflectance in daylight, where a reflectance of 1 at all wavelengths is white; clamped to [0,
-   1]. */
-void koksma__sampled_spectrum_reflectance(const koksma__sampled_spectrum *s, double rgb[3]);
+/* What the values of a spectrum are; pbrt names the same three. */
+typedef enum koksma__spectrum_use {
+    KOKSMA__REFLECTANCE, /* of daylight: 1 at all wavelengths is white; clamped to [0, 1] */
+    KOKSMA__UNBOUNDED,   /* the same without the upper bound: refractive indices, coefficients, factors of daylight */
+    KOKSMA__EMISSION     /* 1 at all wavelengths has luminance 1 and is reddish */
+} koksma__spectrum_use;
 
-/* The colour of an emission, such that an emission of 1 at all wavelengths has luminance 1; negative channels are 0. */
-void koksma__sampled_spectrum_emission(const koksma__sampled_spectrum *s, double rgb[3]);
+/* The colour of a spectrum; negative channels are 0. */
+void koksma__sampled_spectrum_colour(const koksma__sampled_spectrum *s, koksma__spectrum_use use, double rgb[3]);
 
 #endif

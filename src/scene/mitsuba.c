@@ -236,7 +236,7 @@ static koksma_status transform(const reader *r, const node *n, const char *name,
 
 /* ---- Colours and textures ----------------------------------------------------------------------------------- */
 
-static koksma_status value_of(reader *r, const node *n, bool emits, double rgb[3])
+static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use, double rgb[3])
 {
     koksma__mitsuba_colour c;
     if (!koksma__mitsuba_is_colour(n)) {
@@ -246,14 +246,14 @@ static koksma_status value_of(reader *r, const node *n, bool emits, double rgb[3
                    : koksma__import_fail(n->place, "<%s> is not a colour", n->tag);
     }
     KOKSMA__TRY(koksma__mitsuba_colour_read(n, &c));
-    if (c.form == KOKSMA__ONE_NUMBER && emits && is(n, "spectrum")) {
+    if (c.form == KOKSMA__ONE_NUMBER && use == KOKSMA__EMISSION && is(n, "spectrum")) {
         /* one number stands for the same emission at all wavelengths */
         c.form = KOKSMA__PAIRS;
         (void)(koksma__sampled_spectrum_add(&c.pairs, 360, c.rgb[0]) &&
                koksma__sampled_spectrum_add(&c.pairs, 830, c.rgb[0]));
     }
     if (c.form == KOKSMA__PAIRS) {
-        (emits ? koksma__sampled_spectrum_emission : koksma__sampled_spectrum_reflectance)(&c.pairs, rgb);
+        koksma__sampled_spectrum_colour(&c.pairs, use, rgb);
         return KOKSMA_OK;
     }
     for (int k = 0; k < 3; k++) {
@@ -309,10 +309,12 @@ static bool is_texture(const node *n)
     return is(n, "texture") || (is(n, "spectrum") && koksma__xml_attribute(n, "type"));
 }
 
-static koksma_status texture(reader *r, const node *n, bool emits, koksma__import_colour *out, int depth);
+static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
+                             int depth);
 
-/* Reads the spectrum "d65", daylight times a colour or texture. Daylight itself is white. */
-static koksma_status in_daylight(reader *r, const node *n, bool emits, koksma__import_colour *out, int depth)
+/* Reads the spectrum "d65", daylight times a colour or texture. Daylight itself is white, and samples are its factors:
+   those of 1 everywhere leave it white, also in a light. */
+static koksma_status in_daylight(reader *r, const node *n, koksma__import_colour *out, int depth)
 {
     const double scale = number(r, n, "scale", 1);
     const node *inner = NULL;
@@ -323,7 +325,8 @@ static koksma_status in_daylight(reader *r, const node *n, bool emits, koksma__i
             inner = resolve(r, c);
         }
     }
-    KOKSMA__TRY(inner ? texture(r, inner, emits, out, depth + 1) : colour(r, n, "color", 1, out, depth + 1));
+    KOKSMA__TRY(inner ? texture(r, inner, KOKSMA__UNBOUNDED, out, depth + 1)
+                      : colour(r, n, "color", 1, out, depth + 1));
     for (int k = 0; k < 3; k++) {
         out->rgb[k] *= scale;
         out->second[k] *= scale;
@@ -333,12 +336,12 @@ static koksma_status in_daylight(reader *r, const node *n, bool emits, koksma__i
 }
 
 /* Reads the spectra "regular" and "irregular": samples at equal distances, or at those that are listed. */
-static koksma_status samples(reader *r, const node *n, bool regular, bool emits, double rgb[3])
+static koksma_status samples(reader *r, const node *n, bool regular, koksma__spectrum_use use, double rgb[3])
 {
     const node *pairs = property(r, n, "value");
     koksma__sampled_spectrum s = {0};
     if (pairs) {
-        return value_of(r, resolve(r, pairs), emits, rgb);
+        return value_of(r, resolve(r, pairs), use, rgb);
     }
     KOKSMA__TRY(needed(r, n, "values"));
     KOKSMA__TRY(needed(r, n, regular ? "wavelength_min" : "wavelengths"));
@@ -351,29 +354,37 @@ static koksma_status samples(reader *r, const node *n, bool regular, bool emits,
         (void)text(r, n, "wavelengths", "");
         KOKSMA__TRY(koksma__mitsuba_samples(property(r, n, "values"), property(r, n, "wavelengths"), 0, 0, &s));
     }
-    (emits ? koksma__sampled_spectrum_emission : koksma__sampled_spectrum_reflectance)(&s, rgb);
+    koksma__sampled_spectrum_colour(&s, use, rgb);
     return KOKSMA_OK;
+}
+
+typedef enum spectrum_kind { D65, UNIFORM, SRGB, REGULAR, IRREGULAR, BLACK_BODY, NO_SPECTRUM } spectrum_kind;
+
+/* The kind of spectrum that an object is; NO_SPECTRUM: none that is read. */
+static spectrum_kind kind_of_spectrum(const node *n)
+{
+    static const char *const all[] = {"d65", "uniform", "srgb", "regular", "irregular", "blackbody"};
+    int kind = 0;
+    while (kind < NO_SPECTRUM && strcmp(all[kind], type_of(n)) != 0) {
+        kind++;
+    }
+    return (spectrum_kind)kind;
 }
 
 /* Reads the object of a spectrum as the RGB variants of Mitsuba do, and sampled ones as the observer sees them; *known
    tells whether there is such a kind. */
-static koksma_status spectrum(reader *r, const node *n, bool emits, koksma__import_colour *out, int depth,
-                              bool *known)
+static koksma_status spectrum(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
+                              int depth, bool *known)
 {
-    static const char *const all[] = {"d65", "uniform", "srgb", "regular", "irregular", "blackbody", NULL};
-    enum { D65, UNIFORM, SRGB, REGULAR, IRREGULAR, BLACK_BODY };
-    int kind = 0;
-    while (all[kind] && strcmp(all[kind], type_of(n)) != 0) {
-        kind++;
-    }
-    *known = all[kind] != NULL;
+    const spectrum_kind kind = kind_of_spectrum(n);
+    *known = kind != NO_SPECTRUM;
     if (!*known) {
         return KOKSMA_OK;
     }
     set_read(r, n);
     switch (kind) {
     case D65:
-        return in_daylight(r, n, emits, out, depth);
+        return in_daylight(r, n, out, depth);
     case UNIFORM:
         KOKSMA__TRY(needed(r, n, "value"));
         /* the range of wavelengths only tells where Mitsuba samples */
@@ -395,11 +406,12 @@ static koksma_status spectrum(reader *r, const node *n, bool emits, koksma__impo
         return koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1");
     }
     default:
-        return samples(r, n, kind == REGULAR, emits, out->rgb);
+        return samples(r, n, kind == REGULAR, use, out->rgb);
     }
 }
 
-static koksma_status texture(reader *r, const node *n, bool emits, koksma__import_colour *out, int depth)
+static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
+                             int depth)
 {
     const char *type = type_of(n);
     double m[12];
@@ -431,12 +443,21 @@ static koksma_status texture(reader *r, const node *n, bool emits, koksma__impor
                                                      "only the scale along u of a checkerboard's transform is used")
                             : KOKSMA_OK;
     }
-    KOKSMA__TRY(spectrum(r, n, emits, out, depth, &known));
+    KOKSMA__TRY(spectrum(r, n, use, out, depth, &known));
     if (!known && is(n, "spectrum")) {
         out->rgb[0] = out->rgb[1] = out->rgb[2] = 1;
         return koksma__import_unknown(r->im, n->place, "spectrum '%s' is replaced by white", type);
     }
     return known ? KOKSMA_OK : koksma__import_unknown(r->im, n->place, "texture '%s' is replaced by grey", type);
+}
+
+/* What the samples of a property are. Those of the spectra "d65" and "srgb" are factors of daylight, also in a light;
+   in media they are coefficients (an albedo is bounded where it is used). */
+static koksma__spectrum_use use_of(const node *n, const char *name)
+{
+    const bool unbounded =
+        is(n, "spectrum") || is(n, "medium") || is(n, "volume") || !strcmp(name, "eta") || !strcmp(name, "k");
+    return is(n, "emitter") ? KOKSMA__EMISSION : unbounded ? KOKSMA__UNBOUNDED : KOKSMA__REFLECTANCE;
 }
 
 /* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
@@ -449,8 +470,8 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
         return KOKSMA_OK;
     }
     found = resolve(r, found);
-    const bool emits = is(n, "emitter");
-    return is_texture(found) ? texture(r, found, emits, out, depth) : value_of(r, found, emits, out->rgb);
+    const koksma__spectrum_use use = use_of(n, name);
+    return is_texture(found) ? texture(r, found, use, out, depth) : value_of(r, found, use, out->rgb);
 }
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */
@@ -509,20 +530,42 @@ static double index_of(const reader *r, const node *n, const char *name, double 
     return number(r, n, name, otherwise);
 }
 
+/* Reads eta or k of a metal. An object that is not one colour, or a spectrum in a file, is not read and makes *is_constant
+   false. */
+static koksma_status constant(reader *r, const node *n, const char *name, double otherwise, bool *is_constant,
+                              double rgb[3])
+{
+    const node *found = property(r, n, name), *to = found ? resolve(r, found) : NULL;
+    koksma__import_colour c = {.rgb = {otherwise, otherwise, otherwise}};
+    const bool is_object = to && !koksma__mitsuba_is_colour(to) && koksma__xml_attribute(to, "type");
+    const bool is_file = to && is(to, "spectrum") && koksma__xml_attribute(to, "filename");
+    if (to && is_texture(to) ? kind_of_spectrum(to) == NO_SPECTRUM : is_object || is_file) {
+        *is_constant = false;
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(colour(r, n, name, otherwise, &c, 0));
+    *is_constant &= !*c.image && !c.is_checker;
+    memcpy(rgb, c.rgb, sizeof c.rgb);
+    return KOKSMA_OK;
+}
+
 static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
 {
-    koksma__import_colour eta, k;
-    double rgb[3];
+    double eta[3] = {0}, k[3] = {0}, rgb[3];
+    bool is_constant = true;
     const char *name = text(r, n, "material", property(r, n, "eta") ? "" : "none");
     if (*name && !koksma__import_metal(name, rgb)) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "metal '%s' is replaced by chromium", name));
         koksma__import_metal("Cr", rgb);
     } else if (!*name) {
-        KOKSMA__TRY(colour(r, n, "eta", 0, &eta, 0));
-        KOKSMA__TRY(colour(r, n, "k", 1, &k, 0));
-        for (int i = 0; i < 3; i++) {
-            const double e = eta.rgb[i], absorbed = k.rgb[i] * k.rgb[i];
-            rgb[i] = ((e - 1) * (e - 1) + absorbed) / ((e + 1) * (e + 1) + absorbed);
+        KOKSMA__TRY(constant(r, n, "eta", 0, &is_constant, eta));
+        KOKSMA__TRY(constant(r, n, "k", 1, &is_constant, k));
+        if (is_constant) {
+            koksma__import_fresnel(eta, k, rgb);
+        } else {
+            KOKSMA__TRY(koksma__import_unknown(
+                r->im, n->place, "a metal whose eta or k varies or is in a file is replaced by chromium"));
+            koksma__import_metal("Cr", rgb);
         }
     }
     for (int i = 0; i < 3; i++) {

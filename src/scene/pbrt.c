@@ -559,8 +559,8 @@ static koksma_status take_medium(reader *r, source *s)
         return koksma__import_unknown(r->im, p->place,
                                       "media that vary in space, emit light or are presets are ignored");
     }
-    KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, "sigma_a", medium.absorption));
-    KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, "sigma_s", medium.scattering));
+    KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_a", medium.absorption));
+    KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_s", medium.scattering));
     medium.g = fmax(-0.999, fmin(koksma__pbrt_number(p, "g", 0), 0.999));
     named_medium *to = koksma__add_one(&r->media, &r->n_media, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);

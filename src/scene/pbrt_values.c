@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Converts pbrt-v4's parameters. Spectra become red, green and blue: rgb values are used as they are, black
- * bodies by their chromaticity, metals by a table of names, and sampled spectra by the CIE 1931 observer
- * (import_spectrum.c); emission has luminance 1, as pbrt scales it. A texture becomes a colour, an image or a
- * checkerboard; textures that combine others become the mean colour.
+ * Converts pbrt-v4's parameters. Spectra become red, green and blue: rgb values are used as they are, black bodies by
+ * their chromaticity, metals by a table of names, and sampled spectra by the CIE 1931 observer (import_spectrum.c), as
+ * reflectance, emission or unbounded value, whichever pbrt takes them for; emission has luminance 1, as pbrt scales it.
+ * A texture becomes a colour, an image or a checkerboard; textures that combine others become the mean colour.
+ * The file is long because all of pbrt's parameters are in one place.
  */
 #include "scene/pbrt_values.h"
 
@@ -14,6 +15,7 @@
 
 #include "core/capacity.h"
 #include "meshes/mesh_loop.h"
+#include "render/fields.h"
 #include "scene/import_shapes.h"
 #include "scene/import_spectrum.h"
 
@@ -50,7 +52,8 @@ static void grey(double value, double rgb[3])
 }
 
 /* Converts pairs of wavelength and value to a colour; an emission is divided by its luminance, as in pbrt. */
-static koksma_status sampled(koksma__text_place place, const double *pairs, size_t n, bool emits, double rgb[3])
+static koksma_status sampled(koksma__text_place place, const double *pairs, size_t n, koksma__spectrum_use use,
+                             double rgb[3])
 {
     koksma__sampled_spectrum s = {0};
     for (size_t i = 0; i + 1 < n; i += 2) {
@@ -58,11 +61,10 @@ static koksma_status sampled(koksma__text_place place, const double *pairs, size
             return koksma__import_fail(place, "wavelengths of a spectrum must increase");
         }
     }
-    if (!emits) {
-        koksma__sampled_spectrum_reflectance(&s, rgb);
+    koksma__sampled_spectrum_colour(&s, use, rgb);
+    if (use != KOKSMA__EMISSION) {
         return KOKSMA_OK;
     }
-    koksma__sampled_spectrum_emission(&s, rgb);
     const double luminance = 0.2126729 * rgb[0] + 0.7151522 * rgb[1] + 0.0721750 * rgb[2];
     for (int k = 0; k < 3; k++) {
         rgb[k] = luminance > 0 ? rgb[k] / luminance : 0;
@@ -88,7 +90,7 @@ static koksma_status named_spectrum(koksma__pbrt_scene *scene, koksma__text_plac
 }
 
 static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place place, const koksma__pbrt_parameter *p,
-                               bool emits, koksma__import_colour *out)
+                               koksma__spectrum_use use, koksma__import_colour *out)
 {
     if (!strcmp(p->type, "texture")) {
         size_t i;
@@ -111,7 +113,7 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
         return KOKSMA_OK;
     }
     if (!strcmp(p->type, "spectrum") && p->n) {
-        return sampled(place, p->numbers, p->n, emits, out->rgb);
+        return sampled(place, p->numbers, p->n, use, out->rgb);
     }
     if (p->n != (koksma__pbrt_is(p, "rgb color") ? 3 : 1)) {
         return koksma__import_fail(place, "%s: more than one colour", p->name);
@@ -124,18 +126,18 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
 
 /* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
 static koksma_status read_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
-                                 double otherwise, bool emits, koksma__import_colour *out)
+                                 double otherwise, koksma__spectrum_use use, koksma__import_colour *out)
 {
     const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
     *out = (koksma__import_colour){.period = 1};
     grey(otherwise, out->rgb);
-    return found ? colour_of(scene, p->place, found, emits, out) : KOKSMA_OK;
+    return found ? colour_of(scene, p->place, found, use, out) : KOKSMA_OK;
 }
 
 static koksma_status find_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
                                  double otherwise, koksma__import_colour *out)
 {
-    return read_colour(scene, p, name, otherwise, false, out);
+    return read_colour(scene, p, name, otherwise, KOKSMA__REFLECTANCE, out);
 }
 
 koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
@@ -143,7 +145,7 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
 {
     static const char *const unknown[] = {"power", "illuminance", "portal", "alpha"};
     koksma__import_colour colour;
-    KOKSMA__TRY(read_colour(scene, p, name, 1, true, &colour));
+    KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__EMISSION, &colour));
     for (int k = 0; k < 3; k++) {
         rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
     }
@@ -156,7 +158,30 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
     return KOKSMA_OK;
 }
 
+koksma_status koksma__pbrt_coefficient(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
+                                       double rgb[3])
+{
+    koksma__import_colour colour;
+    KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__UNBOUNDED, &colour));
+    for (int k = 0; k < 3; k++) {
+        const double value = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
+        if (!(value >= 0)) {
+            return koksma__import_fail(p->place, "%s: a coefficient of %g; it must be 0 or more", name, value);
+        }
+        rgb[k] = fmin(value, FAR);
+    }
+    return KOKSMA_OK;
+}
+
 /* ---- Textures ------------------------------------------------------------------------------------------------ */
+
+/* Textures are not clamped: the same one may be a reflectance, which is clamped where it is used, or eta and k of a
+   metal. */
+static koksma_status find_texture_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p,
+                                         const char *name, double otherwise, koksma__import_colour *out)
+{
+    return read_colour(scene, p, name, otherwise, KOKSMA__UNBOUNDED, out);
+}
 
 static void mean_of(const koksma__import_colour *a, const koksma__import_colour *b, double rgb[3])
 {
@@ -210,10 +235,10 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
             status = koksma__import_unknown(scene->im, p->place, "an image's scale is ignored");
         }
     } else if (!strcmp(kind, "constant")) {
-        status = find_colour(scene, p, "value", 1, c);
+        status = find_texture_colour(scene, p, "value", 1, c);
     } else if (!strcmp(kind, "scale")) {
-        status = find_colour(scene, p, "tex", 1, c);
-        status = status ? status : find_colour(scene, p, "scale", 1, &second);
+        status = find_texture_colour(scene, p, "tex", 1, c);
+        status = status ? status : find_texture_colour(scene, p, "scale", 1, &second);
         for (int k = 0; !status && k < 3; k++) {
             c->rgb[k] *= second.rgb[k];
             c->second[k] *= second.rgb[k];
@@ -223,8 +248,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
                 koksma__import_unknown(scene->im, p->place, "an image times a colour is replaced by the image alone");
         }
     } else if (!strcmp(kind, "checkerboard") && koksma__pbrt_whole(p, "dimension", 2) == 2) {
-        status = find_colour(scene, p, "tex1", 1, c);
-        status = status ? status : find_colour(scene, p, "tex2", 0, &second);
+        status = find_texture_colour(scene, p, "tex1", 1, c);
+        status = status ? status : find_texture_colour(scene, p, "tex2", 0, &second);
         *c->image = 0;
         c->is_checker = true;
         memcpy(c->second, second.rgb, sizeof c->second);
@@ -234,8 +259,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
             status = koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale is replaced by uscale");
         }
     } else {
-        status = find_colour(scene, p, "tex1", 0.5, &first);
-        status = status ? status : find_colour(scene, p, "tex2", 0.5, &second);
+        status = find_texture_colour(scene, p, "tex1", 0.5, &first);
+        status = status ? status : find_texture_colour(scene, p, "tex2", 0.5, &second);
         if (!status) {
             mean_of(&first, &second, c->rgb);
             status = koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind);
@@ -249,39 +274,68 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
 
 /* ---- Materials ------------------------------------------------------------------------------------------------ */
 
-/* The reflectance along the normal from the refractive index eta and the absorption k. */
-static void fresnel(const double eta[3], const double k[3], double rgb[3])
+/* The metal whose eta or k (`suffix`) a parameter names, as "metal-Au-eta" does; a missing one is copper's, as in pbrt.
+   "": the parameter is something else. */
+static const char *named_metal(const koksma__pbrt_parameter *p, const char *suffix, char name[16])
 {
-    for (int i = 0; i < 3; i++) {
-        const double up = (eta[i] - 1) * (eta[i] - 1) + k[i] * k[i], down = (eta[i] + 1) * (eta[i] + 1) + k[i] * k[i];
-        rgb[i] = up / down;
+    double rgb[3];
+    *name = 0;
+    if (!p) {
+        return "Cu";
     }
+    if (!strcmp(p->type, "spectrum") && p->n_texts == 1 && !strncmp(p->text, "metal-", 6)) {
+        const size_t length = strcspn(p->text + 6, "-");
+        snprintf(name, 16, "%.*s", (int)length, p->text + 6);
+        if (strcmp(p->text + 6 + length, suffix) != 0 || !koksma__import_metal(name, rgb)) {
+            *name = 0;
+        }
+    }
+    return name;
+}
+
+/* Reads eta or k of a metal, if it is one colour: not a texture that varies, nor the name of a spectrum. */
+static koksma_status take_constant(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p,
+                                   const koksma__pbrt_parameter *from, bool *is_constant, double rgb[3])
+{
+    koksma__import_colour colour = {.period = 1};
+    if (!from || (from->n_texts && strcmp(from->type, "texture") != 0)) {
+        *is_constant = false;
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(colour_of(scene, p->place, from, KOKSMA__UNBOUNDED, &colour));
+    *is_constant &= !*colour.image && !colour.is_checker;
+    memcpy(rgb, colour.rgb, sizeof colour.rgb);
+    return KOKSMA_OK;
 }
 
 static koksma_status metal(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *prefix,
                            koksma__import_material *m)
 {
-    char eta_name[40], k_name[40];
-    koksma__import_colour k;
+    char eta_name[40], k_name[40], of_eta[16], of_k[16];
     snprintf(eta_name, sizeof eta_name, "%seta", prefix);
     snprintf(k_name, sizeof k_name, "%sk", prefix);
-    const koksma__pbrt_parameter *eta = koksma__pbrt_find(p, eta_name);
-    /* marks k as used: if eta names a metal, the reflectance follows from that name alone */
-    koksma__pbrt_find(p, k_name);
+    const koksma__pbrt_parameter *eta = koksma__pbrt_find(p, eta_name), *k = koksma__pbrt_find(p, k_name);
     m->kind = KOKSMA__METAL;
     if (koksma__pbrt_find(p, "reflectance")) {
         return find_colour(scene, p, "reflectance", 1, &m->colour);
     }
-    if (!eta) {
-        koksma__import_metal("Cu", m->colour.rgb);
+    const char *name = named_metal(eta, "-eta", of_eta), *other = named_metal(k, "-k", of_k);
+    double eta_rgb[3] = {0}, k_rgb[3] = {0};
+    bool is_constant = true;
+    KOKSMA__TRY(take_constant(scene, p, eta, &is_constant, eta_rgb));
+    KOKSMA__TRY(take_constant(scene, p, k, &is_constant, k_rgb));
+    if (is_constant) {
+        koksma__import_fresnel(eta_rgb, k_rgb, m->colour.rgb);
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(find_colour(scene, p, eta_name, 1, &m->colour));
-    if (!eta->n_texts) {
-        KOKSMA__TRY(find_colour(scene, p, k_name, 1, &k));
-        fresnel(m->colour.rgb, k.rgb, m->colour.rgb);
-    }
-    return KOKSMA_OK;
+    const bool agree = *name && !strcmp(name, other);
+    name = eta && *name ? name : k && *other ? other : agree ? name : "Cr";
+    koksma__import_metal(name, m->colour.rgb);
+    return agree ? KOKSMA_OK
+                 : koksma__import_unknown(scene->im, p->place,
+                                          "eta and k of a metal that are not two colours, or names of one metal, are "
+                                          "replaced by those of '%s'",
+                                          name);
 }
 
 /* Sets GGX's alpha: the square root of the roughness, or the roughness itself if remaproughness is false. */

@@ -23,6 +23,11 @@ void koksma__pbrt_scene_fini(koksma__pbrt_scene *scene);
 koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
                                     double rgb[3]);
 
+/* A medium's absorption or scattering: the colour `name`, or 1 if there is none, times the parameter "scale"; at most FAR.
+   Errors: MALFORMED (one that is negative, which pbrt refuses as well). */
+koksma_status koksma__pbrt_coefficient(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
+                                       double rgb[3]);
+
 koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *kind,
                                    const koksma__pbrt_parameters *p);
 

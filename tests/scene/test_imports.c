@@ -741,6 +741,7 @@ static void both_sides_light_alike(void **state)
 /* ---- What is known, and what is said of the rest ----------------------------------------------------------------- */
 
 #define PBRT "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" Film \"rgb\" " SIZE " WorldBegin\n"
+#define METALLIC(parameters) PBRT "Material \"conductor\" " parameters " Shape \"sphere\""
 #define MITSUBA(rest)                                                                                                \
     "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor>\n" rest       \
     "</scene>"
@@ -751,6 +752,8 @@ static void both_sides_light_alike(void **state)
     "texture>"
 #define IMAGED(colour) MITSUBA("<shape type=\"rectangle\"><bsdf type=\"diffuse\">" colour "</bsdf></shape>")
 #define IMAGE(inner) IMAGED(WHITE(inner))
+
+#define CHROMIUM "a.xml:2: a metal whose eta or k varies or is in a file is replaced by chromium"
 
 #define FOG                                                                                                          \
     "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.1 0.2 0.3] \"rgb sigma_s\" [0 0.1 "  \
@@ -767,7 +770,17 @@ static const struct {
     {"a.pbrt", PBRT "Material \"dielectric\" \"float eta\" 1.3 Shape \"sphere\"", NULL},
     {"a.pbrt", PBRT "Material \"dielectric\" \"float roughness\" 0.1 Shape \"sphere\"", NULL},
     {"a.pbrt", PBRT "AreaLightSource \"diffuse\" Shape \"sphere\"", "a.pbrt:2: the reflection of a round light"},
-    {"a.pbrt", PBRT "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" Shape \"sphere\"", NULL},
+    {"a.pbrt", METALLIC("\"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\""), NULL},
+    {"a.pbrt", METALLIC("\"spectrum eta\" \"metal-Cu-eta\""), NULL}, /* k is copper's */
+    {"a.pbrt", METALLIC("\"spectrum eta\" \"metal-Au-eta\""), "a.pbrt:2: eta and k of a metal"},
+    {"a.pbrt", METALLIC("\"rgb eta\" [1 2 3]"), "a.pbrt:2: eta and k of a metal"},
+    {"a.pbrt", METALLIC("\"rgb eta\" [1 2 3] \"spectrum k\" \"metal-Au-k\""), "a.pbrt:2: eta and k of a metal"},
+    {"a.pbrt", METALLIC("\"spectrum eta\" \"a.spd\" \"rgb k\" [1 2 3]"), "a.pbrt:2: eta and k of a metal"},
+    {"a.pbrt",
+     PBRT
+     "Texture \"t\" \"spectrum\" \"checkerboard\" Material \"conductor\" \"texture eta\" \"t\" \"rgb k\" [1 2 3] "
+     "Shape \"sphere\"",
+     "a.pbrt:2: eta and k of a metal"},
     {"a.pbrt", PBRT "Material \"coateddiffuse\" Shape \"sphere\"", "a.pbrt:2: a coated surface"},
     {"a.pbrt", PBRT "Material \"interface\" Shape \"disk\"", NULL},
     {"a.pbrt", PBRT "\n\nMaterial \"hair\" Shape \"sphere\"", "a.pbrt:4: material 'hair'"},
@@ -873,6 +886,23 @@ static const struct {
     {"a.xml", BALL("<bsdf type=\"twosided\"><bsdf type=\"conductor\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"water\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"plastic\"/>"), "a.xml:2: a coated surface"},
+    {"a.xml",
+     BALL("<bsdf type=\"conductor\"><rgb name=\"eta\" value=\"1 2 3\"/><float name=\"k\" value=\"2\"/></bsdf>"),
+     NULL},
+    {"a.xml", BALL("<bsdf type=\"conductor\"><spectrum name=\"eta\" filename=\"a.spd\"/></bsdf>"), CHROMIUM},
+    {"a.xml",
+     BALL("<bsdf type=\"conductor\"><texture name=\"k\" type=\"checkerboard\"/><float name=\"eta\" "
+          "value=\"2\"/></bsdf>"),
+     CHROMIUM},
+    {"a.xml",
+     BALL("<bsdf type=\"conductor\"><texture name=\"eta\" type=\"bitmap\"><string name=\"filename\" "
+          "value=\"white.pfm\"/></texture></bsdf>"),
+     CHROMIUM},
+    {"a.xml",
+     BALL("<bsdf type=\"conductor\"><spectrum name=\"eta\" type=\"d65\"><texture type=\"bitmap\"><string "
+          "name=\"filename\" value=\"white.pfm\"/></texture></spectrum></bsdf>"),
+     CHROMIUM},
+    {"a.xml", BALL("<bsdf type=\"conductor\"><spectrum name=\"eta\" type=\"rawconstant\"/></bsdf>"), CHROMIUM},
     {"a.xml", BALL("<bsdf type=\"bumpmap\"><bsdf type=\"diffuse\"/></bsdf>"),
      "a.xml:2: BSDF 'bumpmap' is replaced by the BSDF within"},
     {"a.xml", BALL("<bsdf type=\"roughdielectric\"/>"), "a.xml:2: Beckmann"},
