@@ -221,7 +221,7 @@ static koksma_status set_coated(koksma__import *im, koksma__text_place place, co
         m->bsdf = &koksma__bsdf_lambert;
         return koksma__import_unknown(im, place, "a coat over an image is ignored");
     }
-    const double ratio = (from->ior - 1) / (from->ior + 1), share = ratio * ratio;
+    const double ior = fmin(fmax(from->ior, 0.1), 10), ratio = (ior - 1) / (ior + 1), share = ratio * ratio;
     double *reflectance = koksma__material_value(m, "reflectance");
     reflectance[0] = reflectance[1] = reflectance[2] = share;
     *koksma__material_value(m, "exponent") = fmin(2 / fmax(from->alpha * from->alpha, 2e-5), 1e5);
@@ -424,7 +424,7 @@ koksma_status koksma__import_spot(koksma__text_place place, const double directi
 {
     light->kind = &koksma__light_spot;
     memcpy(light->normal, direction, sizeof light->normal);
-    if (!koksma__normalise(light->normal)) {
+    if (!koksma__import_normalise(light->normal)) {
         return koksma__import_fail(place, "a spot without a direction");
     }
     if (!(outer_deg > 0 && outer_deg <= 90)) {
@@ -435,6 +435,15 @@ koksma_status koksma__import_spot(koksma__text_place place, const double directi
     light->values[1] = 1 - inner_deg / outer_deg;
     light->values[2] = falloff;
     return KOKSMA_OK;
+}
+
+bool koksma__import_normalise(double v[3])
+{
+    const double largest = fmax(fmax(fabs(v[0]), fabs(v[1])), fabs(v[2]));
+    for (int k = 0; k < 3 && largest > 1e150; k++) { /* so that squares are finite */
+        v[k] /= largest;
+    }
+    return koksma__normalise(v);
 }
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */
@@ -467,7 +476,7 @@ bool koksma__import_rotation(double angle_deg, const double axis[3], double out[
 {
     double a[3] = {axis[0], axis[1], axis[2]};
     const double angle = angle_deg * TURN / 360, c = cos(angle), s = sin(angle);
-    if (!koksma__normalise(a)) {
+    if (!koksma__import_normalise(a)) {
         return false;
     }
     for (int r = 0; r < 3; r++) {
@@ -498,7 +507,8 @@ koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place
             return koksma__import_fail(place, "the camera's position is beyond 1e6");
         }
     }
-    if (!koksma__normalise(c->right) || !koksma__normalise(c->down) || !koksma__normalise(c->forward)) {
+    if (!koksma__import_normalise(c->right) || !koksma__import_normalise(c->down) ||
+        !koksma__import_normalise(c->forward)) {
         return koksma__import_fail(place, "the camera's matrix has no inverse");
     }
     if (lens->height > 0 && !(c->height > TINY && c->height <= FAR)) {

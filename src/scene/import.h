@@ -46,7 +46,7 @@ typedef struct koksma__import_material {
     enum { KOKSMA__MATTE, KOKSMA__METAL, KOKSMA__GLASS, KOKSMA__COATED } kind;
     koksma__import_colour colour; /* colour of matte and coated materials; reflectance of metals along the normal */
     double alpha;                 /* GGX width of metals and coats; 0: smooth */
-    double ior;
+    double ior;                   /* above 0 */
 } koksma__import_material;
 
 /* The material and emission of a shape. */
@@ -145,6 +145,9 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
    angle or height and the lens. */
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
                                     double right, const koksma__camera *lens);
+
+/* Gives a vector of any length the length 1; returns false if it has no direction. */
+bool koksma__import_normalise(double v[3]);
 
 /* Finds the inverse of a matrix; returns false if there is none. */
 bool koksma__import_invert(const double matrix[12], double out[12]);

@@ -507,6 +507,7 @@ static const struct {
 } wrappers[] = {{"twosided", true}, {"mask", false},      {"bumpmap", false},     {"normalmap", false},
                 {"coating", false}, {"blendbsdf", false}, {"mixturebsdf", false}, {"opacity", false}};
 
+/* An index of refraction: a number or the name of a material. One that is not above 0 is a mistake. */
 static double index_of(const reader *r, const node *n, const char *name, double otherwise)
 {
     static const struct {
@@ -527,7 +528,11 @@ static double index_of(const reader *r, const node *n, const char *name, double 
             return known[i].ior;
         }
     }
-    return number(r, n, name, otherwise);
+    const double ior = number(r, n, name, otherwise);
+    if (!(ior > 0)) {
+        note(r, c, "an index of refraction; it must be above 0");
+    }
+    return ior;
 }
 
 /* Reads eta or k of a metal. An object that is not one colour, or a spectrum in a file, is not read and makes *is_constant
@@ -966,7 +971,7 @@ static koksma_status emitter(reader *r, const node *n)
         for (int k = 0; k < 3; k++) {
             light.normal[k] = property(r, n, "direction") ? along[k] : m[4 * k + 2];
         }
-        if (!koksma__normalise(light.normal)) {
+        if (!koksma__import_normalise(light.normal)) {
             return koksma__import_fail(n->place, "a directional light without a direction");
         }
     } else {

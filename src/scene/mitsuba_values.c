@@ -37,16 +37,17 @@ static koksma_status wrong(const node *n, const char *attribute, const char *exp
                  : koksma__import_fail(n->place, "%s: no '%s', which is %s", name, attribute, expected);
 }
 
-/* Reads the number at `*at` and moves *at behind it; returns false if there is none. */
+/* Reads the finite number at `*at` and moves *at behind it; returns false if there is none. */
 static bool take_number(const char **at, double *out)
 {
     const char *digits = *at + (**at == '-' || **at == '+');
+    *out = 0;
     char *end;
     if (strchr(BLANKS, *digits) || !strncasecmp(digits, "0x", 2)) {
         return false;
     }
     *out = koksma__strtod(*at, &end);
-    const bool found = end != *at && !isnan(*out);
+    const bool found = end != *at && isfinite(*out);
     *at = end;
     return found;
 }
@@ -65,9 +66,13 @@ koksma_status koksma__mitsuba_number(const node *n, const char *attribute, doubl
 {
     const char *value = koksma__xml_attribute(n, attribute);
     const bool whole = is(n, "integer");
+    *out = 0;
     return value && koksma__mitsuba_measure(value, "", out) && (!whole || *out == floor(*out))
                ? KOKSMA_OK
-               : wrong(n, attribute, whole ? "a whole number" : "a number");
+               : wrong(n, attribute,
+                       whole            ? "a whole number"
+                       : isfinite(*out) ? "a number"
+                                        : "a finite number");
 }
 
 koksma_status koksma__mitsuba_numbers(const node *n, const char *attribute, size_t most, double *out, size_t *count)
@@ -80,7 +85,7 @@ koksma_status koksma__mitsuba_numbers(const node *n, const char *attribute, size
     for (at += strspn(at, SEPARATORS); *at; at += strspn(at, SEPARATORS)) {
         if (*count == most || !take_number(&at, out + *count) || (*at && !strchr(SEPARATORS, *at))) {
             char expected[48];
-            snprintf(expected, sizeof expected, "a list of at most %zu numbers", most);
+            snprintf(expected, sizeof expected, "a list of at most %zu finite numbers", most);
             return wrong(n, attribute, expected);
         }
         ++*count;
@@ -147,8 +152,8 @@ static koksma_status read_pairs(const node *n, const char *at, koksma__sampled_s
         at += found;
         at += strspn(at, BLANKS);
         found = found && take_number(&at, pair + 1) && (!*at || strchr(SEPARATORS, *at));
-        if (!found || !isfinite(pair[0]) || !isfinite(pair[1])) {
-            return wrong(n, "value", "a spectrum: one number, or pairs 'WAVELENGTH:VALUE, ...'");
+        if (!found) {
+            return wrong(n, "value", "a spectrum: one finite number, or pairs 'WAVELENGTH:VALUE, ...'");
         }
         if (!koksma__sampled_spectrum_add(out, pair[0], pair[1])) {
             return koksma__import_fail(n->place, "wavelengths of a spectrum must increase");
@@ -215,11 +220,11 @@ static size_t words(const char *at)
     return n;
 }
 
-/* Reads the next finite number of a list. */
+/* Reads the next number of a list. */
 static bool take_item(const char **at, double *out)
 {
     *at += strspn(*at, SEPARATORS);
-    return take_number(at, out) && isfinite(*out) && (!**at || strchr(SEPARATORS, **at));
+    return take_number(at, out) && (!**at || strchr(SEPARATORS, **at));
 }
 
 koksma_status koksma__mitsuba_samples(const node *values, const node *wavelengths, double from, double to,
@@ -281,11 +286,11 @@ static koksma_status look_at(const node *n, double m[12])
     KOKSMA__TRY(read_vector(n, "target", NULL, target));
     KOKSMA__TRY(read_vector(n, "up", (const double[3]){0, 1, 0}, up));
     koksma__subtract(target, origin, ahead);
-    if (!koksma__normalise(ahead)) {
+    if (!koksma__import_normalise(ahead)) {
         return koksma__import_fail(n->place, "lookat: origin and target are the same point");
     }
     koksma__cross(up, ahead, left);
-    if (!koksma__normalise(left)) {
+    if (!koksma__import_normalise(left)) {
         return koksma__import_fail(n->place, "lookat: up is along the line of sight");
     }
     koksma__cross(ahead, left, over);

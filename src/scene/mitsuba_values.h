@@ -9,7 +9,7 @@
 /* All functions fail with MALFORMED and a text that names the file, the line, the element and the value, unless the
    value has the whole form that is described here. */
 
-/* One number, with blanks around it. An infinite number is one; "nan" and hexadecimal numbers are not. */
+/* One finite number, with blanks around it; hexadecimal numbers are none. */
 koksma_status koksma__mitsuba_number(const koksma__xml_node *n, const char *attribute, double *out);
 
 /* One number, perhaps with this unit behind it; returns false for another text. */

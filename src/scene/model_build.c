@@ -23,6 +23,7 @@
 #include "render/placements.h"
 #include "render/scene_images.h"
 #include "scene/camera.h"
+#include "scene/import.h"
 
 typedef struct builder {
     koksma_scene *scene;
@@ -365,7 +366,8 @@ static koksma_status build_light(builder *build, size_t i)
         to->radiance[k] = from->colour[k];
     }
     dim(build, to->radiance);
-    KOKSMA__FAIL_IF(!within(to->centre, FAR) || ((from->far_away || from->is_spot) && !koksma__normalise(to->normal)),
+    KOKSMA__FAIL_IF(!within(to->centre, FAR) ||
+                        ((from->far_away || from->is_spot) && !koksma__import_normalise(to->normal)),
                     KOKSMA_MALFORMED, "light %zu has a coordinate beyond 1e6 or a direction of length 0", i);
     return KOKSMA_OK;
 }

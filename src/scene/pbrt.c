@@ -139,11 +139,11 @@ static koksma_status take_look_at(reader *r, source *s)
     double v[9], ahead[3], right[3], up[3], matrix[12], inverse[12];
     KOKSMA__TRY(koksma__pbrt_numbers(s, 9, v));
     koksma__subtract(v + 3, v, ahead);
-    if (!koksma__normalise(ahead)) {
+    if (!koksma__import_normalise(ahead)) {
         return koksma__import_fail(s->place, "LookAt: the eye and its target are the same point");
     }
     koksma__cross(v + 6, ahead, right);
-    if (!koksma__normalise(right)) {
+    if (!koksma__import_normalise(right)) {
         return koksma__import_fail(s->place, "LookAt: up is along the line of sight");
     }
     koksma__cross(ahead, right, up);
@@ -428,7 +428,7 @@ static koksma_status take_light(reader *r, source *s)
         light.kind = &koksma__light_directional;
         koksma__subtract(to, from, to);
         move_point(r->now.matrix[0], to, 0, light.normal);
-        if (!koksma__normalise(light.normal)) {
+        if (!koksma__import_normalise(light.normal)) {
             return koksma__import_fail(p->place, "a distant light without a direction");
         }
     } else {

@@ -104,7 +104,11 @@ static koksma_status number_of(const koksma__pbrt_source *s, const koksma__pbrt_
         read = koksma__text_float(&at, end, &value) && at == end && (!whole || value == floorf(value));
         *out = (double)value;
     }
-    return read ? KOKSMA_OK : wrong(s, t, name, whole ? "a whole number" : "a number");
+    return read && isfinite(*out) ? KOKSMA_OK
+                                  : wrong(s, t, name,
+                                          whole  ? "a whole number"
+                                          : read ? "a finite number"
+                                                 : "a number");
 }
 
 koksma_status koksma__pbrt_numbers(koksma__pbrt_source *s, size_t n, double *out)

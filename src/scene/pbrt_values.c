@@ -407,6 +407,10 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
                                         : find_colour(scene, p, found->colour ? found->colour : "", 0.5, &m.colour));
     const bool refracts = m.kind == KOKSMA__GLASS || m.kind == KOKSMA__COATED;
     m.ior = refracts ? koksma__pbrt_number(p, "eta", 1.5) : 1.5;
+    m.ior = m.ior == 0 ? 1 : m.ior; /* as in pbrt */
+    if (m.ior < 0) {
+        return koksma__import_fail(p->place, "eta: an index of refraction of %g; it must be above 0", m.ior);
+    }
     const koksma__pbrt_parameter *eta = refracts ? koksma__pbrt_find(p, "eta") : NULL;
     if (eta && !koksma__pbrt_is(eta, "float integer")) {
         KOKSMA__TRY(

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Colours of pbrt's and Mitsuba's scenes that may be above 1: eta and k of metals, coefficients of media, factors of
- * daylight. Each form of one value (numbers, pairs, samples at equal or listed wavelengths, textures) gives the same colour.
+ * daylight. Each form of one value (numbers, pairs, samples at equal or listed wavelengths, textures) gives the same
+ * colour. Indices of refraction and directions of any size give finite pictures.
  */
 #include <math.h>
 #include <string.h>
@@ -265,12 +266,111 @@ static void daylight_is_white(void **state)
     }
 }
 
+/* A light turned about y from (0, 0, -1) to (.6, 0, -.8), below six nodes with this scale. */
+#define GLTF(scale)                                                                                                  \
+    "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":{"                 \
+    "\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"directional\"}]}},\"scenes\":[{\"nodes\":[0,1]}],"             \
+    "\"nodes\":[{\"mesh\":0}," NODE(scale, "2") NODE(scale, "3") NODE(scale, "4") NODE(scale, "5") NODE(scale, "6")  \
+        NODE(scale, "7") "{\"rotation\":[0,-0.31622776601683794,0,0.9486832980505138],\"extensions\":{"              \
+                         "\"KHR_lights_punctual\":{\"light\":0}}}],\"meshes\":[{\"primitives\":[{\"attributes\":{"   \
+                         "\"POSITION\":0}}]}],\"buffers\":[{\"uri\":\"data:application/octet-stream;base64,"         \
+                         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\",\"byteLength\":36}],"                   \
+                         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,"      \
+                         "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}]}"
+#define NODE(scale, child) "{\"scale\":" scale ",\"children\":[" child "]},"
+
+/* A direction is the same at any length. */
+static void directions_have_no_length(void **state)
+{
+    static const struct {
+        const char *name, *text;
+    } cases[] = {
+        {"a.xml",
+         MITSUBA("",
+                 "<emitter type=\"directional\"><vector name=\"direction\" value=\"3e300,0,-4e300\"/></emitter>")},
+        {"a.xml",
+         MITSUBA("", "<emitter type=\"directional\"><vector name=\"direction\" value=\"3e-9,0,-4e-9\"/></emitter>")},
+        {"a.xml", MITSUBA("", "<emitter type=\"directional\"><transform name=\"to_world\"><lookat origin=\"0,0,0\" "
+                              "target=\"3e300,0,-4e300\" up=\"0,1e300,0\"/></transform></emitter>")},
+        {"a.xml", MITSUBA("", "<emitter type=\"spot\"><transform name=\"to_world\"><lookat origin=\"0,0,0\" "
+                              "target=\"3e200,0,-4e200\" up=\"0,1e300,0\"/></transform></emitter>")},
+        {"a.pbrt", PBRT("", "LightSource \"distant\" \"point3 to\" [3e37 0 -4e37]")},
+        {"a.pbrt", PBRT("", "Scale 1e38 1e38 1e38 Scale 1e38 1e38 1e38 Scale 1e38 1e38 1e38 Scale 1e38 1e38 1e38 "
+                            "LightSource \"distant\" \"point3 to\" [3e37 0 -4e37] Identity")},
+        {"a.gltf", GLTF("[1,1,1]")},
+        {"a.gltf", GLTF("[1e30,1e30,1e30]")}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        if (can_read(cases[i].name)) {
+            koksma_scene *scene = opened(cases[i].name, cases[i].text);
+            check_rgb(cases[i].text, scene->lights[0].normal, (double[]){.6, 0, -.8}, 1e-6);
+            koksma_scene_close(scene);
+        }
+    }
+}
+
+/* ---- Coats --------------------------------------------------------------------------------------------------- */
+
+/* A coat reflects ((n - 1) / (n + 1))^2 along the normal: the same for n and 1 / n, and at most that of n = 10. */
+static void coats_are_finite(void **state)
+{
+    static const struct {
+        const char *name, *text;
+        double reflectance; /* below 0: refused */
+    } cases[] = {
+#define COAT(eta) PBRT("", "Material \"coateddiffuse\" \"float eta\" " eta)
+#define PLASTIC(inner, outer)                                                                                        \
+    BALL("<bsdf type=\"plastic\"><float name=\"int_ior\" value=\"" inner                                             \
+         "\"/><float name=\"ext_ior\" value=\"" outer "\"/></bsdf>")
+        {"a.pbrt", COAT("1.5"), 0.04},
+        {"a.pbrt", COAT("1"), 0},
+        {"a.pbrt", COAT("1e38"), 81. / 121},
+        {"a.pbrt", COAT("0"), 0}, /* which pbrt takes for 1 */
+        {"a.pbrt", COAT("-1"), -1},
+        {"a.pbrt", COAT("-1e30"), -1},
+        {"a.pbrt", PBRT("", "Material \"dielectric\" \"float eta\" -1"), -1},
+        {"a.xml", PLASTIC("1.5", "1"), 0.04},
+        {"a.xml", PLASTIC("1", "1.5"), 0.04},
+        {"a.xml", PLASTIC("1e300", "1e-300"), 81. / 121},
+        {"a.xml", PLASTIC("1e-300", "1e300"), 81. / 121},
+        {"a.xml", PLASTIC("-1", "1"), -1},
+        {"a.xml", PLASTIC("-1", "-1"), -1},
+        {"a.xml", PLASTIC("0", "0"), -1},
+        {"a.xml", PLASTIC("1", "0"), -1},
+        {"a.xml", BALL("<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"-1\"/></bsdf>"), -1},
+        {"a.xml", BALL("<bsdf type=\"principled\"><float name=\"eta\" value=\"-1\"/></bsdf>"), -1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        koksma_scene *scene = NULL;
+        if (!can_read(cases[i].name)) {
+            continue;
+        }
+        const koksma_status status = open_as(cases[i].name, cases[i].text, &scene);
+        if (cases[i].reflectance < 0) {
+            if (koksma_status_exit_code(status) != 3 || !strstr(koksma_error_text(), "it must be above 0")) {
+                fail_msg("%s: '%s'", cases[i].text, status ? koksma_error_text() : "");
+            }
+        } else {
+            assert_ok(status);
+            const double share = cases[i].reflectance, rest = (1 - share) / 2;
+            check_rgb(cases[i].text, koksma__material_value(&scene->materials[scene->n_materials - 1], "reflectance"),
+                      (double[]){share, share, share}, 1e-7);
+            check_rgb(cases[i].text, scene->materials[scene->n_materials - 1].albedo[0], (double[]){rest, rest, rest},
+                      1e-7);
+            koksma_scene_close(scene);
+        }
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(metals_are_the_same_in_all_forms), cmocka_unit_test(extreme_metals_are_mirrors),
-        cmocka_unit_test(media_are_the_same_in_all_forms), cmocka_unit_test(coefficients_are_finite),
-        cmocka_unit_test(daylight_is_white)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(metals_are_the_same_in_all_forms),
+                                       cmocka_unit_test(extreme_metals_are_mirrors),
+                                       cmocka_unit_test(media_are_the_same_in_all_forms),
+                                       cmocka_unit_test(coefficients_are_finite),
+                                       cmocka_unit_test(daylight_is_white),
+                                       cmocka_unit_test(directions_have_no_length),
+                                       cmocka_unit_test(coats_are_finite)};
     strcpy(folder, "/tmp/koksma-colours-XXXXXX");
     if (!mkdtemp(folder)) {
         return 1;

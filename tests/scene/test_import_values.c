@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Every value of the scenes fuzz/corpus/model/NAME.xml and .pbrt, which use all parameters that are read, is replaced by
    texts that are no such value, one at a time: each is refused with one line that names the file, the line and the
-   property. Mitsuba 3 throws on all of them except for an empty number, and pbrt-v4 ends. */
+   property. Mitsuba 3 throws on all of them except for an empty number, nan and infinite ones; pbrt-v4 ends. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -77,8 +77,8 @@ static bool is_word(const char *at, size_t length, const char *words)
 /* Damages the attributes of the element whose tag is at `tag`; returns how many. */
 static size_t damage_element(const char *name, const char *tag)
 {
-    static const char *const bad[] = {"",    "a",     "1e",    "5x",   "0x10",  "nan",
-                                      "1 a", "1;2;3", "1,2,x", "400:", "400:x", "#12345"};
+    static const char *const bad[] = {"",      "a",   "1e",    "5x",    "0x10", "nan",   "inf",
+                                      "1e999", "1 a", "1;2;3", "1,2,x", "400:", "400:x", "#12345"};
     static const char *const valued =
         "float integer boolean point vector rgb srgb spectrum blackbody translate scale "
         "rotate lookat lookAt matrix ref";
@@ -179,6 +179,12 @@ static void odd_elements_of_mitsuba_are_refused(void **state)
         {IRREGULAR("400 5x", "1 2"), "wavelengths: '400 5x' is not a list of numbers"},
         {IRREGULAR("400 500", "1 inf"), "values: '1 inf' is not a list of numbers"},
         {IRREGULAR("500 400", "1 2"), "wavelengths of a spectrum must increase"},
+        {BALL("<float name=\"radius\" value=\"-Infinity\"/>"), "radius: '-Infinity' is not a finite number"},
+        {BALL("<point name=\"center\" value=\"0 nan 0\"/>"),
+         "center: '0 nan 0' is not a list of at most 3 finite numbers"},
+        {GREY("value=\"400:1,500:inf\"/>"), "is not a spectrum: one finite number, or pairs"},
+        {BALL("<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"0\"/></bsdf>"),
+         "int_ior: <float> '0' is not an index of refraction; it must be above 0"},
         {GREY("type=\"d65\"><texture type=\"d65\"/><texture type=\"d65\"/></spectrum>"), "more than one texture"},
         {XML("<spectrum id=\"a\" type=\"d65\"><ref id=\"a\"/></spectrum><emitter type=\"point\"><ref "
              "name=\"intensity\" "
@@ -225,9 +231,9 @@ static void odd_elements_of_mitsuba_are_refused(void **state)
 static const char *damage_parameter(const char *name, const char *at, bool passed)
 {
     static const char *const
-        numbers[] = {"\"a\"", "[]", "[0 \"a\"]", "true", "x", "nan", "1e", "0x10", "[0 x]", NULL},
-        *const wholes[] = {"\"a\"", "[]", "[0 \"a\"]", "true", "x", "1.5", "[0 1.5]", NULL},
-        *const triples[] = {"\"a\"", "[]", "[0 \"a\"]", "1", "[1 1 1 1]", "[1 1 nan]", NULL},
+        numbers[] = {"\"a\"", "[]", "[0 \"a\"]", "true", "x", "nan", "1e", "0x10", "1e999", "[0 x]", NULL},
+        *const wholes[] = {"\"a\"", "[]", "[0 \"a\"]", "true", "x", "1.5", "[0 1.5]", "1e999", NULL},
+        *const triples[] = {"\"a\"", "[]", "[0 \"a\"]", "1", "[1 1 1 1]", "[1 1 nan]", "[1 -1e999 1]", NULL},
         *const spectra[] = {"[]", "x", "[400]", "[400 \"a\"]", "[\"a\" 400]", NULL},
         *const texts[] = {"1", "[]", "[\"a\" 1]", "true", NULL}, *const flags[] = {"1", "[]", "\"a\"", "maybe", NULL};
     const size_t length = strcspn(at, " ");
@@ -294,6 +300,8 @@ static void odd_directives_of_pbrt_are_refused(void **state)
         {PBRT("LightSource \"point\" \"point3 from\" [0 0 0 1 1 1]"), ":3: from: a 'point3' of 6 values"},
         {PBRT("LightSource \"point\" \"rgb I\" [1 1 1 2 2 2]"), ":3: I: more than one colour"},
         {PBRT("LightSource \"point\" \"string I\" \"a\""), ":3: I: a 'string' is not a colour"},
+        {PBRT("LightSource \"point\" \"rgb I\" [1 1e999 1]"), ":3: I: '1e999' is not a finite number"},
+        {PBRT("Translate 0 -1e39 0"), ":3: Translate: '-1e39' is not a finite number"},
         {PBRT("Shape \"plymesh\""), "the name of a file (filename) is missing or empty"},
         {PBRT("Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" \"\""), "(filename) is missing or empty"},
         {PBRT("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0]"),
