@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reads scenes of Mitsuba 3 (Jakob et al. 2022), and of earlier versions that differ only in names. xml.c parses
+ * Reads scenes of Mitsuba 3 (Jakob et al. 2022), and names of Mitsuba 0.6 and 2 that have changed since. xml.c parses
  * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
  * shape first refers to it. One homogeneous medium is read, of the sensor or of a cube along the axes; volumes and motion
  * are not read. Integrators and samplers are ignored, because the program's own options choose them.
@@ -344,11 +344,13 @@ static koksma_status samples(reader *r, const node *n, bool regular, koksma__spe
         return value_of(r, resolve(r, pairs), use, rgb);
     }
     KOKSMA__TRY(needed(r, n, "values"));
-    KOKSMA__TRY(needed(r, n, regular ? "wavelength_min" : "wavelengths"));
-    KOKSMA__TRY(regular ? needed(r, n, "wavelength_max") : KOKSMA_OK);
+    const bool older = property(r, n, "lambda_min") && property(r, n, "lambda_max"); /* Mitsuba 2 */
+    const char *const low = older ? "lambda_min" : "wavelength_min", *high = older ? "lambda_max" : "wavelength_max";
+    KOKSMA__TRY(needed(r, n, regular ? low : "wavelengths"));
+    KOKSMA__TRY(regular ? needed(r, n, high) : KOKSMA_OK);
     (void)text(r, n, "values", "");
     if (regular) {
-        const double from = number(r, n, "wavelength_min", 360), to = number(r, n, "wavelength_max", 830);
+        const double from = number(r, n, low, 360), to = number(r, n, high, 830);
         KOKSMA__TRY(koksma__mitsuba_samples(property(r, n, "values"), NULL, from, to, &s));
     } else {
         (void)text(r, n, "wavelengths", "");
@@ -358,12 +360,21 @@ static koksma_status samples(reader *r, const node *n, bool regular, koksma__spe
     return KOKSMA_OK;
 }
 
-typedef enum spectrum_kind { D65, UNIFORM, SRGB, REGULAR, IRREGULAR, BLACK_BODY, NO_SPECTRUM } spectrum_kind;
+typedef enum spectrum_kind {
+    D65,
+    COLOUR_IN_D65, /* the name of "d65" with a colour in Mitsuba 2 */
+    UNIFORM,
+    SRGB,
+    REGULAR,
+    IRREGULAR,
+    BLACK_BODY,
+    NO_SPECTRUM
+} spectrum_kind;
 
 /* The kind of spectrum that an object is; NO_SPECTRUM: none that is read. */
 static spectrum_kind kind_of_spectrum(const node *n)
 {
-    static const char *const all[] = {"d65", "uniform", "srgb", "regular", "irregular", "blackbody"};
+    static const char *const all[] = {"d65", "srgb_d65", "uniform", "srgb", "regular", "irregular", "blackbody"};
     int kind = 0;
     while (kind < NO_SPECTRUM && strcmp(all[kind], type_of(n)) != 0) {
         kind++;
@@ -383,6 +394,9 @@ static koksma_status spectrum(reader *r, const node *n, koksma__spectrum_use use
     }
     set_read(r, n);
     switch (kind) {
+    case COLOUR_IN_D65:
+        KOKSMA__TRY(needed(r, n, "color"));
+        return in_daylight(r, n, out, depth);
     case D65:
         return in_daylight(r, n, out, depth);
     case UNIFORM:
@@ -823,7 +837,7 @@ static koksma_status name_media(reader *r, const node *n, int material)
                : KOKSMA_OK;
 }
 
-/* Reads a colour of a medium, which is given directly or by a constant volume. */
+/* Reads a colour of a medium, which is given directly or by a constant volume, of "color" in Mitsuba 2. */
 static koksma_status medium_colour(reader *r, const node *n, const char *name, double otherwise, double rgb[3])
 {
     const node *found = property(r, n, name);
@@ -833,8 +847,9 @@ static koksma_status medium_colour(reader *r, const node *n, const char *name, d
         KOKSMA__TRY(
             koksma__import_unknown(r->im, found->place, "volume '%s' is replaced by %g", type_of(found), otherwise));
     } else {
-        KOKSMA__TRY(found && is(found, "volume") ? colour(r, found, "value", 1, &c, 0)
-                                                 : colour(r, n, name, otherwise, &c, 0));
+        KOKSMA__TRY(found && is(found, "volume")
+                        ? colour(r, found, property(r, found, "color") ? "color" : "value", 1, &c, 0)
+                        : colour(r, n, name, otherwise, &c, 0));
     }
     for (int k = 0; k < 3; k++) {
         rgb[k] = c.rgb[k] > 0 ? fmin(c.rgb[k], FAR) : 0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Colours of pbrt's and Mitsuba's scenes that may be above 1: eta and k of metals, coefficients of media, factors of
- * daylight. Each form of one value (numbers, pairs, samples at equal or listed wavelengths, textures) gives the same
- * colour. Indices of refraction and directions of any size give finite pictures.
+ * daylight. Each form of one value (numbers, pairs, samples at equal or listed wavelengths, textures, the names of
+ * Mitsuba 2) gives the same colour. Indices of refraction and directions of any size give finite pictures.
  */
 #include <math.h>
 #include <string.h>
@@ -109,6 +109,10 @@ static void metals_are_the_same_in_all_forms(void **state)
                    REGULAR("name=\"k\"", "wavelength", "400", "700", KS)),
          false},
         {"a.xml",
+         METAL(REGULAR("name=\"eta\"", "lambda", "400", "700", ETAS)
+                   REGULAR("name=\"k\"", "lambda", "400", "700", KS)),
+         false},
+        {"a.xml",
          METAL("<spectrum name=\"eta\" type=\"irregular\"><spectrum name=\"value\" value=\"" ETA(
              ":", ",") "\"/></spectrum><spectrum name=\"k\" value=\"" K(":", ",") "\"/>"),
          false},
@@ -179,8 +183,12 @@ static void media_are_the_same_in_all_forms(void **state)
         {"a.xml", FOG("<spectrum name=\"sigma_a\" value=\"360:2,830:2\"/>")},
         {"a.xml",
          FOG("<float name=\"albedo\" value=\"0\"/>" REGULAR("name=\"sigma_t\"", "wavelength", "360", "830", "2 2"))},
+        {"a.xml",
+         FOG("<float name=\"albedo\" value=\"0\"/>" REGULAR("name=\"sigma_t\"", "lambda", "360", "830", "2 2"))},
         {"a.xml", FOG("<float name=\"albedo\" value=\"0\"/><volume name=\"sigma_t\" type=\"constvolume\"><spectrum "
                       "name=\"value\" value=\"360:2,830:2\"/></volume>")},
+        {"a.xml", FOG("<float name=\"albedo\" value=\"0\"/><volume name=\"sigma_t\" type=\"constvolume\"><spectrum "
+                      "name=\"color\" value=\"360:2,830:2\"/></volume>")}, /* Mitsuba 2 */
         {"a.xml", FOG("<float name=\"scale\" value=\"4\"/><float name=\"albedo\" value=\"0\"/><spectrum "
                       "name=\"sigma_t\" value=\"360:.5,830:.5\"/>")},
         {"a.pbrt", PBRT_FOG("\"rgb sigma_s\" [0 0 0] \"rgb sigma_a\" [2 2 2]")},
@@ -245,9 +253,12 @@ static void daylight_is_white(void **state)
         LIGHT("<spectrum type=\"srgb\" name=\"radiance\"><rgb name=\"color\" value=\"3\"/></spectrum>"),
         LIGHT("<spectrum type=\"srgb\" name=\"radiance\"><spectrum name=\"color\" "
               "value=\"360:3,830:3\"/></spectrum>"),
+        LIGHT("<spectrum type=\"srgb_d65\" name=\"radiance\"><rgb name=\"color\" "
+              "value=\"3\"/></spectrum>"), /* Mitsuba 2 */
     };
     static const char *const reddish[] = {LIGHT("<spectrum name=\"radiance\" value=\"360:3,830:3\"/>"),
-                                          LIGHT(IRREGULAR("name=\"radiance\"", "360 830", "3 3"))};
+                                          LIGHT(IRREGULAR("name=\"radiance\"", "360 830", "3 3")),
+                                          LIGHT(REGULAR("name=\"radiance\"", "lambda", "360", "830", "3 3"))};
     (void)state;
     if (!can_read("a.xml")) {
         return;

@@ -183,6 +183,10 @@ static void odd_elements_of_mitsuba_are_refused(void **state)
         {BALL("<point name=\"center\" value=\"0 nan 0\"/>"),
          "center: '0 nan 0' is not a list of at most 3 finite numbers"},
         {GREY("value=\"400:1,500:inf\"/>"), "is not a spectrum: one finite number, or pairs"},
+        {GREY("type=\"regular\"><string name=\"values\" value=\"1 2\"/><float name=\"lambda_min\" "
+              "value=\"400\"/></spectrum>"),
+         "spectrum 'regular': no 'wavelength_min'"},
+        {GREY("type=\"srgb_d65\"/>"), "spectrum 'srgb_d65': no 'color'"},
         {BALL("<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"0\"/></bsdf>"),
          "int_ior: <float> '0' is not an index of refraction; it must be above 0"},
         {GREY("type=\"d65\"><texture type=\"d65\"/><texture type=\"d65\"/></spectrum>"), "more than one texture"},
