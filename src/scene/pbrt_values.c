@@ -109,6 +109,10 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
         return named_spectrum(scene, place, p->text, out->rgb);
     }
     if (!strcmp(p->type, "blackbody") && p->n == 1) {
+        if (!(p->numbers[0] > 0)) { /* in pbrt such a light is NaN everywhere */
+            return koksma__import_fail(place, "%s: a temperature of %g kelvins; it must be above 0", p->name,
+                                       p->numbers[0]);
+        }
         koksma__import_black_body(p->numbers[0], out->rgb);
         return KOKSMA_OK;
     }

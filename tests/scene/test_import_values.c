@@ -306,6 +306,8 @@ static void odd_directives_of_pbrt_are_refused(void **state)
         {PBRT("LightSource \"point\" \"string I\" \"a\""), ":3: I: a 'string' is not a colour"},
         {PBRT("LightSource \"point\" \"rgb I\" [1 1e999 1]"), ":3: I: '1e999' is not a finite number"},
         {PBRT("Translate 0 -1e39 0"), ":3: Translate: '-1e39' is not a finite number"},
+        {PBRT("LightSource \"point\" \"blackbody I\" 0"), ":3: I: a temperature of 0 kelvins; it must be above 0"},
+        {PBRT("LightSource \"point\" \"blackbody I\" -1"), ":3: I: a temperature of -1 kelvins; it must be above 0"},
         {PBRT("Shape \"plymesh\""), "the name of a file (filename) is missing or empty"},
         {PBRT("Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" \"\""), "(filename) is missing or empty"},
         {PBRT("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0]"),
