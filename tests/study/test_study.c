@@ -398,42 +398,6 @@ static void correlations_as_shown(void **state)
     koksma__json_writer_fini(&words.json);
 }
 
-/* Calls of a report: their number, the largest fraction, whether one was below an earlier one, the call that says no. */
-typedef struct calls {
-    size_t n, last;
-    double reached;
-    bool fell;
-} calls;
-
-static bool count_call(void *context, double fraction)
-{
-    calls *c = context;
-    c->fell |= fraction < c->reached || fraction > 1;
-    c->reached = fmax(c->reached, fraction);
-    return ++c->n != c->last;
-}
-
-/* A report tells its progress, which never falls, and ends where the callback says so, without a file. */
-static void reports_have_progress(void **state)
-{
-    (void)state;
-    const char *plans[] = {"{\"name\": \"p\", \"title\": \"P\", \"discrepancies\": [{\"patterns\": [\"random\"], "
-                           "\"measures\": [\"star\"], \"n\": [4], \"trials\": 3}]}"};
-    const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = "progress"};
-    koksma_study *study;
-    assert_ok(koksma_study_open(&options, &study));
-    assert_ok(koksma_study_run(study, NULL, NULL));
-    calls all = {0}, one = {.last = 3};
-    koksma_run run = {.keep_going = count_call, .context = &one};
-    assert_int_equal(koksma_study_report(study, &run), KOKSMA_INTERRUPTED);
-    assert_int_equal(access("progress/report.json", F_OK), -1);
-    run.context = &all;
-    assert_ok(koksma_study_report(study, &run));
-    assert_true(all.n > 3 && !all.fell && all.reached > 0.8);
-    assert_int_equal(access("progress/report.json", F_OK), 0);
-    assert_ok(koksma_study_close(study));
-}
-
 static void study_without_folder(void **state)
 {
     (void)state;
@@ -591,14 +555,21 @@ static void audit_reports_progress(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summary_by_hand),        cmocka_unit_test(student_table),
-        cmocka_unit_test(largest_of_blocks),      cmocka_unit_test(wrong_plans),
-        cmocka_unit_test(wrong_groups),           cmocka_unit_test(wrong_metrics),
-        cmocka_unit_test(shipped_plans_parse),    cmocka_unit_test(store_keeps_rows),
-        cmocka_unit_test(store_keeps_many_rows),  cmocka_unit_test(folder_is_read_and_audited),
-        cmocka_unit_test(audit_reports_progress), cmocka_unit_test(own_error_of_a_reference),
-        cmocka_unit_test(correlations_as_shown),  cmocka_unit_test(reports_have_progress),
-        cmocka_unit_test(study_without_folder),   cmocka_unit_test(rankings_have_eight_trials_or_more),
+        cmocka_unit_test(summary_by_hand),
+        cmocka_unit_test(student_table),
+        cmocka_unit_test(largest_of_blocks),
+        cmocka_unit_test(wrong_plans),
+        cmocka_unit_test(wrong_groups),
+        cmocka_unit_test(wrong_metrics),
+        cmocka_unit_test(shipped_plans_parse),
+        cmocka_unit_test(store_keeps_rows),
+        cmocka_unit_test(store_keeps_many_rows),
+        cmocka_unit_test(folder_is_read_and_audited),
+        cmocka_unit_test(audit_reports_progress),
+        cmocka_unit_test(own_error_of_a_reference),
+        cmocka_unit_test(correlations_as_shown),
+        cmocka_unit_test(study_without_folder),
+        cmocka_unit_test(rankings_have_eight_trials_or_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
