@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Triangle meshes: allocation, checks, smooth normals and hashes; and the matrices of placements. A vertex's smooth
- * normal is the sum of the vector areas of the triangles around its position; a hash table of positions finds them in
- * linear time.
+ * normal is the sum of the vector areas of the triangles around its position, which sorting finds in linear time.
  */
 #include "meshes/mesh.h"
 

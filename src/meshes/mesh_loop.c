@@ -9,10 +9,11 @@
  *   edge v w        3/8 (v + w) + 1/8 (c + d), the corners opposite to it                      1/2 (v + w)
  *   limit           (1 - n g) v + g N, g = 1 / (n + 3 / (8 b))                                 3/5 v + 1/5 (p + q)
  *
- * A border is an edge of one triangle, or of more than two. A vertex without border edges is moved by the masks on
- * the left, a vertex with two border edges by the masks on the right, and any other vertex is not moved. Edges are
- * found by a hash table in linear time. Normals are computed from the fine triangles, weighted by angles; they
- * approach the normals of the limit surface.
+ * A border is an edge of one triangle, or of more than two. A vertex without border edges is moved by the masks on the
+ * left, a vertex with two border edges by the masks on the right, and any other vertex is not moved. Edges are found by
+ * sorting the triangles' sides by their two vertices, in linear time for any mesh; a hash table would take the square
+ * of that for indices that are chosen so that their hashes agree. Normals are computed from the fine triangles,
+ * weighted by angles; they approach the normals of the limit surface.
  */
 #include "meshes/mesh_loop.h"
 
@@ -64,21 +65,47 @@ static koksma_status init(level *l, size_t n_vertices, size_t n_triangles)
     return KOKSMA_OK;
 }
 
-/* The edge between two vertices, which is added if it is new. The table has a power of 2 places, more than twice as many as
-   there are edges; 0 marks a free place, others hold 1 + the number of an edge. */
-static uint32_t find_edge(level *l, uint32_t *table, size_t places, uint32_t v, uint32_t w)
+/* The two ends of the side that begins at corner i: the smaller and the larger vertex. */
+static uint32_t end_of(const level *l, size_t i, bool larger)
 {
-    const uint32_t a = v < w ? v : w, b = v < w ? w : v;
-    size_t at =
-        (size_t)(((uint64_t)a * 0x9E3779B97F4A7C15u ^ (uint64_t)b * 0xC2B2AE3D27D4EB4Fu) >> 20) & (places - 1);
-    while (table[at] && (l->edges[table[at] - 1].a != a || l->edges[table[at] - 1].b != b)) {
-        at = (at + 1) & (places - 1);
+    const uint32_t v = l->corners[i], w = l->corners[i - i % 3 + (i + 1) % 3];
+    return (v < w) == larger ? w : v;
+}
+
+/* Sorts the sides in `from`, or all in their order if it is NULL, by one of their ends into `to`; those with the
+   same end stay in their order. `starts` has a place more than there are vertices. */
+static void sort_by(const level *l, bool larger, const uint32_t *from, uint32_t *starts, uint32_t *to)
+{
+    const size_t n = 3 * l->n_triangles;
+    memset(starts, 0, (l->n_vertices + 1) * sizeof *starts);
+    for (size_t i = 0; i < n; i++) {
+        starts[end_of(l, i, larger) + 1]++;
     }
-    if (!table[at]) {
-        l->edges[l->n_edges] = (edge){.a = a, .b = b};
-        table[at] = (uint32_t)++l->n_edges;
+    for (size_t v = 0; v < l->n_vertices; v++) {
+        starts[v + 1] += starts[v];
     }
-    return table[at] - 1;
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t side = from ? from[i] : (uint32_t)i;
+        to[starts[end_of(l, side, larger)]++] = side;
+    }
+}
+
+/* Sets first[i] to the first side between the same two vertices as side i. `order` and `starts` are scratch. */
+static void find_alike(const level *l, uint32_t *order, uint32_t *starts, uint32_t *first)
+{
+    const size_t n = 3 * l->n_triangles;
+    sort_by(l, true, NULL, starts, order);
+    sort_by(l, false, order, starts, first);
+    memcpy(order, first, n * sizeof *order);
+    uint32_t found = 0;
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t side = order[i];
+        if (!i || end_of(l, side, false) != end_of(l, found, false) ||
+            end_of(l, side, true) != end_of(l, found, true)) {
+            found = side;
+        }
+        first[side] = found;
+    }
 }
 
 static void add_neighbour(level *l, uint32_t to, uint32_t other, bool is_border)
@@ -96,22 +123,28 @@ static void add_neighbour(level *l, uint32_t to, uint32_t other, bool is_border)
 /* Finds the edges and what surrounds each vertex. */
 static koksma_status connect(level *l)
 {
-    size_t places = 16;
-    while (places < 7 * l->n_triangles) {
-        places *= 2;
+    const size_t n = 3 * l->n_triangles;
+    uint32_t *order = malloc((n + 1) * sizeof *order), *first = malloc((n + 1) * sizeof *first);
+    uint32_t *starts = malloc((l->n_vertices + 1) * sizeof *starts);
+    if (!order || !first || !starts) {
+        KOKSMA__FREE(order, first, starts);
+        return koksma__fail_memory((2 * n + l->n_vertices) * sizeof *order);
     }
-    uint32_t *table = calloc(places, sizeof *table);
-    KOKSMA__REQUIRE_MEMORY(table, places * sizeof *table);
-    for (size_t i = 0; i < 3 * l->n_triangles; i++) {
-        const size_t first = i - i % 3;
-        const uint32_t v = l->corners[i], w = l->corners[first + (i + 1) % 3], far = l->corners[first + (i + 2) % 3];
-        edge *e = &l->edges[l->sides[i] = find_edge(l, table, places, v, w)];
+    find_alike(l, order, starts, first);
+    for (size_t i = 0; i < n; i++) {
+        if (first[i] == i) {
+            l->sides[i] = (uint32_t)l->n_edges;
+            l->edges[l->n_edges++] = (edge){.a = end_of(l, i, false), .b = end_of(l, i, true)};
+        } else {
+            l->sides[i] = l->sides[first[i]];
+        }
+        edge *e = &l->edges[l->sides[i]];
         if (e->n < 2) {
-            e->opposite[e->n] = far;
+            e->opposite[e->n] = l->corners[i - i % 3 + (i + 2) % 3];
         }
         e->n++;
     }
-    free(table);
+    KOKSMA__FREE(order, first, starts);
     for (size_t i = 0; i < l->n_edges; i++) {
         const edge *e = &l->edges[i];
         add_neighbour(l, e->a, e->b, e->n != 2);
