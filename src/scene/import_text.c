@@ -56,6 +56,17 @@ static koksma_status read_text(const char *path, unsigned char **bytes, size_t *
     return KOKSMA_OK;
 }
 
+koksma_status koksma__import_surplus(koksma__import *im, koksma__text_place place, uint64_t bytes)
+{
+    im->surplus += bytes;
+    return im->surplus <= MOST_SURPLUS
+               ? KOKSMA_OK
+               : koksma__import_fail(place,
+                                     "the texts that it includes again, those from files packed to less than 1/%d of "
+                                     "their length, and the values of $names are longer than %d MiB together",
+                                     MOST_RATIO, MOST_SURPLUS >> 20);
+}
+
 /* Counts a text that was read against what the files on the disk stand for. */
 static koksma_status count_text(koksma__import *im, koksma__text_place place, const char *path, size_t size)
 {
@@ -70,13 +81,7 @@ static koksma_status count_text(koksma__import *im, koksma__text_place place, co
         *to = (struct koksma__text_file){file.st_dev, file.st_ino};
     }
     const uint64_t free_bytes = again ? 0 : MOST_RATIO * (uint64_t)file.st_size;
-    im->surplus += size > free_bytes ? size - free_bytes : 0;
-    return im->surplus <= MOST_SURPLUS
-               ? KOKSMA_OK
-               : koksma__import_fail(place,
-                                     "the texts that it includes again, or from files packed to less than 1/%d of "
-                                     "their length, are longer than %d MiB together",
-                                     MOST_RATIO, MOST_SURPLUS >> 20);
+    return koksma__import_surplus(im, place, size > free_bytes ? size - free_bytes : 0);
 }
 
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,

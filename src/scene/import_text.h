@@ -11,4 +11,8 @@
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
                                   size_t *size);
 
+/* Counts text that no file holds, because it is read again or made from names. Error: MALFORMED (more than MOST_SURPLUS
+   bytes in the scene). */
+koksma_status koksma__import_surplus(koksma__import *im, koksma__text_place place, uint64_t bytes);
+
 #endif

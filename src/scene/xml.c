@@ -18,10 +18,6 @@
 #include <expat.h>
 #endif
 
-struct koksma__xml_default {
-    char *name, *value;
-};
-
 void koksma__xml_fini(koksma__xml *xml)
 {
     for (size_t i = 0; i < xml->n; i++) {
@@ -34,9 +30,10 @@ void koksma__xml_fini(koksma__xml *xml)
         free(xml->files[i]);
     }
     for (size_t i = 0; i < xml->n_defaults; i++) {
-        KOKSMA__FREE(xml->defaults[i].name, xml->defaults[i].value);
+        free(xml->defaults[i]);
     }
     KOKSMA__FREE(xml->nodes, xml->files, xml->defaults);
+    koksma__names_fini(&xml->default_names);
 }
 
 const char *koksma__xml_attribute(const koksma__xml_node *node, const char *name)
@@ -100,19 +97,16 @@ static void stop(reading *r, koksma_status status)
 static char *replaced(reading *r, const char *value)
 {
     char *out = malloc(MOST_VALUE + 1);
-    size_t used = 0;
+    size_t used = 0, surplus = 0, index;
     while (out && *value) {
         const char *from = value;
         size_t length = 1, taken = 1;
         if (*value == '$') {
             taken = 1 + strspn(value + 1, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_");
-            from = NULL;
-            for (size_t i = 0; i < r->xml->n_defaults; i++) {
-                const char *name = r->xml->defaults[i].name;
-                from = strlen(name) == taken - 1 && !strncmp(name, value + 1, taken - 1) ? r->xml->defaults[i].value
-                                                                                         : from;
-            }
+            from = koksma__names_find(&r->xml->default_names, value + 1, taken - 1, &index) ? r->xml->defaults[index]
+                                                                                            : NULL;
             length = from ? strlen(from) : 0;
+            surplus += length;
         }
         if (!from || used + length > MOST_VALUE) {
             stop(r, from ? koksma__import_fail(here(r), "a value is longer than %d characters", MOST_VALUE)
@@ -123,6 +117,9 @@ static char *replaced(reading *r, const char *value)
         memcpy(out + used, from, length);
         used += length;
         value += taken;
+    }
+    if (out && surplus) {
+        stop(r, koksma__import_surplus(r->im, here(r), surplus));
     }
     if (out) {
         out[used] = 0;
@@ -140,18 +137,15 @@ static void fail_memory(reading *r)
 static void add_default(reading *r, const koksma__xml_node *node)
 {
     const char *name = koksma__xml_attribute(node, "name"), *value = koksma__xml_attribute(node, "value");
-    for (size_t i = 0; name && i < r->xml->n_defaults; i++) {
-        name = strcmp(r->xml->defaults[i].name, name) != 0 ? name : NULL;
-    }
-    if (!name || !value) {
+    size_t index;
+    if (!name || !value || koksma__names_find(&r->xml->default_names, name, strlen(name), &index)) {
         return;
     }
-    struct koksma__xml_default *to = koksma__add_one(&r->xml->defaults, &r->xml->n_defaults, sizeof *to);
+    char **to = koksma__add_one(&r->xml->defaults, &r->xml->n_defaults, sizeof *to);
     if (to) {
-        *to = (struct koksma__xml_default){strdup(name), strdup(value)};
+        *to = strdup(value);
     }
-    if (!to || !to->name || !to->value) {
-        r->xml->n_defaults -= to != NULL;
+    if (!to || !*to || koksma__names_put(&r->xml->default_names, name, strlen(name), r->xml->n_defaults - 1)) {
         fail_memory(r);
     }
 }
@@ -198,12 +192,14 @@ static int add_node(reading *r, const char *tag, const char **attributes, int pa
         fail_memory(r);
         return -1;
     }
-    *node = (koksma__xml_node){strdup(tag), calloc(n + 1, sizeof *node->attributes), here(r), -1, -1, -1};
+    *node = (koksma__xml_node){strdup(tag), calloc(n + 1, sizeof *node->attributes), here(r), 0, -1, -1, -1};
     for (size_t i = 0; node->tag && node->attributes && i < n && !r->status; i++) {
         node->attributes[i] = replaced(r, attributes[i]);
         if (!node->attributes[i]) {
             fail_memory(r);
+            break;
         }
+        node->length += strlen(node->attributes[i]);
     }
     if (!node->tag || !node->attributes) {
         fail_memory(r);

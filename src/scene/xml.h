@@ -3,25 +3,28 @@
 #ifndef KOKSMA_SCENE_XML_H
 #define KOKSMA_SCENE_XML_H
 
+#include "meshes/names.h"
 #include "scene/import.h"
 
 typedef struct koksma__xml_node {
     char *tag;
     char **attributes; /* names and values in turn, ended by NULL */
     koksma__text_place place;
+    size_t length;         /* characters of the attributes */
     int first, last, next; /* first and last child; next child of the same parent; -1: none */
 } koksma__xml_node;
 
 typedef struct koksma__xml {
     koksma__xml_node *nodes; /* the first node is the root */
     char **files;            /* names of the included files, to which the nodes' `place` points */
-    struct koksma__xml_default *defaults;
+    char **defaults;         /* values of the $names */
+    koksma__names default_names;
     size_t n, n_files, n_defaults;
 } koksma__xml;
 
 /* Parses an XML text. Errors: MALFORMED (not well-formed; a document type declaration, whose entities could grow
-   without limit; nested too deep; too many elements), UNSUPPORTED (this build lacks expat), MEMORY. Call
-   koksma__xml_fini even after an error. */
+   without limit; nested too deep; too many elements; more text made from $names than import_text.h allows),
+   UNSUPPORTED (this build lacks expat), MEMORY. Call koksma__xml_fini even after an error. */
 koksma_status koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out);
 void koksma__xml_fini(koksma__xml *xml);
 
