@@ -27,7 +27,7 @@
 #include "render/materials/materials.h"
 #include "render/scene_images.h"
 
-enum { MOST_UNKNOWN = 256, FINE = 512 };
+enum { MOST_UNKNOWN = 256, FINE = 512, MOST_STEPS = 1 << 26 };
 
 const double koksma__import_identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -50,6 +50,17 @@ koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status sta
     return status ? koksma__fail_in(status, where) : KOKSMA_OK;
 }
 
+koksma_status koksma__import_spend(koksma__import *im, koksma__text_place place, uint64_t steps)
+{
+    im->steps += steps;
+    return im->steps <= MOST_STEPS
+               ? KOKSMA_OK
+               : koksma__import_fail(place,
+                                     "reading the scene up to here takes more than %d steps, because objects, "
+                                     "instances or textures repeat others too often",
+                                     MOST_STEPS);
+}
+
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
 {
     koksma_scene *scene = im->scene;
@@ -58,6 +69,7 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
     va_start(arguments, format);
     koksma__vsnprintf(entry.text, sizeof entry.text, format, arguments);
     va_end(arguments);
+    KOKSMA__TRY(koksma__import_spend(im, place, 16 + scene->n_unknown / 4));
     const char *slash = strrchr(place.file, '/');
     snprintf(entry.file, sizeof entry.file, "%s", slash ? slash + 1 : place.file);
     for (size_t i = 0; i < scene->n_unknown; i++) {
@@ -78,10 +90,11 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
 
 /* ---- Files ------------------------------------------------------------------------------------------------ */
 
-koksma_status koksma__import_path(const koksma__import *im, koksma__text_place place, const char *name,
+koksma_status koksma__import_path(koksma__import *im, koksma__text_place place, const char *name,
                                   char out[KOKSMA__MAX_PATH])
 {
     char other[KOKSMA__MAX_PATH];
+    KOKSMA__TRY(koksma__import_spend(im, place, 128)); /* calls of the system */
     if (!*name) {
         return koksma__import_fail(place, "the name of a file (filename) is missing or empty");
     }

@@ -25,6 +25,7 @@ typedef struct koksma__import {
     struct koksma__text_file *texts; /* the different files among them */
     size_t n_texts;
     uint64_t surplus;                  /* bytes of text beyond those on the disk: import_text.h */
+    uint64_t steps;                    /* work so far: koksma__import_spend */
     char folders[8][KOKSMA__MAX_PATH]; /* folders to search for files that are not beside the scene */
     size_t n_folders;
     struct koksma__known_mesh *known;
@@ -94,8 +95,12 @@ extern const double koksma__import_identity[12];
 koksma_status koksma__import_fail(koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(2, 3);
 koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status status);
 
+/* Counts work, in steps of the time in which an element of a file is looked at. References let a small file ask for any
+   amount of it, so the whole scene may take at most 2^26 steps, a second or two. Error: MALFORMED. */
+koksma_status koksma__import_spend(koksma__import *im, koksma__text_place place, uint64_t steps);
+
 /* Adds a warning about an unsupported feature and its replacement, "FILE:LINE: ...". Warnings with equal texts become
-   one, with the number of places. Errors: MEMORY. */
+   one, with the number of places. Errors: MEMORY, MALFORMED (koksma__import_spend). */
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
     KOKSMA_PRINTF(3, 4);
 
@@ -105,7 +110,7 @@ koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place
 
 /* Writes to `out` the path of a file that the scene names: the file beside the scene or, if there is none, the file
    in the first of the folders that has one. */
-koksma_status koksma__import_path(const koksma__import *im, koksma__text_place place, const char *name,
+koksma_status koksma__import_path(koksma__import *im, koksma__text_place place, const char *name,
                                   char out[KOKSMA__MAX_PATH]);
 
 /* Clamp a colour to what a scene allows: albedos to [0, 1], radiance to at most 1e6. */

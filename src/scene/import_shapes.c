@@ -568,6 +568,7 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     placed at;
     double length[3];
     int mesh = item->mesh;
+    KOKSMA__TRY(koksma__import_spend(im, item->place, 64));
     if (item->surface.material < 0 && !item->surface.emits) {
         return KOKSMA_OK; /* no surface: light passes through */
     }

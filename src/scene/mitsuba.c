@@ -67,14 +67,22 @@ static const char *type_of(const node *n)
     return type ? type : "";
 }
 
+/* Node number i, which is counted as work with its text; NULL for -1. */
+static const node *look_at(const reader *r, int i)
+{
+    const node *n = i < 0 ? NULL : &r->xml.nodes[i];
+    r->im->steps += n ? 1 + n->length / 16 : 0;
+    return n;
+}
+
 static const node *first_of(const reader *r, const node *n)
 {
-    return n->first < 0 ? NULL : &r->xml.nodes[n->first];
+    return look_at(r, n->first);
 }
 
 static const node *next_of(const reader *r, const node *n)
 {
-    return n->next < 0 ? NULL : &r->xml.nodes[n->next];
+    return look_at(r, n->next);
 }
 
 /* The child element whose attribute "name" is `name`, or NULL. */
@@ -144,6 +152,7 @@ static const node *target(const reader *r, const node *n)
                                     ? bsearch(&wanted, r->identities, r->n_identities, sizeof wanted, by_name)
                                     : NULL;
         n = found ? found->at : NULL;
+        r->im->steps += 4;
     }
     return n;
 }
@@ -227,6 +236,7 @@ static koksma_status transform(const reader *r, const node *n, const char *name,
     }
     for (const node *c = t ? first_of(r, t) : NULL; c; c = next_of(r, c)) {
         double by[12], product[12];
+        r->im->steps += 8;
         KOKSMA__TRY(koksma__mitsuba_operation(c, by));
         koksma__matrix_multiply(by, out, product);
         memcpy(out, product, sizeof product);
@@ -478,6 +488,7 @@ static koksma__spectrum_use use_of(const node *n, const char *name)
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth)
 {
+    KOKSMA__TRY(koksma__import_spend(r->im, n->place, 1)); /* <ref>s can make trees of textures */
     const node *found = property(r, n, name);
     *out = (koksma__import_colour){.rgb = {otherwise, otherwise, otherwise}, .period = 1};
     if (!found) {
@@ -615,6 +626,7 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     const char *type = type_of(n);
     const bsdf_kind *found = &other;
     koksma__import_material m = {0};
+    KOKSMA__TRY(koksma__import_spend(r->im, n->place, 1));
     for (size_t i = 0; i < sizeof wrappers / sizeof *wrappers; i++) {
         for (const node *c = strcmp(wrappers[i].name, type) != 0 ? NULL : first_of(r, n); c; c = next_of(r, c)) {
             const node *inner = resolve(r, c);
@@ -937,6 +949,7 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
 {
     koksma__import_item item = {.place = n->place};
     double form[12], to_world[12];
+    KOKSMA__TRY(koksma__import_spend(r->im, n->place, 1)); /* and instances of instances */
     if (!strcmp(type_of(n), "shapegroup")) {
         return KOKSMA_OK;
     }
