@@ -244,20 +244,49 @@ static koksma_status set_coated(koksma__import *im, koksma__text_place place, co
     return koksma__import_unknown(im, place, "a coated surface is replaced by Lambert and a Phong lobe");
 }
 
-koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
-                                          const koksma__import_material *from, int *out)
+static bool same_mapping(const koksma__mapping *a, const koksma__mapping *b)
+{
+    return a->moved == b->moved && a->nearest == b->nearest && !memcmp(a->matrix, b->matrix, sizeof a->matrix) &&
+           !memcmp(a->wrap, b->wrap, sizeof a->wrap);
+}
+
+/* Whether two materials, of which an importer has set what this file sets, are the same but for their names. */
+static bool same_material(const koksma__material *a, const koksma__material *b)
+{
+    return a->bsdf == b->bsdf && a->image == b->image && a->checker == b->checker &&
+           !memcmp(a->albedo, b->albedo, sizeof a->albedo) && !memcmp(&a->period, &b->period, sizeof a->period) &&
+           !memcmp(a->values, b->values, sizeof a->values) && same_mapping(&a->mapping, &b->mapping);
+}
+
+koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_place place,
+                                           const koksma__material *material, int *out)
+{
+    koksma_scene *scene = im->scene;
+    KOKSMA__TRY(koksma__import_spend(im, place, scene->n_materials / 8));
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        if (same_material(&scene->materials[i], material)) {
+            *out = (int)i;
+            return KOKSMA_OK;
+        }
+    }
+    if (scene->n_materials == KOKSMA__MAX_MATERIALS) {
+        return koksma__import_fail(place, "more than %d different materials", KOKSMA__MAX_MATERIALS);
+    }
+    koksma__material *to = &scene->materials[scene->n_materials];
+    *to = *material;
+    *out = (int)scene->n_materials++;
+    snprintf(to->name, sizeof to->name, "%d", *out);
+    return KOKSMA_OK;
+}
+
+/* Sets a material of the nearest kind. */
+static koksma_status set_material(koksma__import *im, koksma__text_place place, const koksma__import_material *from,
+                                  koksma__material *m)
 {
     static const koksma__bsdf *const kinds[] = {[KOKSMA__MATTE] = &koksma__bsdf_lambert,
                                                 [KOKSMA__METAL] = &koksma__bsdf_ggx,
                                                 [KOKSMA__GLASS] = &koksma__bsdf_dielectric,
                                                 [KOKSMA__COATED] = &koksma__bsdf_utah};
-    koksma_scene *scene = im->scene;
-    if (scene->n_materials == KOKSMA__MAX_MATERIALS) {
-        return koksma__import_fail(place, "more than %d materials", KOKSMA__MAX_MATERIALS);
-    }
-    koksma__material *m = &scene->materials[scene->n_materials];
-    *out = (int)scene->n_materials++;
-    snprintf(m->name, sizeof m->name, "%d", *out);
     m->bsdf = from->kind == KOKSMA__METAL && from->alpha < 1e-6   ? &koksma__bsdf_mirror
               : from->kind == KOKSMA__GLASS && from->alpha > 1e-6 ? &koksma__bsdf_rough_dielectric
                                                                   : kinds[from->kind];
@@ -285,6 +314,14 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
     default:
         return set_colour(im, place, &from->colour, m);
     }
+}
+
+koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
+                                          const koksma__import_material *from, int *out)
+{
+    koksma__material m = {0};
+    KOKSMA__TRY(set_material(im, place, from, &m));
+    return koksma__import_keep_material(im, place, &m, out);
 }
 
 /* ---- Lights ------------------------------------------------------------------------------------------------ */

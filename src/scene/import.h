@@ -132,6 +132,11 @@ void koksma__import_fresnel(const double eta[3], const double k[3], double rgb[3
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
                                           const koksma__import_material *from, int *out);
 
+/* Sets *out to the material of the scene that is equal to `material`, but for its name, which is added if there is none
+   yet: files repeat materials for each shape. Error: MALFORMED (too many). */
+koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_place place,
+                                           const koksma__material *material, int *out);
+
 /* Adds a light; its radiance is clamped to what scenes allow. */
 koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light);
 

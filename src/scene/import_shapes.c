@@ -62,7 +62,7 @@ static koksma_status add_mesh(koksma__import *im, koksma__text_place place, koks
     const koksma_status status = twin ? koksma__scene_add_mesh(im->scene, &to) : KOKSMA_MEMORY;
     if (status) {
         koksma__mesh_fini(mesh);
-        return status;
+        return koksma__import_fail_at(place, status);
     }
     *twin = -1;
     *to = *mesh;
@@ -276,20 +276,14 @@ static koksma_status find_form(koksma__import *im, koksma__text_place place, kok
 /* Replaces a material by a copy without its image or checkerboard, for a mesh without texture coordinates. */
 static koksma_status plain(koksma__import *im, koksma__text_place place, int *material)
 {
-    koksma_scene *scene = im->scene;
-    const koksma__material *from = &scene->materials[*material];
-    if (scene->n_materials == KOKSMA__MAX_MATERIALS) {
-        return koksma__import_fail(place, "more than %d materials", KOKSMA__MAX_MATERIALS);
-    }
-    koksma__material *to = &scene->materials[scene->n_materials];
-    *to = *from;
-    to->image = NULL;
-    to->checker = false;
+    koksma__material copy = im->scene->materials[*material];
+    copy.image = NULL;
+    copy.checker = false;
+    copy.mapping = (koksma__mapping){0};
     for (int k = 0; k < 3; k++) {
-        to->albedo[0][k] = to->albedo[1][k] = (from->albedo[0][k] + from->albedo[1][k]) / 2;
+        copy.albedo[0][k] = copy.albedo[1][k] = (copy.albedo[0][k] + copy.albedo[1][k]) / 2;
     }
-    snprintf(to->name, sizeof to->name, "%zu", scene->n_materials);
-    *material = (int)scene->n_materials++;
+    KOKSMA__TRY(koksma__import_keep_material(im, place, &copy, material));
     return koksma__import_unknown(im, place,
                                   "a texture on a mesh without texture coordinates is replaced by its mean colour");
 }
@@ -328,18 +322,14 @@ static koksma_status put_mesh(koksma__import *im, const koksma__import_item *ite
     koksma_scene *scene = im->scene;
     koksma__import_surface surface = item->surface;
     koksma__placement *p = NULL;
-    koksma_status status = KOKSMA_OK;
     if (koksma__matrix_mirrors(matrix) != surface.turned) {
-        status = find_twin(im, item->place, mesh, &mesh);
+        KOKSMA__TRY(find_twin(im, item->place, mesh, &mesh));
     }
-    if (!status && surface.material >= 0 && !scene->meshes[mesh].uvs &&
+    if (surface.material >= 0 && !scene->meshes[mesh].uvs &&
         (scene->materials[surface.material].image || scene->materials[surface.material].checker)) {
-        status = plain(im, item->place, &surface.material);
+        KOKSMA__TRY(plain(im, item->place, &surface.material));
     }
-    status = status ? status : koksma__scene_add_placement(scene, &p);
-    if (status) {
-        return koksma__import_fail_at(item->place, status);
-    }
+    KOKSMA__TRY(koksma__import_fail_at(item->place, koksma__scene_add_placement(scene, &p)));
     p->mesh = mesh;
     p->material = surface.material;
     p->smooth = scene->meshes[mesh].normals != NULL && !(surface.emits && surface.material < 0);
