@@ -71,7 +71,6 @@ typedef struct koksma__file_light {
 
 typedef struct koksma__mesh_file {
     const char *path;
-    long part; /* the index of the only mesh to read, for formats with several numbered meshes; -1: all */
     /* sum of the hashes of all files read: the model's as often as mesh_read.c explains, those that it names once, three
        times, five times, ..., so that their order counts */
     uint64_t hash;

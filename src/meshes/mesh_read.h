@@ -16,8 +16,4 @@ koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma_
    MALFORMED, MEMORY. */
 koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__mesh *out);
 
-/* Does what koksma__mesh_read does, for mesh number `part`, from 0, of a .serialized file; other files are read
-   whole. */
-koksma_status koksma__mesh_read_part(const char *path, koksma__named by, long part, koksma__mesh *out);
-
 #endif

@@ -36,7 +36,7 @@ typedef struct stream {
     koksma__inflate *in;
     bool is_double;
     size_t size;    /* size of the compressed data in bytes */
-    uint64_t *left; /* number of bytes to which the file's meshes may still decompress */
+    uint64_t *read; /* number of bytes to which the file's meshes up to here decompress */
 } stream;
 
 static uint64_t whole(const unsigned char *bytes, int n)
@@ -125,9 +125,10 @@ static koksma_status check_claim(stream *s, uint64_t flags, uint64_t vertices, u
     KOKSMA__FAIL_IF(claimed / KOKSMA__INFLATE_RATIO > s->size, KOKSMA_MALFORMED,
                     "%llu vertices and %llu triangles are more than its %zu compressed bytes can hold",
                     (unsigned long long)vertices, (unsigned long long)triangles, s->size);
-    KOKSMA__FAIL_IF(claimed > *s->left, KOKSMA_MALFORMED, "its meshes decompress to more than %llu bytes",
+    *s->read += claimed;
+    KOKSMA__FAIL_IF(*s->read > koksma__file_most(KOKSMA__FILE_MESH), KOKSMA_MALFORMED,
+                    "its meshes decompress to more than %llu bytes",
                     (unsigned long long)koksma__file_most(KOKSMA__FILE_MESH));
-    *s->left -= claimed;
     return KOKSMA_OK;
 }
 
@@ -150,49 +151,110 @@ static koksma_status take_mesh(stream *s, uint64_t version, koksma__mesh *mesh, 
     return take_indices(s, 3 * (size_t)triangles, mesh->indices);
 }
 
-/* Adds the mesh in these bytes of the file. */
-static koksma_status add_mesh(const unsigned char *bytes, size_t size, uint64_t *left, koksma__mesh_file *out)
+/* The meshes of a file: their number, and the bytes of each up to those of the next. */
+typedef struct directory {
+    const unsigned char *bytes, *entries;
+    uint64_t n, body; /* body: number of bytes before the entries */
+    int each;         /* length of an entry */
+} directory;
+
+static uint64_t start_of(const directory *d, uint64_t i)
 {
-    stream s = {.size = size - HEADER, .left = left};
-    koksma__mesh mesh = {0};
-    bool coloured = false;
+    return i < d->n ? whole(d->entries + i * (uint64_t)d->each, d->each) : d->body;
+}
+
+/* Finds the dictionary at the end of the file. */
+static koksma_status find_directory(const char *path, const unsigned char *bytes, size_t size, directory *d)
+{
+    *d = (directory){.bytes = bytes,
+                     .n = size >= HEADER + 4 ? whole(bytes + size - 4, 4) : 0,
+                     .each = size >= HEADER && whole(bytes + 2, 2) == 3 ? 4 : 8};
+    KOKSMA__FAIL_IF(!d->n || d->n > (size - 4) / (size_t)d->each, KOKSMA_MALFORMED,
+                    "%s: its last four bytes give %llu meshes, which its %zu bytes can't hold", path,
+                    (unsigned long long)d->n, size);
+    d->body = size - 4 - d->n * (uint64_t)d->each;
+    d->entries = bytes + d->body;
+    return KOKSMA_OK;
+}
+
+static koksma_status check_directory(const char *path, const directory *d)
+{
+    for (uint64_t i = 0; i < d->n; i++) {
+        const uint64_t at = start_of(d, i), end = start_of(d, i + 1);
+        KOKSMA__FAIL_IF(end > d->body || at > end || end - at <= HEADER, KOKSMA_MALFORMED,
+                        "%s: mesh %llu would lie from byte %llu to byte %llu of %llu", path, (unsigned long long)i,
+                        (unsigned long long)at, (unsigned long long)end, (unsigned long long)d->body);
+    }
+    return KOKSMA_OK;
+}
+
+/* Reads mesh number i; *mesh has to be freed even after an error. */
+static koksma_status read_mesh(const char *path, const directory *d, uint64_t i, uint64_t *read, koksma__mesh *mesh,
+                               bool *coloured)
+{
+    const unsigned char *bytes = d->bytes + start_of(d, i);
+    stream s = {.size = (size_t)(start_of(d, i + 1) - start_of(d, i)) - HEADER, .read = read};
     const uint64_t version = whole(bytes + 2, 2);
     KOKSMA__FAIL_IF(whole(bytes, 2) != FORMAT || (version != 3 && version != 4), KOKSMA_MALFORMED,
-                    "%s: a mesh begins with %llX and version %llu, not with 41C and version 3 or 4", out->path,
+                    "%s: a mesh begins with %llX and version %llu, not with 41C and version 3 or 4", path,
                     (unsigned long long)whole(bytes, 2), (unsigned long long)version);
     koksma_status status = koksma__inflate_open(bytes + HEADER, s.size, &s.in);
-    status = status ? status : take_mesh(&s, version, &mesh, &coloured);
+    status = status ? status : take_mesh(&s, version, mesh, coloured);
     koksma__inflate_close(s.in);
-    status = status ? koksma__fail_in(status, out->path) : koksma__file_take_mesh(out, &mesh, 0);
-    koksma__mesh_fini(&mesh);
-    out->unread.vertex_colours += !status && coloured;
-    return status ? status : koksma__file_add_placement(out, out->meshes.n - 1, NULL);
+    return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }
 
 koksma_status koksma__serialized_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out)
 {
-    const int each = size >= HEADER && whole(bytes + 2, 2) == 3 ? 4 : 8;
-    const uint64_t n = size >= HEADER + 4 ? whole(bytes + size - 4, 4) : 0;
-    uint64_t left = koksma__file_most(KOKSMA__FILE_MESH);
+    directory d;
+    uint64_t read = 0;
     koksma__file_material *grey;
-    KOKSMA__FAIL_IF(!n || n > (size - 4) / (size_t)each, KOKSMA_MALFORMED,
-                    "%s: its last four bytes give %llu meshes, which its %zu bytes can't hold", out->path,
-                    (unsigned long long)n, size);
-    const unsigned char *dictionary = bytes + size - 4 - n * (size_t)each;
-    const uint64_t body = (uint64_t)(dictionary - bytes);
-    KOKSMA__FAIL_IF(out->part >= 0 && (uint64_t)out->part >= n, KOKSMA_MALFORMED,
-                    "%s: there is no mesh %ld; the file has %llu, counted from 0", out->path, out->part,
-                    (unsigned long long)n);
-    for (uint64_t i = 0; i < n; i++) {
-        const uint64_t at = whole(dictionary + i * (size_t)each, each);
-        const uint64_t end = i + 1 < n ? whole(dictionary + (i + 1) * (size_t)each, each) : body;
-        KOKSMA__FAIL_IF(end > body || at > end || end - at <= HEADER, KOKSMA_MALFORMED,
-                        "%s: mesh %llu would lie from byte %llu to byte %llu of %llu", out->path,
-                        (unsigned long long)i, (unsigned long long)at, (unsigned long long)end,
-                        (unsigned long long)body);
-        if (out->part < 0 || (uint64_t)out->part == i) {
-            KOKSMA__TRY(add_mesh(bytes + at, (size_t)(end - at), &left, out));
-        }
+    KOKSMA__TRY(find_directory(out->path, bytes, size, &d));
+    KOKSMA__TRY(check_directory(out->path, &d));
+    for (uint64_t i = 0; i < d.n; i++) {
+        koksma__mesh mesh = {0};
+        bool coloured = false;
+        koksma_status status = read_mesh(out->path, &d, i, &read, &mesh, &coloured);
+        status = status ? status : koksma__file_take_mesh(out, &mesh, 0);
+        koksma__mesh_fini(&mesh);
+        KOKSMA__TRY(status);
+        out->unread.vertex_colours += coloured;
+        KOKSMA__TRY(koksma__file_add_placement(out, out->meshes.n - 1, NULL));
     }
     return koksma__file_add_material(out, 0.6f, &grey);
+}
+
+koksma_status koksma__serialized_open(const char *path, koksma__serialized *file)
+{
+    directory d;
+    unsigned char *bytes;
+    KOKSMA__TRY(
+        koksma__read_file(path, KOKSMA__FILE_MESH, KOKSMA__BY_FILE, koksma__serialized_start, &bytes, &file->size));
+    koksma_status status = find_directory(path, bytes, file->size, &d);
+    status = status ? status : check_directory(path, &d);
+    if (status) {
+        free(bytes);
+        return status;
+    }
+    file->bytes = bytes;
+    return KOKSMA_OK;
+}
+
+void koksma__serialized_close(koksma__serialized *file)
+{
+    free(file->bytes);
+    file->bytes = NULL;
+}
+
+koksma_status koksma__serialized_mesh(koksma__serialized *file, const char *path, long part, koksma__mesh *out)
+{
+    directory d;
+    bool coloured;
+    KOKSMA__TRY(find_directory(path, file->bytes, file->size, &d));
+    KOKSMA__FAIL_IF(part < 0 || (uint64_t)part >= d.n, KOKSMA_MALFORMED,
+                    "%s: there is no mesh %ld; the file has %llu, counted from 0", path, part,
+                    (unsigned long long)d.n);
+    KOKSMA__TRY(read_mesh(path, &d, (uint64_t)part, &file->read, out, &coloured));
+    const koksma_status status = koksma__mesh_check(out);
+    return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }

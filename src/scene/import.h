@@ -8,6 +8,8 @@
 #define KOKSMA_SCENE_IMPORT_H
 
 #include "core/read_file.h"
+#include "meshes/mesh_serialized.h"
+#include "meshes/names.h"
 #include "render/description.h"
 
 /* A position in a text, for messages. */
@@ -15,6 +17,18 @@ typedef struct koksma__text_place {
     const char *file;
     unsigned long line;
 } koksma__text_place;
+
+/* Basic shapes in [-1, 1]^3, before their matrix is applied: the unit sphere, the square and the disk in the
+   plane z = 0 that face +z, the cube, and the side of the cylinder around the z axis from z = 0 to 1. */
+typedef enum koksma__form {
+    KOKSMA__FORM_MESH,
+    KOKSMA__FORM_SPHERE,
+    KOKSMA__FORM_SQUARE,
+    KOKSMA__FORM_DISK,
+    KOKSMA__FORM_CUBE,
+    KOKSMA__FORM_CYLINDER,
+    KOKSMA__N_BASIC_FORMS
+} koksma__form;
 
 typedef struct koksma__import {
     koksma_scene *scene;
@@ -24,13 +38,16 @@ typedef struct koksma__import {
     size_t n_files;                  /* number of texts that were read */
     struct koksma__text_file *texts; /* the different files among them */
     size_t n_texts;
-    uint64_t surplus;                  /* bytes of text beyond those on the disk: import_text.h */
+    uint64_t surplus;                  /* bytes of text beyond those on the disk: koksma__import_surplus */
     uint64_t steps;                    /* work so far: koksma__import_spend */
     char folders[8][KOKSMA__MAX_PATH]; /* folders to search for files that are not beside the scene */
     size_t n_folders;
-    struct koksma__known_mesh *known;
-    int *twins; /* for each mesh: the mesh with the same triangles turned inside out, or -1 */
-    size_t n_known, n_twins;
+    koksma__names files;              /* the meshes from files: 1 + the index of each; 0: it is left out */
+    int forms[KOKSMA__N_BASIC_FORMS]; /* 1 + the index of the mesh of each basic shape; 0: it is not made yet */
+    int *twins;                       /* for each mesh: the mesh with the same triangles turned inside out, or -1 */
+    koksma__serialized *packed;       /* the .serialized files */
+    koksma__names packed_names;
+    size_t n_twins, n_packed, packed_size; /* packed_size: length of those that are open */
 } koksma__import;
 
 /* A colour, or an image over texture coordinates, or a checkerboard with two colours. */
@@ -58,17 +75,6 @@ typedef struct koksma__import_surface {
     bool two_sided;     /* a light that emits from both sides */
     double radiance[3];
 } koksma__import_surface;
-
-/* Basic shapes in [-1, 1]^3, before their matrix is applied: the unit sphere, the square and the disk in the
-   plane z = 0 that face +z, the cube, and the side of the cylinder around the z axis from z = 0 to 1. */
-typedef enum koksma__form {
-    KOKSMA__FORM_MESH,
-    KOKSMA__FORM_SPHERE,
-    KOKSMA__FORM_SQUARE,
-    KOKSMA__FORM_DISK,
-    KOKSMA__FORM_CUBE,
-    KOKSMA__FORM_CYLINDER
-} koksma__form;
 
 /* A motion given by two poses (meshes/mesh.h): the shape's matrix at time t is the matrix of the interpolated pose
    times `before`. */

@@ -8,13 +8,17 @@
  * section 3.7.4, explains. A light whose surface reflects also becomes a mesh, because Koksma's own lights do not
  * reflect. But a sphere or disk that emits and reflects remains a light of Koksma's own, with a warning that it does not
  * reflect, because a mesh with flat sides would emit less light than the round shape.
+ * Long because all ways of placing a shape share the matrices and the motion of one type.
  */
 #include "scene/import_shapes.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <sys/stat.h>
 
 #include "core/capacity.h"
 #include "core/vector.h"
@@ -27,23 +31,14 @@
 
 enum { SIDES = 64, RINGS = 32 };
 
-/* A mesh that was made already, identified by its file's path or by its basic shape. */
-struct koksma__known_mesh {
-    char *path; /* path of the mesh's file, or NULL for a mesh made from a basic shape */
-    long part;  /* the number of the mesh in its file, or -1 */
-    koksma__form form;
-    bool with_normals;
-    int mesh;
-};
-
 void koksma__import_shapes_fini(koksma__import *im)
 {
-    for (size_t i = 0; i < im->n_known; i++) {
-        free(im->known[i].path);
+    for (size_t i = 0; i < im->n_packed; i++) {
+        koksma__serialized_close(&im->packed[i]);
     }
-    KOKSMA__FREE(im->known, im->twins);
-    im->known = NULL;
-    im->twins = NULL;
+    KOKSMA__FREE(im->twins, im->packed);
+    koksma__names_fini(&im->files);
+    koksma__names_fini(&im->packed_names);
 }
 
 /* ---- Meshes ------------------------------------------------------------------------------------------------ */
@@ -76,17 +71,6 @@ koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, 
     return add_mesh(im, place, mesh, false, out);
 }
 
-/* Appends a mesh to the list of those made; copies the path, which may be NULL. */
-static koksma_status remember(koksma__import *im, const struct koksma__known_mesh *made)
-{
-    struct koksma__known_mesh *known = koksma__add_one(&im->known, &im->n_known, sizeof *known);
-    KOKSMA__TRY(known ? KOKSMA_OK : KOKSMA_MEMORY);
-    *known = *made;
-    known->path = made->path ? strdup(made->path) : NULL;
-    KOKSMA__REQUIRE_MEMORY(known->path || !made->path, strlen(made->path) + 1);
-    return KOKSMA_OK;
-}
-
 /* Replaces the second texture coordinate v of each vertex by 1 - v. */
 static void turn_rows(koksma__mesh *mesh)
 {
@@ -95,48 +79,86 @@ static void turn_rows(koksma__mesh *mesh)
     }
 }
 
+/* The .serialized file with this key; opened anew if it was closed meanwhile. Files stay open, because a scene names one
+   for each of its meshes, up to the length of one file together. */
+static koksma_status find_packed(koksma__import *im, koksma__text_place place, const char *path, const char *key,
+                                 koksma__serialized **out)
+{
+    size_t at;
+    if (!koksma__names_find(&im->packed_names, key, strlen(key), &at)) {
+        koksma__serialized *new = koksma__add_one(&im->packed, &im->n_packed, sizeof *new);
+        KOKSMA__TRY(new ? KOKSMA_OK : KOKSMA_MEMORY);
+        at = im->n_packed - 1;
+        KOKSMA__TRY(koksma__names_put(&im->packed_names, key, strlen(key), at));
+    }
+    koksma__serialized *s = *out = &im->packed[at];
+    if (s->bytes) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__import_spend(im, place, s->size / 64)); /* 0 the first time */
+    KOKSMA__TRY(koksma__import_fail_at(place, koksma__serialized_open(path, s)));
+    im->packed_size += s->size;
+    if (im->packed_size > koksma__file_most(KOKSMA__FILE_MESH)) {
+        im->packed_size = s->size;
+        for (size_t i = 0; i < im->n_packed; i++) {
+            if (i != at) {
+                koksma__serialized_close(&im->packed[i]);
+            }
+        }
+    }
+    return KOKSMA_OK;
+}
+
 /* Reads the mesh and adapts it to the conventions of the other renderer: Mitsuba turns the texture coordinates of OBJ
    files upside down, and gives smooth normals to meshes that have none. */
-static koksma_status read_mesh(const koksma__import *im, const struct koksma__known_mesh *which, koksma__mesh *mesh)
+static koksma_status read_mesh(const koksma__import *im, const char *path, koksma__serialized *packed, long part,
+                               bool with_normals, koksma__mesh *mesh)
 {
-    KOKSMA__TRY(koksma__mesh_read_part(which->path, KOKSMA__BY_FILE, which->part, mesh));
-    const char *dot = strrchr(which->path, '.');
+    KOKSMA__TRY(packed ? koksma__serialized_mesh(packed, path, part, mesh)
+                       : koksma__mesh_read(path, KOKSMA__BY_FILE, mesh));
+    const char *dot = strrchr(path, '.');
     if (im->rows_down && dot && !strcmp(dot, ".obj")) {
         turn_rows(mesh);
     }
-    if (!which->with_normals) {
+    if (!with_normals) {
         free(mesh->normals);
         mesh->normals = NULL;
     }
-    return im->smooths && which->with_normals && !mesh->normals ? koksma__mesh_smooth_by_angles(mesh) : KOKSMA_OK;
+    return im->smooths && with_normals && !mesh->normals ? koksma__mesh_smooth_by_angles(mesh) : KOKSMA_OK;
 }
 
 koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
                                        bool with_normals, int *out)
 {
-    char full[KOKSMA__MAX_PATH];
+    char full[KOKSMA__MAX_PATH], file[64], which[128];
+    const char *ending = NULL;
     koksma__mesh mesh = {0};
+    koksma__serialized *packed = NULL;
+    struct stat about = {0};
+    size_t known = 0;
     KOKSMA__TRY(koksma__import_path(im, place, name, full));
     *out = -1;
     if (!koksma__is_mesh_file(full)) {
         return koksma__import_unknown(im, place, "the mesh %s has an unsupported format: it is left out", name);
     }
-    for (size_t i = 0; i < im->n_known; i++) {
-        if (im->known[i].path && !strcmp(im->known[i].path, full) && im->known[i].part == part &&
-            im->known[i].with_normals == with_normals) {
-            *out = im->known[i].mesh;
-            return KOKSMA_OK;
-        }
+    /* a file may be named in many ways, of which the ending tells how it is read; if stat() fails, reading says why */
+    (void)stat(full, &about);
+    ending = strrchr(full, '.');
+    part = strcmp(ending, ".serialized") != 0 ? -1 : part; /* others have no numbered meshes */
+    snprintf(file, sizeof file, "%ju %ju", (uintmax_t)about.st_dev, (uintmax_t)about.st_ino);
+    snprintf(which, sizeof which, "%s %ld %d%.16s", file, part, with_normals, ending);
+    if (about.st_ino && koksma__names_find(&im->files, which, strlen(which), &known)) {
+        *out = (int)known - 1;
+        return KOKSMA_OK;
     }
-    struct koksma__known_mesh made = {full, part, KOKSMA__FORM_MESH, with_normals, -1};
-    const koksma_status status = read_mesh(im, &made, &mesh);
+    KOKSMA__TRY(part < 0 ? KOKSMA_OK : find_packed(im, place, full, file, &packed));
+    const koksma_status status = read_mesh(im, full, packed, part, with_normals, &mesh);
     if (status) {
         koksma__mesh_fini(&mesh);
         return koksma__import_fail_at(place, status);
     }
-    KOKSMA__TRY(add_mesh(im, place, &mesh, true, &made.mesh));
-    *out = made.mesh;
-    return remember(im, &made);
+    KOKSMA__TRY(add_mesh(im, place, &mesh, true, out));
+    return koksma__names_put(&im->files, which, strlen(which), (size_t)(*out + 1));
 }
 
 /* Copies a mesh and turns the copy inside out: swaps two corners of each triangle and inverts the normals. */
@@ -253,11 +275,9 @@ static void set_mitsubas_uv(koksma__form form, const float p[3], const float n[3
 static koksma_status find_form(koksma__import *im, koksma__text_place place, koksma__form form, int *out)
 {
     koksma__mesh mesh = {0};
-    for (size_t i = 0; i < im->n_known; i++) {
-        if (!im->known[i].path && im->known[i].form == form) {
-            *out = im->known[i].mesh;
-            return KOKSMA_OK;
-        }
+    if (im->forms[form]) {
+        *out = im->forms[form] - 1;
+        return KOKSMA_OK;
     }
     const koksma_status status = make_form(form, &mesh);
     if (status) {
@@ -268,7 +288,8 @@ static koksma_status find_form(koksma__import *im, koksma__text_place place, kok
         set_mitsubas_uv(form, mesh.vertices + 3 * i, mesh.normals + 3 * i, mesh.uvs + 2 * i);
     }
     KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, out));
-    return remember(im, &(struct koksma__known_mesh){NULL, -1, form, true, *out});
+    im->forms[form] = *out + 1;
+    return KOKSMA_OK;
 }
 
 /* ---- Placing shapes ---------------------------------------------------------------------------------------- */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Triangles, normals and texture coordinates that the formats' specifications say a file has: Wavefront's "Advanced
-   Visualizer Manual" (OBJ), Turk's "The PLY Polygon File Format", Geomview's OFF page, Khronos' glTF 2.0. Numbers are
-   exact: those of the files are few bits long. */
+   Visualizer Manual" (OBJ), Turk's "The PLY Polygon File Format", Geomview's OFF page, Khronos' glTF 2.0, Mitsuba's
+   documentation of its plug-in "serialized". Numbers are exact: those of the files are few bits long.
+   Long because it has the files of all formats. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 
 #include "meshes.h"
 #include "meshes/mesh_read.h"
+#include "meshes/mesh_serialized.h"
 #include "meshes/mesh_text.h"
 
 static void write_bytes(const char *path, const void *bytes, size_t size)
@@ -534,6 +536,79 @@ static void meshes_of_a_file_are_limited_together(void **state)
     koksma__mesh_file_fini(&file);
 }
 
+/* A .serialized file of two triangles, each in a zlib stream (RFC 1950) of one stored block (RFC 1951), at z = 0 and 1. */
+static size_t put_serialized(unsigned char *file)
+{
+    uint32_t at[2];
+    size_t size = 0;
+    for (uint32_t k = 0; k < 2; k++) {
+        static const unsigned char start[] = {0x1C, 4, 4, 0, 0x78, 1, 1}, flags[] = {0, 0x10, 0, 0, 0};
+        unsigned char body[69];
+        const float places[9] = {0, 0, (float)k, 1, 0, (float)k, 0, 1, (float)k};
+        const uint64_t counts[2] = {3, 1};
+        const uint32_t corners[3] = {0, 1, 2};
+        const uint16_t lengths[2] = {sizeof body, (uint16_t) ~sizeof body};
+        memcpy(body, flags, 5);
+        memcpy(body + 5, counts, 16);
+        memcpy(body + 21, places, 36);
+        memcpy(body + 57, corners, 12);
+        uint32_t a = 1, b = 0; /* Adler-32, whose bytes come largest first */
+        for (size_t i = 0; i < sizeof body; i++) {
+            a = (a + body[i]) % 65521;
+            b = (b + a) % 65521;
+        }
+        const unsigned char sum[4] = {(unsigned char)(b >> 8), (unsigned char)b, (unsigned char)(a >> 8),
+                                      (unsigned char)a};
+        at[k] = (uint32_t)size;
+        memcpy(file + size, start, sizeof start);
+        memcpy(file + size + 7, lengths, 4);
+        memcpy(file + size + 11, body, sizeof body);
+        memcpy(file + size + 80, sum, 4);
+        size += 84;
+    }
+    const uint32_t end[5] = {at[0], 0, at[1], 0, 2};
+    memcpy(file + size, end, sizeof end);
+    return size + sizeof end;
+}
+
+/* Meshes of one file that are read one by one: each is its own triangle; all together may decompress to 2^30 bytes, of
+   which a triangle takes 3 places and 3 indices of 12 bytes. */
+static void meshes_are_read_one_by_one(void **state)
+{
+    unsigned char bytes[256];
+    koksma__serialized file = {0};
+    koksma__mesh mesh = {0};
+    (void)state;
+    write_bytes("two.serialized", bytes, put_serialized(bytes));
+    assert_ok(koksma__serialized_open("two.serialized", &file));
+    for (long i = 2; i-- > 0;) {
+        const koksma_status status = koksma__serialized_mesh(&file, "two.serialized", i, &mesh);
+        if (status == KOKSMA_UNSUPPORTED) {
+            koksma__serialized_close(&file);
+            unlink("two.serialized");
+            skip(); /* this build has no zlib */
+        }
+        assert_ok(status);
+        assert_int_equal(mesh.n_triangles, 1);
+        for (int v = 0; v < 3; v++) {
+            assert_true(mesh.vertices[3 * v + 2] == (float)i);
+        }
+        koksma__mesh_fini(&mesh);
+    }
+    assert_int_equal(file.read, 2 * 48);
+    assert_int_equal(koksma__serialized_mesh(&file, "two.serialized", 2, &mesh), KOKSMA_MALFORMED);
+    assert_non_null(strstr(koksma_error_text(), "two.serialized: there is no mesh 2; the file has 2"));
+    file.read = ((uint64_t)1 << 30) - 48; /* as if many others had been read */
+    assert_ok(koksma__serialized_mesh(&file, "two.serialized", 0, &mesh));
+    koksma__mesh_fini(&mesh);
+    assert_int_equal(koksma__serialized_mesh(&file, "two.serialized", 0, &mesh), KOKSMA_MALFORMED);
+    assert_non_null(
+        strstr(koksma_error_text(), "two.serialized: its meshes decompress to more than 1073741824 bytes"));
+    koksma__mesh_fini(&mesh);
+    koksma__serialized_close(&file);
+    unlink("two.serialized");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -549,6 +624,7 @@ int main(void)
         cmocka_unit_test(strided_and_normalised_accessors),
         cmocka_unit_test(nodes_of_gltf_place_meshes),
         cmocka_unit_test(meshes_of_a_file_are_limited_together),
+        cmocka_unit_test(meshes_are_read_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
