@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the tests of files share: runs of the program that must end, within memory, with a code and one line."""
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -61,11 +62,13 @@ def is_utf8(text):
         return False
 
 
-def run(program, *arguments, cwd=None, stdin=subprocess.DEVNULL, env=None):
-    """Done, or None where it did not end. wait4 tells the memory of this run alone."""
+def run(program, *arguments, cwd=None, stdin=subprocess.DEVNULL, env=None, processor=None):
+    """Done, or None where it did not end. processor: seconds of processor time after which a signal ends it. wait4 tells the
+    memory of this run alone."""
+    limit = (lambda: resource.setrlimit(resource.RLIMIT_CPU, (processor, processor))) if processor else None
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         process = subprocess.Popen([program, *arguments], cwd=cwd, stdin=stdin, stdout=out, stderr=err,
-                                   env=dict(os.environ, **(env or {})))
+                                   env=dict(os.environ, **(env or {})), preexec_fn=limit)
         timer = threading.Timer(SECONDS, process.kill)
         timer.start()
         _, status, usage = os.wait4(process.pid, 0)

@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""file_work.py PROGRAM FAULTS: small scenes of pbrt and Mitsuba that ask for much work or memory.
+
+References let a few kilobytes ask for any amount: instances of instances of nothing, trees of textures, lights with many
+properties that many shapes name, names that stand for long texts. Such a scene must be refused by one line that names the
+file, within the memory and the processor time of an ordinary run. Large honest scenes take time in proportion to their length:
+many names, many meshes of one compressed file, and a mesh to subdivide whose indices are chosen against a hash table. What is
+repeated, a material or a mesh under other names of its file, counts once.
+"""
+import json
+import os
+import re
+import struct
+import sys
+import tempfile
+import zlib
+
+import files
+
+PROCESSOR = 600 if files.SANITIZED else 60  # seconds; without a limit the scenes below take from minutes to years
+LARGE = 4 if files.SANITIZED else 1  # what large scenes are divided by
+# without the texts that AddressSanitizer keeps after they are freed
+SANITIZER = {"ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=8"}
+STEPS = "more than 67108864 steps"
+SENSOR = ('<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="{width}"/>'
+          '<integer name="height" value="4"/></film></sensor><emitter type="constant"/>')
+PBRT = 'LookAt 0 0 5 0 0 0 0 1 0\nCamera "perspective"\nWorldBegin\nLightSource "infinite"\n'
+
+
+def mitsuba(*parts, width=8):
+    return '<scene version="3.0.0">' + SENSOR.format(width=width) + "".join(parts) + "</scene>"
+
+
+def groups(levels, fan, inner):
+    """Groups of which each has `fan` instances of the one before."""
+    return (f'<shape type="shapegroup" id="g0">{inner}</shape>'
+            + "".join(f'<shape type="shapegroup" id="g{level}">' + f'<shape type="instance"><ref id="g{level - 1}"/></shape>' * fan
+                      + "</shape>" for level in range(1, levels + 1))
+            + f'<shape type="instance"><ref id="g{levels}"/></shape>')
+
+
+def checkers(levels):
+    """Checkerboards of which each has the next one for both colours."""
+    return "".join(f'<texture type="checkerboard" id="c{i}"><ref name="color0" id="c{i + 1}"/><ref name="color1" id="c{i + 1}"/>'
+                   "</texture>" for i in range(levels)) + f'<texture type="checkerboard" id="c{levels}"/>'
+
+
+class Bench:
+    """A folder with files, and the program."""
+
+    def __init__(self, program, folder):
+        self.program, self.folder, self.checks = program, folder, files.Checks()
+
+    def put(self, name, data):
+        with open(os.path.join(self.folder, name), "wb") as stream:
+            stream.write(data if isinstance(data, bytes) else data.encode())
+        return name
+
+    def run(self, *arguments):
+        return files.run(self.program, *arguments, cwd=self.folder, env=SANITIZER, processor=PROCESSOR)
+
+    def refused(self, what, name, text, *words):
+        self.put(name, text)
+        done = self.run("scene", "check", name)
+        self.checks.refused(what, done, 3, f"{name}:", *words)
+        if done:
+            self.checks.check(done.err.count(f"{name}:".encode()) == 1, f"{what}: the place is given twice: {done.err}")
+
+    def counts(self, what, name, text, **expected):
+        """Numbers of what the scene has; warnings are allowed."""
+        self.put(name, text)
+        done = self.run("scene", "check", name, "--json")
+        if not self.checks.check(done is not None and done.code in (0, 1), f"{what}: {done and (done.code, done.err[-300:])}"):
+            return
+        self.checks.check(done.mib < files.OTHER, f"{what}: took {done.mib:.0f} MiB")
+        found = json.loads(done.out.splitlines()[0])
+        for key, value in expected.items():
+            self.checks.check(found[key] == value, f"{what}: {found[key]} {key}, not {value}")
+
+
+def instances(bench):
+    nothing = ("", '<shape type="hair"/>', '<shape type="sphere"><bsdf type="null"/></shape>')
+    for inner in nothing:
+        bench.refused(f"14 levels of 10 instances of '{inner}'", "s.xml", mitsuba(groups(14, 10, inner)), STEPS)
+    null = '<shape type="sphere"><ref id="n"/></shape>'
+    bench.refused("20,000 instances of 20,000 shapes that are not there", "s.xml",
+                  mitsuba('<bsdf type="null" id="n"/><shape type="shapegroup" id="g">' + null * 20000 + "</shape>"
+                          + '<shape type="instance"><ref id="g"/></shape>' * 20000), STEPS)
+    bench.refused("8,000 objects of 8,000 shapes that are not there", "s.pbrt",
+                  PBRT + 'ObjectBegin "o"\nMaterial "interface"\n' + 'Shape "sphere"\n' * 8000 + "ObjectEnd\n"
+                  + 'ObjectInstance "o"\n' * 8000, STEPS)
+    long = '<scale value="' + " " * 60000 + '1"/>'
+    bench.refused("100,000 instances whose matrix is a long text", "s.xml",
+                  mitsuba('<shape type="shapegroup" id="a"><shape type="instance"><transform name="to_world">' + long
+                          + '</transform><ref id="b"/></shape></shape><shape type="shapegroup" id="b"/>'
+                          + '<shape type="instance"><ref id="a"/></shape>' * 100000), STEPS)
+    cubes = mitsuba(groups(4, 10, '<shape type="cube"/>'))
+    bench.counts("4 levels of 10 instances of a cube", "s.xml", cubes, placements=10000, meshes=1, materials=1)
+
+
+def trees(bench):
+    conductor = ('<shape type="rectangle"><bsdf type="conductor"><ref name="specular_reflectance" id="c0"/>'
+                 '<ref name="eta" id="c0"/><ref name="k" id="c0"/></bsdf></shape>')
+    bench.refused("1,000 times 3 trees of checkerboards", "s.xml", mitsuba(checkers(16), conductor * 1000), STEPS)
+    bench.counts("3 trees of 256 checkerboards", "s.xml", mitsuba(checkers(8), conductor), shapes=1)
+    light = '<emitter type="area" id="e">' + '<float name="x" value="1"/>' * 50000 + "</emitter>"
+    bench.refused("50,000 shapes with one light of 50,000 properties", "s.xml",
+                  mitsuba(light, '<shape type="sphere"><bsdf type="diffuse"/>' + '<ref id="e"/>' * 50000 + "</shape>"), STEPS)
+    coat = '<bsdf type="twosided" id="t">' + '<float name="x" value="1"/>' * 50000 + '<bsdf type="diffuse"/></bsdf>'
+    bench.refused("50,000 BSDFs around one with 50,000 properties", "s.xml",
+                  mitsuba(coat, '<shape type="cube">' + '<bsdf type="twosided"><ref id="t"/></bsdf>' * 50000 + "</shape>"), STEPS)
+
+
+def names(bench):
+    text = '<default name="a" value="' + "x" * 65000 + '"/>'
+    bench.refused("20,000 values of 65,000 characters", "s.xml", mitsuba(text, '<x a="$a"/>' * 20000), "$names", "256 MiB")
+    bench.counts("1,000 values of 65,000 characters", "s.xml", mitsuba(text, '<x a="$a"/>' * 1000), lights=1)
+    many = "".join(f'<default name="n{i}" value="{i}"/>' for i in range(200000 // LARGE))
+    used = "".join(f'<x a="$n{i}"/>' for i in range(200000 // LARGE))
+    bench.counts("many names, each used", "s.xml", mitsuba(many, used), lights=1)
+    # the first value counts
+    bench.put("s.xml", '<scene version="3.0.0"><default name="w" value="5"/>' + many + '<default name="w" value="7"/>'
+              + SENSOR.format(width="$w") + "</scene>")
+    done = bench.run("render", "s.xml", "-n", "1", "-q", "-o", "s.pfm")
+    if bench.checks.check(done and done.code == 0, f"a name with two values: {done and done.err}"):
+        with open(os.path.join(bench.folder, "s.pfm"), "rb") as stream:
+            bench.checks.check(stream.read(12).split()[1:3] == [b"5", b"4"], "a name with two values has not the first")
+
+
+def loop(bench):
+    """Edges whose vertices a, b make (a X xor b Y) >> 20 agree in the bits that a table of their number would use."""
+    n, vertices = 300000 // LARGE, 1 << 16
+    mask = (1 << (7 * n - 1).bit_length()) - 1
+    first = [(a * 0x9E3779B97F4A7C15 & 2**64 - 1) >> 20 & mask for a in range(vertices)]
+    second = {}
+    for b in range(vertices):
+        second.setdefault((b * 0xC2B2AE3D27D4EB4F & 2**64 - 1) >> 20 & mask, []).append(b)
+    edges, bits = [], 0
+    while len(edges) < n:
+        edges += [(a, b) for a in range(vertices) for b in second.get(first[a] ^ bits, ()) if a < b]
+        bits += 1
+    faces = "\n".join(f"{a} {b} {(a + b) * 7919 % vertices}" for a, b in edges[:n])
+    places = "\n".join(f"{i % 41} {i % 37} {i % 31}" for i in range(vertices))
+    bench.counts("edges that a hash table has in one place", "s.pbrt",
+                 PBRT + f'Shape "loopsubdiv" "integer levels" 0 "integer indices" [{faces}] "point3 P" [{places}]\n', triangles=n)
+
+
+def materials(bench):
+    """1,100 shapes: what is equal counts once, and 1,024 that differ are the most."""
+    n = 1100
+    triangle = '"integer indices" [0 1 2] "point3 P" [0 0 0 1 0 0 0 1 0]'
+    bench.put("p.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    bench.counts("shapes without a BSDF", "s.xml", mitsuba('<shape type="sphere"/>' * n), shapes=n, materials=1)
+    checker = '<bsdf type="diffuse" id="m"><texture type="checkerboard" name="reflectance"/></bsdf>'
+    mesh = '<shape type="obj"><string name="filename" value="p.obj"/><ref id="m"/></shape>'
+    bench.counts("meshes without texture coordinates", "s.xml", mitsuba(checker, mesh * n), placements=n, meshes=1, materials=2)
+    bench.counts("meshes of pbrt without texture coordinates", "s.pbrt",
+                 PBRT + 'Texture "t" "spectrum" "checkerboard" "rgb tex1" [.2 .2 .2] Material "diffuse" "texture reflectance" "t"\n'
+                 + f'Shape "trianglemesh" {triangle}\n' * n, placements=n, materials=3)  # and the one before any Material
+    bench.counts("equal BSDFs", "s.xml", mitsuba('<shape type="sphere"><bsdf type="plastic"/></shape>' * n), shapes=n, materials=1)
+    bench.counts("equal materials", "s.pbrt", PBRT + 'Material "conductor" Shape "sphere"\n' * n, shapes=n, materials=2)
+    spheres = [f'Material "diffuse" "float reflectance" {(i + 1) / 2048} Shape "sphere"\n' for i in range(n)]
+    bench.counts("1,023 materials and the first", "s.pbrt", PBRT + "".join(spheres[:1023]), shapes=1023, materials=1024)
+    bench.refused("1,024 materials and the first", "s.pbrt", PBRT + "".join(spheres[:1025]), "more than 1024 different materials")
+
+
+def packed(n):
+    """A .serialized file of n triangles; the format is in file_serialized.py."""
+    data, at = b"", []
+    for i in range(n):
+        at.append(len(data))
+        body = (struct.pack("<I", 0x1000) + b"\0" + struct.pack("<QQ", 3, 1)
+                + struct.pack("<9f", 0, 0, i / 1024, 1, 0, 0, 0, 1, 0) + struct.pack("<3I", 0, 1, 2))
+        data += struct.pack("<HH", 0x041C, 4) + zlib.compress(body)
+    return data + struct.pack(f"<{n}Q", *at) + struct.pack("<I", n)
+
+
+def meshes(bench):
+    n = 30000 // LARGE
+    for name in ("a.serialized", "b.serialized"):
+        bench.put(name, packed(n))
+    shape = '<shape type="serialized"><string name="filename" value="{}"/><integer name="shape_index" value="{}"/></shape>'
+    both = [shape.format("ab"[i % 2] + ".serialized", i // 2) for i in range(2 * n)]
+    bench.counts("all meshes of two files in turn", "s.xml", mitsuba(*both), meshes=2 * n, triangles=2 * n)
+    bench.put("p.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    os.symlink("p.ply", os.path.join(bench.folder, "q.ply"))
+    ways = "".join(f'Shape "plymesh" "string filename" "{"./" * i}p.ply"\n' for i in range(100)) + 'Shape "plymesh" "string filename" "q.ply"\n'
+    bench.counts("a mesh under many names", "s.pbrt", PBRT + ways, meshes=1, placements=101)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(os.path.abspath(sys.argv[1]), folder)
+        bench.put("a.serialized", packed(1))
+        bench.put("s.xml", mitsuba('<shape type="serialized"><string name="filename" value="a.serialized"/></shape>'))
+        done = bench.run("scene", "check", "s.xml")
+        if re.search(b"no zlib|no expat|no Embree", done.err):
+            print("skipped: " + done.err.decode().strip())
+            return
+        for part in (instances, trees, names, loop, materials, meshes):
+            part(bench)
+        bench.checks.end()
+
+
+if __name__ == "__main__":
+    main()
