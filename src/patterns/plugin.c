@@ -17,6 +17,7 @@
 #include "core/spec.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/file_names.h"
 
 #ifdef __EMSCRIPTEN__
 
@@ -54,12 +55,8 @@ static koksma_status find(const char *name, const char *text, const koksma_plugi
     char path[KOKSMA_MAX_SPEC];
     void *symbol = NULL;
     const koksma_plugin *(*at)(size_t);
-    snprintf(path, sizeof path, "%s", text);
-    char *wanted = strrchr(path, ':');
-    wanted = wanted && !strchr(wanted, '/') ? wanted : NULL;
-    if (wanted) {
-        *wanted++ = 0;
-    }
+    const char *end = koksma__library_end(text), *wanted = end ? end + 1 : NULL;
+    snprintf(path, sizeof path, "%.*s", (int)(end ? (size_t)(end - text) : strlen(text)), text);
     KOKSMA__TRY(open_library(name, path, &symbol));
     memcpy(&at, &symbol, sizeof at); /* ISO C has no cast from a pointer to an object to a pointer to a function */
     const koksma_plugin *p;

@@ -21,6 +21,12 @@ bool koksma__file_has(const char *path, const char *place)
     return strstr(path, place) != NULL;
 }
 
+const char *koksma__library_end(const char *operand)
+{
+    const char *colon = strrchr(operand, ':');
+    return colon && !strchr(colon, '/') ? colon : NULL;
+}
+
 /* Returns the length of the placeholder at the beginning of `text`, or 0 if there is none. */
 static size_t place_at(const char *text, bool *is_seed)
 {

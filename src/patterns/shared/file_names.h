@@ -17,6 +17,17 @@ static inline bool koksma__names_path(const koksma_pattern *pattern)
     return pattern && pattern->operand && !strchr(pattern->operand, ':');
 }
 
+/* Returns whether the operand of a pattern whose operand is a path is that of a library, which may have the name of one of
+   its samplers behind it: "LIBRARY.so:NAME". */
+static inline bool koksma__names_library(const koksma_pattern *pattern)
+{
+    return pattern->runs_code && strstr(pattern->operand, ".so");
+}
+
+/* Returns the ':' before the name of a sampler in "LIBRARY.so:NAME", or NULL if there is none. A ':' in the name of a
+   folder is part of the path. */
+KOKSMA__LAB const char *koksma__library_end(const char *operand);
+
 /* Returns whether a pattern reads its points from a file instead of generating them. */
 static inline bool koksma__reads_points(const koksma_pattern *pattern)
 {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Hashes the files of points and parameters that a plan's patterns name (file:PATH, net-file:PATH), for all uses of an
-   image and for its reference. A result depends on the contents of such a file, so that their hash is part of the
-   result's key: after a change of the file, new rows are made and the old rows are kept. */
+/* Hashes the files of points and parameters, the programs and the libraries that a plan's patterns name (file:PATH,
+   net-file:PATH, exec:PROGRAM, plugin:LIBRARY.so:NAME), for all uses of an image and for its reference. A result depends
+   on the contents of such a file, so that their hash is part of the result's key: after a change of the file, new rows
+   are made and the old rows are kept. */
 #include "study/plan/point_files.h"
 
 #include <stdio.h>
@@ -17,69 +18,101 @@
 #include "study/plan/image_patterns.h"
 #include "study/plan/made_by.h"
 
-/* Calls `visit` for every path in the patterns of an image's uses, or in the single pattern of a set of points, and with
-   NULL for an operand that is no path. Other texts have none: their reader says what is wrong with them. */
-static koksma_status visit_patterns(const char *patterns, koksma_status (*visit)(void *context, const char *path),
-                                    void *context)
+/* Receives a pattern with an operand. */
+typedef koksma_status (*visitor)(void *context, const koksma_spec *spec);
+
+static koksma_status visit_pattern(const koksma_spec *spec, visitor visit, void *context)
+{
+    return spec->pattern && spec->pattern->operand ? visit(context, spec) : KOKSMA_OK;
+}
+
+/* Calls `visit` for the patterns with an operand among those of an image's uses, or for the pattern of a set of points. A
+   text that can't be parsed has none: its reader says what is wrong with it. */
+static koksma_status visit_patterns(bool image, const char *patterns, visitor visit, void *context)
 {
     koksma_render_options options = {0};
     const koksma_spec *spec;
     koksma_status status = KOKSMA_OK;
-    if (!patterns[0] || koksma_render_patterns(patterns, &options)) {
+    if (!patterns[0] ||
+        (image ? koksma_render_patterns(patterns, &options) : koksma_pattern_spec(patterns, &options.pattern))) {
         return KOKSMA_OK;
     }
     for (size_t i = 0; !status && (spec = koksma__image_pattern_at(&options, i)); i++) {
-        const koksma_pattern *p = spec->pattern;
-        status = p && p->operand ? visit(context, koksma__names_path(p) ? spec->path : NULL) : KOKSMA_OK;
+        status = visit_pattern(spec, visit, context);
     }
     return status;
 }
 
-static koksma_status visit_paths(const char *patterns, const char *reference,
-                                 koksma_status (*visit)(void *context, const char *path), void *context)
+static koksma_status visit_row(const koksma__row_texts *row, visitor visit, void *context)
 {
     char name[KOKSMA_MAX_SPEC], of_reference[KOKSMA_MAX_SPEC];
     long long spp, replicates;
-    const koksma_status status = visit_patterns(patterns, visit, context);
-    const bool has_reference =
-        !status && reference[0] && !koksma__reference_parse(reference, name, of_reference, &spp, &replicates);
-    return has_reference ? visit_patterns(of_reference, visit, context) : status;
+    const koksma_status status = visit_patterns(row->image, row->patterns, visit, context);
+    const bool has_reference = !status && row->reference[0] &&
+                               !koksma__reference_parse(row->reference, name, of_reference, &spp, &replicates);
+    return has_reference ? visit_patterns(true, of_reference, visit, context) : status;
 }
 
-/* Hash of a file; for a family of files (file_names.h), the combined hash of all of them. 0: it can't be read. */
-static uint64_t hash_of_file(const char *path)
+/* Whether the operand of a pattern is a family of files (file_names.h). Only patterns that read points have one: for all
+   others {n} is part of the file's name. */
+static bool is_family(const koksma_spec *spec)
 {
-    uint64_t hash = 0, all = 0;
+    return koksma__reads_points(spec->pattern) && koksma__file_is_family(spec->path);
+}
+
+/* Copies the path in the operand of a pattern. Returns false for an operand that is a list of numbers. */
+static bool find_path(const koksma_spec *spec, char path[KOKSMA_MAX_SPEC])
+{
+    if (!koksma__names_path(spec->pattern)) {
+        return false;
+    }
+    const char *end = koksma__names_library(spec->pattern) ? koksma__library_end(spec->path) : NULL;
+    snprintf(path, KOKSMA_MAX_SPEC, "%.*s", (int)(end ? (size_t)(end - spec->path) : strlen(spec->path)), spec->path);
+    return true;
+}
+
+static uint64_t mix(uint64_t all, uint64_t value)
+{
+    return (all ^ value) * 0x100000001b3;
+}
+
+/* Hash of all files of a family, with their numbers: a file under another name is another set. */
+static uint64_t hash_of_family(const char *path)
+{
+    uint64_t all = 0;
     koksma__file_set *sets = NULL;
     size_t count = 0;
-    if (!koksma__file_is_family(path)) {
-        return koksma__hash_file(path, &hash) ? 0 : hash;
-    }
     if (koksma__file_sets(path, &sets, &count)) {
         return 0;
     }
     for (size_t i = 0; i < count; i++) {
         char name[KOKSMA_MAX_SPEC];
+        uint64_t hash = 0;
         const bool read = !koksma__file_name(path, sets[i].n, sets[i].seed, name) && !koksma__hash_file(name, &hash);
-        all = (all ^ (read ? hash : 0)) * 0x100000001b3;
+        all = mix(mix(mix(all, sets[i].n), sets[i].seed), read ? hash : 0);
     }
     free(sets);
     return all;
 }
 
-/* Returns the hash of a file, which is taken from the list if the list has it. If the list cannot grow, the file is
-   hashed again next time. */
-static uint64_t look_up(koksma__point_files *known, const char *path)
+/* Returns the hash of a file or of a family, 0 if it can't be read. It is taken from the list if the list has it. If the
+   list cannot grow, the file is hashed again next time. */
+static uint64_t look_up(koksma__point_files *known, const char *path, bool family)
 {
     for (size_t i = 0; known && i < known->n; i++) {
-        if (!strcmp(known->at[i].path, path)) {
+        if (known->at[i].is_family == family && !strcmp(known->at[i].path, path)) {
             return known->at[i].hash;
         }
     }
-    const uint64_t hash = hash_of_file(path);
+    uint64_t hash = 0;
+    if (family) {
+        hash = hash_of_family(path);
+    } else if (koksma__hash_file(path, &hash)) {
+        hash = 0;
+    }
     koksma__point_file *more = known ? koksma__add_one(&known->at, &known->n, sizeof *more) : NULL;
     if (more) {
-        *more = (koksma__point_file){strdup(path), hash};
+        *more = (koksma__point_file){strdup(path), family, hash};
         known->n -= !more->path;
     }
     return hash;
@@ -94,35 +127,37 @@ typedef struct all_files {
 
 /* An operand that is no path has the hash 0. Its numbers are in the pattern's text, so that the key needs no hash of
    them; the 0 is part of the keys of rows that stores have. */
-static koksma_status add_hash(void *context, const char *path)
+static koksma_status add_hash(void *context, const koksma_spec *spec)
 {
+    char path[KOKSMA_MAX_SPEC];
     all_files *all = context;
-    const uint64_t hash = path ? look_up(all->known, path) : 0;
+    const uint64_t hash = find_path(spec, path) ? look_up(all->known, path, is_family(spec)) : 0;
     all->hash = all->n++ ? (all->hash * 0x100000001b3) ^ hash : hash;
     return KOKSMA_OK;
 }
 
-void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash, const char *patterns,
-                              const char *reference, char out[KOKSMA__HASH_TEXT])
+void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash, const koksma__row_texts *row,
+                              char out[KOKSMA__HASH_TEXT])
 {
     all_files all = {.known = known};
-    visit_paths(patterns, reference, add_hash, &all);
+    visit_row(row, add_hash, &all);
     const size_t used = (size_t)snprintf(out, KOKSMA__HASH_TEXT, "%s", scene_hash);
     if (all.n && used < KOKSMA__HASH_TEXT) {
         snprintf(out + used, KOKSMA__HASH_TEXT - used, "%s%016llx", used ? "+" : "", (unsigned long long)all.hash);
     }
 }
 
-static koksma_status can_be_read(void *context, const char *path)
+static koksma_status can_be_read(void *context, const koksma_spec *spec)
 {
+    char path[KOKSMA_MAX_SPEC];
     koksma__file_set *sets = NULL;
     size_t count = 0;
     uint64_t hash;
     (void)context;
-    if (!path) {
+    if (!find_path(spec, path)) {
         return KOKSMA_OK;
     }
-    if (!koksma__file_is_family(path)) {
+    if (!is_family(spec)) {
         return koksma__hash_file(path, &hash);
     }
     const koksma_status status = koksma__file_sets(path, &sets, &count);
@@ -130,21 +165,21 @@ static koksma_status can_be_read(void *context, const char *path)
     return status;
 }
 
-koksma_status koksma__points_can_be_read(const char *patterns, const char *reference)
+koksma_status koksma__points_can_be_read(const koksma__row_texts *row)
 {
-    return visit_paths(patterns, reference, can_be_read, NULL);
+    return visit_row(row, can_be_read, NULL);
 }
 
-static koksma_status find_family(void *context, const char *path)
+static koksma_status find_family(void *context, const koksma_spec *spec)
 {
-    *(bool *)context |= path && koksma__file_is_family(path);
+    *(bool *)context |= is_family(spec);
     return KOKSMA_OK;
 }
 
-bool koksma__points_have_family(const char *patterns, const char *reference)
+bool koksma__points_have_family(const koksma__row_texts *row)
 {
     bool found = false;
-    visit_paths(patterns, reference, find_family, &found);
+    visit_row(row, find_family, &found);
     return found;
 }
 

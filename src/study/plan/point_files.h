@@ -12,6 +12,7 @@
 
 typedef struct koksma__point_file {
     char *path;
+    bool is_family; /* whether {n} and {seed} in the path are placeholders */
     uint64_t hash;
 } koksma__point_file;
 
@@ -23,17 +24,26 @@ typedef struct koksma__point_files {
 
 enum { KOKSMA__HASH_TEXT = 40 };
 
-/* Writes the hash of a scene to out, followed by one hash of all files that two texts name: the patterns of a row, of all
-   uses of an image, and the name of its reference (koksma__reference_parse). Either text may be "". A file that can't be
-   read has the hash 0; koksma__points_can_be_read tells why. known may be NULL. */
-void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash, const char *patterns,
-                              const char *reference, char out[KOKSMA__HASH_TEXT]);
+/* The texts of a row that may name files. Either may be "". */
+typedef struct koksma__row_texts {
+    /* whether the row is of an image, whose text has a pattern for each use; in the text of a set of points, which is one
+       pattern, ';' and '=' belong to a path */
+    bool image;
+    const char *patterns;
+    const char *reference; /* of an image: koksma__reference_parse */
+} koksma__row_texts;
 
-/* Fails if a file that the patterns or the reference name can't be read, with the reason; OK also if they name none. */
-koksma_status koksma__points_can_be_read(const char *patterns, const char *reference);
+/* Writes the hash of a scene to out, followed by one hash of all files that the texts of a row name: those of its patterns,
+   then those of its reference. Of a sampler in a library it is the hash of the library. A file that can't be read has the
+   hash 0; koksma__points_can_be_read tells why. known may be NULL. */
+void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash, const koksma__row_texts *row,
+                              char out[KOKSMA__HASH_TEXT]);
 
-/* Whether the patterns or the reference name a family of files (file_names.h). */
-bool koksma__points_have_family(const char *patterns, const char *reference);
+/* Fails if a file that a row names can't be read, with the reason; OK also if it names none. */
+koksma_status koksma__points_can_be_read(const koksma__row_texts *row);
+
+/* Whether a row names a family of files (file_names.h). */
+bool koksma__points_have_family(const koksma__row_texts *row);
 
 void koksma__point_files_fini(koksma__point_files *known);
 

@@ -237,13 +237,14 @@ static koksma_status check_image(const koksma__study_scene *scene, const koksma_
 static koksma_status check_hash(koksma__audit_list *list, const koksma__audit_series *series, const char *scene)
 {
     const koksma__series *key = &series->key;
-    const char *reference = strcmp(key->kind, "discrepancy") ? key->what : "";
+    const bool image = strcmp(key->kind, "discrepancy") != 0;
+    const koksma__row_texts texts = {image, key->pattern, image ? key->what : ""};
     char hash[KOKSMA__HASH_TEXT];
-    koksma__hash_with_points(&list->files, scene, key->pattern, reference, hash);
+    koksma__hash_with_points(&list->files, scene, &texts, hash);
     if (!strcmp(hash, key->scene_hash)) {
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma__points_can_be_read(key->pattern, reference);
+    const koksma_status status = koksma__points_can_be_read(&texts);
     if (status) {
         return koksma__fail_in(status == KOKSMA_MEMORY ? status : KOKSMA_MISSING, "the file of its points");
     }
@@ -252,8 +253,8 @@ static koksma_status check_hash(koksma__audit_list *list, const koksma__audit_se
     }
     /* the key has one hash of all files, which does not tell which of them differs */
     return koksma__fail(KOKSMA_MALFORMED, "%s",
-                        koksma__points_have_family(key->pattern, reference)
-                            ? "a file of its points has changed since, or their family has more or fewer files"
+                        koksma__points_have_family(&texts)
+                            ? "a file of its points has changed since, or their family has other files"
                             : "the file of its points has changed since");
 }
 

@@ -107,7 +107,7 @@ void koksma__reference_path(const koksma_study *study, const koksma__reference_i
 {
     char name[KOKSMA__REFERENCE_NAME], hash[KOKSMA__HASH_TEXT];
     koksma__reference_name(reference->reference, name);
-    koksma__hash_with_points(NULL, reference->scene->hash, "", name, hash);
+    koksma__hash_with_points(NULL, reference->scene->hash, &(koksma__row_texts){true, "", name}, hash);
     const uint64_t key = koksma__job_seed("luminance|%s|%s|%s|%s|%dx%d|%s", reference->scene->name, hash, name,
                                           reference->options, reference->width, reference->height, koksma_version());
     snprintf(path, size, "%s/references/%016llx.exr", study->folder, (unsigned long long)key);

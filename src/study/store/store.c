@@ -164,8 +164,8 @@ void koksma__store_bind_key(koksma__store *store, const koksma__series *series, 
 {
     const bool image = strcmp(series->kind, "discrepancy") != 0;
     *key = *series;
-    koksma__hash_with_points(&store->files, series->scene_hash, series->pattern, image ? series->what : "",
-                             store->hash);
+    const koksma__row_texts texts = {image, series->pattern, image ? series->what : ""};
+    koksma__hash_with_points(&store->files, series->scene_hash, &texts, store->hash);
     key->metric = series->metric ? series->metric : "";
     koksma__find_made_by(image, series->pattern, series->options, series->what, key->metric, false, &store->made_by);
     key->scene_hash = store->hash;
