@@ -41,14 +41,13 @@ static void put_item(FILE *out, const char *item, bool is_scene)
     char here[PATH_MAX];
     size_t at = is_scene ? 0 : koksma_plan_path(item, 0), printed = 0;
     fputc('"', out);
-    for (bool path = is_scene ? strpbrk(item, "/.") != NULL : at > 0; path; path = !is_scene && at > 0) {
+    if (is_scene ? strpbrk(item, "/.") != NULL : at > 0) {
         put_characters(out, item + printed, at - printed);
         printed = at;
         if (item[at] != '/' && getcwd(here, sizeof here)) {
             put_characters(out, here, SIZE_MAX);
             fputc('/', out);
         }
-        at = koksma_plan_path(item, at);
     }
     put_characters(out, item + printed, SIZE_MAX);
     fputc('"', out);

@@ -33,7 +33,8 @@ KOKSMA_API const char *koksma_plan_name_at(size_t i);
 /* Returns the position in a pattern's text, after `from`, at which the next path begins: after the colon of a pattern whose
    operand is a file, a program or a library, as in "exec:PATH" or in a group of uses, "jittered;lens=net-file:PATH". A
    plan's relative paths start at the folder of the plan.
-     text  a pattern, or a group of uses with their patterns
+     text  a pattern, or the patterns of several uses as koksma_render_patterns reads them. The text of a set of points has
+           at most one path, the first: ';' and '=' may be part of its name
      from  number of characters to skip at the beginning of `text`
    Returns 0 if no path begins after `from`. */
 KOKSMA_API size_t koksma_plan_path(const char *text, size_t from);

@@ -156,9 +156,46 @@ def rename_of_a_family():
     check(told.returncode == 0 and "2 rows drawn, of which 2 agree" in told.stdout, f"a study begun anew: {told}")
 
 
+def plans_elsewhere():
+    """A plan's paths start at its folder. In the text of a set of points one begins, in that of an image one a use."""
+    os.makedirs("cw", exist_ok=True)
+    for i, name in enumerate(("a;lens=file:b.txt", "a=file:b.txt", "exec:x;pixel=net-file:y", "a;b=c.txt", "lens=exec:d")):
+        points("cw/" + name, 3)
+        text = plan("cw/plan.json", ["file:" + name])
+        with open(text) as file:
+            whole = json.load(file)
+        whole["tables"] = [{"id": "t", "title": "t", "measure": "l2-star", "n": N, "rows": [{"pattern": "file:" + name, "label": "l", "published": [1]}],
+                            "notes": [{"pattern": "file:" + name, "n": N, "statistic": "mean", "reason": "of a test"}]}]
+        with open(text, "w") as file:
+            json.dump(whole, file)
+        check([row["pattern"] for row in rows(f"elsewhere{i}", text)] == ["file:cw/" + name], f"a plan in a folder: {name}")
+        os.makedirs("here", exist_ok=True)
+        ran = subprocess.run([KOKSMA, "study", "quick", "-p", "file:" + name, "-m", "l2-star", "-n", str(N), "-q", "-o", f"../here/{i}"],
+                             cwd="cw", capture_output=True, text=True, timeout=120)
+        check(ran.returncode == 0, f"a quick study: {ran}")
+    points("cw/b.txt", 3)
+    for use in "n-rooks;pixel=file:{}b.txt;lens=file:{}b.txt", "file:{}b.txt;lens+time=random;light=file:{}b.txt", "file:{}a=file:b.txt;lens=file:{}b.txt":
+        text = plan("cw/images.json", [use.format("", "")], "images")
+        found = {row["pattern"] for row in rows("uses", text) if row["kind"] == "image"}
+        check(use.format("cw/", "cw/") in found, f"{use}: {found}")
+
+
+def sheets():
+    """A datasheet takes {n} for a placeholder only in a file of points, and an ending for one only without a pattern."""
+    sheets_of = set()
+    for name in "v", "v{n}.npy":
+        with open(name, "w") as file:
+            file.write("1 1\n2 182667\n")
+        told = koksma("datasheet", "lattice-file:" + name, "--beside", "none", "--scenes", "none", "--quick", "--json")
+        check(told.returncode == 0 and told.stdout, f"a datasheet of {name}: {told.stderr}")
+        text = told.stdout.replace("'", "").replace("lattice-file:" + name, "SPEC")  # commands quote braces
+        sheets_of.add(text[:text.rfind('"seconds"')])
+    check(len(sheets_of) == 1, "the same vector has the same sheet under each name")
+
+
 os.chdir(tempfile.mkdtemp(prefix="koksma-point-files-"))
 try:
-    for part in change_each, change_one_use, rename_of_a_family:
+    for part in change_each, change_one_use, rename_of_a_family, plans_elsewhere, sheets:
         part()
 finally:
     here = os.getcwd()

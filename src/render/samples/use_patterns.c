@@ -179,10 +179,11 @@ static size_t length_of_uses(const char *part)
     return part[n] == '=' ? n : 0;
 }
 
-/* Returns the ';' that ends the part, or the end of the text. */
-static const char *end_of_part(const char *part)
+const char *koksma__use_part(const char *part, const char **pattern)
 {
     const char *end = strchr(part, ';');
+    const size_t uses = length_of_uses(part);
+    *pattern = part + uses + (uses > 0);
     while (end && !length_of_uses(end + 1 + strspn(end + 1, " "))) {
         end = strchr(end + 1, ';');
     }
@@ -259,9 +260,10 @@ static koksma_status add_group(const char *part, const koksma_use_group *group, 
 
 static koksma_status parse_part(const char *part, koksma_render_options *options)
 {
-    const size_t length = length_of_uses(part);
+    const char *pattern;
     koksma_use_group group = {0};
-    if (!length) {
+    koksma__use_part(part, &pattern);
+    if (pattern == part) {
         koksma_spec spec;
         const koksma_status status = koksma_pattern_spec(part, &spec);
         if (!status) {
@@ -269,8 +271,8 @@ static koksma_status parse_part(const char *part, koksma_render_options *options
         }
         return status;
     }
-    koksma_status status = parse_uses(part, part, length, &group);
-    status = status ? status : koksma_pattern_spec(part + length + 1, &group.pattern);
+    koksma_status status = parse_uses(part, part, (size_t)(pattern - part) - 1, &group);
+    status = status ? status : koksma_pattern_spec(pattern, &group.pattern);
     return status ? status : add_group(part, &group, options);
 }
 
@@ -280,7 +282,7 @@ koksma_status koksma_render_patterns(const char *text, koksma_render_options *op
     koksma_render_options changed = *options;
     for (bool first = true; first || *text; first = false) {
         char part[2 * KOKSMA_MAX_SPEC];
-        const char *end = end_of_part(text);
+        const char *pattern, *end = koksma__use_part(text, &pattern);
         size_t length = (size_t)(end - text);
         KOKSMA__FAIL_IF(length >= sizeof part, KOKSMA_ARGUMENT, "'%.20s...' is longer than %zu characters", text,
                         sizeof part - 1);

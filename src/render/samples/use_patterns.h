@@ -5,6 +5,10 @@
 
 #include <koksma/render.h>
 
+/* Returns the end of the part at the beginning of a text of patterns, "PATTERN" or "use+use=PATTERN": its ';', or the end
+   of the text. A ';' that no names of uses and no '=' follow belongs to the part. *pattern receives the part's PATTERN. */
+const char *koksma__use_part(const char *part, const char **pattern);
+
 /* Checks that every spec names a pattern and that every group is valid. Errors: ARGUMENT, DIM. */
 koksma_status koksma__check_use_patterns(const koksma_render_options *options);
 

@@ -12,6 +12,8 @@
 
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
+#include "render/samples/use_patterns.h"
+#include "study/plan/image_patterns.h"
 
 enum { MAX_ITEMS = 4096 };
 
@@ -60,38 +62,42 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return length < KOKSMA_MAX_SPEC ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "%.64s...: too long", text);
 }
 
-/* Whether the text before `end` ends with the name of a pattern whose operand is a path; the name must begin at the
-   start of the text or after "=" or ";". */
-static bool ends_with_pattern(const char *text, const char *end)
+/* Returns where the path in "NAME:PATH" begins, or NULL if the text before `end` names no pattern whose operand is a
+   path. */
+static const char *path_of(const char *pattern, const char *end)
 {
     char name[KOKSMA_MAX_SPEC];
-    const char *word = end;
-    while (word > text && !strchr("=;", word[-1])) {
-        word--;
+    const size_t length = strcspn(pattern, ":");
+    if (pattern + length >= end || length >= sizeof name) {
+        return NULL;
     }
-    const int length = (int)(end - word);
-    if (length >= KOKSMA_MAX_SPEC) {
-        return false;
-    }
-    snprintf(name, sizeof name, "%.*s", length, word);
-    return koksma__names_path(koksma_pattern_find(name));
+    snprintf(name, sizeof name, "%.*s", (int)length, pattern);
+    return koksma__names_path(koksma_pattern_find(name)) ? pattern + length + 1 : NULL;
 }
 
 size_t koksma_plan_path(const char *text, size_t from)
 {
     KOKSMA__REQUIRE_OR(0, text);
-    const char *colon = strlen(text) > from ? strchr(text + from, ':') : NULL;
-    while (colon && !ends_with_pattern(text, colon)) {
-        colon = strchr(colon + 1, ':');
+    for (const char *part = text; *part;) {
+        const char *pattern, *end = koksma__use_part(part, &pattern), *path = path_of(pattern, end);
+        if (path && path > text + from) {
+            return (size_t)(path - text);
+        }
+        part = end + (*end == ';');
+        part += strspn(part, " ");
     }
-    return colon ? (size_t)(colon + 1 - text) : 0;
+    return 0;
 }
 
-/* Changes a path in *text, a scene's name or a pattern, from relative to the plan's folder to relative to the
-   current folder, by writing the plan's folder before it. Names of scenes in the library have neither '/' nor
-   '.'. */
-static koksma_status from_plan(const koksma__json_node *node, bool is_scene, char **text)
+/* What a text is, which decides where its paths begin: a scene is a path, a spec begins with at most one, and the text of
+   an image's patterns may have one for each use. */
+typedef enum text_kind { SCENE, SPEC, USES } text_kind;
+
+/* Changes the paths in *text from relative to the plan's folder to relative to the current folder, by writing the plan's
+   folder before them. Names of scenes in the library have neither '/' nor '.'. */
+static koksma_status from_plan(const koksma__json_node *node, text_kind kind, char **text)
 {
+    const bool is_scene = kind == SCENE;
     const char *name = koksma__json_document(node), *slash = strrchr(name, '/');
     /* whether the plan is in the current folder, as in "./plan.json" */
     const bool is_here = slash == name + 1 && *name == '.';
@@ -112,7 +118,7 @@ static koksma_status from_plan(const koksma__json_node *node, bool is_scene, cha
                 memcpy(to, name, folder);
                 to += folder;
             }
-            path = is_scene ? 0 : koksma_plan_path(*text, i);
+            path = kind == USES ? koksma_plan_path(*text, i) : 0;
         }
         *to++ = (*text)[i];
     }
@@ -132,7 +138,7 @@ static koksma_status canonical(const koksma__json_node *node, koksma__spec_parse
     KOKSMA__TRY(koksma__json_text(node, &text));
     const koksma_status status = parser(text, name);
     KOKSMA__TRY(status ? koksma__json_fail_in(node, status) : copy(name, out));
-    return from_plan(node, false, out);
+    return from_plan(node, parser == koksma__image_pattern_text ? USES : SPEC, out);
 }
 
 koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out)
@@ -140,7 +146,7 @@ koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, 
     const char *text = NULL;
     koksma_status status = koksma__json_get_text(node, key, needed, &text);
     status = status || !text ? status : copy(text, out);
-    return status || !text || strcmp(key, "scene") != 0 ? status : from_plan(node, true, out);
+    return status || !text || strcmp(key, "scene") != 0 ? status : from_plan(node, SCENE, out);
 }
 
 koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char **out)
@@ -195,7 +201,7 @@ koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key,
             status = canonical(&item, parser, &out->at[out->n]);
         } else if (!(status = koksma__json_text(&item, &text))) {
             status = copy(text, &out->at[out->n]);
-            status = status || strcmp(key, "scenes") != 0 ? status : from_plan(&item, true, &out->at[out->n]);
+            status = status || strcmp(key, "scenes") != 0 ? status : from_plan(&item, SCENE, &out->at[out->n]);
         }
         for (size_t i = 0; !status && i < out->n; i++) {
             if (!strcmp(out->at[i], out->at[out->n])) {

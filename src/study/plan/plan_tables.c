@@ -65,29 +65,25 @@ static koksma_status parse_published(const koksma__json_node *node, koksma__tabl
 
 /* ---- Tables ---------------------------------------------------------------------------------------------- */
 
-static koksma_status parse_row(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+static koksma_status parse_row(const koksma__json_node *node, koksma__spec_parser parser, koksma__table_row *r)
 {
     static const char *const keys[] = {"comment", "pattern", "label", "published", "rate", NULL};
-    (void)trials;
-    koksma__table_row *r = item;
     r->rate = NAN;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, &r->pattern);
+    status = status ? status : koksma__plan_spec(node, "pattern", parser, true, &r->pattern);
     status = status ? status : koksma__plan_text(node, "label", true, &r->label);
     status = status ? status : koksma__json_get_number(node, "rate", false, -10, 0, &r->rate);
     return status ? status : parse_published(node, r);
 }
 
-static koksma_status parse_note(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+static koksma_status parse_note(const koksma__json_node *node, koksma__spec_parser parser, koksma__note *n)
 {
     static const char *const keys[] = {"comment", "pattern", "n", "statistic", "reason", "explained", NULL};
     static const char *const statistics[] = {"mean", "sd", "max"};
-    (void)trials;
-    koksma__note *n = item;
     const char *statistic;
     n->explained = true;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, false, &n->pattern);
+    status = status ? status : koksma__plan_spec(node, "pattern", parser, false, &n->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", false, 1, (int)KOKSMA_MAX_COORDINATES, &n->n);
     status = status ? status : koksma__plan_text(node, "reason", true, &n->reason);
     status = status ? status : koksma__json_get_flag(node, "explained", false, &n->explained);
@@ -96,6 +92,32 @@ static koksma_status parse_note(const koksma__json_node *node, const koksma__pla
         KOKSMA__JSON_FAIL_IF(++n->statistic == 3, node, "statistic '%s': it takes mean, sd or max", statistic);
     }
     return status;
+}
+
+/* The patterns of a table of a scene are those of images, and those of a table of a measure are of sets of points. */
+
+static koksma_status row_of_images(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    (void)trials;
+    return parse_row(node, koksma__image_pattern_text, item);
+}
+
+static koksma_status row_of_points(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    (void)trials;
+    return parse_row(node, koksma__pattern_text, item);
+}
+
+static koksma_status note_of_images(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    (void)trials;
+    return parse_note(node, koksma__image_pattern_text, item);
+}
+
+static koksma_status note_of_points(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    (void)trials;
+    return parse_note(node, koksma__pattern_text, item);
 }
 
 /* Reads "n": one number, or a list of several. */
@@ -151,11 +173,12 @@ koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__pl
     t->dim = 2;
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &t->dim);
     status = status ? status
-                    : koksma__plan_list(node, "rows", true, sizeof *t->rows, parse_row, trials, (void **)&t->rows,
-                                        &t->n_rows);
-    status = status ? status
-                    : koksma__plan_list(node, "notes", false, sizeof *t->notes, parse_note, trials,
-                                        (void **)&t->notes, &t->n_notes);
+                    : koksma__plan_list(node, "rows", true, sizeof *t->rows, t->scene ? row_of_images : row_of_points,
+                                        trials, (void **)&t->rows, &t->n_rows);
+    status =
+        status ? status
+               : koksma__plan_list(node, "notes", false, sizeof *t->notes, t->scene ? note_of_images : note_of_points,
+                                   trials, (void **)&t->notes, &t->n_notes);
     return status ? status : check_shape(node, t);
 }
 

@@ -32,8 +32,15 @@ static bool ends_with(const char *text, const char *end)
     return length > n && !strcmp(text + length - n, end);
 }
 
+/* Whether a text names a file of points. The text of a pattern that has an operand is none, whatever its path is. */
 static bool is_file(const char *text)
 {
+    char name[KOKSMA_MAX_SPEC];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ":"), text);
+    const koksma_pattern *pattern = strchr(text, ':') ? koksma_pattern_find(name) : NULL;
+    if (pattern && pattern->operand) {
+        return false;
+    }
     return koksma__file_is_family(text) || ends_with(text, ".npy") || ends_with(text, ".csv") ||
            ends_with(text, ".txt") || (!koksma_pattern_find(text) && !strchr(text, ':') && !access(text, F_OK));
 }
@@ -41,7 +48,7 @@ static bool is_file(const char *text)
 static koksma_status parse(const char *text, koksma__sheet_sampler *out)
 {
     char spec[KOKSMA_MAX_SPEC + sizeof file_prefix];
-    const bool file = strncmp(text, file_prefix, strlen(file_prefix)) != 0 && is_file(text);
+    const bool file = is_file(text);
     snprintf(spec, sizeof spec, "%s%s", file ? file_prefix : "", text);
     koksma_status status = strlen(text) < KOKSMA_MAX_SPEC - sizeof file_prefix
                                ? koksma_pattern_spec(spec, &out->spec)
