@@ -149,6 +149,27 @@ koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_
     return KOKSMA_OK;
 }
 
+koksma_status koksma__file_gap(const koksma_spec *spec, size_t n, koksma_status status)
+{
+    char text[1024];
+    koksma__file_set *sets = NULL;
+    size_t count = 0;
+    if (status != KOKSMA_MISSING || !koksma__reads_points(spec->pattern) || !koksma__file_has(spec->path, place_n)) {
+        return status;
+    }
+    snprintf(text, sizeof text, "%s", koksma_error_text());
+    const koksma_status none = koksma__file_sets(spec->path, &sets, &count);
+    if (none) { /* its text names the files that were looked for */
+        return none == KOKSMA_MEMORY ? none : status;
+    }
+    bool gap = true;
+    for (size_t i = 0; i < count; i++) {
+        gap &= sets[i].n != n;
+    }
+    free(sets);
+    return koksma__fail(gap ? KOKSMA_N : status, "%s", text);
+}
+
 uint64_t koksma__first_seed(const koksma_spec *spec, size_t n)
 {
     koksma__file_set *sets = NULL;

@@ -140,7 +140,7 @@ static koksma_status try_set(const koksma_spec *spec, size_t n, int dim, const k
     koksma_points points;
     koksma_status status = koksma_points_init(&points, n, dim);
     if (!status) {
-        status = koksma_generate(spec, koksma__first_seed(spec, n), run, &points);
+        status = koksma__file_gap(spec, n, koksma_generate(spec, koksma__first_seed(spec, n), run, &points));
         koksma_points_fini(&points);
     }
     return status;

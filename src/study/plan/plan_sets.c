@@ -35,7 +35,7 @@ static koksma_status try_set(const char *pattern, size_t n, int dim)
     koksma_status status = koksma_pattern_spec(pattern, &spec);
     status = status ? status : koksma_points_init(&points, n, dim);
     if (!status) {
-        status = koksma_generate(&spec, koksma__first_seed(&spec, n), &briefly, &points);
+        status = koksma__file_gap(&spec, n, koksma_generate(&spec, koksma__first_seed(&spec, n), &briefly, &points));
         koksma_points_fini(&points);
     }
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
@@ -88,34 +88,10 @@ static koksma_status refuse_first(const tried *t)
     return status;
 }
 
-/* Whether a pattern is a family of files (file_names.h) that has sets of other numbers of points, but not of n. */
-static bool is_gap(const char *pattern, size_t n)
-{
-    koksma_spec spec;
-    koksma__file_set *sets = NULL;
-    size_t count = 0;
-    if (koksma_pattern_spec(pattern, &spec) || !koksma__reads_points(spec.pattern) ||
-        !koksma__file_has(spec.path, "{n}") || koksma__file_sets(spec.path, &sets, &count)) {
-        return false;
-    }
-    bool gap = count > 0;
-    for (size_t i = 0; i < count; i++) {
-        gap &= sets[i].n != n;
-    }
-    free(sets);
-    return gap;
-}
-
 koksma_status koksma_plan_try(const char *pattern, size_t n, int dim)
 {
     KOKSMA__REQUIRE(pattern);
-    const koksma_status status = try_set(pattern, n, dim);
-    if (status != KOKSMA_MISSING || !is_gap(pattern, n)) {
-        return status;
-    }
-    char text[1024];
-    snprintf(text, sizeof text, "%s", koksma_error_text());
-    return koksma__fail(KOKSMA_N, "%s", text);
+    return try_set(pattern, n, dim);
 }
 
 /* Tries pattern p with all sizes and marks those that it cannot make. If there are any, appends the line
@@ -129,7 +105,7 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
         char text[sizeof reason] = "";
         snprintf(text, sizeof text, "%s", status ? koksma_error_text() : "");
         /* the error concerns a file or the system, not this number of points */
-        if (koksma_status_exit_code(status) > 2 && !is_gap(t->patterns->at[p], (size_t)t->n->at[k])) {
+        if (koksma_status_exit_code(status) > 2) {
             koksma__fail(status, "%s", text);
             return koksma__json_fail_in(t->node, status);
         }
