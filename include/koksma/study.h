@@ -98,7 +98,8 @@ KOKSMA_API koksma_status koksma_study_open(const koksma_study_options *options, 
 KOKSMA_API koksma_status koksma_study_close(koksma_study *study);
 
 /* Returns line i of the list of combinations without results, or NULL past the last line. First come the combinations
-   that blocks of the plan with `skip` leave out, "PATTERN, N = 8, 32: reason", then the combinations whose jobs
+   that blocks of the plan with `skip` leave out, "PATTERN, N = 8, 32: reason", and the numbers of points of which a family
+   of files has fewer files than of others, "PATTERN, N = 16 (1 of 3 trials): reason"; then the combinations whose jobs
    failed when they ran, "PATTERN, N = 64 (3 of 100 trials): reason". The string is valid until the study runs or is
    closed. */
 KOKSMA_API const char *koksma_study_left_out_at(const koksma_study *study, size_t i);

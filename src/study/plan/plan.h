@@ -17,11 +17,12 @@ typedef struct koksma__wholes {
     long long *at;
 } koksma__wholes;
 
-/* The sizes that a block with `skip` leaves out: numbers of points that a pattern cannot make. */
+/* The sizes that a block with `skip` leaves out: numbers of points that a pattern cannot make. Of any block, `lines` also
+   names the sizes of which a family of files lacks some trials. */
 typedef struct koksma__left_out {
     bool skip;           /* whether the block has `skip` */
     bool *is;            /* a flag for each pattern and size, true if left out, or NULL if no size is left out */
-    koksma__texts lines; /* a message for each pattern, with its sizes and the reason */
+    koksma__texts lines; /* messages: a pattern, its sizes and the reason */
 } koksma__left_out;
 
 /* A block of discrepancies: every combination of patterns, n, warps, measures and trials. */

@@ -8,6 +8,7 @@
 #include <koksma/integrate.h>
 #include <koksma/study.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
 #include "study/plan/image_patterns.h"
@@ -94,6 +95,22 @@ koksma_status koksma_plan_try(const char *pattern, size_t n, int dim)
     return try_set(pattern, n, dim);
 }
 
+/* Appends the line "what: reason". */
+static koksma_status add_line(const char *what, const char *reason, koksma__left_out *out)
+{
+    const size_t size = 4 * (strlen(what) + strlen(reason)) + 3; /* every byte of the pattern may become \xNN */
+    char *text = malloc(size);
+    char **line = text ? koksma__add_one(&out->lines.at, &out->lines.n, sizeof *line) : NULL;
+    if (!line) {
+        free(text);
+        return koksma__fail_memory(size);
+    }
+    snprintf(text, size, "%s: %s", what, reason);
+    koksma_text_escape(text, size);
+    *line = text;
+    return KOKSMA_OK;
+}
+
 /* Tries pattern p with all sizes and marks those that it cannot make. If there are any, appends the line
    "PATTERN, N = 8, 32: reason". */
 static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *out)
@@ -121,18 +138,52 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
     if (!reason[0]) {
         return KOKSMA_OK;
     }
-    const size_t size = 4 * (strlen(line) + strlen(reason)) + 3; /* every byte of the pattern may become \xNN */
-    char *text = malloc(size);
-    if (!text) {
-        return koksma__fail_memory(size);
-    }
     /* the line begins with the pattern's name; if the reason begins with it too, it is cut from the reason */
     const size_t name = strcspn(t->patterns->at[p], ":");
     const bool twice = !strncmp(reason, line, name) && !strncmp(reason + name, ": ", 2);
-    snprintf(text, size, "%s: %s", line, reason + (twice ? name + 2 : 0));
-    koksma_text_escape(text, size);
-    out->lines.at[out->lines.n++] = text;
-    return KOKSMA_OK;
+    return add_line(line, reason + (twice ? name + 2 : 0), out);
+}
+
+/* The number of files of n points. */
+static size_t count_sets(const koksma__file_set *sets, size_t count, size_t n)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        found += sets[i].n == n;
+    }
+    return found;
+}
+
+/* A family of files has as many trials as files (tasks.c). Where it has fewer files of a size than of another, some may
+   be missing, and no job fails that would tell. Appends the line "PATTERN, N = 16 (1 of 3 trials): reason" for sizes that
+   have fewer trials than the block, and than the size with most files. */
+static koksma_status find_short_sizes(const koksma__discrepancy_block *b, size_t p, koksma__left_out *out)
+{
+    char line[1024];
+    koksma_spec spec;
+    koksma__file_set *sets = NULL;
+    size_t count = 0, most = 0;
+    KOKSMA__TRY(koksma_pattern_spec(b->patterns.at[p], &spec));
+    if (!koksma__reads_points(spec.pattern) || !koksma__file_has(spec.path, "{n}") ||
+        !koksma__file_has(spec.path, "{seed}") || koksma__file_sets(spec.path, &sets, &count)) {
+        return KOKSMA_OK; /* a family without any file is an error of a trial to make a set, or of the run */
+    }
+    for (size_t i = 0, same = 0; i < count; i++) { /* they are sorted by n */
+        same = i && sets[i].n == sets[i - 1].n ? same + 1 : 1;
+        most = same > most ? same : most;
+    }
+    const size_t trials = (size_t)b->trials < most ? (size_t)b->trials : most;
+    const size_t begin = (size_t)snprintf(line, sizeof line, "%s, N =", b->patterns.at[p]);
+    size_t length = begin;
+    for (size_t k = 0; k < b->n.n && length < sizeof line; k++) {
+        const size_t has = count_sets(sets, count, (size_t)b->n.at[k]);
+        if (has && has < trials) {
+            length += (size_t)snprintf(line + length, sizeof line - length, "%s %lld (%zu of %zu trials)",
+                                       length > begin ? "," : "", b->n.at[k], trials - has, trials);
+        }
+    }
+    free(sets);
+    return length > begin ? add_line(line, "the family has fewer files than for other N", out) : KOKSMA_OK;
 }
 
 /* Reports the first size that a pattern cannot make as an error; with `skip`, leaves such sizes out instead. */
@@ -150,8 +201,7 @@ static koksma_status check(const tried *t, koksma__left_out *out)
     }
     const size_t n = t->patterns->n * t->n->n;
     out->is = calloc(n, sizeof *out->is);
-    out->lines.at = calloc(t->patterns->n, sizeof *out->lines.at);
-    status = out->is && out->lines.at ? KOKSMA_OK : koksma__fail_memory(n);
+    status = out->is ? KOKSMA_OK : koksma__fail_memory(n);
     for (size_t p = 0; !status && p < t->patterns->n; p++) {
         status = leave_out_of(t, p, out);
     }
@@ -164,7 +214,11 @@ static koksma_status check(const tried *t, koksma__left_out *out)
 koksma_status koksma__plan_check_sets(const koksma__json_node *node, koksma__discrepancy_block *block)
 {
     const tried t = {node, "n", block, try_points, &block->patterns, &block->n};
-    return check(&t, &block->left_out);
+    koksma_status status = check(&t, &block->left_out);
+    for (size_t p = 0; !status && p < block->patterns.n; p++) {
+        status = find_short_sizes(block, p, &block->left_out);
+    }
+    return status;
 }
 
 /* Fails unless a measure or integrand supports the dimension of the point. */

@@ -13,7 +13,7 @@ static bool is_shown(const koksma__report_scope *scope)
 static koksma_status write(const koksma__report_scope *scope, koksma__document *d)
 {
     const char *line;
-    koksma__doc_paragraph(d, "These combinations have no results; where trials are counted, only those failed:");
+    koksma__doc_paragraph(d, "These combinations have no results; where trials are counted, only those have none:");
     koksma__doc_list_begin(d, NULL, false);
     for (size_t i = 0; (line = koksma_study_left_out_at(scope->study, i)); i++) {
         koksma__doc_item(d);
