@@ -487,7 +487,9 @@ const cli_command cli_command_study = {
     .details =
         "PLAN is the name of a plan in the library, a JSON file (./plan.json), or the plan itself, which begins with "
         "'{'. Paths in a plan are relative to\n"
-        "the plan's file, or without a file to the current folder.\n"
+        "the plan's file, or without a file to the current folder. If they are relative, 'report' and 'audit' must "
+        "be "
+        "started where 'run' was.\n"
         "run: runs all jobs; each result is written to DIR/results.sqlite when it is finished. An interrupted run "
         "continues when it is\n"
         "started again. If a pattern fails for some trials, the summary, the report and 'export' list them with the "

@@ -79,7 +79,7 @@ typedef struct koksma_study_options {
        plans are joined to one plan with the name "a+b" */
     const char *const *plans;
     size_t n_plans;     /* number of plans; 0: use the plan stored in the folder, to which nothing is written before
-                           a run */
+                           a run. If its paths are relative, the current folder must be that of the run */
     const char *folder; /* folder of the study, which is created if it does not exist; NULL: only
                            koksma_study_estimate can be called */
     long long trials;   /* number of trials to use instead of the numbers in the plan; 0: use the numbers in the
@@ -204,7 +204,8 @@ typedef struct koksma_audit {
 
 /* Audits a study: computes rows again from their keys, renders all reference images again, whichever rows are drawn,
    and compares them with the stored results. The choice of rows depends on the seed and the stored results, not on the
-   number of threads. Under mpirun all ranks work and must be able to read the folder; rank 0 gets the result.
+   number of threads. If the plan's paths are relative, the current folder must be that of the run. Under mpirun all ranks
+   work and must be able to read the folder; rank 0 gets the result.
    Errors: ARGUMENT (rows below 0, or the folder's name is longer than 1000 bytes), MISSING, MALFORMED (the folder has
    no results of a study, or they are too damaged to read), IO, MEMORY, INTERRUPTED. A difference between stored and
    recomputed results is not an error. */

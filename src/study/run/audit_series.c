@@ -234,7 +234,8 @@ static koksma_status check_image(const koksma__study_scene *scene, const koksma_
 }
 
 /* Checks that the hash in a key, of the scene and of the files of points, is that of the present files. */
-static koksma_status check_hash(koksma__audit_list *list, const koksma__audit_series *series, const char *scene)
+static koksma_status check_hash(koksma_study *study, koksma__audit_list *list, const koksma__audit_series *series,
+                                const char *scene)
 {
     const koksma__series *key = &series->key;
     const bool image = strcmp(key->kind, "discrepancy") != 0;
@@ -246,6 +247,7 @@ static koksma_status check_hash(koksma__audit_list *list, const koksma__audit_se
     }
     const koksma_status status = koksma__points_can_be_read(&texts);
     if (status) {
+        koksma__study_fail_here(study, status);
         return koksma__fail_in(status == KOKSMA_MEMORY ? status : KOKSMA_MISSING, "the file of its points");
     }
     if (strncmp(key->scene_hash, scene, strlen(scene)) != 0) {
@@ -279,9 +281,10 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
     }
     if (!status && image) {
         status = koksma__study_open_scene(study, key->scene);
+        status = status ? koksma__study_fail_here(study, status) : KOKSMA_OK;
     }
     const koksma__study_scene *scene = !status && image ? koksma__study_scene_of(study, key->scene) : NULL;
-    status = status ? status : check_hash(list, series, scene ? scene->hash : "");
+    status = status ? status : check_hash(study, list, series, scene ? scene->hash : "");
     status = !status && scene ? check_image(scene, series) : status;
     series->state = status ? KOKSMA__AUDIT_WRONG : KOKSMA__AUDIT_OURS;
     return status;

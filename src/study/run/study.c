@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Opens and closes studies: parses the plan, creates the study's folder DIR, opens its store, loads each scene once,
    and records the plan in the store. In an MPI run only rank 0 has a folder. */
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "core/atomic_file.h"
 #include "core/capacity.h"
@@ -15,6 +17,8 @@
 #include "study/run/left_out.h"
 #include "study/run/mpi_rank.h"
 #include "study/run/study.h"
+
+static const char folder_key[] = "run-folder";
 
 static const char *plan_name_at(const void *table, size_t i)
 {
@@ -143,11 +147,11 @@ static koksma_status make_folder(koksma_study *study, const char *folder, char r
 }
 
 /* Writes the texts of the plans and the run's options for trials into the store, so that the folder alone suffices
-   to make the report again. */
+   to make the report again, and the current folder, where the relative paths of the plan and of the rows start. */
 static koksma_status keep_plan(koksma_study *study, const koksma_study_options *options, char *const *texts)
 {
-    char key[32], value[32];
-    koksma_status status = KOKSMA_OK;
+    char key[32], value[32], here[PATH_MAX];
+    koksma_status status = koksma__store_set_text(study->store, folder_key, getcwd(here, sizeof here) ? here : "");
     for (size_t i = 0; !status && i < options->n_plans; i++) {
         snprintf(key, sizeof key, "plan-text-%zu", i);
         status = koksma__store_set_text(study->store, key, texts[i]);
@@ -157,6 +161,23 @@ static koksma_status keep_plan(koksma_study *study, const koksma_study_options *
     snprintf(value, sizeof value, "%zu %lld %d", options->n_plans, options->trials, options->quick);
     status = status ? status : koksma__store_set_text(study->store, "plan-texts", value);
     return status ? status : koksma__store_commit(study->store);
+}
+
+koksma_status koksma__study_fail_here(koksma_study *study, koksma_status status)
+{
+    char here[PATH_MAX], reason[1024], *there = NULL;
+    if (koksma_status_exit_code(status) != koksma_status_exit_code(KOKSMA_MISSING)) {
+        return status;
+    }
+    snprintf(reason, sizeof reason, "%s", koksma_error_text());
+    const bool failed = koksma__store_get_text(study->store, folder_key, &there);
+    if (!failed && there && *there && getcwd(here, sizeof here) && strcmp(here, there) != 0) {
+        koksma__fail(status, "%.600s; relative paths start in %.300s, where the study was run", reason, there);
+    } else if (failed) {
+        koksma__fail(status, "%s", reason);
+    }
+    free(there);
+    return status;
 }
 
 static koksma_status append_plan(koksma_study *study, koksma__plan *plan)
@@ -193,6 +214,7 @@ static koksma_status recall_plan(koksma_study *study)
         if (!status) {
             status = koksma__plan_parse(name ? name : "results.sqlite", text ? text : "", text ? strlen(text) : 0,
                                         &trials, &plan);
+            status = status ? koksma__study_fail_here(study, status) : KOKSMA_OK;
         }
         free(text);
         free(name);
@@ -270,7 +292,10 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
     status = status ? status : recall_plan(study);
     status = status ? status : recall_failed(study);
-    return status ? status : open_scenes(study);
+    if (!status && (status = open_scenes(study))) {
+        koksma__study_fail_here(study, status);
+    }
+    return status;
 }
 
 static koksma_status check_options(const koksma_study_options *options)

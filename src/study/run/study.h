@@ -41,6 +41,10 @@ struct koksma_study {
    koksma_scene_open.  */
 koksma_status koksma__study_open_scene(koksma_study *study, const char *name);
 
+/* Adds to the text of an error of a file that the study needs: if the current folder is not that of the study's last run,
+   the folder of that run, because relative paths start there. Returns the status. */
+koksma_status koksma__study_fail_here(koksma_study *study, koksma_status status);
+
 /* Reopens the store for writing if it is open for reading only, which is the case for a folder that was opened
    without a plan. Errors: those of the store. */
 koksma_status koksma__study_open_to_write(koksma_study *study);

@@ -1,7 +1,8 @@
 -- The results of studies, schema 7 (user_version; application_id 1265333101, "Kksm" in the header of the file). A name
 -- in a text never changes its meaning. Numbers are the computed doubles, bit for bit. `SELECT * FROM rows` shows all
 -- results with their keys. Koksma opens a file only if it has exactly these tables and nothing else. Table meta also has
--- the texts 'failed' and 'left-out', where a run had jobs that failed (study/run/failed_jobs.c).
+-- the texts 'failed' and 'left-out', where a run had jobs that failed (study/run/failed_jobs.c), and 'run-folder', the
+-- folder in which the last run was started.
 
 CREATE TABLE meta (          -- the file's 'plan', 'plan-texts', 'plan-text-0', 'plan-name-0', ..., and 'seal'
   key TEXT PRIMARY KEY,                    -- of seal "N SUM": how many rows meta (but seal), series,
