@@ -392,22 +392,28 @@ koksma_status koksma__atomic_folder(const char *path)
     return sync_above(path) ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: can't be synced: %s", path, strerror(errno));
 }
 
-/* Gives the temporary file its name. Returns -1 and sets errno if it fails. File systems that cannot rename without
-   replacing, such as NFS, are asked first whether the name is taken; another process may then take it in between. */
-static int place(const output *o)
+/* As renameat, but fails if the name is taken. C libraries and file systems that cannot do both at once, such as NFS, are
+   asked first whether it is taken; another process may then take it in between. */
+static int rename_new(const output *o)
 {
     struct stat info;
-    if (o->made) {
-        const int code = renameat2(o->folder, o->temporary, o->folder, o->name, RENAME_NOREPLACE);
-        if (!code || (errno != EINVAL && errno != ENOSYS)) {
-            return code;
-        }
-        if (!fstatat(o->folder, o->name, &info, AT_SYMLINK_NOFOLLOW)) {
-            errno = EEXIST;
-            return -1;
-        }
+#ifdef RENAME_NOREPLACE
+    const int code = renameat2(o->folder, o->temporary, o->folder, o->name, RENAME_NOREPLACE);
+    if (!code || (errno != EINVAL && errno != ENOSYS)) {
+        return code;
+    }
+#endif
+    if (!fstatat(o->folder, o->name, &info, AT_SYMLINK_NOFOLLOW)) {
+        errno = EEXIST;
+        return -1;
     }
     return renameat(o->folder, o->temporary, o->folder, o->name);
+}
+
+/* Gives the temporary file its name. Returns -1 and sets errno if it fails. */
+static int place(const output *o)
+{
+    return o->made ? rename_new(o) : renameat(o->folder, o->temporary, o->folder, o->name);
 }
 
 koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)

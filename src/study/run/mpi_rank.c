@@ -26,6 +26,13 @@ static void finish(int code, void *context)
     here.mpi->finish(!others_wait ? 0 : code ? code : koksma_status_exit_code(KOKSMA_IO));
 }
 
+#ifndef __GLIBC__
+static void finish_anyhow(void) /* where exit codes are not to be had: an error of rank 0 is that of the others */
+{
+    finish(koksma_status_exit_code(KOKSMA_IO), NULL);
+}
+#endif
+
 /* The number of ranks according to the launcher's environment variables; 0 without a launcher. */
 static int launched(void)
 {
@@ -47,7 +54,11 @@ static void start(void)
         }
     }
     if (here.mpi) {
+#ifdef __GLIBC__
         on_exit(finish, NULL);
+#else
+        atexit(finish_anyhow);
+#endif
     } else if (expected <= 1) {
         problem = NULL;
     }
