@@ -486,7 +486,7 @@ const cli_command cli_command_study = {
                 "images 'PLACES' --reference FILE [-o DIR] [--json]",
     .details =
         "PLAN is the name of a plan in the library, a JSON file (./plan.json), or the plan itself, which begins with "
-        "'{'. Paths in a plan are relative to\n"
+        "'{\"'. Paths in a plan are relative to\n"
         "the plan's file, or without a file to the current folder. If they are relative, 'report' and 'audit' must "
         "be "
         "started where 'run' was.\n"

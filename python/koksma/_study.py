@@ -152,7 +152,7 @@ class Study:
         except MalformedError as error:
             found = re.match(r"plan '\(text(?: (\d+))?\)': line (\d+): ", str(error))
             which = int(found[1] or 1) - 1 if found else 0
-            if not found or not isinstance(plans[which], dict):
+            if not found or which >= len(plans) or not isinstance(plans[which], dict):  # or it is the plan of the folder
                 raise
             name = f"plan[{which}]" if len(plans) > 1 else "plan"
             again = MalformedError(f"line {found[2]} of json.dumps({name}, indent=1): {str(error)[found.end():]}")

@@ -162,7 +162,7 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
                                     double right, const koksma__camera *lens);
 
-/* Gives a vector of any length the length 1; returns false if it has no direction. */
+/* Gives a vector of any finite length the length 1; returns false if it has no direction. */
 bool koksma__import_normalise(double v[3]);
 
 /* Finds the inverse of a matrix; returns false if there is none. */

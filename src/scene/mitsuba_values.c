@@ -287,7 +287,7 @@ static koksma_status look_at(const node *n, double m[12])
     KOKSMA__TRY(read_vector(n, "up", (const double[3]){0, 1, 0}, up));
     koksma__subtract(target, origin, ahead);
     if (!koksma__import_normalise(ahead)) {
-        return koksma__import_fail(n->place, "lookat: origin and target are the same point");
+        return koksma__import_fail(n->place, "lookat: there is no direction from origin to target");
     }
     koksma__cross(up, ahead, left);
     if (!koksma__import_normalise(left)) {

@@ -315,6 +315,9 @@ class Studies(unittest.TestCase):
                     self.assertEqual(study.run().done_before, 1)
                     study.report()
                 self.assertEqual(sorted(os.listdir()), ["p.txt", "s"])
+                pathlib.Path("p.txt").write_text("0.5 x\n")
+                with self.assertRaisesRegex(koksma.MalformedError, "p.txt"):
+                    koksma.Study((), "s")
             finally:
                 os.chdir(before)
 

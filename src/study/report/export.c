@@ -356,11 +356,12 @@ static koksma_status check_target(const char *study, const char *results, const 
     }
     const bool no_memory = !target && reason == ENOMEM; /* with other reasons the path can't be opened either */
     KOKSMA__FREE(store, target);
-    return no_memory ? koksma__fail_memory(strlen(path))
-           : same    ? koksma__fail(KOKSMA_ARGUMENT,
-                                    "%s: the export would replace the study's results or their log; choose another file",
-                                    path)
-           : is_own ? koksma__fail(KOKSMA_ARGUMENT, "%s: the study has a file of this name; choose another one", path)
+    return no_memory   ? koksma__fail_memory(strlen(path))
+           : same      ? koksma__fail(KOKSMA_ARGUMENT,
+                                      "%s: the export would replace the study's results or their log; choose another file",
+                                      path)
+           : is_own    ? koksma__fail(KOKSMA_ARGUMENT,
+                                      "%s: runs and reports write a file of this name there; choose another one", path)
            : reference ? koksma__fail(KOKSMA_ARGUMENT,
                                       "%s: the folder has the study's reference images; choose another folder", path)
                        : KOKSMA_OK;

@@ -172,7 +172,7 @@ koksma_status koksma__study_fail_here(koksma_study *study, koksma_status status)
     snprintf(reason, sizeof reason, "%s", koksma_error_text());
     const bool failed = koksma__store_get_text(study->store, folder_key, &there);
     if (!failed && there && *there && getcwd(here, sizeof here) && strcmp(here, there) != 0) {
-        koksma__fail(status, "%.600s; relative paths start in %.300s, where the study was run", reason, there);
+        koksma__fail(status, "%.600s; a relative path starts in %.300s, where the study was run", reason, there);
     } else if (failed) {
         koksma__fail(status, "%s", reason);
     }
