@@ -16,24 +16,12 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE + "/../study")
 from reseal import reseal  # noqa: E402
+from stores import KOKSMA, check, end, koksma  # noqa: E402
 
-KOKSMA = os.path.abspath(sys.argv[1])
 PLAN = """{"name": "h", "title": "h",
   "discrepancies": [{"patterns": ["random", "zaremba"], "measures": ["star", "l2-star"], "n": [4, 9], "trials": 5}],
   "images": [{"scenes": ["checker"], "patterns": ["random"], "spp": [1], "size": [8, 6], "trials": 3,
               "references": [{"name": "r", "pattern": "jittered", "spp": 4, "replicates": 2}]}]}"""
-problems = 0
-
-
-def check(right, what):
-    global problems
-    if not right:
-        problems += 1
-        print("wrong:", what)
-
-
-def koksma(*arguments, prefix=()):
-    return subprocess.run([*prefix, KOKSMA, *arguments], capture_output=True, text=True, timeout=60)
 
 
 def study(verb, folder, *more):
@@ -429,5 +417,4 @@ if __name__ == "__main__":
         SOUND = study("export", "sound").stdout
         for attack in foreign, schema, values, rows, references, exports, programs, readers:
             attack()
-    print(f"{problems} problems")
-    sys.exit(problems > 0)
+    end()

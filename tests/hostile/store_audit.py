@@ -14,24 +14,12 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE + "/../study")
 from reseal import reseal  # noqa: E402
+from stores import KOKSMA, check, end, koksma  # noqa: E402
 
-KOKSMA = os.path.abspath(sys.argv[1])
 PLAN = """{"name": "h", "title": "h",
   "discrepancies": [{"patterns": ["random"], "measures": ["star", "l2-star", "extreme", "l2-extreme"], "n": [4], "trials": 1000}],
   "images": [{"scenes": ["checker", "./mine.json"], "patterns": ["random"], "spp": [1], "size": [8, 6], "trials": 2,
               "references": [{"name": "r", "pattern": "jittered", "spp": 4, "replicates": 2}]}]}"""
-problems = 0
-
-
-def check(right, what):
-    global problems
-    if not right:
-        problems += 1
-        print("wrong:", what)
-
-
-def koksma(*arguments, prefix=()):
-    return subprocess.run([*prefix, KOKSMA, *arguments], capture_output=True, text=True, timeout=60)
 
 
 def audit(folder, *more, **how):
@@ -545,5 +533,4 @@ finally:
     here = os.getcwd()
     os.chdir("/")
     shutil.rmtree(here)
-print(f"{problems} problems")
-sys.exit(problems > 0)
+end()

@@ -13,10 +13,10 @@ import json
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 
-KOKSMA = os.path.abspath(sys.argv[1])
+from stores import KOKSMA, check, end, koksma
+
 INCLUDE = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../include"))
 PLUGIN = """#include <koksma/plugin.h>
 static int diagonal(uint64_t seed, size_t n, int dim, double *xs, char reason[KOKSMA_PLUGIN_REASON])
@@ -31,18 +31,6 @@ static const koksma_plugin plugin = {KOKSMA_PLUGIN_VERSION, "diagonal", 1, 9, di
 const koksma_plugin *koksma_plugin_at(size_t i) { return i ? NULL : &plugin; }
 """
 N = 8
-problems = 0
-
-
-def check(right, what):
-    global problems
-    if not right:
-        problems += 1
-        print("wrong:", what)
-
-
-def koksma(*arguments):
-    return subprocess.run([KOKSMA, *arguments], capture_output=True, text=True, timeout=120)
 
 
 def points(name, step):
@@ -201,5 +189,4 @@ finally:
     here = os.getcwd()
     os.chdir("/")
     shutil.rmtree(here)
-print(f"{problems} problems")
-sys.exit(problems > 0)
+end()

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of attacks on stores share: the program, whose path is their first argument, and the problems found."""
+import os
+import subprocess
+import sys
+
+KOKSMA = os.path.abspath(sys.argv[1])
+problems = 0
+
+
+def check(right, what):
+    global problems
+    if not right:
+        problems += 1
+        print("wrong:", what)
+
+
+def koksma(*arguments, prefix=()):
+    return subprocess.run([*prefix, KOKSMA, *arguments], capture_output=True, text=True, timeout=60)
+
+
+def end():
+    print(f"{problems} problems")
+    sys.exit(problems > 0)
