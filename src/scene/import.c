@@ -200,6 +200,37 @@ static koksma_status leave_out(koksma__import *im, koksma__text_place place, kok
                : koksma__import_unknown(im, place, "%s; it is left out", koksma_error_text());
 }
 
+/* Finds an image of a scene; *out is NULL if it is left out. */
+static koksma_status find_image(koksma__import *im, koksma__text_place place, const char *path, koksma_image **out)
+{
+    koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+    use.upside_down = im->rows_down;
+    const koksma_status status = koksma__scene_image(im->scene, path, &use, out);
+    return status ? leave_out(im, place, status) : KOKSMA_OK;
+}
+
+koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, const char *what,
+                                  koksma__import_colour *c)
+{
+    if (*c->image) {
+        koksma_image *image;
+        KOKSMA__TRY(find_image(im, place, c->image, &image));
+        *c->image = 0;
+        if (!image) {
+            return KOKSMA_OK;
+        }
+        koksma__scene_image_mean(im->scene, image, c->rgb);
+    } else if (c->is_checker) {
+        c->is_checker = false;
+        for (int k = 0; k < 3; k++) {
+            c->rgb[k] = (c->rgb[k] + c->second[k]) / 2;
+        }
+    } else {
+        return KOKSMA_OK;
+    }
+    return koksma__import_unknown(im, place, "%s is replaced by its mean colour", what);
+}
+
 static koksma_status set_colour(koksma__import *im, koksma__text_place place, const koksma__import_colour *from,
                                 koksma__material *m)
 {
@@ -209,17 +240,11 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
     koksma__import_albedo(m->albedo[1]);
     m->checker = from->is_checker;
     m->period = from->period;
-    if (!*from->image) {
-        return KOKSMA_OK;
+    KOKSMA__TRY(*from->image ? find_image(im, place, from->image, &m->image) : KOKSMA_OK);
+    if (m->image) {
+        m->mapping = from->mapping;
+        koksma__material_mean(im->scene, m);
     }
-    koksma__image_use use = KOKSMA__PLAIN_IMAGE;
-    use.upside_down = im->rows_down;
-    const koksma_status status = koksma__scene_image(im->scene, from->image, &use, &m->image);
-    if (status) {
-        return leave_out(im, place, status);
-    }
-    m->mapping = from->mapping;
-    koksma__material_mean(im->scene, m);
     return KOKSMA_OK;
 }
 
