@@ -27,10 +27,10 @@ enum { MOST_NESTED = 16 };
 
 typedef koksma__xml_node node;
 
-/* A value of another type than it is read as. */
+/* A value of another type than it is read as, or a node that is looked at when the scene has taken too many steps. */
 typedef struct mistake {
-    const node *at; /* or NULL */
-    const char *expected;
+    const node *at;       /* or NULL */
+    const char *expected; /* NULL: too many steps */
 } mistake;
 
 /* The name by which a <ref> finds an element. */
@@ -67,12 +67,28 @@ static const char *type_of(const node *n)
     return type ? type : "";
 }
 
-/* Node number i, which is counted as work with its text; NULL for -1. */
+/* Notes that a value has another type than it is read as. The first one is the error in which reading ends. */
+static void note(const reader *r, const node *n, const char *expected)
+{
+    if (!r->mistake->at) {
+        *r->mistake = (mistake){n, expected};
+    }
+}
+
+/* A node that is looked at, which counts as work with its text; NULL for NULL. A scene that has taken too many steps has
+   no more nodes, so that all loops over them end. */
+static const node *count(const reader *r, const node *n, uint64_t steps)
+{
+    if (n && koksma__import_spend(r->im, n->place, steps + n->length / 16)) {
+        note(r, n, NULL);
+        return NULL;
+    }
+    return n;
+}
+
 static const node *look_at(const reader *r, int i)
 {
-    const node *n = i < 0 ? NULL : &r->xml.nodes[i];
-    r->im->steps += n ? 1 + n->length / 16 : 0;
-    return n;
+    return i < 0 ? NULL : count(r, &r->xml.nodes[i], 1);
 }
 
 static const node *first_of(const reader *r, const node *n)
@@ -103,14 +119,6 @@ static const node *property(const reader *r, const node *n, const char *name)
 static void set_read(const reader *r, const node *n)
 {
     r->read[n - r->xml.nodes] = true;
-}
-
-/* Notes that a value has another type than it is read as. The first one is the error in which reading ends. */
-static void note(const reader *r, const node *n, const char *expected)
-{
-    if (!r->mistake->at) {
-        *r->mistake = (mistake){n, expected};
-    }
 }
 
 static const char *text(const reader *r, const node *n, const char *name, const char *otherwise)
@@ -151,8 +159,7 @@ static const node *target(const reader *r, const node *n)
         const identity *found = wanted.name && hops < MOST_NESTED
                                     ? bsearch(&wanted, r->identities, r->n_identities, sizeof wanted, by_name)
                                     : NULL;
-        n = found ? found->at : NULL;
-        r->im->steps += 4;
+        n = count(r, found ? found->at : NULL, 4);
     }
     return n;
 }
@@ -236,7 +243,7 @@ static koksma_status transform(const reader *r, const node *n, const char *name,
     }
     for (const node *c = t ? first_of(r, t) : NULL; c; c = next_of(r, c)) {
         double by[12], product[12];
-        r->im->steps += 8;
+        KOKSMA__TRY(koksma__import_spend(r->im, c->place, 8));
         KOKSMA__TRY(koksma__mitsuba_operation(c, by));
         koksma__matrix_multiply(by, out, product);
         memcpy(out, product, sizeof product);
@@ -348,12 +355,12 @@ static koksma_status in_daylight(reader *r, const node *n, koksma__import_colour
 /* Reads the spectra "regular" and "irregular": samples at equal distances, or at those that are listed. */
 static koksma_status samples(reader *r, const node *n, bool regular, koksma__spectrum_use use, double rgb[3])
 {
-    const node *pairs = property(r, n, "value");
+    const node *pairs = property(r, n, "value"), *values = property(r, n, "values");
     koksma__sampled_spectrum s = {0};
     if (pairs) {
         return value_of(r, resolve(r, pairs), use, rgb);
     }
-    KOKSMA__TRY(needed(r, n, "values"));
+    KOKSMA__TRY(values ? KOKSMA_OK : needed(r, n, "values"));
     const bool older = property(r, n, "lambda_min") && property(r, n, "lambda_max"); /* Mitsuba 2 */
     const char *const low = older ? "lambda_min" : "wavelength_min", *high = older ? "lambda_max" : "wavelength_max";
     KOKSMA__TRY(needed(r, n, regular ? low : "wavelengths"));
@@ -361,10 +368,10 @@ static koksma_status samples(reader *r, const node *n, bool regular, koksma__spe
     (void)text(r, n, "values", "");
     if (regular) {
         const double from = number(r, n, low, 360), to = number(r, n, high, 830);
-        KOKSMA__TRY(koksma__mitsuba_samples(property(r, n, "values"), NULL, from, to, &s));
+        KOKSMA__TRY(koksma__mitsuba_samples(values, NULL, from, to, &s));
     } else {
         (void)text(r, n, "wavelengths", "");
-        KOKSMA__TRY(koksma__mitsuba_samples(property(r, n, "values"), property(r, n, "wavelengths"), 0, 0, &s));
+        KOKSMA__TRY(koksma__mitsuba_samples(values, property(r, n, "wavelengths"), 0, 0, &s));
     }
     koksma__sampled_spectrum_colour(&s, use, rgb);
     return KOKSMA_OK;
@@ -488,7 +495,6 @@ static koksma__spectrum_use use_of(const node *n, const char *name)
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth)
 {
-    KOKSMA__TRY(koksma__import_spend(r->im, n->place, 1)); /* <ref>s can make trees of textures */
     const node *found = property(r, n, name);
     *out = (koksma__import_colour){.rgb = {otherwise, otherwise, otherwise}, .period = 1};
     if (!found) {
@@ -626,7 +632,6 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     const char *type = type_of(n);
     const bsdf_kind *found = &other;
     koksma__import_material m = {0};
-    KOKSMA__TRY(koksma__import_spend(r->im, n->place, 1));
     for (size_t i = 0; i < sizeof wrappers / sizeof *wrappers; i++) {
         for (const node *c = strcmp(wrappers[i].name, type) != 0 ? NULL : first_of(r, n); c; c = next_of(r, c)) {
             const node *inner = resolve(r, c);
@@ -949,7 +954,6 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
 {
     koksma__import_item item = {.place = n->place};
     double form[12], to_world[12];
-    KOKSMA__TRY(koksma__import_spend(r->im, n->place, 1)); /* and instances of instances */
     if (!strcmp(type_of(n), "shapegroup")) {
         return KOKSMA_OK;
     }
@@ -1199,8 +1203,9 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
     status = status ? status : read_root(&r);
     if (first.at && status != KOKSMA_MEMORY) {
         const char *name = koksma__xml_attribute(first.at, "name"), *value = koksma__xml_attribute(first.at, "value");
-        status = koksma__import_fail(first.at->place, "%s: <%s> '%.60s' is not %s", name, first.at->tag,
-                                     value ? value : "", first.expected);
+        status = first.expected ? koksma__import_fail(first.at->place, "%s: <%s> '%.60s' is not %s", name,
+                                                      first.at->tag, value ? value : "", first.expected)
+                                : koksma__import_spend(im, first.at->place, 0);
     }
     KOKSMA__FREE(r.materials, r.used, r.read, r.identities);
     koksma__xml_fini(&r.xml);

@@ -114,6 +114,21 @@ def trees(bench):
                   mitsuba(coat, '<shape type="cube">' + '<bsdf type="twosided"><ref id="t"/></bsdf>' * 50000 + "</shape>"), STEPS)
 
 
+def references(bench):
+    """Many <ref>s to one long element, of which nothing is made."""
+    n = 10000
+    parts = '<float name="x" value="1"/>' * n
+    bench.refused("10,000 <ref>s to a phase function of 10,000 properties", "s.xml",
+                  f'<scene version="3.0.0"><phase type="hg" id="p">{parts}</phase><sensor type="perspective">'
+                  '<medium type="homogeneous">' + '<ref id="p"/>' * n + "</medium></sensor></scene>", STEPS)
+    bench.refused("10,000 <ref>s of an instance to a group of 10,000 properties", "s.xml",
+                  mitsuba(f'<shape type="shapegroup" id="g">{parts}</shape>', '<shape type="instance">' + '<ref id="g"/>' * n + "</shape>"),
+                  STEPS)
+    n = 40000
+    alias = "<alias " + " ".join(f'a{i}=""' for i in range(n)) + ' as="q" id="r"/><x id="r"/>'
+    bench.refused("40,000 <ref>s to an alias of 40,000 attributes", "s.xml", mitsuba(alias, '<ref id="q"/>' * n), STEPS)
+
+
 def names(bench):
     text = '<default name="a" value="' + "x" * 65000 + '"/>'
     bench.refused("20,000 values of 65,000 characters", "s.xml", mitsuba(text, '<x a="$a"/>' * 20000), "$names", "256 MiB")
@@ -201,7 +216,7 @@ def main():
         if re.search(b"no zlib|no expat|no Embree", done.err):
             print("skipped: " + done.err.decode().strip())
             return
-        for part in (instances, trees, names, loop, materials, meshes):
+        for part in (instances, trees, references, names, loop, materials, meshes):
             part(bench)
         bench.checks.end()
 
