@@ -285,7 +285,7 @@ static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth);
 
-/* Reads how an image is mapped. The third row and column of its transform have no effect. */
+/* Reads how an image is mapped, by its transform of the plane z = 0: the third row and column have no effect. */
 static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
 {
     /* Mitsuba 0.6 has four more: it filters by MIP maps unless the file says "nearest" */
@@ -308,7 +308,7 @@ static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
     to->moved = property(r, n, "to_uv");
     KOKSMA__TRY(transform(r, n, "to_uv", m));
     for (int i = 0; i < 6; i++) {
-        to->matrix[i] = (float)m[i / 3 * 4 + i % 3];
+        to->matrix[i] = (float)m[i / 3 * 4 + (i % 3 < 2 ? i % 3 : 3)];
     }
     return KOKSMA_OK;
 }

@@ -241,7 +241,9 @@ class Agreement(unittest.TestCase):
         """An image on a floor, seen from above, whose four corners differ."""
         y, x = np.mgrid[0:64, 0:64] / 64
         mi.util.write_bitmap(self.path("floor.exr"), np.stack([.1 + .8 * x, .1 + .8 * y, .5 + .4 * (x > .5) * (y > .5)], 2).astype(np.float32), write_async=False)
-        for name, mapping in (("plain", ""), ("moved", f'<transform name="to_uv"><scale x="2.5" y="1.5"/>{turn("z", 20)}</transform>'),
+        for name, mapping in (("plain", ""), ("turned", f'<transform name="to_uv"><scale x="2.5" y="1.5"/>{turn("z", 20)}</transform>'),
+                              ("moved", f'<transform name="to_uv">{move(x=.25, y=.4)}<scale x="2.5" y="1.5"/></transform>'),
+                              ("a matrix of 9", '<transform name="to_uv"><matrix value="2 0.5 0.25 0 1.5 0.4 0.1 0.2 1"/></transform>'),
                               ("mirrored", '<transform name="to_uv"><scale value="2.5"/></transform><string name="wrap_mode" value="mirror"/>'),
                               ("clamped", '<transform name="to_uv"><scale value="2.5"/></transform><string name="wrap_mode" value="clamp"/>'
                                           '<string name="filter_type" value="nearest"/>')):

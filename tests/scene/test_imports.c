@@ -969,16 +969,21 @@ static const struct {
      NULL},
 };
 
-static void unknown_things_are_named(void **state)
+static void write_white(void)
 {
-    const bool xml = reads_xml();
     char path[128];
     koksma_image white;
-    (void)state;
     snprintf(path, sizeof path, "%s/white.pfm", folder);
     assert_ok(koksma_image_init(&white, 2, 2, 1));
     assert_ok(koksma_image_write(path, &white, NULL));
     koksma_image_fini(&white);
+}
+
+static void unknown_things_are_named(void **state)
+{
+    const bool xml = reads_xml();
+    (void)state;
+    write_white();
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         char text[256] = "", warning[256];
         if (!xml && strstr(kinds[i].name, ".xml")) {
@@ -1001,7 +1006,34 @@ static void unknown_things_are_named(void **state)
         }
         koksma_scene_close(scene);
     }
-    unlink(path);
+}
+
+/* Mitsuba 3 looks an image up at its `to_uv` of (u, v, 0), without the third row and column of that: those numbers of a
+   <matrix> of nine which would move the image if it were one of the plane do nothing (3.9.1, eval() of a bitmap). */
+static void images_are_mapped_as_in_mitsuba(void **state)
+{
+    static const struct {
+        const char *to_uv;
+        float matrix[6];
+    } cases[] = {{"<translate x=\"0.25\" y=\"-0.5\" z=\"8\"/>", {1, 0, 0.25F, 0, 1, -0.5F}},
+                 {"<translate x=\"0.25\"/><scale x=\"2\" y=\"4\"/>", {2, 0, 0.5F, 0, 4, 0}},
+                 {"<translate y=\"0.25\"/><rotate z=\"1\" angle=\"90\"/>", {0, -1, -0.25F, 1, 0, 0}},
+                 {"<matrix value=\"1 2 3 4 5 6 7 8 9\"/>", {1, 2, 0, 4, 5, 0}},
+                 {"<matrix value=\"1 2 3 4 5 6 7 8 9 10 11 12 0 0 0 1\"/>", {1, 2, 4, 5, 6, 8}}};
+    (void)state;
+    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, IMAGE("<transform name=\"to_uv\">%s</transform>"), cases[i].to_uv);
+        write_white();
+        koksma_scene *scene = opened("a.xml", text);
+        const koksma__material *m = &scene->materials[0];
+        assert_int_equal(scene->n_unknown, 0);
+        assert_true(m->image && m->mapping.moved);
+        for (int k = 0; k < 6; k++) {
+            assert_near((double)m->mapping.matrix[k], (double)cases[i].matrix[k], 1e-6);
+        }
+        koksma_scene_close(scene);
+    }
 }
 
 /* The spectra of Mitsuba 3 as a light's intensity and as a reflectance. Numbers: those of Mitsuba 3.9.1 (traverse() in
@@ -1250,6 +1282,7 @@ int main(void)
         cmocka_unit_test(lights_of_pbrt_have_luminance_1),
         cmocka_unit_test(spectra_of_mitsuba_are_read),
         cmocka_unit_test(unknown_things_are_named),
+        cmocka_unit_test(images_are_mapped_as_in_mitsuba),
         cmocka_unit_test(the_cameras_medium_is_read),
         cmocka_unit_test(fog_does_not_glow),
         cmocka_unit_test(malformed_and_hostile_texts_are_refused),
@@ -1260,9 +1293,9 @@ int main(void)
         return 1;
     }
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    static const char *const left[] = {"probe.xml", "o.json",   "o.pbrt",   "o.xml",   "s.pbrt",
-                                       "s.xml",     "one.json", "one.pbrt", "one.xml", "a.pbrt",
-                                       "a.xml",     "b.pbrt",   "b.xml",    "c.pbrt",  "c.xml"};
+    static const char *const left[] = {"probe.xml", "o.json",   "o.pbrt",  "o.xml",    "s.pbrt", "s.xml",
+                                       "one.json",  "one.pbrt", "one.xml", "a.pbrt",   "a.xml",  "b.pbrt",
+                                       "b.xml",     "c.pbrt",   "c.xml",   "white.pfm"};
     for (size_t i = 0; i < sizeof left / sizeof *left; i++) {
         char path[128];
         snprintf(path, sizeof path, "%s/%s", folder, left[i]);
