@@ -465,14 +465,16 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
         set_read(r, n);
         KOKSMA__TRY(colour(r, n, "color0", 0.4, out, depth + 1));
         KOKSMA__TRY(colour(r, n, "color1", 0.2, &second, depth + 1));
+        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", out));
+        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", &second));
         KOKSMA__TRY(transform(r, n, "to_uv", m));
         memcpy(out->second, second.rgb, sizeof second.rgb);
-        *out->image = 0;
         out->is_checker = true;
-        out->period = m[0] > 1e-6 ? 0.5 / m[0] : 0.5;
-        return m[0] != m[5] ? koksma__import_unknown(r->im, n->place,
-                                                     "only the scale along u of a checkerboard's transform is used")
-                            : KOKSMA_OK;
+        out->period = 0.5 / fmax(fabs(m[0]), 1e-6); /* turned by 180 degrees, the squares are where they were */
+        return m[0] != m[5] || m[1] != 0 || m[3] != 0 || m[4] != 0 || m[7] != 0
+                   ? koksma__import_unknown(r->im, n->place,
+                                            "only the scale along u of a checkerboard's transform is used")
+                   : KOKSMA_OK;
     }
     KOKSMA__TRY(spectrum(r, n, use, out, depth, &known));
     if (!known && is(n, "spectrum")) {
@@ -867,6 +869,7 @@ static koksma_status medium_colour(reader *r, const node *n, const char *name, d
         KOKSMA__TRY(found && is(found, "volume")
                         ? colour(r, found, property(r, found, "color") ? "color" : "value", 1, &c, 0)
                         : colour(r, n, name, otherwise, &c, 0));
+        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a medium's texture", &c));
     }
     for (int k = 0; k < 3; k++) {
         rgb[k] = c.rgb[k] > 0 ? fmin(c.rgb[k], FAR) : 0;
@@ -986,6 +989,7 @@ static koksma_status emitter(reader *r, const node *n)
     }
     KOKSMA__TRY(transform(r, n, "to_world", m));
     KOKSMA__TRY(colour(r, n, around ? "radiance" : far ? "irradiance" : "intensity", 1, &c, 0));
+    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", &c));
     memcpy(light.radiance, c.rgb, sizeof c.rgb);
     if (!strcmp(type, "envmap")) {
         const double scale = number(r, n, "scale", 1), rgb[3] = {scale, scale, scale};

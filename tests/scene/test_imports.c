@@ -753,6 +753,11 @@ static void both_sides_light_alike(void **state)
 #define IMAGED(colour) MITSUBA("<shape type=\"rectangle\"><bsdf type=\"diffuse\">" colour "</bsdf></shape>")
 #define IMAGE(inner) IMAGED(WHITE(inner))
 
+#define CHECKED(to_uv)                                                                                               \
+    IMAGED("<texture name=\"reflectance\" type=\"checkerboard\"><transform name=\"to_uv\">" to_uv                    \
+           "</transform></texture>")
+#define SCALED "a.xml:2: only the scale along u of a checkerboard's transform is used"
+
 #define CHROMIUM "a.xml:2: a metal whose eta or k varies or is in a file is replaced by chromium"
 
 #define FOG                                                                                                          \
@@ -874,6 +879,10 @@ static const struct {
      "a.xml:1: volume 'gridvolume'"},
     {"a.xml", FOGGY("<rgb name=\"emission\" value=\"1\"/>", "<shape type=\"sphere\"/>"),
      "a.xml:1: 'emission' of medium"},
+    {"a.xml", FOGGY("<texture name=\"albedo\" type=\"checkerboard\"/>", "<shape type=\"sphere\"/>"),
+     "a.xml:1: a medium's texture is replaced by its mean colour"},
+    {"a.xml", MITSUBA("<emitter type=\"point\"><texture name=\"intensity\" type=\"checkerboard\"/></emitter>"),
+     "a.xml:2: a light's texture is replaced by its mean colour"},
     {"a.xml", MITSUBA("<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\"/></shape>"),
      "a.xml:2: a medium in a shape"},
     {"a.xml", MITSUBA("<shape type=\"cube\"><medium name=\"interior\" type=\"heterogeneous\"/></shape>"),
@@ -930,6 +939,15 @@ static const struct {
      IMAGED(
          "<spectrum name=\"reflectance\" type=\"d65\"><float name=\"scale\" value=\"0.5\"/>" WHITE("") "</spectrum>"),
      "a.xml:2: an image's scale is ignored"},
+    {"a.xml", CHECKED("<scale value=\"2\"/>"), NULL},
+    {"a.xml", CHECKED("<scale x=\"-2\" y=\"-2\"/>"), NULL},
+    {"a.xml", CHECKED("<scale x=\"2\" y=\"3\"/>"), SCALED},
+    {"a.xml", CHECKED("<scale x=\"-1\"/>"), SCALED},
+    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"45\"/>"), SCALED},
+    {"a.xml", CHECKED("<translate x=\"0.25\"/>"), SCALED},
+    {"a.xml", CHECKED("<translate y=\"0.25\"/>"), SCALED},
+    {"a.xml", CHECKED("<matrix value=\"1 0.5 0 0 1 0 0 0 1\"/>"), SCALED},
+    {"a.xml", CHECKED("<matrix value=\"1 0 0 0.5 1 0 0 0 1\"/>"), SCALED},
     /* choices of Mitsuba 0.6, and in other case */
     {"a.xml", IMAGE("<string name=\"filterType\" value=\"nearest\"/><string name=\"wrapMode\" value=\"Mirror\"/>"),
      NULL},
@@ -1034,6 +1052,53 @@ static void images_are_mapped_as_in_mitsuba(void **state)
         }
         koksma_scene_close(scene);
     }
+}
+
+/* A colour of a checkerboard can't be a texture: its mean is taken, of an image's pixels clamped to [0, 1]. */
+static void textures_in_checkerboards_are_their_means(void **state)
+{
+    static const struct {
+        const char *inner;
+        double mean[3];
+    } cases[] = {{"<texture name=\"color%d\" type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture>",
+                  {0.5, 0.375, 0.125}},
+                 {"<texture name=\"color%d\" type=\"checkerboard\"><rgb name=\"color0\" value=\"1 0.5 0\"/><rgb "
+                  "name=\"color1\" value=\"0.25\"/></texture>",
+                  {0.625, 0.375, 0.125}},
+                 {"<spectrum name=\"color%d\" type=\"d65\"><float name=\"scale\" value=\"0.5\"/><texture "
+                  "type=\"checkerboard\"><rgb name=\"color0\" value=\"1 0.5 0\"/><rgb name=\"color1\" "
+                  "value=\"0.25\"/></texture></spectrum>",
+                  {0.3125, 0.1875, 0.0625}}};
+    static const float pixels[] = {1, 0.5F, 0.25F, 0, 0.25F, 0, 9, 0.5F, 0.25F, 0, 0.25F, 0};
+    char path[128];
+    koksma_image two;
+    (void)state;
+    snprintf(path, sizeof path, "%s/two.pfm", folder);
+    assert_ok(koksma_image_init(&two, 2, 2, 3));
+    memcpy(two.pixels, pixels, sizeof pixels);
+    assert_ok(koksma_image_write(path, &two, NULL));
+    koksma_image_fini(&two);
+    for (size_t i = 0; reads_xml() && i < 2 * sizeof cases / sizeof *cases; i++) {
+        const int which = (int)(i % 2);
+        char inner[512], text[1024];
+        snprintf(inner, sizeof inner, cases[i / 2].inner, which);
+        snprintf(text, sizeof text,
+                 IMAGED("<texture name=\"reflectance\" type=\"checkerboard\">%s<float name=\"color%d\" "
+                        "value=\"0.75\"/></texture>"),
+                 inner, 1 - which);
+        koksma_scene *scene = opened("a.xml", text);
+        const koksma__material *m = &scene->materials[0];
+        assert_int_equal(scene->n_unknown, 1);
+        assert_true(m->checker && !m->image);
+        for (int k = 0; k < 3; k++) {
+            assert_near(m->albedo[which][k], cases[i / 2].mean[k], 1e-6);
+            assert_near(m->albedo[1 - which][k], 0.75, 1e-6);
+        }
+        assert_true(koksma_scene_unknown(scene, 0, text, sizeof text));
+        assert_string_equal(text, "a.xml:2: a texture in a checkerboard is replaced by its mean colour");
+        koksma_scene_close(scene);
+    }
+    unlink(path);
 }
 
 /* The spectra of Mitsuba 3 as a light's intensity and as a reflectance. Numbers: those of Mitsuba 3.9.1 (traverse() in
@@ -1283,6 +1348,7 @@ int main(void)
         cmocka_unit_test(spectra_of_mitsuba_are_read),
         cmocka_unit_test(unknown_things_are_named),
         cmocka_unit_test(images_are_mapped_as_in_mitsuba),
+        cmocka_unit_test(textures_in_checkerboards_are_their_means),
         cmocka_unit_test(the_cameras_medium_is_read),
         cmocka_unit_test(fog_does_not_glow),
         cmocka_unit_test(malformed_and_hostile_texts_are_refused),
