@@ -533,7 +533,7 @@ static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5,
                                   {"mask", -1, "", 0, 0, "nothing"},
                                   {"null", -1, "", 0, 0, NULL}};
 
-/* BSDFs that contain others: each is replaced by the first BSDF inside it. */
+/* BSDFs that contain others: each is replaced by the first BSDF inside it; a second one is that of the back. */
 static const struct {
     const char *name;
     bool is_exact;
@@ -627,6 +627,20 @@ static koksma_status principled(reader *r, const node *n, int *out)
     return koksma__import_add_material(r->im, n->place, &m, out);
 }
 
+/* The first child from c on that leads to a BSDF, or NULL. */
+static const node *find_inner(const reader *r, const node *c)
+{
+    while (c && !is(resolve(r, c), "bsdf")) {
+        c = next_of(r, c);
+    }
+    return c;
+}
+
+static bool is_one(const koksma__import_colour *c)
+{
+    return !*c->image && !c->is_checker && c->rgb[0] == 1 && c->rgb[1] == 1 && c->rgb[2] == 1;
+}
+
 static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
 {
     static const bsdf_kind other = {"", KOKSMA__MATTE, "reflectance", 0.5, 0, "Lambert"};
@@ -635,15 +649,19 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     const bsdf_kind *found = &other;
     koksma__import_material m = {0};
     for (size_t i = 0; i < sizeof wrappers / sizeof *wrappers; i++) {
-        for (const node *c = strcmp(wrappers[i].name, type) != 0 ? NULL : first_of(r, n); c; c = next_of(r, c)) {
-            const node *inner = resolve(r, c);
-            if (is(inner, "bsdf") && depth < MOST_NESTED) {
-                KOKSMA__TRY(wrappers[i].is_exact
-                                ? KOKSMA_OK
-                                : koksma__import_unknown(r->im, n->place,
-                                                         "BSDF '%s' is replaced by the BSDF within it", type));
-                return make_bsdf(r, inner, depth + 1, out);
-            }
+        const bool wraps = !strcmp(wrappers[i].name, type) && depth < MOST_NESTED;
+        const node *inner = wraps ? find_inner(r, first_of(r, n)) : NULL;
+        if (inner) {
+            const node *back = wrappers[i].is_exact ? find_inner(r, next_of(r, inner)) : NULL;
+            KOKSMA__TRY(
+                wrappers[i].is_exact
+                    ? KOKSMA_OK
+                    : koksma__import_unknown(r->im, n->place, "BSDF '%s' is replaced by the BSDF within it", type));
+            KOKSMA__TRY(back && resolve(r, back) != resolve(r, inner)
+                            ? koksma__import_unknown(r->im, back->place,
+                                                     "the BSDF of a back is replaced by that of the front")
+                            : KOKSMA_OK);
+            return make_bsdf(r, resolve(r, inner), depth + 1, out);
         }
     }
     if (!strcmp(type, "principled")) {
@@ -664,6 +682,9 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     }
     m.kind = (unsigned)found->kind;
     KOKSMA__TRY(colour(r, n, found->colour, found->otherwise, &m.colour, 0));
+    if (m.kind == KOKSMA__GLASS && !is_one(&m.colour)) { /* a tint would colour what it reflects as well */
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a glass's '%s' is ignored", found->colour));
+    }
     KOKSMA__TRY(m.kind == KOKSMA__METAL ? metal(r, n, &m) : KOKSMA_OK);
     const double both = number(r, n, "alpha", found->alpha);
     const double u = number(r, n, "alpha_u", both), v = number(r, n, "alpha_v", both);

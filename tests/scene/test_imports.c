@@ -758,6 +758,10 @@ static void both_sides_light_alike(void **state)
            "</transform></texture>")
 #define SCALED "a.xml:2: only the scale along u of a checkerboard's transform is used"
 
+#define GLASS(type, inner)                                                                                           \
+    BALL("<bsdf type=\"" type "\"><string name=\"distribution\" value=\"ggx\"/>" inner "</bsdf>")
+#define TINTED "a.xml:2: a glass's 'specular_transmittance' is ignored"
+
 #define CHROMIUM "a.xml:2: a metal whose eta or k varies or is in a file is replaced by chromium"
 
 #define FOG                                                                                                          \
@@ -893,6 +897,17 @@ static const struct {
              "<transform name=\"to_world\"><rotate z=\"1\" angle=\"30\"/></transform></shape>"),
      "a.xml:2: a medium in a shape"},
     {"a.xml", BALL("<bsdf type=\"twosided\"><bsdf type=\"conductor\"/></bsdf>"), NULL},
+    {"a.xml", BALL("<bsdf type=\"twosided\"><bsdf type=\"conductor\"/>\n<bsdf type=\"diffuse\" id=\"back\"/></bsdf>"),
+     "a.xml:3: the BSDF of a back is replaced by that of the front"},
+    {"a.xml",
+     MITSUBA("<bsdf type=\"diffuse\" id=\"d\"/><shape type=\"sphere\"><bsdf type=\"twosided\"><ref id=\"d\"/><ref "
+             "id=\"d\"/></bsdf></shape>"),
+     NULL},
+    {"a.xml", GLASS("dielectric", "<rgb name=\"specular_transmittance\" value=\"0.9,0.1,0.1\"/>"), TINTED},
+    {"a.xml", GLASS("roughdielectric", "<float name=\"specularTransmittance\" value=\"0.2\"/>"), TINTED},
+    {"a.xml", GLASS("dielectric", "<texture name=\"specular_transmittance\" type=\"checkerboard\"/>"), TINTED},
+    {"a.xml", GLASS("dielectric", "<rgb name=\"specular_transmittance\" value=\"1\"/>"), NULL},
+    {"a.xml", GLASS("dielectric", "<spectrum name=\"specular_transmittance\" value=\"360:1, 830:1\"/>"), NULL},
     {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"water\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"plastic\"/>"), "a.xml:2: a coated surface"},
     {"a.xml",
