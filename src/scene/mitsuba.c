@@ -968,7 +968,8 @@ static koksma_status instance(reader *r, const node *n, const double outer[12], 
         const node *group = resolve(r, c);
         found |= is(group, "shape");
         for (const node *s = is(group, "shape") ? first_of(r, group) : NULL; s; s = next_of(r, s)) {
-            KOKSMA__TRY(is(s, "shape") ? shape(r, s, matrix, depth + 1) : KOKSMA_OK);
+            const node *part = resolve(r, s);
+            KOKSMA__TRY(is(part, "shape") ? shape(r, part, matrix, depth + 1) : KOKSMA_OK);
         }
     }
     return found ? KOKSMA_OK : koksma__import_fail(n->place, "an instance without a reference to a shape group");
@@ -1057,7 +1058,8 @@ static koksma_status emitter(reader *r, const node *n)
 static koksma_status film(reader *r, const node *n)
 {
     double width = 768, height = 576;
-    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+    for (const node *child = first_of(r, n); child; child = next_of(r, child)) {
+        const node *c = resolve(r, child);
         if (is(c, "film")) {
             width = number(r, c, "width", width);
             height = number(r, c, "height", height);
@@ -1198,7 +1200,8 @@ static koksma_status read_root(reader *r)
                                    "no <scene>: the file is not a Mitsuba scene");
     }
     KOKSMA__TRY(find_medium(r, root));
-    for (const node *n = first_of(r, root); n; n = next_of(r, n)) {
+    for (const node *c = first_of(r, root); c; c = next_of(r, c)) {
+        const node *n = is(c, "alias") ? c : resolve(r, c); /* a <ref> is one more of it, an <alias> only names it */
         KOKSMA__TRY(is(n, "sensor")                                       ? sensor(r, n)
                     : is(n, "shape")                                      ? shape(r, n, NULL, 0)
                     : is(n, "emitter") && strcmp(type_of(n), "area") != 0 ? emitter(r, n)

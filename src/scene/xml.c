@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Parses XML with expat. Elements become nodes in the order of the text. <default name value> sets $name unless
- * it was set before; <include filename> is replaced by the children of that file's root; <path value> names a folder
- * to search for files. Nothing else is loaded or expanded: a document type declaration stops the parser before any
- * entity is declared.
+ * it was set before; <include filename> is replaced by the children of that file's <scene>, or by the object that is
+ * its root; <path value> names a folder to search for files. Nothing else is loaded or expanded: a document type
+ * declaration stops the parser before any entity is declared.
  */
 #include "scene/xml.h"
 
@@ -224,13 +224,18 @@ static void start_element(void *data, const char *tag, const char **attributes)
         return;
     }
     const int parent = r->open[r->depth];
-    /* the root of an included file: its children go to the including element's parent */
-    if (r->depth == 0 && r->included) {
+    const bool is_included_root = r->depth == 0 && r->included;
+    /* the children of an included scene go to the including element's parent, and any other object goes there itself */
+    if (is_included_root && !strcmp(tag, "scene")) {
         r->open[++r->depth] = parent;
         return;
     }
     const int node = add_node(r, tag, attributes, parent);
     r->open[++r->depth] = node;
+    if (!r->status && is_included_root && !koksma__xml_attribute(&r->xml->nodes[node], "type")) {
+        stop(r, koksma__import_fail(
+                    here(r), "an included file is a <%.60s>; it must be a <scene> or an object with a 'type'", tag));
+    }
     if (!r->status && !strcmp(tag, "default")) {
         add_default(r, &r->xml->nodes[node]);
     } else if (!r->status && !strcmp(tag, "include")) {

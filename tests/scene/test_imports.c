@@ -753,6 +753,8 @@ static void both_sides_light_alike(void **state)
 #define IMAGED(colour) MITSUBA("<shape type=\"rectangle\"><bsdf type=\"diffuse\">" colour "</bsdf></shape>")
 #define IMAGE(inner) IMAGED(WHITE(inner))
 
+#define CAMERA "<sensor type=\"perspective\"/>"
+
 #define CHECKED(to_uv)                                                                                               \
     IMAGED("<texture name=\"reflectance\" type=\"checkerboard\"><transform name=\"to_uv\">" to_uv                    \
            "</transform></texture>")
@@ -1041,6 +1043,44 @@ static void unknown_things_are_named(void **state)
     }
 }
 
+/* A <ref> is one more of the object that it leads to, as Mitsuba 3.9.1 renders it: a film, a part of a group, a light and a
+   shape of the scene. An <alias> is none. An included file is the children of a <scene>, or another object. */
+static void references_and_includes_are_objects(void **state)
+{
+    static const struct {
+        const char *text, *included;
+        int width;
+        size_t n_shapes, n_lights;
+    } cases[] = {
+        {"<film type=\"hdrfilm\" id=\"f\"><integer name=\"width\" value=\"32\"/></film><sensor "
+         "type=\"perspective\"><ref id=\"f\"/></sensor>",
+         "<scene/>", 32, 0, 0},
+        {CAMERA "<shape type=\"shapegroup\" id=\"g\"><ref id=\"s\"/></shape><shape type=\"sphere\" "
+                "id=\"s\"/><shape type=\"instance\"><ref id=\"g\"/></shape>",
+         "<scene/>", 768, 2, 0},
+        {CAMERA "<emitter type=\"point\" id=\"e\"/><ref id=\"e\"/>", "<scene/>", 768, 0, 2},
+        {CAMERA "<shape type=\"sphere\" id=\"s\"/><ref id=\"s\"/>", "<scene/>", 768, 2, 0},
+        {CAMERA "<emitter type=\"point\" id=\"e\"/><alias id=\"e\" as=\"f\"/>", "<scene/>", 768, 0, 1},
+        {CAMERA, "<scene><shape type=\"sphere\"/><emitter type=\"point\"/></scene>", 768, 1, 1},
+        {CAMERA, "<shape version=\"3.0.0\" type=\"sphere\"><float name=\"radius\" value=\"2\"/></shape>", 768, 1, 0},
+        {CAMERA "<shape type=\"sphere\"><ref id=\"b\"/></shape>",
+         "<bsdf version=\"3.0.0\" type=\"diffuse\" id=\"b\"/>", 768, 1, 0}};
+    (void)state;
+    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        write_file("o.xml", cases[i].included);
+        snprintf(text, sizeof text, "<scene version=\"3.0.0\">%s<include filename=\"o.xml\"/></scene>",
+                 cases[i].text);
+        koksma_scene *scene = opened("a.xml", text);
+        if (scene->width != cases[i].width || scene->n_shapes != cases[i].n_shapes ||
+            scene->n_lights != cases[i].n_lights || scene->n_unknown) {
+            fail_msg("%s and %s: width %d, %zu shapes, %zu lights, %zu warnings", text, cases[i].included,
+                     scene->width, scene->n_shapes, scene->n_lights, scene->n_unknown);
+        }
+        koksma_scene_close(scene);
+    }
+}
+
 /* Mitsuba 3 looks an image up at its `to_uv` of (u, v, 0), without the third row and column of that: those numbers of a
    <matrix> of nine which would move the image if it were one of the plane do nothing (3.9.1, eval() of a bitmap). */
 static void images_are_mapped_as_in_mitsuba(void **state)
@@ -1276,6 +1316,8 @@ static const struct {
     {"b.xml", "<!DOCTYPE s SYSTEM \"file:///etc/passwd\"><scene/>", ":1: a document type"},
     {"b.xml", "<scene>&b;</scene>", "undefined entity"},
     {"b.xml", "<scene><include filename=\"b.xml\"/></scene>", "include each other more than 16 deep"},
+    {"b.xml", "<scene><include filename=\"o.xml\"/></scene>",
+     "o.xml:1: an included file is a <foo>; it must be a <scene> or an object with a 'type'"},
     {"b.xml", "<scene><include filename=\"../outside.pbrt\"/></scene>", "which is not below the scene's own folder"},
     {"b.xml", "<scene><a b=\"$c\"/></scene>", "no default for '$c'"},
     {"b.xml", "<scene><sensor type=\"fisheye\"/></scene>", "sensor 'fisheye' is not read"},
@@ -1302,6 +1344,7 @@ static void malformed_and_hostile_texts_are_refused(void **state)
     assert_non_null(file);
     fclose(file);
     assert_int_equal(symlink(outside, path), 0);
+    write_file("o.xml", "<foo><shape type=\"sphere\"/></foo>");
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
         koksma_scene *scene = NULL;
         char text[1024];
@@ -1362,6 +1405,7 @@ int main(void)
         cmocka_unit_test(lights_of_pbrt_have_luminance_1),
         cmocka_unit_test(spectra_of_mitsuba_are_read),
         cmocka_unit_test(unknown_things_are_named),
+        cmocka_unit_test(references_and_includes_are_objects),
         cmocka_unit_test(images_are_mapped_as_in_mitsuba),
         cmocka_unit_test(textures_in_checkerboards_are_their_means),
         cmocka_unit_test(the_cameras_medium_is_read),
