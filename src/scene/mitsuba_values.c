@@ -308,6 +308,13 @@ static koksma_status matrix(const node *n, double m[12])
     if (given != 16 && given != 9) {
         return koksma__import_fail(n->place, "matrix: %zu numbers; it has 16 or 9", given);
     }
+    /* Mitsuba ignores the last row, so that another one can't mean what it says */
+    for (int i = 12; given == 16 && i < 16; i++) {
+        if (!(fabs(v[i] - (i == 15)) <= 1e-6)) {
+            return koksma__import_fail(n->place, "matrix: its last row is %g %g %g %g; it must be 0 0 0 1", v[12],
+                                       v[13], v[14], v[15]);
+        }
+    }
     for (int i = 0; i < 12; i++) {
         m[i] = given == 16 ? v[i] : i % 4 < 3 ? v[i / 4 * 3 + i % 4] : 0;
     }

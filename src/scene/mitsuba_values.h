@@ -46,7 +46,8 @@ koksma_status koksma__mitsuba_samples(const koksma__xml_node *values, const koks
 bool koksma__mitsuba_is_number(const koksma__xml_node *n);
 bool koksma__mitsuba_is_colour(const koksma__xml_node *n);
 
-/* The matrix of an operation in a transform: translate, scale, rotate, lookat, matrix. */
+/* The matrix of an operation in a transform: translate, scale, rotate, lookat, matrix. The last row of a matrix of 16
+   numbers must be 0 0 0 1. */
 koksma_status koksma__mitsuba_operation(const koksma__xml_node *n, double m[12]);
 
 /* Checks the values of all elements, also of those that nothing reads. */

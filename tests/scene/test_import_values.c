@@ -129,6 +129,8 @@ static void values_of_mitsuba_are_whole(void **state)
 #define XML(inner) "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" inner "</scene>"
 #define BALL(inner) XML("<shape type=\"sphere\">" inner "</shape>")
 
+#define MATRIX(row)                                                                                                  \
+    BALL("<transform name=\"to_world\"><matrix value=\"1 0 0 0.5 0 1 0 0 0 0 1 0 " row "\"/></transform>")
 #define GREY(inner) BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" " inner "</bsdf>")
 #define IRREGULAR(wavelengths, values)                                                                               \
     GREY("type=\"irregular\"><string name=\"wavelengths\" value=\"" wavelengths                                      \
@@ -200,6 +202,10 @@ static void odd_elements_of_mitsuba_are_refused(void **state)
         {BALL("<transform name=\"to_world\"><lookat target=\"1,1,1\"/></transform>"), "lookat: no 'origin'"},
         {BALL("<transform name=\"to_world\"><matrix value=\"1 2 3\"/></transform>"),
          "matrix: 3 numbers; it has 16 or 9"},
+        {MATRIX("0 0 0 2"), ":1: matrix: its last row is 0 0 0 2; it must be 0 0 0 1"},
+        {MATRIX("0 0 0 0"), ":1: matrix: its last row is 0 0 0 0; it must be 0 0 0 1"},
+        {MATRIX("0.5 0 0 1"), ":1: matrix: its last row is 0.5 0 0 1; it must be 0 0 0 1"},
+        {MATRIX("0 -3 0.25 1"), ":1: matrix: its last row is 0 -3 0.25 1; it must be 0 0 0 1"},
         {XML("<shape type=\"obj\"/>"), "the name of a file (filename) is missing or empty"},
         {XML("<shape type=\"instance\"/>"), "an instance without a reference to a shape group"},
         {XML("<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>"),
@@ -226,6 +232,7 @@ static void odd_elements_of_mitsuba_are_refused(void **state)
     }
     assert_ok(open_bytes("good.xml", BALL("<float name=\"radius\" value=\" 1 \"/><boolean name=\"flip_normals\" "
                                           "value=\"True\"/><point name=\"center\" value=\" 1, 2 3,\"/>")));
+    assert_ok(open_bytes("good.xml", MATRIX("-0 1e-17 0 1.0000001"))); /* a product of rounded matrices */
 }
 
 /* ---- pbrt -------------------------------------------------------------------------------------------------------- */
