@@ -4,8 +4,9 @@
  *
  *     x_k = {1/2 + (i+1) g^-k}, k = 1 .. dim,   g the positive root of g^(dim+1) = g + 1
  *
- * Source: Roberts 2018. For dim = 1, g is the golden ratio 1.618…, for dim = 2 the plastic number 1.3247…. Sums are
- * computed in integers modulo 2^64, so that rounding errors do not accumulate.
+ * Source: Roberts 2018. For dim = 1, g is the golden ratio 1.618…, for dim = 2 the plastic number 1.3247…. The powers of
+ * 1/g are multiples of 2^-64, off by less than 2^-64 for dim <= 2 and less than 2^-59 for more. Sums are exact modulo 1, so
+ * that point i is off by less than (i+1) 2^-64 (2^-59), or 2^-53 if that is more, however it is reached.
  *
  *     shuffle=1    a hash shuffles the lower 32 bits of the index i by a nested uniform permutation, a different one
  *                  for each value of the higher bits

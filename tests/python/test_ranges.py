@@ -40,6 +40,14 @@ def faure(i, base, k):
     return x
 
 
+def golden_ratios(dim):
+    """1/g, 1/g^2, ..., 1/g^dim with g^(dim+1) = g + 1, by Newton's method."""
+    g = Decimal(1)
+    for _ in range(200):
+        g -= (g ** (dim + 1) - g - 1) / ((dim + 1) * g ** dim - 1)
+    return [1 / g ** (k + 1) for k in range(dim)]
+
+
 # Joe & Kuo 2008, new-joe-kuo-6: degree, a, m_i of dimensions 2 to 5.
 JOE_KUO = ((1, 0, (1,)), (2, 1, (1, 3)), (3, 1, (1, 3, 1)), (3, 2, (1, 1, 1)))
 
@@ -151,10 +159,7 @@ class Ranges(unittest.TestCase):
         """To the last bit by the ratios in 64 bits, rounded down or to nearest, and near {1/2 + i a} with 60 digits."""
         getcontext().prec = 60
         for dim in (1, 2):
-            g = Decimal(1)
-            for _ in range(200):  # Newton, g^(dim+1) = g + 1
-                g -= (g ** (dim + 1) - g - 1) / ((dim + 1) * g ** dim - 1)
-            ratios = [1 / g ** (k + 1) for k in range(dim)]
+            ratios = golden_ratios(dim)
             words = []
             for k in range(dim):  # what a step adds has 53 bits of the ratio: only one of the two fits far out
                 low = int(ratios[k] * 2 ** 64)
@@ -169,6 +174,11 @@ class Ranges(unittest.TestCase):
                         self.assertEqual(points[i, k], x / 2 ** 53)
                         gap = abs(Decimal(x) / 2 ** 53 - (Decimal("0.5") + (first + i + 1) * ratios[k]) % 1)
                         self.assertLess(min(gap, 1 - gap), (first + 5) * Decimal(2) ** -64 + Decimal(2) ** -53)
+        for dim in range(3, 65):  # powers that are less exact
+            for first in (0, 1 << 32, (1 << 51) - 1):
+                for x, ratio in zip(generate("r-sequence", 1, dim, first=first)[0], golden_ratios(dim)):
+                    gap = abs(Decimal(x) - (Decimal("0.5") + (first + 1) * ratio) % 1)
+                    self.assertLess(min(gap, 1 - gap), (first + 1) * Decimal(2) ** -59 + Decimal(2) ** -53, (dim, first))
 
     def test_scrambled_nets(self):
         """Aligned blocks far out are (0,m,2)-nets, and a shift by digits is one."""
