@@ -92,8 +92,9 @@ static void add_coherence(koksma__document *d, const koksma__task *first, const 
     char name[64];
     snprintf(name, sizeof name, "coherence-%.30s-%lld", first->scene->name, first->n);
     koksma__doc_paragraph(
-        d, "Coherence of the error: the peak of its power spectrum over the mean power, from the same "
-           "trials. Part of an error may be common to all trials (column _in common_). For white noise with an "
+        d, "Coherence of the error: the peak of its power spectrum over the mean power (of frequencies as high "
+           "if that is larger, so that blue noise counts as noise), from the same trials. Part of an error may be "
+           "common to all trials (column _in common_). For white noise with an "
            "equally large common part, 95 %% of the coherences lie between the columns _noise from_ and _to_. An "
            "error whose coherence exceeds that of 99.5 %% of such noise is coherent: it has bands or another "
            "pattern, which the eye sees sooner than noise of the same size.");
