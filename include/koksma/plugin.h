@@ -25,7 +25,8 @@
  *
  * The plugin's code runs inside the calling process with all its permissions. A crash of the plugin ends the
  * process, and no time limit applies. To isolate a sampler or limit its time, write it as a program for the pattern
- * exec:PROGRAM.
+ * exec:PROGRAM. A process keeps a library that it has loaded: if the file changes, its sets are refused until a new
+ * process starts.
  */
 #ifndef KOKSMA_PLUGIN_H
 #define KOKSMA_PLUGIN_H

@@ -5,7 +5,9 @@
  * generated twice, and both results have to be equal.
  *
  * The library stays loaded: closing it between two sets would run its constructors again for each set. A path without
- * a slash names a file in the current directory; the loader's search path is not used.
+ * a slash names a file in the current directory; the loader's search path is not used. The process keeps the code that it
+ * loaded first, so that a set of a file that has changed since then is refused: a study hashes the file and would keep the
+ * old code's values under the new file's hash.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -14,6 +16,7 @@
 
 #include <koksma/plugin.h>
 
+#include "core/capacity.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
@@ -30,21 +33,75 @@ static koksma_status open_library(const char *name, const char *path, void **sym
 #else
 
 #include <dlfcn.h>
+#include <pthread.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-static koksma_status open_library(const char *name, const char *path, void **symbol)
+/* A loaded library, and its file as it was before it was loaded. */
+typedef struct loaded {
+    void *library;
+    struct stat file;
+} loaded;
+
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static loaded *all;
+static size_t n_loaded;
+
+static bool same_file(const struct stat *a, const struct stat *b)
 {
-    char local[KOKSMA_MAX_SPEC + 2];
-    snprintf(local, sizeof local, "%s%s", strchr(path, '/') ? "" : "./", path);
-    KOKSMA__FAIL_IF(access(local, R_OK), KOKSMA_MISSING, "%s: there is no file %s to read", name, local);
-    void *library = dlopen(local, RTLD_NOW | RTLD_LOCAL);
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino && a->st_size == b->st_size &&
+           a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec;
+}
+
+/* Fails unless the file is the one that the library was loaded from: dlopen finds a loaded library by the path alone. */
+static koksma_status check_unchanged(const char *name, void *library, const struct stat *before,
+                                     const struct stat *now)
+{
+    pthread_mutex_lock(&lock);
+    size_t i = 0;
+    while (i < n_loaded && all[i].library != library) {
+        i++;
+    }
+    loaded *known = i < n_loaded ? &all[i] : koksma__add_one(&all, &n_loaded, sizeof *known);
+    if (known && !known->library) { /* it was added */
+        *known = (loaded){library, *before};
+    }
+    const bool same = known && same_file(&known->file, now);
+    pthread_mutex_unlock(&lock);
+    KOKSMA__TRY(known ? KOKSMA_OK : KOKSMA_MEMORY);
+    KOKSMA__FAIL_IF(
+        !same, KOKSMA_MALFORMED,
+        "%s: the file has changed since this process loaded it, and a process can't load it again; start a "
+        "new process, or give the new library another name",
+        name);
+    return KOKSMA_OK;
+}
+
+static koksma_status load(const char *name, const char *path, void **symbol)
+{
+    struct stat before, now;
+    const bool found = !stat(path, &before);
+    void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     KOKSMA__FAIL_IF(!library, KOKSMA_MALFORMED, "%s: it can't be loaded: %s", name, dlerror());
     *symbol = dlsym(library, "koksma_plugin_at");
     if (!*symbol) {
         dlclose(library);
         return koksma__fail(KOKSMA_MALFORMED, "%s: it exports no koksma_plugin_at (koksma/plugin.h)", name);
     }
-    return KOKSMA_OK;
+    KOKSMA__FAIL_IF(!found || stat(path, &now), KOKSMA_MISSING, "%s: there is no file %s to read", name, path);
+    return check_unchanged(name, library, &before, &now);
+}
+
+/* The whole path is loaded: dlopen would take ./a.so of the current directory for that of an earlier one. */
+static koksma_status open_library(const char *name, const char *path, void **symbol)
+{
+    char local[KOKSMA_MAX_SPEC + 2];
+    snprintf(local, sizeof local, "%s%s", strchr(path, '/') ? "" : "./", path);
+    char *whole = access(local, R_OK) ? NULL : realpath(local, NULL);
+    KOKSMA__FAIL_IF(!whole, KOKSMA_MISSING, "%s: there is no file %s to read", name, local);
+    const koksma_status status = load(name, whole, symbol);
+    free(whole);
+    return status;
 }
 
 #endif
