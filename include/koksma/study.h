@@ -122,6 +122,8 @@ typedef struct koksma_study_summary {
      summary  may be NULL
    A job fails when its pattern finds no set, or when the search of its measure is cut short and finds only bounds.
    All other jobs are done, and koksma_study_left_out_at lists the failed ones.
+   Each run and each report look at the files that patterns name anew. Which numbers of points such a pattern lacks is found
+   when the study is opened.
    Errors: INTERRUPTED (finished jobs are kept), IMPOSSIBLE (jobs failed in a block without `skip`; the message names
    the first, and the report can be written. A run whose reference image fails ends at once), MISSING (a family of files,
    such as file:my_{n}_{seed}.npy, has no file: each run counts them anew, and a plan with a relative path has its files

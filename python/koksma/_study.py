@@ -171,7 +171,8 @@ class Study:
         time_limit: in seconds; ends the run early, `complete` is False then. progress: called from time to time with the
         fraction that is done. Ctrl-C keeps what is done. Raises ArgumentError if a pattern found no set for a job (all
         other jobs are done), and MissingError if a family of files ("file:my_{n}_{seed}.npy") has no file: each run counts
-        them anew, of a plan with a relative path from the present directory.
+        them anew, of a plan with a relative path from the present directory. So it does for each file that a pattern names: a file
+        that has changed gets new rows. Which numbers of points a family lacks is found when the study is opened.
         """
         raw = s.StudySummary()
         call(lab().koksma_study_run, self._open(), byref(raw), threads=threads, time_limit=time_limit, run_at=1,

@@ -81,5 +81,67 @@ class Libraries(Folder):
             os.chdir("..")
 
 
+class Files(Folder):
+    """Each run of an open study looks at its files anew, as a study that is opened then does."""
+
+    def write(self, name, x):
+        pathlib.Path(name).write_text(f"{x} {x}\n")
+
+    def values(self, study, kind="discrepancy"):
+        return sorted((row["scene_hash"], row["trial"], row["seed"], row["value"]) for row in study.rows() if row["kind"] == kind)
+
+    def test_a_file_that_changes(self):
+        self.write("one.txt", 0.5)
+        with koksma.Study(self.plan("file:one.txt"), "out") as study:
+            for x in (0.5, 0.25, 0.75):  # the last has the discrepancy of the first
+                self.write("one.txt", x)
+                again = study.run()
+                self.assertEqual((again.jobs, again.done_before, again.done_now), (1, 0, 1))
+            for x in (0.75, 0.5):  # each has its row
+                self.write("one.txt", x)
+                self.assertEqual(study.run().done_now, 0)
+            self.assertEqual(sorted(value[3] for value in self.values(study)), sorted(map(star, (0.5, 0.25, 0.75))))
+
+    def test_a_file_more(self):
+        """The rows are those of a study opened before it and of one opened after it."""
+        expected, plan = [], self.plan("file:p_{n}_{seed}.txt")
+        for seed in (1, 2):
+            self.write(f"p_1_{seed}.txt", seed / 8)
+        with koksma.Study(plan, "open") as study:
+            for new in ("before", "after"):
+                study.run()
+                with koksma.Study(plan, new) as other:
+                    other.run()
+                    expected += self.values(other)
+                self.write("p_1_3.txt", 3 / 8)
+            self.assertEqual(self.values(study), sorted(expected))
+        self.assertEqual(sorted(value[2:] for value in expected), sorted((seed, star(seed / 8)) for seed in (1, 2, 1, 2, 3)))
+
+    def test_images(self):
+        """The same of images and their references, of which one file is for both."""
+        block = {"scenes": ["checker"], "patterns": ["file:one.txt", "random"], "spp": [1], "size": [8, 6], "trials": 2,
+                 "references": [{"name": "r", "pattern": "file:one.txt", "spp": 1}]}
+        plan, expected = {"name": "m", "title": "M", "images": [block]}, []
+        self.write("one.txt", 0.5)
+        with koksma.Study(plan, "open") as study:
+            for x in (0.5, 0.25):
+                self.write("one.txt", x)
+                self.assertEqual(study.run().done_now, 4)
+                with koksma.Study(plan, f"new{x}") as new:
+                    new.run()
+                    expected += self.values(new, "image")
+            self.assertEqual(self.values(study, "image"), sorted(expected))
+
+    def test_a_report(self):
+        """It has the rows of the files as they are, and so none after a change."""
+        self.write("one.txt", 0.5)
+        with koksma.Study(self.plan("file:one.txt"), "out") as study:
+            study.run()
+            for x, has in ((0.5, True), (0.25, False), (0.5, True)):
+                self.write("one.txt", x)
+                report = study.report().with_suffix(".json").read_text()
+                self.assertEqual(str([star(0.5)] * 3).replace(" ", "") in report.replace(" ", ""), has, x)
+
+
 if __name__ == "__main__":
     unittest.main()

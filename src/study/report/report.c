@@ -123,6 +123,7 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
     KOKSMA__REQUIRE_RUN(run);
     koksma__document d = {0};
     KOKSMA__FAIL_IF(!study->store, KOKSMA_ARGUMENT, "a study without a folder has no report");
+    koksma__study_forget_files(study);
     koksma_status status = build(study, run, &d);
     status = status ? status : koksma__page_write(study->folder, KOKSMA__PAGE_STUDY, d.json.text);
     koksma__json_writer_fini(&d.json);

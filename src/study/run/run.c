@@ -112,6 +112,7 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     summary = summary ? summary : &unused;
     *summary = (koksma_study_summary){0};
     koksma__run_control control;
+    koksma__study_forget_files(study);
     /* Only rank 0 enforces the time limit, for all ranks. */
     koksma__run_control_begin(run, run && study->store ? run->time_limit_s : 0, &control);
     if (!study->store) {

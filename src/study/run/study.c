@@ -138,6 +138,16 @@ koksma_status koksma__study_open_to_write(koksma_study *study)
     return status;
 }
 
+void koksma__study_forget_files(koksma_study *study)
+{
+    if (study->store) {
+        koksma__store_forget_files(study->store);
+    }
+    for (size_t i = 0; i < study->n_references; i++) {
+        koksma_image_fini(&study->references[i].image);
+    }
+}
+
 static koksma_status make_folder(koksma_study *study, const char *folder, char results[KOKSMA__PATH])
 {
     KOKSMA__TRY(koksma__results_path(folder, results));

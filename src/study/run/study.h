@@ -49,6 +49,10 @@ koksma_status koksma__study_fail_here(koksma_study *study, koksma_status status)
    without a plan. Errors: those of the store. */
 koksma_status koksma__study_open_to_write(koksma_study *study);
 
+/* Forgets what the study knows of the files that patterns name: their hashes, and the images of references. A run and a
+   report begin with it, because files may change while a study is open. In an MPI run only rank 0 has hashes. */
+void koksma__study_forget_files(koksma_study *study);
+
 /* The open scene with the given name; NULL if there is none. */
 const koksma__study_scene *koksma__study_scene_of(const koksma_study *study, const char *name);
 

@@ -173,6 +173,13 @@ void koksma__store_bind_key(koksma__store *store, const koksma__series *series, 
     key->measured_by = store->made_by.value;
 }
 
+void koksma__store_forget_files(koksma__store *store)
+{
+    koksma__store_enter(store);
+    koksma__point_files_fini(&store->files);
+    koksma__store_leave(store, KOKSMA_OK);
+}
+
 static void bind_reference(koksma__store *store, koksma__statement *s, int *column, const koksma__series *series,
                            koksma__series *key)
 {

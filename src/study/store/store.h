@@ -65,6 +65,9 @@ koksma_status koksma__store_commit(koksma__store *store);
 /* Seconds of processor time spent so far in calls of this store, except those that only copy rows into memory. */
 double koksma__store_seconds(koksma__store *store);
 
+/* Forgets the hashes of the files that patterns name, so that the next key has the hash of the file as it is then. */
+void koksma__store_forget_files(koksma__store *store);
+
 /* Writes or replaces a text of table meta; reads one. The caller frees *value, which is NULL if there is no such
    text. */
 koksma_status koksma__store_set_text(koksma__store *store, const char *key, const char *value);
