@@ -135,7 +135,7 @@ koksma_status koksma__check_single_use(const koksma_spec *spec)
                           : KOKSMA_OK;
 }
 
-static koksma_status try_set(const koksma_spec *spec, size_t n, int dim, const koksma_run *run)
+koksma_status koksma__try_set(const koksma_spec *spec, size_t n, int dim, const koksma_run *run)
 {
     koksma_points points;
     koksma_status status = koksma_points_init(&points, n, dim);
@@ -149,15 +149,15 @@ static koksma_status try_set(const koksma_spec *spec, size_t n, int dim, const k
 koksma_status koksma__try_use_patterns(const koksma_render_options *options, size_t n, const koksma_run *run)
 {
     koksma_status status = koksma__check_single_use(&options->pattern);
-    status = status ? status : try_set(&options->pattern, n, 2, run);
+    status = status ? status : koksma__try_set(&options->pattern, n, 2, run);
     for (int u = 0; (!status || status == KOKSMA_INTERRUPTED) && u < KOKSMA_N_USES; u++) {
         const koksma_spec *own = &options->patterns[u];
         const koksma_status single = own->pattern ? koksma__check_single_use(own) : KOKSMA_OK;
-        status = single ? single : own->pattern ? try_set(own, n, koksma__use_set_dim(own, u), run) : status;
+        status = single ? single : own->pattern ? koksma__try_set(own, n, koksma__use_set_dim(own, u), run) : status;
     }
     for (int g = 0; (!status || status == KOKSMA_INTERRUPTED) && g < KOKSMA_MAX_USE_GROUPS; g++) {
         const koksma_use_group *group = &options->groups[g];
-        status = group->n_uses ? try_set(&group->pattern, n, dimensions(group), run) : status;
+        status = group->n_uses ? koksma__try_set(&group->pattern, n, dimensions(group), run) : status;
     }
     return status;
 }

@@ -12,8 +12,11 @@ const char *koksma__use_part(const char *part, const char **pattern);
 /* Checks that every spec names a pattern and that every group is valid. Errors: ARGUMENT, DIM. */
 koksma_status koksma__check_use_patterns(const koksma_render_options *options);
 
-/* Checks that every pattern in the options can generate a set of n points, by generating one. Errors: those of the
-   patterns. */
+/* Checks that a pattern can generate a set of n points, by generating one. Errors: those of the pattern; N in place of
+   MISSING where a family of files has only sets of other numbers of points. */
+koksma_status koksma__try_set(const koksma_spec *spec, size_t n, int dim, const koksma_run *run);
+
+/* Checks that every pattern in the options can generate a set of n points. Errors: those of koksma__try_set. */
 koksma_status koksma__try_use_patterns(const koksma_render_options *options, size_t n, const koksma_run *run);
 
 /* Fails if the pattern exists only in more than 2 dimensions, because a single use has at most 2. Errors: DIM. */

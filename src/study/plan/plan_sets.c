@@ -11,6 +11,7 @@
 #include "core/capacity.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
+#include "render/samples/use_patterns.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_section.h"
 #include "study/plan/variants.h"
@@ -32,13 +33,8 @@ static koksma_status try_set(const char *pattern, size_t n, int dim)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
     koksma_spec spec;
-    koksma_points points;
     koksma_status status = koksma_pattern_spec(pattern, &spec);
-    status = status ? status : koksma_points_init(&points, n, dim);
-    if (!status) {
-        status = koksma__file_gap(&spec, n, koksma_generate(&spec, koksma__first_seed(&spec, n), &briefly, &points));
-        koksma_points_fini(&points);
-    }
+    status = status ? status : koksma__try_set(&spec, n, dim, &briefly);
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
 }
 
