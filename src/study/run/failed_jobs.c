@@ -60,12 +60,15 @@ koksma_status koksma__failures_count(const koksma__tasks *tasks, size_t job, con
     return KOKSMA_OK;
 }
 
-/* Writes the label of a task, which tells all but n: the pattern and the warp, or the pattern, scene and options. */
+/* Writes the label of a task, which tells all but n: the pattern, the dimension unless it is 2, and the warp; or the
+   pattern, scene, size and options. Lines of equal label and n are of the same jobs, and a list has one of them. */
 static void put_label(FILE *f, const koksma__task *t)
 {
     fputs(t->pattern, f);
     if (t->image) {
-        fprintf(f, " in %s%s%s", t->scene->name, t->variant[0] ? ", " : "", t->variant);
+        fprintf(f, " in %s at %dx%d%s%s", t->scene->name, t->width, t->height, t->variant[0] ? ", " : "", t->variant);
+    } else if (t->discrepancy->dim != 2) {
+        fprintf(f, " (%dD)", t->discrepancy->dim);
     } else if (t->variant[0]) {
         fprintf(f, " through %s", t->variant);
     }
