@@ -98,10 +98,10 @@ KOKSMA_API koksma_status koksma_study_open(const koksma_study_options *options, 
 KOKSMA_API koksma_status koksma_study_close(koksma_study *study);
 
 /* Returns line i of the list of combinations without results, or NULL past the last line. First come the combinations
-   that blocks of the plan with `skip` leave out, "PATTERN, N = 8, 32: reason", and the numbers of points of which a family
-   of files has fewer files than of others, "PATTERN, N = 16 (1 of 3 trials): reason"; then the combinations whose jobs
-   failed when they ran, "PATTERN, N = 64 (3 of 100 trials): reason". The string is valid until the study runs or is
-   closed. */
+   that blocks of the plan with `skip` leave out, "PATTERN, N = 8, 32: reason" or "MEASURE, N = 8, 32: reason", and the
+   numbers of points of which a family of files has fewer files than of others, "PATTERN, N = 16 (1 of 3 trials): reason";
+   then the combinations whose jobs failed when they ran, "PATTERN, N = 64 (3 of 100 trials): reason". The string is
+   valid until the study runs or is closed. */
 KOKSMA_API const char *koksma_study_left_out_at(const koksma_study *study, size_t i);
 
 /* Statistics of a run. */
@@ -120,7 +120,8 @@ typedef struct koksma_study_summary {
 /* Runs all jobs that are not done.
      run      a time limit ends the run early, without an error
      summary  may be NULL
-   A job fails when its pattern finds no set, or when the search of its measure is cut short and finds only bounds.
+   A job fails when its pattern finds no set or does not accept the number of points, which opening the study finds where
+   that is quick, or when the search of its measure is cut short and finds only bounds.
    All other jobs are done, and koksma_study_left_out_at lists the failed ones.
    Each run and each report look at the files that patterns name anew. Which numbers of points such a pattern lacks is found
    when the study is opened.

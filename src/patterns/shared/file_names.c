@@ -54,7 +54,8 @@ koksma_status koksma__file_name(const char *path, size_t n, uint64_t seed, char 
     return KOKSMA_OK;
 }
 
-void koksma__file_glob(const char *path, bool escape, char *out, size_t size)
+/* Makes the glob(3) pattern that finds the files of a path with placeholders; error messages print it, too. */
+static void glob_of(const char *path, bool escape, char *out, size_t size)
 {
     size_t used = 0;
     while (*path && used + 3 < size) {
@@ -113,7 +114,7 @@ static int compare_sets(const void *a, const void *b)
 static koksma_status fail_none(const char *path)
 {
     char looked_for[KOKSMA_MAX_SPEC], first[KOKSMA_MAX_SPEC];
-    koksma__file_glob(path, false, looked_for, sizeof looked_for);
+    glob_of(path, false, looked_for, sizeof looked_for);
     KOKSMA__TRY(koksma__file_name(path, 256, 0, first));
     return koksma__fail(KOKSMA_MISSING,
                         "file:%s: there is no file %s with whole numbers in place of the stars, such as %s%s%s", path,
@@ -132,7 +133,7 @@ koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_
             KOKSMA_ARGUMENT,
             "file:%s: its placeholders are adjacent; put a character between them, as in my_{n}_{seed}.npy", path);
     }
-    koksma__file_glob(path, true, pattern, sizeof pattern);
+    glob_of(path, true, pattern, sizeof pattern);
     const int failed = glob(pattern, GLOB_NOSORT, NULL, &found);
     *sets = failed == GLOB_NOSPACE ? NULL : calloc(found.gl_pathc + 1, sizeof **sets);
     for (size_t i = 0; *sets && i < found.gl_pathc; i++) {
@@ -147,6 +148,13 @@ koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_
     }
     qsort(*sets, *count, sizeof **sets, compare_sets);
     return KOKSMA_OK;
+}
+
+koksma_status koksma__file_fail_n(const char *path, size_t n, koksma_status status)
+{
+    char looked_for[KOKSMA_MAX_SPEC];
+    glob_of(path, false, looked_for, sizeof looked_for);
+    return koksma__fail(status, "file:%s: no file %s has %zu points", path, looked_for, n);
 }
 
 koksma_status koksma__file_gap(const koksma_spec *spec, size_t n, koksma_status status)
@@ -167,7 +175,7 @@ koksma_status koksma__file_gap(const koksma_spec *spec, size_t n, koksma_status 
         gap &= sets[i].n != n;
     }
     free(sets);
-    return koksma__fail(gap ? KOKSMA_N : status, "%s", text);
+    return gap ? koksma__file_fail_n(spec->path, n, KOKSMA_N) : koksma__fail(status, "%s", text);
 }
 
 uint64_t koksma__first_seed(const koksma_spec *spec, size_t n)

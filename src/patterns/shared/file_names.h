@@ -57,17 +57,17 @@ typedef struct koksma__file_set {
    ARGUMENT (two placeholders are adjacent, so that their digits cannot be separated), MEMORY. */
 KOKSMA__LAB koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_t *count);
 
-/* Returns N in place of MISSING, with the same error text, if a spec is a family of files that has sets of other numbers of
-   points, but none of n. Such a family lacks one set; one without any file is a mistake in its name, and the text says
-   what was looked for. Other statuses of a trial to make n points are returned unchanged. Errors: the status, MEMORY. */
+/* Fails with a status and the text that a family of files has no set of n points. */
+KOKSMA__LAB koksma_status koksma__file_fail_n(const char *path, size_t n, koksma_status status);
+
+/* Fails with N in place of MISSING if a spec is a family of files that has sets of other numbers of points, but none of n.
+   Such a family lacks one set; one without any file is a mistake in its name, and the text says what was looked for.
+   Other statuses of a trial to make n points are returned unchanged. Errors: the status, MEMORY. */
 KOKSMA__LAB koksma_status koksma__file_gap(const koksma_spec *spec, size_t n, koksma_status status);
 
 /* Returns the smallest seed for which a spec has a set of n points: for a family of files the smallest seed in their
  names, else 0.
  */
 KOKSMA__LAB uint64_t koksma__first_seed(const koksma_spec *spec, size_t n);
-
-/* Makes the glob(3) pattern that finds the files of a path with placeholders; error messages print it, too. */
-KOKSMA__LAB void koksma__file_glob(const char *path, bool escape, char *out, size_t size);
 
 #endif

@@ -11,6 +11,7 @@
 #include "core/permutation.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "patterns/shared/file_names.h"
 #include "render/samples/sampler.h"
 #include "render/samples/use_patterns.h"
 #include "render/samples/uses.h"
@@ -121,6 +122,7 @@ static koksma_status make_set(image_samples *s, const koksma_run *run, set *to)
     koksma_status status = place.group < 0 ? koksma__check_single_use(spec) : KOKSMA_OK;
     status = status ? status : koksma_points_init(&points, s->n, dim);
     status = status ? status : koksma_generate(spec, koksma__random_seed(options->seed, 0, set_key), run, &points);
+    status = koksma__file_gap(spec, s->n, status);
     uint32_t *order = NULL;
     status = status ? status : draw_order(s, set_key, &order);
     for (set *other = to; !status && other < s->sets + s->n_sets; other++) {
@@ -144,6 +146,7 @@ static koksma_status make_native(image_samples *s, const koksma__use_list *uses,
     koksma_points points;
     koksma_status status = koksma_points_init(&points, s->n, dim);
     status = status ? status : koksma_generate(&options->pattern, options->seed, run, &points);
+    status = koksma__file_gap(&options->pattern, s->n, status);
     for (size_t i = 0; !status && i < s->n_sets; i++) {
         const uint32_t use = s->sets[i].use;
         const bool two = koksma_use_at((size_t)koksma__use_index(use))->dim == 2;

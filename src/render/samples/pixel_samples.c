@@ -331,9 +331,7 @@ static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, floa
         }
     }
     if (!status && !*n_sets) {
-        char names[KOKSMA_MAX_SPEC];
-        koksma__file_glob(spec->path, false, names, sizeof names);
-        status = koksma__fail(KOKSMA_MISSING, "file:%s: no file %s has %zu points", spec->path, names, n);
+        status = koksma__file_fail_n(spec->path, n, KOKSMA_MISSING);
     }
     if (status) {
         free(*fixed);

@@ -17,12 +17,13 @@ typedef struct koksma__wholes {
     long long *at;
 } koksma__wholes;
 
-/* The sizes that a block with `skip` leaves out: numbers of points that a pattern cannot make. Of any block, `lines` also
-   names the sizes of which a family of files lacks some trials. */
+/* The sizes that a block with `skip` leaves out: numbers of points that a pattern cannot make, or that a measure does not
+   accept. Of any block, `lines` also names the sizes of which a family of files lacks some trials. */
 typedef struct koksma__left_out {
     bool skip;           /* whether the block has `skip` */
     bool *is;            /* a flag for each pattern and size, true if left out, or NULL if no size is left out */
-    koksma__texts lines; /* messages: a pattern, its sizes and the reason */
+    bool *unmeasured;    /* the same for each measure and size */
+    koksma__texts lines; /* messages: a pattern or measure, its sizes and the reason */
 } koksma__left_out;
 
 /* A block of discrepancies: every combination of patterns, n, warps, measures and trials. */
@@ -217,6 +218,12 @@ static inline const char *koksma__integrand_of(const char *measure)
 static inline bool koksma__is_left_out(const koksma__left_out *of, size_t p, size_t sizes, size_t k)
 {
     return of->is && of->is[p * sizes + k];
+}
+
+/* The same for measure number m. */
+static inline bool koksma__is_unmeasured(const koksma__left_out *of, size_t m, size_t sizes, size_t k)
+{
+    return of->unmeasured && of->unmeasured[m * sizes + k];
 }
 
 /* Whether a table has several numbers of points, each of which is a column. */

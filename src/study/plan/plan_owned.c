@@ -111,6 +111,7 @@ koksma_status koksma__plan_append(koksma__plan *p, koksma__plan *q)
 static void free_left_out(koksma__left_out *of)
 {
     free(of->is);
+    free(of->unmeasured);
     koksma__texts_fini(&of->lines);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Checks before a study runs that every pattern can make the numbers of points that the plan gives, and that
-   every measure supports their dimension, so that the study does not fail halfway. */
+/* Checks before a study runs that every pattern can make the numbers of points that the plan gives, and that every
+   measure accepts them and supports their dimension, so that the study does not fail halfway. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,6 +19,9 @@
 /* Larger sets are not tried, because that takes time, and a pattern that supports only some n is found at smaller
    sets. */
 enum { MOST_TRIED = 1 << 16 };
+
+/* Measures are tried with sets of at most so many coordinates, which takes up to 0.1 s (min-distance). */
+enum { MOST_MEASURED = 1 << 21 };
 
 /* Interrupts a pattern at its first progress call. By then the pattern has checked its arguments, which is all that
    is needed. */
@@ -45,8 +48,8 @@ static koksma_status try_image_set(const char *pattern, long long n)
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
 }
 
-/* Fails unless a pattern can make n points in a block. */
-typedef koksma_status (*set_trial)(const void *block, const char *pattern, long long n);
+/* Fails unless a pattern can make n points in a block, or a measure accepts n points. */
+typedef koksma_status (*set_trial)(const void *block, const char *name, long long n);
 
 static koksma_status try_points(const void *block, const char *pattern, long long n)
 {
@@ -59,14 +62,36 @@ static koksma_status try_image(const void *block, const char *pattern, long long
     return try_image_set(pattern, n);
 }
 
-/* The combinations to try: all patterns with all numbers `n`, which are the list `key` of the JSON object `node`. */
+/* koksma_evaluate refuses a number of points before its first call of keep_going. Other errors are of the points. */
+static koksma_status try_measure(const void *block, const char *measure, long long n)
+{
+    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
+    koksma_spec spec;
+    koksma_points points;
+    koksma_value value;
+    if (koksma__integrand_of(measure)) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma_measure_spec(measure, &spec));
+    KOKSMA__TRY(koksma_points_init(&points, (size_t)n, ((const koksma__discrepancy_block *)block)->dim));
+    for (size_t i = 0; i < points.n * (size_t)points.dim; i++) { /* different points, on a line */
+        points.xs[i] = i % (size_t)points.dim ? 0.5 : (double)(i / (size_t)points.dim) / (double)n;
+    }
+    const koksma_status status = koksma_evaluate(&spec, &points, &briefly, &value);
+    koksma_points_fini(&points);
+    return status == KOKSMA_N || status == KOKSMA_MEMORY ? status : KOKSMA_OK;
+}
+
+/* The combinations to try: all patterns, or all measures, with all numbers `n` up to `most`, which are the list `key` of
+   the JSON object `node`. */
 typedef struct tried {
     const koksma__json_node *node;
     const char *key;
     const void *block;
     set_trial trial;
-    const koksma__texts *patterns;
+    const koksma__texts *names;
     koksma__wholes *n;
+    long long most;
 } tried;
 
 static koksma_status refuse_first(const tried *t)
@@ -74,8 +99,8 @@ static koksma_status refuse_first(const tried *t)
     koksma__json_node list;
     koksma_status status = koksma__json_member(t->node, t->key, &list);
     for (size_t k = 0; !status && k < t->n->n; k++) {
-        for (size_t p = 0; !status && p < t->patterns->n && t->n->at[k] <= MOST_TRIED; p++) {
-            status = t->trial(t->block, t->patterns->at[p], t->n->at[k]);
+        for (size_t p = 0; !status && p < t->names->n && t->n->at[k] <= t->most; p++) {
+            status = t->trial(t->block, t->names->at[p], t->n->at[k]);
             if (status) {
                 const koksma__json_node item = koksma__json_item(&list, k);
                 status = koksma__json_fail_in(&item, status);
@@ -92,11 +117,11 @@ koksma_status koksma_plan_try(const char *pattern, size_t n, int dim)
 }
 
 /* Appends the line "what: reason". */
-static koksma_status add_line(const char *what, const char *reason, koksma__left_out *out)
+static koksma_status add_line(const char *what, const char *reason, koksma__texts *lines)
 {
     const size_t size = 4 * (strlen(what) + strlen(reason)) + 3; /* every byte of the pattern may become \xNN */
     char *text = malloc(size);
-    char **line = text ? koksma__add_one(&out->lines.at, &out->lines.n, sizeof *line) : NULL;
+    char **line = text ? koksma__add_one(&lines->at, &lines->n, sizeof *line) : NULL;
     if (!line) {
         free(text);
         return koksma__fail_memory(size);
@@ -107,14 +132,14 @@ static koksma_status add_line(const char *what, const char *reason, koksma__left
     return KOKSMA_OK;
 }
 
-/* Tries pattern p with all sizes and marks those that it cannot make. If there are any, appends the line
-   "PATTERN, N = 8, 32: reason". */
-static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *out)
+/* Tries pattern or measure p with all sizes and marks those that it refuses. If there are any, appends the line
+   "NAME, N = 8, 32: reason". */
+static koksma_status leave_out_of(const tried *t, size_t p, bool *is, koksma__texts *lines)
 {
     char line[1024], reason[512] = "";
-    int length = snprintf(line, sizeof line, "%s, N = ", t->patterns->at[p]);
-    for (size_t k = 0; k < t->n->n && t->n->at[k] <= MOST_TRIED; k++) {
-        const koksma_status status = t->trial(t->block, t->patterns->at[p], t->n->at[k]);
+    int length = snprintf(line, sizeof line, "%s, N = ", t->names->at[p]);
+    for (size_t k = 0; k < t->n->n && t->n->at[k] <= t->most; k++) {
+        const koksma_status status = t->trial(t->block, t->names->at[p], t->n->at[k]);
         char text[sizeof reason] = "";
         snprintf(text, sizeof text, "%s", status ? koksma_error_text() : "");
         /* the error concerns a file or the system, not this number of points */
@@ -129,15 +154,15 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
         if (status && !reason[0]) {
             snprintf(reason, sizeof reason, "%s", text);
         }
-        out->is[p * t->n->n + k] = status != KOKSMA_OK;
+        is[p * t->n->n + k] = status != KOKSMA_OK;
     }
     if (!reason[0]) {
         return KOKSMA_OK;
     }
-    /* the line begins with the pattern's name; if the reason begins with it too, it is cut from the reason */
-    const size_t name = strcspn(t->patterns->at[p], ":");
+    /* the line begins with the name; if the reason begins with it too, it is cut from the reason */
+    const size_t name = strcspn(t->names->at[p], ":");
     const bool twice = !strncmp(reason, line, name) && !strncmp(reason + name, ": ", 2);
-    return add_line(line, reason + (twice ? name + 2 : 0), out);
+    return add_line(line, reason + (twice ? name + 2 : 0), lines);
 }
 
 /* The number of files of n points. */
@@ -179,38 +204,56 @@ static koksma_status find_short_sizes(const koksma__discrepancy_block *b, size_t
         }
     }
     free(sets);
-    return length > begin ? add_line(line, "the family has fewer files than for other N", out) : KOKSMA_OK;
+    return length > begin ? add_line(line, "the family has fewer files than for other N", &out->lines) : KOKSMA_OK;
 }
 
-/* Reports the first size that a pattern cannot make as an error; with `skip`, leaves such sizes out instead. */
-static koksma_status check(const tried *t, koksma__left_out *out)
+/* Whether one of the names is not left out at size k. */
+static bool leaves(const tried *t, const bool *is, size_t k)
 {
+    bool any = false;
+    for (size_t p = 0; !any && p < t->names->n; p++) {
+        any = !is[p * t->n->n + k];
+    }
+    return any;
+}
+
+/* Tries the patterns (kinds > 0) and the measures (kinds > 1) of a block. Reports the first size that one of them refuses
+   as an error; with `skip`, leaves such sizes out instead. */
+static koksma_status check(const tried *t, size_t kinds, koksma__left_out *out)
+{
+    bool **const is[] = {&out->is, &out->unmeasured};
     bool skip = false, any = false;
     koksma_status status = koksma__json_get_flag(t->node, "skip", false, &skip);
-    if (!status && !skip) {
-        status = refuse_first(t);
+    for (size_t i = 0; !status && !skip && i < kinds; i++) {
+        status = refuse_first(&t[i]);
     }
     koksma__plan_sort(t->n);
     out->skip = skip;
     if (status || !skip) {
         return status;
     }
-    const size_t n = t->patterns->n * t->n->n;
-    out->is = calloc(n, sizeof *out->is);
-    status = out->is ? KOKSMA_OK : koksma__fail_memory(n);
-    for (size_t p = 0; !status && p < t->patterns->n; p++) {
-        status = leave_out_of(t, p, out);
+    for (size_t i = 0; !status && i < kinds; i++) {
+        const size_t n = t[i].names->n * t->n->n;
+        *is[i] = calloc(n, sizeof **is[i]);
+        status = *is[i] ? KOKSMA_OK : koksma__fail_memory(n);
+        for (size_t p = 0; !status && p < t[i].names->n; p++) {
+            status = leave_out_of(&t[i], p, *is[i], &out->lines);
+        }
     }
-    for (size_t i = 0; !status && i < n; i++) {
-        any |= !out->is[i];
+    for (size_t k = 0; !status && !any && k < t->n->n; k++) {
+        any = true;
+        for (size_t i = 0; i < kinds; i++) {
+            any = any && leaves(&t[i], *is[i], k);
+        }
     }
     return status || any ? status : koksma__json_fail(t->node, "'skip' leaves nothing: %s", out->lines.at[0]);
 }
 
 koksma_status koksma__plan_check_sets(const koksma__json_node *node, koksma__discrepancy_block *block)
 {
-    const tried t = {node, "n", block, try_points, &block->patterns, &block->n};
-    koksma_status status = check(&t, &block->left_out);
+    const tried t[] = {{node, "n", block, try_points, &block->patterns, &block->n, MOST_TRIED},
+                       {node, "n", block, try_measure, &block->measures, &block->n, MOST_MEASURED / block->dim}};
+    koksma_status status = check(t, 2, &block->left_out);
     for (size_t p = 0; !status && p < block->patterns.n; p++) {
         status = find_short_sizes(block, p, &block->left_out);
     }
@@ -284,7 +327,7 @@ static koksma_status check_variant(const char *variant, const koksma__texts *pat
 
 koksma_status koksma__plan_check_spp(const koksma__json_node *node, koksma__image_block *block)
 {
-    const tried t = {node, "spp", block, try_image, &block->patterns, &block->spp};
+    const tried t = {node, "spp", block, try_image, &block->patterns, &block->spp, MOST_TRIED};
     koksma_status status = KOKSMA_OK;
     bool takes_spp = false;
     for (size_t v = 0; !status && v < block->variants.n; v++) {
@@ -292,10 +335,7 @@ koksma_status koksma__plan_check_spp(const koksma__json_node *node, koksma__imag
         status = check_variant(block->variants.at[v], &block->patterns);
         status = status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
     }
-    if (!takes_spp) {
-        koksma__plan_sort(&block->spp);
-    }
-    return status || !takes_spp ? status : check(&t, &block->left_out);
+    return status ? status : check(&t, takes_spp, &block->left_out);
 }
 
 koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__reference *reference)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The jobs of a run that failed alone, without ending the run: their pattern has no point set, or their measure has
- * no value (IMPOSSIBLE). A run lists them in the store, so that report and export can say why a table has gaps.
+ * no value (koksma__is_impossible). A run lists them in the store, so that report and export can say why a table has gaps.
  */
 #ifndef KOKSMA_STUDY_RUN_FAILED_JOBS_H
 #define KOKSMA_STUDY_RUN_FAILED_JOBS_H

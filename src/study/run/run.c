@@ -135,7 +135,7 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     summary->store_seconds = koksma__store_seconds(study->store) - store_s;
     const bool all = !status;
     summary->complete = all && !failures.n_refused;
-    if (!status || status == KOKSMA_INTERRUPTED || status == KOKSMA_IMPOSSIBLE) {
+    if (!status || status == KOKSMA_INTERRUPTED || koksma__is_impossible(status)) {
         koksma_status recorded = koksma__failures_record(study, &failures, all);
         recorded = recorded ? recorded : record_run(study, started, summary);
         status = status == KOKSMA_OK || koksma__run_control_time_is_up(&control) ? recorded : status;

@@ -100,6 +100,20 @@ static koksma_status find_seeds(koksma__task *t)
     return status;
 }
 
+/* Lists what a task measures: not what the block leaves out at its size, which is number k of the block. */
+static koksma_status list_measures(koksma__task *t, size_t k)
+{
+    const koksma__discrepancy_block *b = t->discrepancy;
+    t->measures = malloc(b->measures.n * sizeof *t->measures);
+    KOKSMA__REQUIRE_MEMORY(t->measures, b->measures.n * sizeof *t->measures);
+    for (size_t m = 0; m < b->measures.n; m++) {
+        if (!koksma__is_unmeasured(&b->left_out, m, b->n.n, k)) {
+            t->measures[t->n_series++] = b->measures.at[m];
+        }
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discrepancy_block *b)
 {
     const size_t warps = b->warps.n ? b->warps.n : 1;
@@ -112,13 +126,13 @@ static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discr
                              .pattern = b->patterns.at[i / (b->n.n * warps)],
                              .n = b->n.at[i / warps % b->n.n],
                              .variant = b->warps.n ? b->warps.at[i % warps] : "",
-                             .trials = koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials,
-                             .n_series = b->measures.n};
+                             .trials = koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials};
         const size_t before = tasks->n;
         status = find_seeds(&task);
-        status = status ? status : add_task(tasks, &task);
-        if (tasks->n == before) { /* the list does not own the seeds */
-            free(task.seeds);
+        status = status ? status : list_measures(&task, i / warps % b->n.n);
+        status = status || !task.n_series ? status : add_task(tasks, &task);
+        if (tasks->n == before) { /* the list does not own the seeds and measures */
+            KOKSMA__FREE(task.seeds, (void *)task.measures);
         }
     }
     return status;
@@ -210,7 +224,8 @@ koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks
 void koksma__tasks_close(koksma__tasks *tasks)
 {
     for (size_t i = 0; i < tasks->n; i++) {
-        KOKSMA__FREE(tasks->at[i].series, tasks->at[i].references, tasks->at[i].done, tasks->at[i].seeds);
+        KOKSMA__FREE(tasks->at[i].series, tasks->at[i].references, tasks->at[i].done, tasks->at[i].seeds,
+                     (void *)tasks->at[i].measures);
     }
     free(tasks->at);
     free(tasks->rounds);
@@ -262,7 +277,7 @@ koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KO
         koksma__reference_name(&t->image->references[k < references ? k : references - 1], name);
         s.what = name;
     } else {
-        s.what = t->discrepancy->measures.at[k];
+        s.what = t->measures[k];
     }
     return s;
 }
@@ -361,9 +376,14 @@ bool koksma__ends_all(koksma_status status)
     return status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY || status == KOKSMA_IO || status == KOKSMA_SYSTEM;
 }
 
+bool koksma__is_impossible(koksma_status status)
+{
+    return status == KOKSMA_IMPOSSIBLE || status == KOKSMA_N;
+}
+
 bool koksma__task_failed_alone(const koksma_study *study, koksma_status status)
 {
-    return status == KOKSMA_IMPOSSIBLE || (study->sink && status && !koksma__ends_all(status));
+    return koksma__is_impossible(status) || (study->sink && status && !koksma__ends_all(status));
 }
 
 /* ---- One job ------------------------------------------------------------------------------------------- */
@@ -417,13 +437,13 @@ static koksma_status measure(const koksma__task *t, const koksma_points *points,
     for (size_t m = 0; !status && m < t->n_series; m++) {
         koksma_spec spec;
         koksma_value value = {0};
-        const char *integrand = koksma__integrand_of(t->discrepancy->measures.at[m]);
+        const char *integrand = koksma__integrand_of(t->measures[m]);
         results[m].values[1] = results[m].values[2] = results[m].values[3] = NAN;
         if (integrand) {
             status = integrate(integrand, points, run, &results[m].values[0]);
             continue;
         }
-        status = koksma_measure_spec(t->discrepancy->measures.at[m], &spec);
+        status = koksma_measure_spec(t->measures[m], &spec);
         if (!status) {
             status = warp ? koksma_warp_evaluate(warp, &spec, points, run, &value)
                           : koksma_evaluate(&spec, points, run, &value);
@@ -441,7 +461,7 @@ static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, const 
     koksma_points points;
     KOKSMA__TRY(koksma_pattern_spec(t->pattern, &pattern));
     KOKSMA__TRY(koksma_points_init(&points, (size_t)t->n, t->discrepancy->dim));
-    koksma_status status = koksma_generate(&pattern, seed, run, &points);
+    koksma_status status = koksma__file_gap(&pattern, points.n, koksma_generate(&pattern, seed, run, &points));
     status = status ? status : measure(t, &points, run, results);
     koksma_points_fini(&points);
     return status;

@@ -21,9 +21,10 @@ typedef struct koksma__task {
     int width, height;
     /* the hash of the common beginning of the texts from which the jobs' seeds are made (core/hash.h) */
     uint64_t key;
-    size_t place; /* index of the task in the plan's order */
-    /* Number of results of a job: one per measure; or, for an image, its error against each reference, then the
-       coherence of its error against the last reference, then that error by each metric. */
+    size_t place;          /* index of the task in the plan's order */
+    const char **measures; /* of a set of points: what each result measures; else NULL */
+    /* Number of results of a job: one per measure that accepts n points; or, for an image, its error against each
+       reference, then the coherence of its error against the last reference, then that error by each metric. */
     size_t n_series;
     uint64_t *seeds; /* of a family of files (file_names.h): the seed in the name of each trial's file; else NULL */
     size_t *references;    /* for an image: indices into study->references, one per result */
@@ -86,6 +87,10 @@ koksma_status koksma__task_do(const koksma_study *study, const koksma__task *tas
 
 /* Puts the results of a job into the store, or passes them to the study's sink. */
 koksma_status koksma__task_put(const koksma_study *study, const koksma__task *task, const koksma__result *results);
+
+/* Whether a job has no result because its pattern has no set, or its measure no value, of its parameters or its number of
+   points. */
+bool koksma__is_impossible(koksma_status status);
 
 /* Whether a failure is caused by the machine or the caller, not by one job; the run then ends. */
 bool koksma__ends_all(koksma_status status);

@@ -12,6 +12,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/shared/file_names.h"
 #include "render/aov.h"
 #include "render/filters/filter_table.h"
 #include "render/samples/adaptive/adaptive_sets.h"
@@ -43,6 +44,7 @@ static koksma_status compare_sets(const koksma_spec *spec, size_t n, int dim, bo
     status = status ? status : koksma_points_init(&two, n, dim);
     status = status ? status : koksma_generate(spec, 1, NULL, &one);
     status = status ? status : koksma_generate(spec, 2, NULL, &two);
+    status = koksma__file_gap(spec, n, status);
     *same = !status && !memcmp(one.xs, two.xs, n * (size_t)dim * sizeof *one.xs);
     koksma_points_fini(&one);
     koksma_points_fini(&two);
