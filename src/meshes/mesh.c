@@ -39,6 +39,37 @@ void koksma__mesh_fini(koksma__mesh *mesh)
     *mesh = (koksma__mesh){0};
 }
 
+void koksma__mesh_flip(koksma__mesh *mesh)
+{
+    for (size_t t = 0; t < mesh->n_triangles; t++) {
+        const uint32_t second = mesh->indices[3 * t + 1];
+        mesh->indices[3 * t + 1] = mesh->indices[3 * t + 2];
+        mesh->indices[3 * t + 2] = second;
+    }
+    for (size_t i = 0; mesh->normals && i < 3 * mesh->n_vertices; i++) {
+        mesh->normals[i] = 0 - mesh->normals[i];
+    }
+}
+
+koksma_status koksma__mesh_copy(const koksma__mesh *from, koksma__mesh *to)
+{
+    KOKSMA__TRY(koksma__mesh_init(from->n_vertices, from->n_triangles, from->normals != NULL, from->uvs != NULL, to));
+    memcpy(to->vertices, from->vertices, 3 * from->n_vertices * sizeof *to->vertices);
+    memcpy(to->indices, from->indices, 3 * from->n_triangles * sizeof *to->indices);
+    if (from->normals) {
+        memcpy(to->normals, from->normals, 3 * from->n_vertices * sizeof *to->normals);
+    }
+    if (from->uvs) {
+        memcpy(to->uvs, from->uvs, 2 * from->n_vertices * sizeof *to->uvs);
+    }
+    if (from->colours) {
+        to->colours = malloc(3 * from->n_vertices * sizeof *to->colours);
+        KOKSMA__REQUIRE_MEMORY(to->colours, 3 * from->n_vertices * sizeof *to->colours);
+        memcpy(to->colours, from->colours, 3 * from->n_vertices * sizeof *to->colours);
+    }
+    return KOKSMA_OK;
+}
+
 /* Twice the vector area of triangle t: its length is twice the area, its direction the normal. */
 static void twice_area(const koksma__mesh *m, size_t t, double out[3])
 {

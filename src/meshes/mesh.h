@@ -46,6 +46,12 @@ typedef struct koksma__placement {
 koksma_status koksma__mesh_init(size_t n_vertices, size_t n_triangles, bool normals, bool uvs, koksma__mesh *out);
 void koksma__mesh_fini(koksma__mesh *mesh);
 
+/* Turns a mesh inside out: swaps two corners of each triangle and inverts the normals. */
+void koksma__mesh_flip(koksma__mesh *mesh);
+
+/* Copies the vertices and triangles of a mesh. Call koksma__mesh_fini even after an error. Error: MEMORY. */
+koksma_status koksma__mesh_copy(const koksma__mesh *from, koksma__mesh *to);
+
 /* Checks a mesh that was read: every vertex is finite and at most 1e6, every index in range, and at least one
    triangle has an area. Sets the box and n_degenerate, and replaces normals that have no direction. Errors:
    MALFORMED. */

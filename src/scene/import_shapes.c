@@ -161,32 +161,16 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
     return koksma__names_put(&im->files, which, strlen(which), (size_t)(*out + 1));
 }
 
-/* Copies a mesh and turns the copy inside out: swaps two corners of each triangle and inverts the normals. */
-static koksma_status make_twin(const koksma__mesh *from, koksma__mesh *to)
-{
-    KOKSMA__TRY(koksma__mesh_init(from->n_vertices, from->n_triangles, from->normals != NULL, from->uvs != NULL, to));
-    memcpy(to->vertices, from->vertices, 3 * from->n_vertices * sizeof *to->vertices);
-    for (size_t i = 0; i < 3 * from->n_triangles; i++) {
-        to->indices[i] = from->indices[i % 3 ? i - i % 3 + (3 - i % 3) : i];
-    }
-    for (size_t i = 0; from->normals && i < 3 * from->n_vertices; i++) {
-        to->normals[i] = 0 - from->normals[i];
-    }
-    if (from->uvs) {
-        memcpy(to->uvs, from->uvs, 2 * from->n_vertices * sizeof *to->uvs);
-    }
-    return KOKSMA_OK;
-}
-
 static koksma_status find_twin(koksma__import *im, koksma__text_place place, int mesh, int *out)
 {
     koksma__mesh twin = {0};
     if (im->twins[mesh] < 0) {
-        koksma_status status = make_twin(&im->scene->meshes[mesh], &twin);
+        const koksma_status status = koksma__mesh_copy(&im->scene->meshes[mesh], &twin);
         if (status) {
             koksma__mesh_fini(&twin);
             return status;
         }
+        koksma__mesh_flip(&twin);
         KOKSMA__TRY(koksma__import_mesh(im, place, &twin, out));
         im->twins[mesh] = *out;
         im->twins[*out] = mesh;

@@ -215,42 +215,6 @@ static void build_material(builder *build, size_t i)
 
 /* ---- Placements, camera, lights -------------------------------------------------------------------------- */
 
-/* Turns a mesh inside out: swaps two corners of each triangle and inverts the normals. */
-static void flip(koksma__mesh *mesh)
-{
-    for (size_t t = 0; t < mesh->n_triangles; t++) {
-        const uint32_t second = mesh->indices[3 * t + 1];
-        mesh->indices[3 * t + 1] = mesh->indices[3 * t + 2];
-        mesh->indices[3 * t + 2] = second;
-    }
-    for (size_t i = 0; mesh->normals && i < 3 * mesh->n_vertices; i++) {
-        mesh->normals[i] = 0 - mesh->normals[i];
-    }
-}
-
-static koksma_status copy(const koksma__mesh *from, koksma__mesh *to)
-{
-    const koksma_status status =
-        koksma__mesh_init(from->n_vertices, from->n_triangles, from->normals != NULL, from->uvs != NULL, to);
-    if (status) {
-        return status;
-    }
-    memcpy(to->vertices, from->vertices, 3 * from->n_vertices * sizeof *to->vertices);
-    memcpy(to->indices, from->indices, 3 * from->n_triangles * sizeof *to->indices);
-    if (from->normals) {
-        memcpy(to->normals, from->normals, 3 * from->n_vertices * sizeof *to->normals);
-    }
-    if (from->uvs) {
-        memcpy(to->uvs, from->uvs, 2 * from->n_vertices * sizeof *to->uvs);
-    }
-    if (from->colours) {
-        to->colours = malloc(3 * from->n_vertices * sizeof *to->colours);
-        KOKSMA__REQUIRE_MEMORY(to->colours, 3 * from->n_vertices * sizeof *to->colours);
-        memcpy(to->colours, from->colours, 3 * from->n_vertices * sizeof *to->colours);
-    }
-    return KOKSMA_OK;
-}
-
 /* Finds the scene's mesh for a mesh of the file, and makes it when it is first placed. */
 static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int *out)
 {
@@ -264,13 +228,13 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
     KOKSMA__TRY(koksma__scene_add_mesh(scene, &to));
     koksma_status status = KOKSMA_OK;
     if (known[!mirrored] >= 0) {
-        status = copy(&scene->meshes[known[!mirrored]], to);
+        status = koksma__mesh_copy(&scene->meshes[known[!mirrored]], to);
     } else {
         *to = *from; /* move the mesh out of the file's data, which does not need it again */
         *from = (koksma__mesh){0};
     }
     if (!status && (mirrored || known[!mirrored] >= 0)) {
-        flip(to);
+        koksma__mesh_flip(to);
     }
     *out = known[mirrored] = (int)scene->n_meshes - 1;
     return status ? status : koksma__mesh_check(to);
