@@ -12,6 +12,7 @@
 
 #include "core/read_file.h"
 #include "core/status.h"
+#include "meshes/names.h"
 
 typedef koksma__json_node field;
 
@@ -67,17 +68,25 @@ koksma_status koksma__gltf_decode(koksma__gltf *g, const field *f, const char *u
     return keep(g, bytes, size, out);
 }
 
-static koksma_status load(koksma__gltf *g, const field *f, const char *uri, koksma__gltf_bytes *out)
+/* Loads a buffer. files: the buffers that are files, by koksma__file_key; each file is read once, under whatever names. */
+static koksma_status load(koksma__gltf *g, const field *f, const char *uri, koksma__names *files,
+                          koksma__gltf_bytes *out)
 {
-    char file[KOKSMA__MAX_PATH];
+    char file[KOKSMA__MAX_PATH], key[KOKSMA__FILE_KEY];
     unsigned char *bytes = NULL;
-    size_t size = 0;
+    size_t size = 0, known;
     if (!strncmp(uri, "data:", 5)) {
         return koksma__gltf_decode(g, f, uri, out);
     }
     if (!koksma__find_named(g->out->path, uri, file)) {
         return KOKSMA_OK;
     }
+    koksma__file_key(file, key);
+    if (koksma__names_find(files, key, strlen(key), &known)) {
+        *out = g->buffers[known];
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__names_put(files, key, strlen(key), (size_t)(out - g->buffers)));
     KOKSMA__TRY(koksma__read_file(file, KOKSMA__FILE_BUFFER, KOKSMA__BY_FILE, NULL, &bytes, &size));
     koksma__mesh_file_hash(g->out, bytes, size);
     return keep(g, bytes, size, out);
@@ -86,6 +95,7 @@ static koksma_status load(koksma__gltf *g, const field *f, const char *uri, koks
 koksma_status koksma__gltf_load_buffers(koksma__gltf *g)
 {
     koksma_status status = KOKSMA_OK;
+    koksma__names files = {0};
     for (size_t i = 0; !status && i < g->n[KOKSMA__GLTF_BUFFERS]; i++) {
         const field f = koksma__gltf_item(g, KOKSMA__GLTF_BUFFERS, i);
         koksma__gltf_bytes *b = &g->buffers[i];
@@ -94,13 +104,15 @@ koksma_status koksma__gltf_load_buffers(koksma__gltf *g)
         status = koksma__json_get_text(&f, "uri", false, &uri);
         status = status ? status : koksma__json_get_whole(&f, "byteLength", true, 0, 1 << 30, &length);
         if (!status && uri) {
-            status = load(g, &f, uri, b);
+            status = load(g, &f, uri, &files, b);
         } else if (!i) {
             *b = g->binary;
         }
-        KOKSMA__JSON_FAIL_IF(!status && b->bytes && b->size < (size_t)length, &f,
-                             "byteLength is %lld, but there are only %zu bytes", length, b->size);
+        if (!status && b->bytes && b->size < (size_t)length) {
+            status = koksma__json_fail(&f, "byteLength is %lld, but there are only %zu bytes", length, b->size);
+        }
     }
+    koksma__names_fini(&files);
     return status;
 }
 

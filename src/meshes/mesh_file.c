@@ -8,6 +8,8 @@
 #include "meshes/mesh_file.h"
 
 #include <ctype.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -30,6 +32,15 @@ bool koksma__is_file(const char *path)
 {
     struct stat about;
     return !stat(path, &about) && !S_ISDIR(about.st_mode);
+}
+
+void koksma__file_key(const char *path, char out[KOKSMA__FILE_KEY])
+{
+    struct stat about;
+    *out = '\0';
+    if (!stat(path, &about)) {
+        snprintf(out, KOKSMA__FILE_KEY, "%ju %ju", (uintmax_t)about.st_dev, (uintmax_t)about.st_ino);
+    }
 }
 
 /* Decodes %20 and other URI escapes in place; returns false if there are none, or if one encodes a zero byte. */

@@ -8,6 +8,8 @@
 #include "core/read_file.h"
 #include "meshes/mesh.h"
 
+enum { KOKSMA__FILE_KEY = 64 }; /* size of the text of koksma__file_key */
+
 /* An array whose capacity doubles when it is full. */
 typedef struct koksma__list {
     void *items;
@@ -123,6 +125,9 @@ void koksma__fan_finish(koksma__list *indices, koksma__mesh *mesh);
 
 /* Whether the path exists and is not a folder; koksma__read_file rejects everything but plain files. */
 bool koksma__is_file(const char *path);
+
+/* Writes a text that is the same for all names of a file: its device and inode. It is empty if there is no such file. */
+void koksma__file_key(const char *path, char out[KOKSMA__FILE_KEY]);
 
 /* Finds the file beside the model that a model names: by the exact name, or with %20 and other escapes decoded (names
    in glTF are URIs, see RFC 3986, section 2.1), or with \ replaced by / (OBJ files from Windows). Returns false if

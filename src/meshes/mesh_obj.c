@@ -56,7 +56,8 @@ typedef struct obj {
     uint64_t group, object;            /* hashes of the names of the current group and object */
     uint64_t libraries[MAX_LIBRARIES]; /* hashes of the mtllib lines' names */
     size_t n_libraries;
-    bool own_library; /* whether the material file with the same name as the model was read */
+    koksma__names read; /* the material files that were read, by koksma__file_key */
+    bool own_library;   /* whether the material file with the same name as the model was read */
     char joined[MAX_LINE + 1];
 } obj;
 
@@ -268,6 +269,20 @@ static koksma_status use_material(obj *o, const char *name, size_t length)
     return KOKSMA_OK;
 }
 
+/* Reads a material file, once under whatever names; if it can't be opened, the message also names the model. */
+static koksma_status read_library(obj *o, const char *path)
+{
+    char key[KOKSMA__FILE_KEY];
+    size_t known;
+    koksma__file_key(path, key);
+    if (koksma__names_find(&o->read, key, strlen(key), &known)) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__names_put(&o->read, key, strlen(key), 0));
+    const koksma_status status = koksma__mtl_read(path, &o->names, o->out);
+    return status == KOKSMA_MISSING ? koksma__fail_in(status, o->text.path) : status;
+}
+
 /* If a material file is missing, reads the material file that has the same name as the model. */
 static koksma_status note_missing(obj *o, const char *name)
 {
@@ -282,14 +297,7 @@ static koksma_status note_missing(obj *o, const char *name)
     o->own_library = true;
     strcpy(own, o->text.path);
     strcpy(strrchr(own, '.'), ".mtl");
-    return koksma__is_file(own) ? koksma__mtl_read(own, &o->names, o->out) : KOKSMA_OK;
-}
-
-/* Reads a material file; if it can't be opened, the message also names the model. */
-static koksma_status read_library(obj *o, const char *path)
-{
-    const koksma_status status = koksma__mtl_read(path, &o->names, o->out);
-    return status == KOKSMA_MISSING ? koksma__fail_in(status, o->text.path) : status;
+    return koksma__is_file(own) ? read_library(o, own) : KOKSMA_OK;
 }
 
 /* Reads the names after mtllib: one name that contains blanks, or several names. */
@@ -302,7 +310,7 @@ static koksma_status take_libraries(obj *o, const char *rest, size_t length)
             return KOKSMA_OK;
         }
     }
-    KOKSMA__FAIL_IF(o->n_libraries == MAX_LIBRARIES, KOKSMA_MALFORMED, "%s: more than %d material files",
+    KOKSMA__FAIL_IF(o->n_libraries == MAX_LIBRARIES, KOKSMA_MALFORMED, "%s: more than %d different lines mtllib",
                     o->text.path, MAX_LIBRARIES);
     o->libraries[o->n_libraries++] = hash;
     if (length >= sizeof name) {
@@ -450,6 +458,7 @@ koksma_status koksma__obj_read(const unsigned char *bytes, size_t size, koksma__
         free(lists[i]->items);
     }
     koksma__mtl_names_fini(&o->names);
+    koksma__names_fini(&o->read);
     free(o);
     return status;
 }

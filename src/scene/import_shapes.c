@@ -13,15 +13,13 @@
 #include "scene/import_shapes.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <sys/stat.h>
-
 #include "core/capacity.h"
 #include "core/vector.h"
+#include "meshes/mesh_file.h"
 #include "meshes/mesh_read.h"
 #include "render/description_build.h"
 #include "render/lights/lights.h"
@@ -130,24 +128,22 @@ static koksma_status read_mesh(const koksma__import *im, const char *path, koksm
 koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
                                        bool with_normals, int *out)
 {
-    char full[KOKSMA__MAX_PATH], file[64], which[128];
+    char full[KOKSMA__MAX_PATH], file[KOKSMA__FILE_KEY], which[128];
     const char *ending = NULL;
     koksma__mesh mesh = {0};
     koksma__serialized *packed = NULL;
-    struct stat about = {0};
     size_t known = 0;
     KOKSMA__TRY(koksma__import_path(im, place, name, full));
     *out = -1;
     if (!koksma__is_mesh_file(full)) {
         return koksma__import_unknown(im, place, "the mesh %s has an unsupported format: it is left out", name);
     }
-    /* a file may be named in many ways, of which the ending tells how it is read; if stat() fails, reading says why */
-    (void)stat(full, &about);
+    /* a file may be named in many ways, of which the ending tells how it is read; if it has no key, reading says why */
+    koksma__file_key(full, file);
     ending = strrchr(full, '.');
     part = strcmp(ending, ".serialized") != 0 ? -1 : part; /* others have no numbered meshes */
-    snprintf(file, sizeof file, "%ju %ju", (uintmax_t)about.st_dev, (uintmax_t)about.st_ino);
     snprintf(which, sizeof which, "%s %ld %d%.16s", file, part, with_normals, ending);
-    if (about.st_ino && koksma__names_find(&im->files, which, strlen(which), &known)) {
+    if (*file && koksma__names_find(&im->files, which, strlen(which), &known)) {
         *out = (int)known - 1;
         return KOKSMA_OK;
     }

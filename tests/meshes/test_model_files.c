@@ -103,6 +103,34 @@ static void material_files_are_text_of_numbers(void **state)
     }
 }
 
+/* A material file is read where it is first named, and once, however often and under whatever names: so the last of two
+   different files that define a material counts. */
+static void a_material_file_is_read_once(void **state)
+{
+    static const char *const lines[] = {"mtllib a.mtl\nmtllib b.mtl\nmtllib a.mtl\n", "mtllib a.mtl b.mtl a.mtl\n",
+                                        "mtllib a.mtl b.mtl ./a.mtl\n", "mtllib a.mtl b.mtl link.mtl\n",
+                                        "mtllib once.mtl b.mtl missing.mtl\n"};
+    (void)state;
+    need_meshes();
+    write_text("a.mtl", "newmtl m\nKd 0.25\n");
+    write_text("b.mtl", "newmtl m\nKd 0.5\n");
+    write_text("once.mtl", "newmtl m\nKd 0.25\n");
+    assert_int_equal(symlink("a.mtl", "link.mtl"), 0);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        koksma_scene *scene;
+        char text[256];
+        snprintf(text, sizeof text, "%sv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl m\nf 1 2 3\n", lines[i]);
+        write_text("once.obj", text);
+        assert_ok(koksma_scene_open("once.obj", &scene));
+        assert_near(scene->materials[scene->placements[0].material].albedo[0][0], 0.5, 1e-7);
+        koksma_scene_close(scene);
+    }
+    static const char *const names[] = {"a.mtl", "b.mtl", "once.mtl", "link.mtl", "once.obj"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        unlink(names[i]);
+    }
+}
+
 /* What can't be rendered is told when the scene is read, and where. */
 static void what_render_would_refuse_is_refused_at_once(void **state)
 {
@@ -146,6 +174,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ways_to_write_a_mesh_are_one),
         cmocka_unit_test(material_files_are_text_of_numbers),
+        cmocka_unit_test(a_material_file_is_read_once),
         cmocka_unit_test(what_render_would_refuse_is_refused_at_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
