@@ -10,6 +10,7 @@
 
 #include <stdlib.h>
 
+#include "core/read_file.h"
 #include "core/status.h"
 #include "meshes/gltf_buffers.h"
 #include "meshes/gltf_materials.h"
@@ -50,7 +51,7 @@ static koksma_status take_attribute(const koksma__gltf *g, const field *list, co
     return KOKSMA_OK;
 }
 
-static koksma_status take_indices(const koksma__gltf *g, const field *f, const field *attributes, primitive *p)
+static koksma_status take_indices(koksma__gltf *g, const field *f, const field *attributes, primitive *p)
 {
     long long number = 0, positions = 0;
     koksma__gltf_elements *e = &p->indices;
@@ -68,8 +69,15 @@ static koksma_status take_indices(const koksma__gltf *g, const field *f, const f
                                           "SCALAR of 5121, 5123 or 5125",
                                           number, type, e->component);
     }
-    /* computed once for each accessor, because many primitives may share an accessor */
+    /* Computed once for each accessor, because many primitives may share an accessor. All accessors may share the same
+       bytes, too; those that don't are no longer together than a buffer may be. */
     if (!status && !g->beyond[number]) {
+        const size_t most = koksma__file_most(KOKSMA__FILE_BUFFER);
+        g->index_bytes += e->n * (e->component == 5121 ? 1 : e->component == 5123 ? 2 : 4);
+        KOKSMA__JSON_FAIL_IF(g->index_bytes > most, f,
+                             "indices: accessors of more than %zu MiB of indices up to here; let primitives with the "
+                             "same indices share an accessor",
+                             most >> 20);
         for (size_t i = 0; i < e->n; i++) {
             const size_t after = koksma__gltf_whole(e, i) + 1;
             g->beyond[number] = after > g->beyond[number] ? after : g->beyond[number];
@@ -90,7 +98,7 @@ static koksma_status take_indices(const koksma__gltf *g, const field *f, const f
 }
 
 /* Reads a primitive. A primitive without positions has n = 0 and shows nothing. */
-static koksma_status take_primitive(const koksma__gltf *g, const field *f, primitive *p)
+static koksma_status take_primitive(koksma__gltf *g, const field *f, primitive *p)
 {
     field list;
     *p = (primitive){.mode = TRIANGLES, .material = (long long)g->n[KOKSMA__GLTF_MATERIALS]};

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""file_work.py PROGRAM FAULTS: small scenes of pbrt and Mitsuba that ask for much work or memory.
+"""file_work.py PROGRAM FAULTS: small scenes of pbrt and Mitsuba, and small models, that ask for much work or memory.
 
 References let a few kilobytes ask for any amount: instances of instances of nothing, trees of textures, lights with many
 properties that many shapes name, names that stand for long texts. Such a scene must be refused by one line that names the
 file, within the memory and the processor time of an ordinary run. Large honest scenes take time in proportion to their length:
 many names, many meshes of one compressed file, and a mesh to subdivide whose indices are chosen against a hash table. What is
-repeated, a material or a mesh under other names of its file, counts once.
+repeated, a material or a mesh under other names of its file, counts once. So do the files that a model names, and a list of
+indices that many primitives of a glTF file share.
 """
 import json
 import os
@@ -207,6 +208,46 @@ def meshes(bench):
     bench.counts("a mesh under many names", "s.pbrt", PBRT + ways, meshes=1, placements=101)
 
 
+def material_files(bench):
+    bench.put("q", "# a long comment\n" * 65536)
+    lines = "".join("mtllib" + " q ./q" * (600 + i) + "\n" for i in range(64))
+    bench.counts("a material file of 1 MiB that 64 lines name 80,000 times", "s.obj",
+                 lines + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", triangles=1)
+
+
+def gltf(buffers, accessors, hidden):
+    """A triangle in the first buffer; the primitives `hidden` are of a mesh that no node shows."""
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}, {"primitives": hidden}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}] + accessors,
+        "bufferViews": [{"buffer": i, "byteLength": MIB} for i in range(len(buffers))],
+        "buffers": [{"uri": name, "byteLength": MIB} for name in buffers]})
+
+
+MIB = 1 << 20
+POINTS = {"attributes": {"POSITION": 0}, "mode": 0}
+BYTES = {"bufferView": 0, "byteOffset": 36, "componentType": 5121, "type": "SCALAR", "count": MIB - 36}
+
+
+def buffers(bench):
+    bench.put("b.bin", struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) + bytes(MIB - 36))
+    bench.counts("4,000 buffers of one file", "s.gltf", gltf(["./" * (i % 9) + "b.bin" for i in range(4000)], [], [POINTS]),
+                 triangles=1)
+
+
+def indices(bench):
+    """Of all accessors that have the same bytes, each is read; one that primitives share is read once."""
+    each = [dict(POINTS, indices=1 + i) for i in range(100000)]
+    bench.put("s.gltf", gltf(["b.bin"], [BYTES] * 100000, each))
+    bench.checks.refused("100,000 accessors of the same indices", bench.run("scene", "check", "s.gltf"), 3,
+                         "'s.gltf': line 1: meshes[1].primitives[1024]: ", "1024 MiB of indices")
+    bench.counts("100,000 primitives with one accessor of indices", "s.gltf", gltf(["b.bin"], [BYTES], each[:1] * 100000),
+                 triangles=1)
+    parts = [dict(BYTES, byteOffset=36 + i, count=8) for i in range(0, 800000, 8)]
+    bench.counts("100,000 primitives with the same vertices", "s.gltf", gltf(["b.bin"], parts, each), triangles=1)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(os.path.abspath(sys.argv[1]), folder)
@@ -216,7 +257,7 @@ def main():
         if re.search(b"no zlib|no expat|no Embree", done.err):
             print("skipped: " + done.err.decode().strip())
             return
-        for part in (instances, trees, references, names, loop, materials, meshes):
+        for part in (instances, trees, references, names, loop, materials, meshes, material_files, buffers, indices):
             part(bench)
         bench.checks.end()
 
