@@ -14,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "core/capacity.h"
 #include "core/vector.h"
@@ -481,6 +482,15 @@ static koksma_status take_camera(reader *r, source *s)
     return name_space(r, "camera", r->camera[0], r->camera[1]);
 }
 
+/* Whether the film has a crop that is not the whole film. */
+static bool is_cropped(const koksma__pbrt_parameters *p, const char *name, const char *type, double width,
+                       double height)
+{
+    const koksma__pbrt_parameter *crop = koksma__pbrt_find_typed(p, name, type);
+    const double whole[4] = {0, width, 0, height};
+    return crop && (crop->n != 4 || memcmp(crop->numbers, whole, sizeof whole) != 0);
+}
+
 static koksma_status take_film(reader *r, source *s)
 {
     char type[64];
@@ -495,6 +505,9 @@ static koksma_status take_film(reader *r, source *s)
     }
     r->im->scene->width = (int)width;
     r->im->scene->height = (int)height;
+    if (is_cropped(p, "cropwindow", "float", 1, 1) || is_cropped(p, "pixelbounds", "integer", width, height)) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "a film's crop is ignored"));
+    }
     return koksma__pbrt_find(p, "iso") || koksma__pbrt_find(p, "exposuretime") || koksma__pbrt_find(p, "sensor")
                ? koksma__import_unknown(r->im, p->place, "the film's sensor is ignored: brightness is radiance")
                : KOKSMA_OK;
@@ -546,6 +559,16 @@ static koksma_status take_options(reader *r, source *s)
     char type[256];
     KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
     return take_nothing(r, s);
+}
+
+static koksma_status take_colour_space(reader *r, source *s)
+{
+    char name[256];
+    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
+    KOKSMA__TRY(take_nothing(r, s));
+    return strcasecmp(name, "srgb") != 0
+               ? koksma__import_unknown(r->im, r->parameters->place, "colour space '%s' is replaced by sRGB", name)
+               : KOKSMA_OK;
 }
 
 static koksma_status take_medium(reader *r, source *s)
@@ -630,7 +653,7 @@ static const struct {
                   {"AttributeBegin", push, false},
                   {"AttributeEnd", take_attribute_end, false},
                   {"Camera", take_camera, true},
-                  {"ColorSpace", take_options, false},
+                  {"ColorSpace", take_colour_space, false},
                   {"ConcatTransform", take_concat, false},
                   {"CoordSysTransform", take_coordinate_transform, false},
                   {"CoordinateSystem", take_coordinate_system, false},

@@ -741,6 +741,7 @@ static void both_sides_light_alike(void **state)
 /* ---- What is known, and what is said of the rest ----------------------------------------------------------------- */
 
 #define PBRT "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" Film \"rgb\" " SIZE " WorldBegin\n"
+#define CROPPED(crop) "Camera \"perspective\" Film \"rgb\" " SIZE " " crop " WorldBegin Shape \"sphere\""
 #define METALLIC(parameters) PBRT "Material \"conductor\" " parameters " Shape \"sphere\""
 #define MITSUBA(rest)                                                                                                \
     "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor>\n" rest       \
@@ -824,6 +825,12 @@ static const struct {
     {"a.pbrt", "Camera \"orthographic\" Film \"rgb\" " SIZE " WorldBegin Shape \"sphere\"", NULL},
     {"a.pbrt", "\nCamera \"orthographic\" \"float screenwindow\" [0 1 0 1] Film \"rgb\" " SIZE " WorldBegin",
      "a.pbrt:2: the screen window and the image"},
+    {"a.pbrt", CROPPED("\"float cropwindow\" [0 0.5 0 0.5]"), "a.pbrt:1: a film's crop is ignored"},
+    {"a.pbrt", CROPPED("\"integer pixelbounds\" [0 40 0 15]"), "a.pbrt:1: a film's crop is ignored"},
+    {"a.pbrt", CROPPED("\"float cropwindow\" [0 1 0 1] \"integer pixelbounds\" [0 40 0 30]"), NULL},
+    {"a.pbrt", PBRT "ColorSpace \"rec2020\" Shape \"sphere\"",
+     "a.pbrt:2: colour space 'rec2020' is replaced by sRGB"},
+    {"a.pbrt", PBRT "ColorSpace \"sRGB\" Shape \"sphere\"", NULL},
     {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"wrinkled\" Shape \"sphere\"", "a.pbrt:2: texture 'wrinkled'"},
     {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.bz2\"",
      "a.pbrt:2: the mesh a.ply.bz2 has an unsupported format"},
