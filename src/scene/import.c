@@ -214,6 +214,7 @@ koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, 
 {
     if (*c->image) {
         koksma_image *image;
+        KOKSMA__TRY(koksma__import_spend(im, place, im->scene->n_images / 8));
         KOKSMA__TRY(find_image(im, place, c->image, &image));
         *c->image = 0;
         if (!image) {

@@ -545,7 +545,7 @@ static koksma_status take_texture(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
     KOKSMA__TRY(koksma__pbrt_text(s, kind, sizeof kind));
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
-    return koksma__pbrt_texture(&r->values, name, kind, r->parameters);
+    return koksma__pbrt_texture(&r->values, name, type, kind, r->parameters);
 }
 
 /* Skips the quoted text and the parameters of a directive that does not describe the scene. */

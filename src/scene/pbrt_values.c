@@ -24,13 +24,15 @@ enum {
     MOST_TEXTURES = 1 << 16 /* each takes 5 KB, for the path of its image */
 };
 
+#define WITHIN "a texture within another"
+
 struct koksma__pbrt_named {
     char name[256];
     int material;
 };
 
 struct koksma__pbrt_texture {
-    char name[256];
+    char spectrum[64]; /* its value, if that is the name of a spectrum: what it means depends on the texture's use */
     koksma__import_colour colour;
 };
 
@@ -41,7 +43,8 @@ void koksma__pbrt_scene_fini(koksma__pbrt_scene *scene)
     }
     KOKSMA__FREE(scene->texts, scene->materials, scene->textures);
     koksma__names_fini(&scene->material_names);
-    koksma__names_fini(&scene->texture_names);
+    koksma__names_fini(&scene->texture_names[0]);
+    koksma__names_fini(&scene->texture_names[1]);
 }
 
 /* ---- Colours ------------------------------------------------------------------------------------------------ */
@@ -72,33 +75,53 @@ static koksma_status sampled(koksma__text_place place, const double *pairs, size
     return KOKSMA_OK;
 }
 
-/* Reads a named spectrum: "metal-Au-eta" and similar names give the metal's reflectance, others white. */
+/* Reads a named spectrum: of a light, the CIE's illuminants A, which is a black body, and D65, which is white here. With
+   a warning, "metal-Au-eta" and similar names give the metal's reflectance, others white. */
 static koksma_status named_spectrum(koksma__pbrt_scene *scene, koksma__text_place place, const char *name,
-                                    double rgb[3])
+                                    koksma__spectrum_use use, double rgb[3])
 {
     char metal[16] = "";
     grey(1, rgb);
+    if (use == KOKSMA__EMISSION && !strcmp(name, "stdillum-A")) {
+        koksma__import_black_body(2856, rgb);
+        return KOKSMA_OK;
+    }
+    if (use == KOKSMA__EMISSION && !strcmp(name, "stdillum-D65")) {
+        return KOKSMA_OK;
+    }
     if (!strncmp(name, "metal-", 6)) {
         snprintf(metal, sizeof metal, "%.*s", (int)strcspn(name + 6, "-"), name + 6);
-        if (koksma__import_metal(metal, rgb)) {
-            return KOKSMA_OK;
-        }
     }
-    return !strncmp(name, "stdillum-", 9)
-               ? KOKSMA_OK
-               : koksma__import_unknown(scene->im, place, "spectrum '%s' is replaced by white", name);
+    return koksma__import_unknown(scene->im, place, "spectrum '%s' is replaced by %s", name,
+                                  koksma__import_metal(metal, rgb) ? "the metal's reflectance" : "white");
+}
+
+/* Finds a texture among those of type "float", or else "spectrum". pbrt refuses one of the other type. */
+static koksma_status find_texture(koksma__pbrt_scene *scene, koksma__text_place place,
+                                  const koksma__pbrt_parameter *p, bool is_float,
+                                  const struct koksma__pbrt_texture **out)
+{
+    static const char *const types[] = {"spectrum", "float"};
+    size_t i;
+    if (!koksma__names_find(&scene->texture_names[is_float], p->text, strlen(p->text), &i)) {
+        if (!koksma__names_find(&scene->texture_names[!is_float], p->text, strlen(p->text), &i)) {
+            return koksma__import_fail(place, "%s: no texture '%s'", p->name, p->text);
+        }
+        KOKSMA__TRY(koksma__import_unknown(scene->im, place, "%s: the %s texture '%s' stands for a %s texture",
+                                           p->name, types[!is_float], p->text, types[is_float]));
+    }
+    *out = &scene->textures[i];
+    return KOKSMA_OK;
 }
 
 static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place place, const koksma__pbrt_parameter *p,
-                               koksma__spectrum_use use, koksma__import_colour *out)
+                               koksma__spectrum_use use, bool is_float, koksma__import_colour *out)
 {
     if (!strcmp(p->type, "texture")) {
-        size_t i;
-        if (koksma__names_find(&scene->texture_names, p->text, strlen(p->text), &i)) {
-            *out = scene->textures[i].colour;
-            return KOKSMA_OK;
-        }
-        return koksma__import_fail(place, "%s: no texture '%s'", p->name, p->text);
+        const struct koksma__pbrt_texture *texture;
+        KOKSMA__TRY(find_texture(scene, place, p, is_float, &texture));
+        *out = texture->colour;
+        return *texture->spectrum ? named_spectrum(scene, place, texture->spectrum, use, out->rgb) : KOKSMA_OK;
     }
     *out->image = 0;
     out->is_checker = false;
@@ -106,7 +129,7 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
         return koksma__import_fail(place, "%s: a '%s' is not a colour", p->name, p->type);
     }
     if (p->n_texts == 1) {
-        return named_spectrum(scene, place, p->text, out->rgb);
+        return named_spectrum(scene, place, p->text, use, out->rgb);
     }
     if (!strcmp(p->type, "blackbody") && p->n == 1) {
         if (!(p->numbers[0] > 0)) { /* in pbrt such a light is NaN everywhere */
@@ -130,18 +153,19 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
 
 /* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
 static koksma_status read_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
-                                 double otherwise, koksma__spectrum_use use, koksma__import_colour *out)
+                                 double otherwise, koksma__spectrum_use use, bool is_float,
+                                 koksma__import_colour *out)
 {
     const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
     *out = (koksma__import_colour){.period = 1};
     grey(otherwise, out->rgb);
-    return found ? colour_of(scene, p->place, found, use, out) : KOKSMA_OK;
+    return found ? colour_of(scene, p->place, found, use, is_float, out) : KOKSMA_OK;
 }
 
 static koksma_status find_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
                                  double otherwise, koksma__import_colour *out)
 {
-    return read_colour(scene, p, name, otherwise, KOKSMA__REFLECTANCE, out);
+    return read_colour(scene, p, name, otherwise, KOKSMA__REFLECTANCE, false, out);
 }
 
 koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
@@ -149,7 +173,8 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
 {
     static const char *const unknown[] = {"power", "illuminance", "portal", "alpha"};
     koksma__import_colour colour;
-    KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__EMISSION, &colour));
+    KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__EMISSION, false, &colour));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "a light's texture", &colour));
     for (int k = 0; k < 3; k++) {
         rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
     }
@@ -166,7 +191,8 @@ koksma_status koksma__pbrt_coefficient(koksma__pbrt_scene *scene, const koksma__
                                        double rgb[3])
 {
     koksma__import_colour colour;
-    KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__UNBOUNDED, &colour));
+    KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__UNBOUNDED, false, &colour));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "a medium's texture", &colour));
     for (int k = 0; k < 3; k++) {
         const double value = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
         if (!(value >= 0)) {
@@ -182,9 +208,10 @@ koksma_status koksma__pbrt_coefficient(koksma__pbrt_scene *scene, const koksma__
 /* Textures are not clamped: the same one may be a reflectance, which is clamped where it is used, or eta and k of a
    metal. */
 static koksma_status find_texture_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p,
-                                         const char *name, double otherwise, koksma__import_colour *out)
+                                         const char *name, double otherwise, bool is_float,
+                                         koksma__import_colour *out)
 {
-    return read_colour(scene, p, name, otherwise, KOKSMA__UNBOUNDED, out);
+    return read_colour(scene, p, name, otherwise, KOKSMA__UNBOUNDED, is_float, out);
 }
 
 static void mean_of(const koksma__import_colour *a, const koksma__import_colour *b, double rgb[3])
@@ -216,81 +243,131 @@ static void set_mapping(const koksma__pbrt_parameters *p, koksma__mapping *to)
     }
 }
 
-koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *kind,
+static koksma_status read_constant(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool is_float,
+                                   struct koksma__pbrt_texture *to)
+{
+    const koksma__pbrt_parameter *value = koksma__pbrt_find(p, "value");
+    if (value && !strcmp(value->type, "spectrum") && value->n_texts == 1) {
+        snprintf(to->spectrum, sizeof to->spectrum, "%.63s", value->text);
+        return KOKSMA_OK;
+    }
+    return find_texture_colour(scene, p, "value", 1, is_float, &to->colour);
+}
+
+/* Reads the product of two textures, of which the second is of type "float". A product has no order: one colour times a
+   checkerboard is a checkerboard. */
+static koksma_status read_scaled(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool is_float,
+                                 koksma__import_colour *c)
+{
+    koksma__import_colour by;
+    KOKSMA__TRY(find_texture_colour(scene, p, "tex", 1, is_float, c));
+    KOKSMA__TRY(find_texture_colour(scene, p, "scale", 1, true, &by));
+    if (!*c->image && !c->is_checker && by.is_checker) {
+        const koksma__import_colour first = *c;
+        *c = by;
+        by = first;
+    }
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "the scale of a texture", &by));
+    for (int k = 0; k < 3; k++) {
+        c->rgb[k] *= by.rgb[k];
+        c->second[k] *= by.rgb[k];
+    }
+    return *c->image && (by.rgb[0] != 1 || by.rgb[1] != 1 || by.rgb[2] != 1)
+               ? koksma__import_unknown(scene->im, p->place, "an image times a colour is replaced by the image alone")
+               : KOKSMA_OK;
+}
+
+static koksma_status read_checkerboard(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool is_float,
+                                       koksma__import_colour *c)
+{
+    koksma__import_colour second;
+    KOKSMA__TRY(find_texture_colour(scene, p, "tex1", 1, is_float, c));
+    KOKSMA__TRY(find_texture_colour(scene, p, "tex2", 0, is_float, &second));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, c));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, &second));
+    c->is_checker = true;
+    memcpy(c->second, second.rgb, sizeof c->second);
+    const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
+    c->period = u > 1e-6 ? 1 / u : 1;
+    return u != v ? koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale is replaced by uscale")
+                  : KOKSMA_OK;
+}
+
+static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, bool is_float,
+                                  const koksma__pbrt_parameters *p, struct koksma__pbrt_texture *to)
+{
+    koksma__import_colour first, second, *c = &to->colour;
+    if (!strcmp(kind, "imagemap")) {
+        KOKSMA__TRY(koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image));
+        set_mapping(p, &c->mapping);
+        return koksma__pbrt_number(p, "scale", 1) != 1
+                   ? koksma__import_unknown(scene->im, p->place, "an image's scale is ignored")
+                   : KOKSMA_OK;
+    }
+    if (!strcmp(kind, "constant")) {
+        return read_constant(scene, p, is_float, to);
+    }
+    if (!strcmp(kind, "scale")) {
+        return read_scaled(scene, p, is_float, c);
+    }
+    if (!strcmp(kind, "checkerboard") && koksma__pbrt_whole(p, "dimension", 2) == 2) {
+        return read_checkerboard(scene, p, is_float, c);
+    }
+    KOKSMA__TRY(find_texture_colour(scene, p, "tex1", 0.5, is_float, &first));
+    KOKSMA__TRY(find_texture_colour(scene, p, "tex2", 0.5, is_float, &second));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, &first));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, &second));
+    mean_of(&first, &second, c->rgb);
+    return koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind);
+}
+
+koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *type, const char *kind,
                                    const koksma__pbrt_parameters *p)
 {
+    const bool is_float = !strcmp(type, "float");
     if (scene->n_textures == MOST_TEXTURES) {
         return koksma__import_fail(p->place, "more than %d textures", MOST_TEXTURES);
     }
     struct koksma__pbrt_texture *to = koksma__add_one(&scene->textures, &scene->n_textures, sizeof *to);
-    koksma__import_colour first, second;
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-    snprintf(to->name, sizeof to->name, "%s", name);
     /* the texture is hidden until it is complete, so that its own parameters can't refer to it */
     scene->n_textures--;
-    koksma__import_colour *c = &to->colour;
-    koksma_status status = KOKSMA_OK;
-    c->period = 1;
-    grey(0.5, c->rgb);
-    if (!strcmp(kind, "imagemap")) {
-        status = koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image);
-        set_mapping(p, &c->mapping);
-        if (!status && koksma__pbrt_number(p, "scale", 1) != 1) {
-            status = koksma__import_unknown(scene->im, p->place, "an image's scale is ignored");
-        }
-    } else if (!strcmp(kind, "constant")) {
-        status = find_texture_colour(scene, p, "value", 1, c);
-    } else if (!strcmp(kind, "scale")) {
-        status = find_texture_colour(scene, p, "tex", 1, c);
-        status = status ? status : find_texture_colour(scene, p, "scale", 1, &second);
-        for (int k = 0; !status && k < 3; k++) {
-            c->rgb[k] *= second.rgb[k];
-            c->second[k] *= second.rgb[k];
-        }
-        if (!status && (*c->image || *second.image)) {
-            status =
-                koksma__import_unknown(scene->im, p->place, "an image times a colour is replaced by the image alone");
-        }
-    } else if (!strcmp(kind, "checkerboard") && koksma__pbrt_whole(p, "dimension", 2) == 2) {
-        status = find_texture_colour(scene, p, "tex1", 1, c);
-        status = status ? status : find_texture_colour(scene, p, "tex2", 0, &second);
-        *c->image = 0;
-        c->is_checker = true;
-        memcpy(c->second, second.rgb, sizeof c->second);
-        const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
-        c->period = u > 1e-6 ? 1 / u : 1;
-        if (!status && u != v) {
-            status = koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale is replaced by uscale");
-        }
-    } else {
-        status = find_texture_colour(scene, p, "tex1", 0.5, &first);
-        status = status ? status : find_texture_colour(scene, p, "tex2", 0.5, &second);
-        if (!status) {
-            mean_of(&first, &second, c->rgb);
-            status = koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind);
-        }
-    }
-    status =
-        status ? status : koksma__names_put(&scene->texture_names, to->name, strlen(to->name), scene->n_textures);
-    scene->n_textures += !status;
-    return status;
+    to->colour.period = 1;
+    grey(0.5, to->colour.rgb);
+    KOKSMA__TRY(read_texture(scene, kind, is_float, p, to));
+    KOKSMA__TRY(koksma__names_put(&scene->texture_names[is_float], name, strlen(name), scene->n_textures));
+    scene->n_textures++;
+    return KOKSMA_OK;
 }
 
 /* ---- Materials ------------------------------------------------------------------------------------------------ */
 
+/* The name of the spectrum that is the value of a parameter or of its texture; "" if it is something else. */
+static const char *spectrum_name(const koksma__pbrt_scene *scene, const koksma__pbrt_parameter *p)
+{
+    size_t i;
+    if (!strcmp(p->type, "texture")) {
+        const bool found = koksma__names_find(&scene->texture_names[0], p->text, strlen(p->text), &i);
+        return found ? scene->textures[i].spectrum : "";
+    }
+    return !strcmp(p->type, "spectrum") && p->n_texts == 1 ? p->text : "";
+}
+
 /* The metal whose eta or k (`suffix`) a parameter names, as "metal-Au-eta" does; a missing one is copper's, as in pbrt.
    "": the parameter is something else. */
-static const char *named_metal(const koksma__pbrt_parameter *p, const char *suffix, char name[16])
+static const char *named_metal(const koksma__pbrt_scene *scene, const koksma__pbrt_parameter *p, const char *suffix,
+                               char name[16])
 {
     double rgb[3];
     *name = 0;
     if (!p) {
         return "Cu";
     }
-    if (!strcmp(p->type, "spectrum") && p->n_texts == 1 && !strncmp(p->text, "metal-", 6)) {
-        const size_t length = strcspn(p->text + 6, "-");
-        snprintf(name, 16, "%.*s", (int)length, p->text + 6);
-        if (strcmp(p->text + 6 + length, suffix) != 0 || !koksma__import_metal(name, rgb)) {
+    const char *text = spectrum_name(scene, p);
+    if (!strncmp(text, "metal-", 6)) {
+        const size_t length = strcspn(text + 6, "-");
+        snprintf(name, 16, "%.*s", (int)length, text + 6);
+        if (strcmp(text + 6 + length, suffix) != 0 || !koksma__import_metal(name, rgb)) {
             *name = 0;
         }
     }
@@ -302,11 +379,11 @@ static koksma_status take_constant(koksma__pbrt_scene *scene, const koksma__pbrt
                                    const koksma__pbrt_parameter *from, bool *is_constant, double rgb[3])
 {
     koksma__import_colour colour = {.period = 1};
-    if (!from || (from->n_texts && strcmp(from->type, "texture") != 0)) {
+    if (!from || *spectrum_name(scene, from) || (from->n_texts && strcmp(from->type, "texture") != 0)) {
         *is_constant = false;
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(colour_of(scene, p->place, from, KOKSMA__UNBOUNDED, &colour));
+    KOKSMA__TRY(colour_of(scene, p->place, from, KOKSMA__UNBOUNDED, false, &colour));
     *is_constant &= !*colour.image && !colour.is_checker;
     memcpy(rgb, colour.rgb, sizeof colour.rgb);
     return KOKSMA_OK;
@@ -321,9 +398,10 @@ static koksma_status metal(koksma__pbrt_scene *scene, const koksma__pbrt_paramet
     const koksma__pbrt_parameter *eta = koksma__pbrt_find(p, eta_name), *k = koksma__pbrt_find(p, k_name);
     m->kind = KOKSMA__METAL;
     if (koksma__pbrt_find(p, "reflectance")) {
-        return find_colour(scene, p, "reflectance", 1, &m->colour);
+        KOKSMA__TRY(find_colour(scene, p, "reflectance", 1, &m->colour));
+        return koksma__import_mean(scene->im, p->place, "a metal's texture", &m->colour);
     }
-    const char *name = named_metal(eta, "-eta", of_eta), *other = named_metal(k, "-k", of_k);
+    const char *name = named_metal(scene, eta, "-eta", of_eta), *other = named_metal(scene, k, "-k", of_k);
     double eta_rgb[3] = {0}, k_rgb[3] = {0};
     bool is_constant = true;
     KOKSMA__TRY(take_constant(scene, p, eta, &is_constant, eta_rgb));

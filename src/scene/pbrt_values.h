@@ -13,8 +13,8 @@ typedef struct koksma__pbrt_scene {
     struct koksma__pbrt_texture *textures;
     char **texts; /* names of the files that were read */
     size_t n_materials, n_textures, n_texts;
-    koksma__names material_names, texture_names;
-    size_t n_divided; /* number of triangles that subdivision made so far */
+    koksma__names material_names, texture_names[2]; /* textures: of type "spectrum" and of type "float" */
+    size_t n_divided;                               /* number of triangles that subdivision made so far */
 } koksma__pbrt_scene;
 
 void koksma__pbrt_scene_fini(koksma__pbrt_scene *scene);
@@ -28,7 +28,8 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
 koksma_status koksma__pbrt_coefficient(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
                                        double rgb[3]);
 
-koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *kind,
+/* type: "float" or "spectrum", which have separate names. */
+koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *type, const char *kind,
                                    const koksma__pbrt_parameters *p);
 
 /* Makes a material; *out is its index, or -1 if light passes through. */

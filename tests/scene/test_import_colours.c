@@ -2,7 +2,8 @@
 /*
  * Colours of pbrt's and Mitsuba's scenes that may be above 1: eta and k of metals, coefficients of media, factors of
  * daylight. Each form of one value (numbers, pairs, samples at equal or listed wavelengths, textures, the names of
- * Mitsuba 2) gives the same colour. Indices of refraction and directions of any size give finite pictures.
+ * Mitsuba 2) gives the same colour, also within textures of pbrt. Indices of refraction and directions of any size give
+ * finite pictures.
  */
 #include <math.h>
 #include <string.h>
@@ -373,6 +374,182 @@ static void coats_are_finite(void **state)
     }
 }
 
+/* ---- Textures and names of spectra of pbrt ------------------------------------------------------------------- */
+
+#define IMAGE "Texture \"i\" \"spectrum\" \"imagemap\" \"string filename\" \"grey.pfm\" " /* pixels .2 and .6 */
+#define CHECKS(type, name, first, second)                                                                            \
+    "Texture \"" name "\" \"" type "\" \"checkerboard\" " first " " second " \"float uscale\" 4 \"float vscale\" 4 "
+#define CONSTANT(type, name, value) "Texture \"" name "\" \"" type "\" \"constant\" " value " "
+#define SHOWN "Material \"diffuse\" \"texture reflectance\" \"t\""
+#define MEAN "a texture within another is replaced by its mean colour"
+
+/* The first warning has the words `said`; NULL: there is none. */
+static void check_said(const koksma_scene *scene, const char *text, const char *said)
+{
+    char warning[256] = "";
+    koksma_scene_unknown(scene, 0, warning, sizeof warning);
+    if (said ? !strstr(warning, said) : *warning != 0) {
+        fail_msg("%s: '%s', expected '%s'", text, warning, said ? said : "");
+    }
+}
+
+/* Textures of spectra and of numbers have separate names. A product is that of the colours, in either order; where a
+   texture within another leaves space for one colour only, it is the mean. */
+static void textures_combine(void **state)
+{
+    static const struct {
+        const char *text;
+        double first[3], second[3]; /* of a checkerboard; both are the same of a colour */
+        const char *said;           /* the first warning; NULL: none */
+    } cases[] = {
+        {CONSTANT("spectrum", "t", "\"rgb value\" [.9 0 .2]") CONSTANT("float", "t", "\"float value\" .1") SHOWN,
+         {.9, 0, .2},
+         {.9, 0, .2},
+         NULL},
+        {CONSTANT("float", "t", "\"float value\" .1") CONSTANT("spectrum", "t", "\"rgb value\" [.9 0 .2]") SHOWN,
+         {.9, 0, .2},
+         {.9, 0, .2},
+         NULL},
+        {CONSTANT("float", "a", "\"float value\" .5")
+             CONSTANT("spectrum", "a", "\"rgb value\" [.8 0 .2]") "Texture \"t\" \"spectrum\" \"scale\" \"texture "
+                                                                  "tex\" \"a\" \"texture scale\" \"a\" " SHOWN,
+         {.4, 0, .1},
+         {.4, 0, .1},
+         NULL},
+        {CONSTANT("float", "t", "\"float value\" .1") SHOWN,
+         {.1, .1, .1},
+         {.1, .1, .1},
+         "reflectance: the float texture 't' stands for a spectrum texture"},
+        {CHECKS("float", "c", "\"float tex1\" 1",
+                "\"float tex2\" .5") "Texture \"t\" \"spectrum\" \"scale\" \"rgb tex\" [.8 0 .2] \"texture scale\" "
+                                     "\"c\" " SHOWN,
+         {.8, 0, .2},
+         {.4, 0, .1},
+         NULL},
+        {CHECKS("spectrum", "c", "\"rgb tex1\" [.8 0 .2]",
+                "\"rgb tex2\" [.4 0 .1]") "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"c\" \"float "
+                                          "scale\" .5 " SHOWN,
+         {.4, 0, .1},
+         {.2, 0, .05},
+         NULL},
+        {CHECKS("spectrum", "c", "\"rgb tex1\" [.8 0 .2]", "\"rgb tex2\" [.4 0 .1]") CHECKS(
+             "float", "d", "\"float tex1\" 1", "\"float tex2\" 0") "Texture \"t\" \"spectrum\" \"scale\" \"texture "
+                                                                   "tex\" \"c\" \"texture scale\" \"d\" " SHOWN,
+         {.4, 0, .1},
+         {.2, 0, .05},
+         "the scale of a texture is replaced by its mean colour"},
+        {IMAGE CHECKS("spectrum", "t", "\"texture tex1\" \"i\"", "\"rgb tex2\" [0 0 .9]") SHOWN,
+         {.4, .4, .4},
+         {0, 0, .9},
+         MEAN},
+        {IMAGE CHECKS("spectrum", "t", "\"rgb tex1\" [0 0 .9]", "\"texture tex2\" \"i\"") SHOWN,
+         {0, 0, .9},
+         {.4, .4, .4},
+         MEAN},
+        {CHECKS("spectrum", "c", "\"rgb tex1\" [1 0 0]", "\"rgb tex2\" [0 1 0]")
+             CHECKS("spectrum", "t", "\"texture tex1\" \"c\"", "\"rgb tex2\" [0 0 .9]") SHOWN,
+         {.5, .5, 0},
+         {0, 0, .9},
+         MEAN},
+        {IMAGE "Texture \"t\" \"spectrum\" \"mix\" \"texture tex1\" \"i\" \"rgb tex2\" [.2 .2 .2] " SHOWN,
+         {.3, .3, .3},
+         {.3, .3, .3},
+         MEAN},
+        {"Texture \"i\" \"float\" \"imagemap\" \"string filename\" \"grey.pfm\" Texture \"t\" \"spectrum\" \"scale\" "
+         "\"rgb tex\" [.5 0 1] \"texture scale\" \"i\" " SHOWN,
+         {.2, 0, .4},
+         {.2, 0, .4},
+         "the scale of a texture is replaced by its mean colour"},
+        {IMAGE "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"i\" \"float scale\" 1 " SHOWN,
+         {.4, .4, .4},
+         {.4, .4, .4},
+         NULL}, /* the image; this is its mean */
+        {IMAGE "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"i\" \"float scale\" .5 " SHOWN,
+         {.4, .4, .4},
+         {.4, .4, .4},
+         "an image times a colour is replaced by the image alone"}};
+    char path[128];
+    koksma_image grey;
+    (void)state;
+    snprintf(path, sizeof path, "%s/grey.pfm", folder);
+    assert_ok(koksma_image_init(&grey, 2, 1, 1));
+    grey.pixels[0] = .2f;
+    grey.pixels[1] = .6f;
+    assert_ok(koksma_image_write(path, &grey, NULL));
+    koksma_image_fini(&grey);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, "Camera \"perspective\" WorldBegin %s", cases[i].text);
+        koksma_scene *scene = opened("a.pbrt", text);
+        const koksma__material *m = &scene->materials[scene->n_materials - 1];
+        const bool is_checker = memcmp(cases[i].first, cases[i].second, sizeof cases[i].first) != 0;
+        check_rgb(text, m->albedo[0], cases[i].first, 1e-6);
+        check_rgb(text, m->albedo[is_checker], cases[i].second, 1e-6);
+        assert_true(m->checker == is_checker && (!is_checker || m->period == .25));
+        check_said(scene, text, cases[i].said);
+        koksma_scene_close(scene);
+    }
+    unlink(path);
+}
+
+/* A texture whose value is the name of a spectrum is that spectrum; a metal has no textures. The CIE's illuminant A has
+   the chromaticity .44757, .40745 (CIE 15), which is 1.845, .826, .233 in linear sRGB of luminance 1, and is a black body
+   of 2856 K. */
+static void names_of_spectra_are_read(void **state)
+{
+#define NAMED(name) CONSTANT("spectrum", "t", "\"spectrum value\" \"" name "\"")
+#define GOLD_K "\"spectrum k\" \"metal-Au-k\""
+    static const struct {
+        const char *metal, *same; /* two materials that are the same */
+        const char *said;         /* of the first */
+    } metals[] = {
+        {NAMED("metal-Au-eta") "Material \"conductor\" \"texture eta\" \"t\" " GOLD_K,
+         "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" " GOLD_K, NULL},
+        {NAMED("metal-Au-k") "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"texture k\" \"t\"",
+         "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" " GOLD_K, NULL},
+        {NAMED("metal-Cu-eta") "Material \"conductor\" \"texture eta\" \"t\"", "Material \"conductor\"", NULL},
+        {NAMED("metal-Ag-eta") "Material \"conductor\" \"texture eta\" \"t\" " GOLD_K,
+         "Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\"",
+         "eta and k of a metal"},
+        {NAMED("metal-Au-eta") "Material \"conductor\" \"texture reflectance\" \"t\"",
+         "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" " GOLD_K,
+         "spectrum 'metal-Au-eta' is replaced by the metal's reflectance"},
+        {CHECKS("spectrum", "t", "\"rgb tex1\" [1 0 .5]",
+                "\"rgb tex2\" [.5 1 .5]") "Material \"conductor\" \"texture reflectance\" \"t\"",
+         "Material \"conductor\" \"rgb reflectance\" [.75 .5 .5]",
+         "a metal's texture is replaced by its mean colour"}};
+    static const struct {
+        const char *light;
+        double rgb[3];
+        const char *said;
+    } lights[] = {{"\"spectrum L\" \"stdillum-A\"", {1.845, .826, .233}, NULL},
+                  {"\"blackbody L\" 2856", {1.845, .826, .233}, NULL},
+                  {"\"spectrum L\" \"stdillum-D65\"", {1, 1, 1}, NULL},
+                  {"\"spectrum L\" \"stdillum-F1\"", {1, 1, 1}, "spectrum 'stdillum-F1' is replaced by white"}};
+    char text[1024];
+    (void)state;
+    for (size_t i = 0; i < sizeof metals / sizeof *metals; i++) {
+        koksma_scene *scenes[2];
+        for (int k = 0; k < 2; k++) {
+            snprintf(text, sizeof text, PBRT("", "%s"), k ? metals[i].same : metals[i].metal);
+            scenes[k] = opened("a.pbrt", text);
+        }
+        check_said(scenes[0], metals[i].metal, metals[i].said);
+        check_rgb(metals[i].metal,
+                  koksma__material_value(&scenes[0]->materials[scenes[0]->n_materials - 1], "reflectance"),
+                  koksma__material_value(&scenes[1]->materials[scenes[1]->n_materials - 1], "reflectance"), 0);
+        koksma_scene_close(scenes[0]);
+        koksma_scene_close(scenes[1]);
+    }
+    for (size_t i = 0; i < sizeof lights / sizeof *lights; i++) {
+        snprintf(text, sizeof text, PBRT("", "LightSource \"infinite\" %s"), lights[i].light);
+        koksma_scene *scene = opened("a.pbrt", text);
+        check_rgb(text, scene->lights[0].radiance, lights[i].rgb, 0.02);
+        check_said(scene, text, lights[i].said);
+        koksma_scene_close(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(metals_are_the_same_in_all_forms),
@@ -381,7 +558,9 @@ int main(void)
                                        cmocka_unit_test(coefficients_are_finite),
                                        cmocka_unit_test(daylight_is_white),
                                        cmocka_unit_test(directions_have_no_length),
-                                       cmocka_unit_test(coats_are_finite)};
+                                       cmocka_unit_test(coats_are_finite),
+                                       cmocka_unit_test(textures_combine),
+                                       cmocka_unit_test(names_of_spectra_are_read)};
     strcpy(folder, "/tmp/koksma-colours-XXXXXX");
     if (!mkdtemp(folder)) {
         return 1;
