@@ -172,19 +172,10 @@ koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const field *objec
     return KOKSMA_OK;
 }
 
-static uint32_t bits_at(const unsigned char *at, size_t bytes)
-{
-    uint32_t value = 0;
-    for (size_t i = 0; i < bytes; i++) {
-        value |= (uint32_t)at[i] << 8 * i;
-    }
-    return value;
-}
-
 size_t koksma__gltf_whole(const koksma__gltf_elements *e, size_t i)
 {
     const unsigned char *at = e->first + i * e->stride;
-    return e->component == 5121 ? *at : bits_at(at, e->component == 5123 ? 2 : 4);
+    return e->component == 5121 ? *at : koksma__bits_at(at, e->component == 5123 ? 2 : 4, false);
 }
 
 /* Normalised integers (glTF 2.0, section 3.6.2.2): unsigned ones are c / 255 or c / 65535, signed ones max(c / 127,
@@ -194,7 +185,7 @@ float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k)
     const unsigned char *at = e->first + i * e->stride;
     float value = 0, full = 0;
     if (e->component == 5126 || e->component == 5125) {
-        const uint32_t bits = bits_at(at + 4 * k, 4);
+        const uint32_t bits = (uint32_t)koksma__bits_at(at + 4 * k, 4, false);
         memcpy(&value, &bits, sizeof value);
         return e->component == 5126 ? value : (float)bits;
     }
@@ -202,7 +193,7 @@ float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k)
         value = e->component == 5121 ? (float)at[k] : (float)(signed char)at[k];
         full = e->component == 5121 ? 255 : 127;
     } else {
-        const uint32_t bits = bits_at(at + 2 * k, 2);
+        const uint32_t bits = (uint32_t)koksma__bits_at(at + 2 * k, 2, false);
         value = e->component == 5123 ? (float)bits : (float)(int16_t)bits;
         full = e->component == 5123 ? 65535 : 32767;
     }

@@ -115,6 +115,16 @@ koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, cons
 /* Adds a Lambert material of this grey. *out is valid until the next call. Errors: MEMORY. */
 koksma_status koksma__file_add_material(koksma__mesh_file *f, float grey, koksma__file_material **out);
 
+/* The number in these bytes, 8 at most. */
+static inline uint64_t koksma__bits_at(const unsigned char *at, size_t bytes, bool big_endian)
+{
+    uint64_t value = 0;
+    for (size_t i = 0; i < bytes; i++) {
+        value |= (uint64_t)at[big_endian ? bytes - 1 - i : i] << 8 * i;
+    }
+    return value;
+}
+
 /* Adds a fan of triangles around the polygon's first corner to a list with 3 indices per triangle: this is exact for
    convex polygons; for a concave polygon some triangles may reach outside of the polygon or overlap. Errors, which
    name path: MALFORMED (too many triangles), MEMORY. */

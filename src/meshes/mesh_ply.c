@@ -255,18 +255,9 @@ static koksma_status take_text(ply *p, const type *of, double *real, long long *
     return KOKSMA_OK;
 }
 
-static inline uint64_t bits_at(const unsigned char *at, size_t bytes, bool big_endian)
-{
-    uint64_t value = 0;
-    for (size_t i = 0; i < bytes; i++) {
-        value |= (uint64_t)at[big_endian ? bytes - 1 - i : i] << 8 * i;
-    }
-    return value;
-}
-
 static inline long long whole_at(const ply *p, const type *of, const unsigned char *at)
 {
-    const uint64_t value = bits_at(at, of->bytes, p->big_endian), sign = 1ull << (8 * of->bytes - 1);
+    const uint64_t value = koksma__bits_at(at, of->bytes, p->big_endian), sign = 1ull << (8 * of->bytes - 1);
     return of->kind == WHOLE && value & sign ? (long long)(value & (sign - 1)) - (long long)sign : (long long)value;
 }
 
@@ -275,7 +266,7 @@ static double real_at(const ply *p, const type *of, const unsigned char *at)
     if (of->kind != REAL) {
         return (double)whole_at(p, of, at);
     }
-    const uint64_t value = bits_at(at, of->bytes, p->big_endian);
+    const uint64_t value = koksma__bits_at(at, of->bytes, p->big_endian);
     const uint32_t half = (uint32_t)value;
     double wide;
     float narrow;
@@ -444,7 +435,7 @@ static void take_column(ply *p, const property *of, const unsigned char *at, siz
         return;
     }
     for (size_t i = 0; i < n; i++) {
-        const uint32_t bits = (uint32_t)bits_at(at + stride * i, 4, false);
+        const uint32_t bits = (uint32_t)koksma__bits_at(at + stride * i, 4, false);
         memcpy(&numbers[step * (first + i)], &bits, sizeof bits);
     }
 }
@@ -507,7 +498,7 @@ static koksma_status take_triangles(ply *p, const element *e, size_t most, size_
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     for (bool there_are = true; *taken < n && there_are; at += BYTES, to += 3) {
         for (size_t c = 0; c < 3; c++) {
-            to[c] = (uint32_t)bits_at(at + 1 + 4 * c, 4, p->big_endian);
+            to[c] = (uint32_t)koksma__bits_at(at + 1 + 4 * c, 4, p->big_endian);
             there_are &= to[c] < p->n_vertices;
         }
         *taken += there_are;

@@ -39,18 +39,9 @@ typedef struct stream {
     uint64_t *read; /* number of bytes to which the file's meshes up to here decompress */
 } stream;
 
-static uint64_t whole(const unsigned char *bytes, int n)
-{
-    uint64_t value = 0;
-    while (n--) {
-        value = value << 8 | bytes[n];
-    }
-    return value;
-}
-
 koksma_status koksma__serialized_start(const unsigned char *bytes, size_t size)
 {
-    KOKSMA__FAIL_IF(size < HEADER || whole(bytes, 2) != FORMAT, KOKSMA_MALFORMED,
+    KOKSMA__FAIL_IF(size < HEADER || koksma__bits_at(bytes, 2, false) != FORMAT, KOKSMA_MALFORMED,
                     "not 1C 04, with which Mitsuba's .serialized files begin");
     return KOKSMA_OK;
 }
@@ -59,7 +50,7 @@ static koksma_status take_whole(stream *s, int n, uint64_t *value)
 {
     unsigned char bytes[8] = {0};
     KOKSMA__TRY(koksma__inflate_read(s->in, bytes, (size_t)n));
-    *value = whole(bytes, n);
+    *value = koksma__bits_at(bytes, n, false);
     return KOKSMA_OK;
 }
 
@@ -82,7 +73,7 @@ static koksma_status take_numbers(stream *s, size_t n, float *to)
         const size_t now = n - done < PIECE / each ? n - done : PIECE / each;
         KOKSMA__TRY(koksma__inflate_read(s->in, bytes, now * each));
         for (size_t i = 0; to && i < now; i++) {
-            const uint64_t bits = whole(bytes + i * each, (int)each);
+            const uint64_t bits = koksma__bits_at(bytes + i * each, (int)each, false);
             const uint32_t narrow = (uint32_t)bits;
             double value;
             if (s->is_double) {
@@ -104,7 +95,7 @@ static koksma_status take_indices(stream *s, size_t n, uint32_t *to)
         const size_t now = n - done < PIECE / 4 ? n - done : PIECE / 4;
         KOKSMA__TRY(koksma__inflate_read(s->in, bytes, 4 * now));
         for (size_t i = 0; i < now; i++) {
-            to[done + i] = (uint32_t)whole(bytes + 4 * i, 4);
+            to[done + i] = (uint32_t)koksma__bits_at(bytes + 4 * i, 4, false);
         }
         done += now;
     }
@@ -160,15 +151,15 @@ typedef struct directory {
 
 static uint64_t start_of(const directory *d, uint64_t i)
 {
-    return i < d->n ? whole(d->entries + i * (uint64_t)d->each, d->each) : d->body;
+    return i < d->n ? koksma__bits_at(d->entries + i * (uint64_t)d->each, d->each, false) : d->body;
 }
 
 /* Finds the dictionary at the end of the file. */
 static koksma_status find_directory(const char *path, const unsigned char *bytes, size_t size, directory *d)
 {
     *d = (directory){.bytes = bytes,
-                     .n = size >= HEADER + 4 ? whole(bytes + size - 4, 4) : 0,
-                     .each = size >= HEADER && whole(bytes + 2, 2) == 3 ? 4 : 8};
+                     .n = size >= HEADER + 4 ? koksma__bits_at(bytes + size - 4, 4, false) : 0,
+                     .each = size >= HEADER && koksma__bits_at(bytes + 2, 2, false) == 3 ? 4 : 8};
     KOKSMA__FAIL_IF(!d->n || d->n > (size - 4) / (size_t)d->each, KOKSMA_MALFORMED,
                     "%s: its last four bytes give %llu meshes, which its %zu bytes can't hold", path,
                     (unsigned long long)d->n, size);
@@ -194,10 +185,10 @@ static koksma_status read_mesh(const char *path, const directory *d, uint64_t i,
 {
     const unsigned char *bytes = d->bytes + start_of(d, i);
     stream s = {.size = (size_t)(start_of(d, i + 1) - start_of(d, i)) - HEADER, .read = read};
-    const uint64_t version = whole(bytes + 2, 2);
-    KOKSMA__FAIL_IF(whole(bytes, 2) != FORMAT || (version != 3 && version != 4), KOKSMA_MALFORMED,
+    const uint64_t version = koksma__bits_at(bytes + 2, 2, false);
+    KOKSMA__FAIL_IF(koksma__bits_at(bytes, 2, false) != FORMAT || (version != 3 && version != 4), KOKSMA_MALFORMED,
                     "%s: a mesh begins with %llX and version %llu, not with 41C and version 3 or 4", path,
-                    (unsigned long long)whole(bytes, 2), (unsigned long long)version);
+                    (unsigned long long)koksma__bits_at(bytes, 2, false), (unsigned long long)version);
     koksma_status status = koksma__inflate_open(bytes + HEADER, s.size, &s.in);
     status = status ? status : take_mesh(&s, version, mesh, coloured);
     koksma__inflate_close(s.in);
