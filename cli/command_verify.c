@@ -90,9 +90,19 @@ static bool disappoints(const char *list, const char *source, const koksma_point
     return false;
 }
 
+/* Returns the set that the pattern `record` stores for the measure of this canonical text, or NULL if it has none. */
+static const koksma_record *find_record(const char *measure, const koksma_points *points)
+{
+    const koksma_record *r, *found = NULL;
+    for (size_t i = 0; (r = koksma_record_at(i)); i++) {
+        found = r->n == points->n && r->dim == points->dim && !strcmp(r->measure, measure) ? r : found;
+    }
+    return found;
+}
+
 /* --record: prints the exact value of a measure for the points, and the best known value for this number of points
-   and dimensions, which is the value of the set that the pattern `record` stores. *is_record: the points have a lower
-   value, or no such set is known. Returns the exit code. */
+   and dimensions, which is the value of the set that the pattern `record` stores. *is_record: the points have a better
+   value. Without a known value nothing can be compared, which a message says. Returns the exit code. */
 static int put_record(const cli_arguments *arguments, cli_rows *rows, const char *source, const koksma_points *points,
                       const koksma_run *run, bool *is_record)
 {
@@ -103,22 +113,21 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
     if (status) {
         return cli_fail(arguments, status);
     }
-    const char *name = measure.measure->name;
+    char name[KOKSMA_MAX_SPEC];
+    koksma_spec_text(&measure, name);
     if (measure.measure->answer != KOKSMA_ANSWER_EXACT) {
         return cli_usage_error(arguments, "-m %s: it takes a measure with exact values, such as star or l2-star",
                                text);
     }
-    const koksma_record *r, *here = NULL;
-    for (size_t i = 0; (r = koksma_record_at(i)); i++) {
-        here = r->n == points->n && r->dim == points->dim && !strcmp(r->measure, name) ? r : here;
-    }
+    const koksma_record *here = find_record(name, points);
     status = koksma_evaluate(&measure, points, run, &value);
     if (status) {
         return cli_fail(arguments, status);
     }
     /* The stored coordinates of the known sets are rounded, so the same set with unrounded coordinates can have a
-       slightly lower value. The value of a record must be lower by more than this difference. */
-    *is_record = !here || value.value < here->value - 1e-11;
+       slightly better value. The value of a record must be better by more than this difference. */
+    const double sign = measure.measure->larger_is_better ? 1 : -1;
+    *is_record = here && sign * (value.value - here->value) > 1e-11;
     cli_row_text(rows, "source", source);
     cli_row_whole(rows, "n", points->n);
     cli_row_whole(rows, "dim", (uint64_t)points->dim);
@@ -126,7 +135,14 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
     cli_row_number(rows, "value", value.value);
     cli_row_number(rows, "best_here", here ? here->value : (double)NAN);
     cli_row_number(rows, "published", here && here->published > 0 ? here->published : (double)NAN);
-    cli_row_flag(rows, "record", *is_record);
+    if (here) {
+        cli_row_flag(rows, "record", *is_record);
+    } else {
+        cli_row_json(rows, "record", "null", "unknown");
+        cli_say("verify",
+                "%s: nothing is known to compare with: %s has no set for n = %zu, dim = %d in 'koksma list records'",
+                source, name, points->n, points->dim);
+    }
     cli_row_end(rows);
     return CLI_YES;
 }
@@ -163,6 +179,10 @@ static int run(const cli_arguments *arguments)
     if (cli_text(arguments, "measure", NULL) && !cli_flag(arguments, "record")) {
         return cli_usage_error(arguments, "-m MEASURE has an effect only with --record");
     }
+    if (expect && cli_flag(arguments, "record")) {
+        return cli_usage_error(arguments, "-e PROPERTY has no effect with --record, which tests no properties; check "
+                                          "them by a command without --record");
+    }
     if (arguments->n_operands == 0) {
         return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
     }
@@ -195,7 +215,8 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'e', "expect", "PROPERTY,..", "exit with code 1 unless all these properties hold"},
     {0, "record", NULL,
-     "compare the star discrepancy with the best known value; exit with code 1 unless it is lower"},
+     "compare the star discrepancy with the best known value for this number of points; exit with code 1 unless it "
+     "is lower (of distances: larger), also if none is known"},
     {'m', "measure", "MEASURE", "with --record: measure to compare instead of star, such as l2-star"},
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},
@@ -207,14 +228,13 @@ static const cli_option options[] = {
 const cli_command cli_command_verify = {
     .name = "verify",
     .summary = "check which properties points have",
-    .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--record] [--json]",
+    .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..|--record [-m MEASURE]] [--json]",
     .details = "Each property is desirable; 'yes' means that the points have it, and the detail explains the value.\n"
                "{property-meanings}"
                "\n"
                "Exit codes: 0 for any findings without --expect; 1 when a property of --expect fails or was not "
-               "tested, or when points of --record are no record; 2 for a wrong command line, such as an unknown "
-               "property; 3 for points "
-               "that are missing or malformed.",
+               "tested, or when points of --record are no record or no value is known to compare with; 2 for a wrong "
+               "command line, such as an unknown property; 3 for points that are missing or malformed.",
     .examples = "koksma verify pattern:sobol@1024\n"
                 "koksma verify points.txt --expect distinct\n",
     .options = options,
