@@ -163,13 +163,16 @@ static bool stop_at_once(void *context, double fraction_done)
 int measuring_check_dim(measuring *j, int dim)
 {
     const koksma_run run = {.threads = 1, .keep_going = stop_at_once};
+    const bool one_suffices = j->all || j->by_default;
     koksma_points points;
     koksma_status status = koksma_points_init(&points, 1, dim);
-    for (size_t m = 0; m < j->n_measures && !status && !j->all && !j->by_default; m++) {
+    bool more = !status;
+    for (size_t m = 0; m < j->n_measures && more; m++) {
         koksma_value value;
-        const koksma_status found = j->warp ? koksma_warp_evaluate(j->warp, &j->measures[m], &points, &run, &value)
-                                            : koksma_evaluate(&j->measures[m], &points, &run, &value);
-        status = found == KOKSMA_DIM || found == KOKSMA_UNSUPPORTED ? found : KOKSMA_OK;
+        status = j->warp ? koksma_warp_evaluate(j->warp, &j->measures[m], &points, &run, &value)
+                         : koksma_evaluate(&j->measures[m], &points, &run, &value);
+        status = status == KOKSMA_DIM || status == KOKSMA_UNSUPPORTED ? status : KOKSMA_OK;
+        more = one_suffices ? status != KOKSMA_OK : status == KOKSMA_OK;
     }
     const int code = status ? cli_fail(j->arguments, status) : CLI_YES;
     koksma_points_fini(&points);

@@ -55,7 +55,8 @@ koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_poin
 koksma_status measuring_forgive(measuring *j, koksma_status status);
 
 /* Fails, with an error on stderr, if -m names a measure that has no form for points of `dim` dimensions, or none for
-   the warp: before any measure of these points is evaluated. Returns the exit code. */
+   the warp; with -m all and without -m, if this holds for all measures, so that none would be left. The check comes
+   before any measure of these points is evaluated. Returns the exit code. */
 int measuring_check_dim(measuring *j, int dim);
 
 /* Returns whether --prefixes or --sizes asks for values at several sizes, with a slope. */
