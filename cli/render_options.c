@@ -98,6 +98,7 @@ bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options 
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code)
 {
     uint64_t n = 0, spp;
+    bool common = false; /* whether a line gave the pattern of all uses that have none of their own */
     while (*lines) {
         static char line[KOKSMA_MAX_PATTERNS_TEXT];
         const size_t length = strcspn(lines, "\n");
@@ -113,11 +114,22 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
             *code = CLI_USAGE;
             return false;
         }
+        const koksma_spec before = options->pattern;
+        options->pattern = (koksma_spec){0}; /* a line that names no uses sets it */
         const koksma_status status = koksma_render_patterns(line, options);
         if (status) {
             *code = cli_fail(arguments, status);
             return false;
         }
+        if (options->pattern.pattern && common) {
+            *code = cli_usage_error(
+                arguments,
+                "-p %s: another -p has the pattern of all uses; name the uses of this one, as in -p lens=PATTERN",
+                line);
+            return false;
+        }
+        common = common || options->pattern.pattern;
+        options->pattern = options->pattern.pattern ? options->pattern : before;
     }
     const bool valid = cli_whole(arguments, "spp", n ? n : 16, 1, KOKSMA_MAX_SPP, &spp);
     if (valid && n && n != spp) {

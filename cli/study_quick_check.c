@@ -261,6 +261,10 @@ static int check_sizes(const cli_arguments *arguments, const char *patterns, con
 int cli_quick_check(const cli_arguments *arguments, const cli_quick *quick)
 {
     const bool all = !strcmp(quick->patterns, "all");
+    if (!quick->scenes && cli_text(arguments, "spp", NULL)) {
+        return cli_usage_error(arguments,
+                               "--spp needs --scene, because it is the number of samples a pixel of images");
+    }
     if (!quick->scenes && cli_text(arguments, "metric", NULL)) {
         return cli_usage_error(arguments, "--metric needs --scene, because it measures the error of images");
     }

@@ -17,6 +17,15 @@ static bool choose_cells(const cli_curves *c, const koksma_points *points, koksm
 {
     uint64_t columns, rows;
     const char *grid = cli_text(c->arguments, "grid", NULL);
+    const bool rooks = cli_flag(c->arguments, "rooks"),
+               cells = cli_flag(c->arguments, "columns") || cli_flag(c->arguments, "rows");
+    if (rooks + (grid != NULL) + cells > 1) {
+        cli_usage_error(c->arguments, "--%s excludes --%s: each of them chooses the cells", rooks ? "rooks" : "grid",
+                        grid && rooks                       ? "grid"
+                        : cli_flag(c->arguments, "columns") ? "columns"
+                                                            : "rows");
+        return false;
+    }
     if (!cli_whole(c->arguments, "columns", 0, 1, MAX_CELLS, &columns) ||
         !cli_whole(c->arguments, "rows", 0, 1, MAX_CELLS, &rows)) {
         return false;
@@ -36,7 +45,7 @@ static bool choose_cells(const cli_curves *c, const koksma_points *points, koksm
             return false;
         }
     }
-    if (cli_flag(c->arguments, "rooks")) {
+    if (rooks) {
         /* with more cells the guide lines would overlap */
         columns = rows = points->n < MAX_CELLS ? points->n : 0;
     }
