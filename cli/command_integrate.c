@@ -425,6 +425,12 @@ static int run(const cli_arguments *arguments)
             arguments, "it takes an integrand and points, as in disk sobol@64 or disk -p sobol,halton -n 16,64; "
                        "'koksma list integrands' names the integrands");
     }
+    if (cli_text(arguments, "samples", NULL) && !cli_flag(arguments, "anova")) {
+        return cli_usage_error(arguments, "--samples has an effect only with --anova");
+    }
+    if (cli_text(arguments, "trials", NULL) && arguments->n_operands == 1) {
+        return cli_usage_error(arguments, "--trials has an effect only with points, as in disk sobol@64");
+    }
     if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j.seed) ||
         !cli_whole(arguments, "trials", 32, 1, MOST_TRIALS, &j.trials) || !cli_sources_check(arguments, 1, 1, 1) ||
         !cli_work_begin(arguments, "integrating", &j.work)) {

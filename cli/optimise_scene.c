@@ -109,7 +109,8 @@ static bool parse_lists(scene_job *j)
 
 static bool parse(scene_job *j)
 {
-    static const char *const unused[] = {"dim", "from", "keep", "projections", "weights", "steps", "time-limit"};
+    static const char *const unused[] = {"dim",  "from",    "keep",  "projections", "power",
+                                         "band", "weights", "steps", "time-limit"};
     const cli_arguments *arguments = j->arguments;
     koksma_scene_search *o = &j->options;
     uint64_t spp, candidates, phases, max_trials;

@@ -348,7 +348,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
         Says in `components` which coordinates, and up to 16 coordinates which pairs, carry the variance, and for products of
         functions of one coordinate, which carry the error at the largest n.
     samples : int
-        With anova: as of sensitivity().
+        With anova, and only then: as of sensitivity().
     threads : int
         0: one for each processor.
 
@@ -387,6 +387,8 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
     if not 1 <= len(sizes) <= s.MAX_SIZES:
         raise ArgumentError(f"n must be 1 to {s.MAX_SIZES} sizes, not {len(sizes)}")
     options, each = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(*sizes), len(sizes), seed, trials), flag("anova", anova)
+    if samples and not each:
+        raise ArgumentError(f"samples={samples} has an effect only with anova=True")
     integral, variance = _known("integral", integral, -math.inf), _known("variance", variance, 0)
     raised: List[BaseException] = []
     with _opened(function, dim, raised) as handle:

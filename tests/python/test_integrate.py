@@ -129,6 +129,8 @@ class Integrate(unittest.TestCase):
                       lambda: koksma.sensitivity("disk", 2), lambda: koksma.integrate("disk", "random", 4, trials=0)):
             with self.assertRaises(koksma.Error):
                 wrong()
+        with self.assertRaisesRegex(koksma.ArgumentError, "^samples=64 has an effect only with anova=True"):
+            koksma.integrate("disk", "random", 4, samples=64)
         with self.assertRaises(ZeroDivisionError):
             koksma.integrate(lambda x: 1 // 0, "random", 4)
         with self.assertRaises(ZeroDivisionError):
