@@ -8,6 +8,7 @@
 #define KOKSMA_CLI_CLI_H
 
 #include <koksma/koksma.h>
+#include <koksma/series.h>
 #include <koksma/study.h>
 
 enum { CLI_MAX_OPTIONS = 32, CLI_YES = 0, CLI_NO = 1, CLI_USAGE = 2, CLI_DIGITS = 5, CLI_NUMBER = 32 };
@@ -91,6 +92,10 @@ bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallba
    Returns false after an error. */
 bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *text, uint64_t min, uint64_t max,
                   uint64_t *out);
+/* Reads `list`, which is the value of the option `name`, as up to KOKSMA_MAX_SIZES different whole numbers in [1, max].
+   also: for the error message, what else the option takes ("powers, or "), or "". Returns false after an error. */
+bool cli_sizes(const cli_arguments *arguments, const char *name, const char *list, const char *also, uint64_t max,
+               size_t sizes[KOKSMA_MAX_SIZES], size_t *n);
 /* Reads --size WxH; without this option *width and *height do not change. Returns false after an error. */
 bool cli_size(const cli_arguments *arguments, int *width, int *height);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);

@@ -233,24 +233,9 @@ static bool parse_prefixes(measuring *j)
     }
     j->own_sets = sizes;
     j->powers = prefixes && !strcmp(prefixes, "powers");
-    while (text && *text && !j->powers) {
-        char *end;
-        const unsigned long long k = strtoull(text, &end, 10);
-        if (*text < '0' || *text > '9' || k == 0 || (*end && *end != ',') || j->n_prefixes == MAX_PREFIXES) {
-            cli_usage_error(j->arguments, "--%s %s: it takes %sup to %d numbers as in 16,64,256", option, text,
-                            sizes ? "" : "powers, or ", MAX_PREFIXES);
-            return false;
-        }
-        for (size_t i = 0; i < j->n_prefixes; i++) {
-            if (j->prefixes[i] == k) {
-                cli_usage_error(j->arguments, "--%s: %llu is given twice", option, k);
-                return false;
-            }
-        }
-        j->prefixes[j->n_prefixes++] = k;
-        text = *end ? end + 1 : end;
-    }
-    return true;
+    return !text || j->powers ||
+           cli_sizes(j->arguments, option, text, sizes ? "" : "powers, or ", KOKSMA_MAX_COORDINATES, j->prefixes,
+                     &j->n_prefixes);
 }
 
 /* Reads --warp W,W.. and checks that all warps have the same domain. Returns false after an error. */

@@ -259,21 +259,6 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     return KOKSMA_OK;
 }
 
-/* Returns sample count i (0..) of a list such as "4,16,64"; 0 past the end, -1 if the item is not a valid number. */
-static long spp_at(const char *list, size_t i)
-{
-    for (; i > 0; i--) {
-        list = strchr(list, ',');
-        if (!list) {
-            return 0;
-        }
-        list++;
-    }
-    char *end;
-    const long value = strtol(list, &end, 10);
-    return (*end && *end != ',') || value < 1 || value > 1 << 20 || list[0] < '0' || list[0] > '9' ? -1 : value;
-}
-
 static int run(const cli_arguments *arguments)
 {
     cli_work work;
@@ -309,11 +294,9 @@ static int run(const cli_arguments *arguments)
         }
         list = counted;
     }
-    size_t n_spp = 0;
-    for (; spp_at(list, n_spp); n_spp++) {
-        if (spp_at(list, n_spp) < 0) {
-            return cli_usage_error(arguments, "--spp %s: it takes numbers of samples, such as 4,16,64", list);
-        }
+    size_t spps[KOKSMA_MAX_SIZES], n_spp;
+    if (!cli_sizes(arguments, "spp", list, "", KOKSMA_MAX_SPP, spps, &n_spp)) {
+        return CLI_USAGE;
     }
     if (!cli_real(arguments, "time-limit", 60, 0, 1e9, &time_limit_s) ||
         !cli_integrator_and_filter(arguments, &integrator, &filter) || !cli_size(arguments, &width, &height) ||
@@ -333,7 +316,7 @@ static int run(const cli_arguments *arguments)
         const koksma_rank_options options = {.scene = arguments->operands[0],
                                              .patterns = p.at,
                                              .n_patterns = p.n,
-                                             .spp = (int)spp_at(list, i),
+                                             .spp = (int)spps[i],
                                              .width = width,
                                              .height = height,
                                              .integrator = integrator,

@@ -349,6 +349,29 @@ bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallba
     return !text || cli_is_whole(arguments, name, text, min, max, out);
 }
 
+bool cli_sizes(const cli_arguments *arguments, const char *name, const char *list, const char *also, uint64_t max,
+               size_t sizes[KOKSMA_MAX_SIZES], size_t *n)
+{
+    for (*n = 0; list;) {
+        char *end;
+        const unsigned long long k = strtoull(list, &end, 10);
+        if (*list < '0' || *list > '9' || k == 0 || k > max || (*end && *end != ',') || *n == KOKSMA_MAX_SIZES) {
+            cli_usage_error(arguments, "--%s %s: it takes %sup to %d numbers from 1 to %llu, as in 16,64,256", name,
+                            list, also, KOKSMA_MAX_SIZES, (unsigned long long)max);
+            return false;
+        }
+        for (size_t i = 0; i < *n; i++) {
+            if (sizes[i] == k) {
+                cli_usage_error(arguments, "--%s: %llu is given twice", name, k);
+                return false;
+            }
+        }
+        sizes[(*n)++] = k;
+        list = *end ? end + 1 : NULL;
+    }
+    return true;
+}
+
 bool cli_size(const cli_arguments *arguments, int *width, int *height)
 {
     const char *text = cli_text(arguments, "size", NULL);

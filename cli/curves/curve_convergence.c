@@ -40,17 +40,7 @@ static bool choose_sizes(const cli_curves *c, const cli_source *source, size_t n
     if (!text && *count == 0) {
         sizes[(*count)++] = n;
     }
-    while (text && *text) {
-        char *end;
-        const unsigned long long k = strtoull(text, &end, 10);
-        if (*text < '0' || *text > '9' || k == 0 || (*end && *end != ',') || *count == MAX_SIZES) {
-            cli_usage_error(c->arguments, "--sizes %s: it takes up to %d numbers as in 16,64,256", text, MAX_SIZES);
-            return false;
-        }
-        sizes[(*count)++] = k;
-        text = *end ? end + 1 : end;
-    }
-    return true;
+    return !text || cli_sizes(c->arguments, "sizes", text, "", KOKSMA_MAX_COORDINATES, sizes, count);
 }
 
 /* Running statistics of a source's values over the trials, for each size. */

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, UnsupportedError, call, check, core, flag, quoted, real, several, spec, text, whole
+from ._library import ArgumentError, UnsupportedError, call, check, core, flag, quoted, real, several, sizes_of, spec, text, whole
 from ._points import Member, PointArray, as_points, canonical, generate, numbers, table, view
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
@@ -337,7 +337,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
     pattern : str or array_like of shape (n, dim)
         A spec, such as "sobol:scramble=owen"; or points, which are one set.
     n : int or sequence of int
-        Numbers of points of a pattern; three or more give a slope. Points have their own.
+        Numbers of points of a pattern, each once; three or more give a slope. Points have their own.
     dim : int
         Of a pattern.
     trials, seed : int
@@ -381,7 +381,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
         raise TypeError("n must be the number of points of a pattern, or several numbers, not None")
     else:
         source = _pattern(pattern)
-        sizes = [whole("n", k, 1, s.MAX_COORDINATES) for k in _each("n", n)]
+        sizes = sizes_of("n", _each("n", n))
     dim, trials = whole("dim", dim, 1, s.MAX_DIM), whole("trials", trials, 1, 1000000)
     seed, samples = whole("seed", seed, 0, s.MAX_SEED - trials), whole("samples", samples, 0, 1 << 20)
     if not 1 <= len(sizes) <= s.MAX_SIZES:

@@ -415,6 +415,15 @@ def several(name: str, values: Any) -> List[Any]:
         raise TypeError(f"{name} must be a sequence, not {quoted(values)}") from None
 
 
+def sizes_of(name: str, values: Any) -> List[int]:
+    """Numbers of points, each once: a size given twice would count as two of those that a slope needs."""
+    numbers = [whole(name, k, 1, s.MAX_COORDINATES) for k in several(name, values)]
+    for i, k in enumerate(numbers):
+        if k in numbers[:i]:
+            raise ArgumentError(f"{name}: {k} is given twice")
+    return numbers
+
+
 def texts(name: str, values: Iterable[str]) -> List[str]:
     """Several texts. One alone would pass as the list of its letters."""
     if isinstance(values, str):

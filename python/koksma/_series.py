@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, core, flag, several, spec, whole
+from ._library import ArgumentError, call, core, flag, sizes_of, spec, whole
 from ._matplotlib import curve
 from ._points import as_points, canonical, generate, is_sequence, value_of, view
 
@@ -201,7 +201,7 @@ def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[Su
     pattern, measure : str
         Specs.
     sizes : sequence of int, optional
-        Numbers of points; by default 16, 64, 256 and 1024.
+        Numbers of points, each once; by default 16, 64, 256 and 1024.
     dim, trials, seed : int
         As for `trials`.
     prefixes : bool, optional
@@ -227,7 +227,7 @@ def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[Su
     >>> koksma.convergence("sobol", "l2-star", [16, 64, 256])
     Convergence('sobol', 'l2-star', n=16..256: slope -0.963 +- 0.0098)
     """
-    numbers = [whole("sizes", k, 1, s.MAX_COORDINATES) for k in several("sizes", (16, 64, 256, 1024) if sizes is None else sizes)]
+    numbers = sizes_of("sizes", (16, 64, 256, 1024) if sizes is None else sizes)
     count, seed = whole("trials", trials, 1, 1 << 24), whole("seed", seed, 0, s.MAX_SEED)
     if not numbers:
         raise ArgumentError("sizes must have at least one number of points")

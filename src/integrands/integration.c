@@ -28,6 +28,9 @@ static koksma_status check_options(const koksma_integration_options *o)
     for (size_t i = 0; i < o->n_sizes; i++) {
         KOKSMA__FAIL_IF(o->sizes[i] < 1 || o->sizes[i] > KOKSMA_MAX_COORDINATES, KOKSMA_ARGUMENT,
                         "koksma_integration_options: sizes: it takes 1 to %zu points", KOKSMA_MAX_COORDINATES);
+        for (size_t k = 0; k < i; k++) { /* two equal sizes would count as two of the slope's */
+            KOKSMA__FAIL_IF(o->sizes[k] == o->sizes[i], KOKSMA_ARGUMENT, "n: %zu is given twice", o->sizes[i]);
+        }
     }
     return KOKSMA_OK;
 }

@@ -109,6 +109,14 @@ static void wrong_arguments_are_refused(void **state)
     koksma_points_fini(&points);
     assert_int_equal(koksma_integral_sensitivity(f, (int[]){0, 0}, 2, 0, 0, NULL, &s), KOKSMA_ARGUMENT);
     assert_int_equal(koksma_integral_sensitivity(f, (int[]){3}, 1, 0, 0, NULL, &s), KOKSMA_ARGUMENT);
+    /* Two equal sizes and another are no three for a slope. */
+    koksma_spec pattern;
+    koksma_integration result;
+    koksma_integration_options twice = {.sizes = {4, 8, 4}, .n_sizes = 3, .trials = 2};
+    assert_ok(koksma_pattern_spec("random", &pattern));
+    assert_int_equal(koksma_integration_errors(f, &pattern, &twice, NULL, &result), KOKSMA_ARGUMENT);
+    assert_string_equal(koksma_error_text(), "n: 4 is given twice");
+    assert_int_equal(koksma_integration_summary(0, 1, &twice, (double[6]){0}, &result), KOKSMA_ARGUMENT);
     koksma_integral_close(f);
     koksma_integral_close(NULL);
 }

@@ -106,6 +106,13 @@ class WrongArguments(unittest.TestCase):
                     self.call(function, {**given, name: right})
         self.assertLessEqual({"allow_exec", "anova", "exact", "layers", "local_discrepancy", "one_size", "prefixes", "quick", "splat"}, seen)
 
+    def test_sizes_given_twice(self):
+        """Two equal sizes and another are no three for a slope. The words are the program's."""
+        self.assertRaisesRegex(koksma.ArgumentError, "^sizes: 16 is given twice$", koksma.convergence, "random", "l2-star", [16, 16, 64])
+        self.assertRaisesRegex(koksma.ArgumentError, "^sizes: 4 is given twice$", koksma.plot_compare, "random", n=4, sizes=[4, 8, 4])
+        for function in ("disk", lambda x: self.fail("it was called")):
+            self.assertRaisesRegex(koksma.ArgumentError, "^n: 16 is given twice$", koksma.integrate, function, "random", [64, 16, 16])
+
     def test_programs_are_not_run(self):
         """allow_exec guards the execution of code: only True runs a program, also where the same call was made before."""
         with open("evil.sh", "w") as program:
