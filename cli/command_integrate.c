@@ -431,8 +431,7 @@ static int run(const cli_arguments *arguments)
     if (cli_text(arguments, "trials", NULL) && arguments->n_operands == 1) {
         return cli_usage_error(arguments, "--trials has an effect only with points, as in disk sobol@64");
     }
-    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j.seed) ||
-        !cli_whole(arguments, "trials", 32, 1, MOST_TRIALS, &j.trials) || !cli_sources_check(arguments, 1, 1, 1) ||
+    if (!cli_trials(arguments, 32, MOST_TRIALS, &j.seed, &j.trials) || !cli_sources_check(arguments, 1, 1, 1) ||
         !cli_work_begin(arguments, "integrating", &j.work)) {
         return CLI_USAGE;
     }
@@ -451,7 +450,8 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     CLI_SOURCE_OPTIONS,
-    {'t', "trials", "T", "number of sets of each random pattern, with seeds S, S+1, .. (default: 32)"},
+    {'t', "trials", "T",
+     "number of sets of each random pattern, with seeds S, S+1, .. to 2^64 - 1 at most (default: 32)"},
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {0, "anova", NULL, "print the share of each coordinate and pair of coordinates in the variance"},
     {0, "samples", "N", "with --anova: estimate shares by N points, even if a closed form is known"},

@@ -279,8 +279,7 @@ static bool parse_options(measuring *j)
         return false;
     }
     j->paired = cli_flag(j->arguments, "paired");
-    if (!parse_warps(j) || !cli_whole(j->arguments, "seed", 0, 0, UINT64_MAX, &j->seed) ||
-        !cli_whole(j->arguments, "trials", 1, 1, 1000000000, &j->trials) ||
+    if (!parse_warps(j) || !cli_trials(j->arguments, 1, 1000000000, &j->seed, &j->trials) ||
         !cli_real(j->arguments, "time-limit", 0, 0, 1e9, &j->time_limit_s) || !parse_prefixes(j) ||
         !measuring_check_prefixes(j) || !cli_sources_check(j->arguments, 0, j->trials, j->n_warps)) {
         return false;
@@ -369,7 +368,8 @@ static const cli_option options[] = {
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {'t', "trials", "T",
-     "measure T sets of each pattern, with seeds S, S+1, ..; print mean, SD, smallest, largest and standard error"},
+     "measure T sets of each pattern, with seeds S, S+1, .. to 2^64 - 1 at most; print mean, SD, smallest, largest "
+     "and standard error"},
     {0, "prefixes", "K,..|powers",
      "measure the first K points for each K, as in 16,64,256 (powers: all powers of two), and print the log-log "
      "slope"},

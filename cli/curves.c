@@ -93,8 +93,8 @@ bool cli_curves_begin(const cli_arguments *arguments, const cli_curve *curve, cl
 {
     *c = (cli_curves){.arguments = arguments, .curve = curve, .output = cli_text(arguments, "output", NULL)};
     c->method = cli_flag(arguments, "exact") ? KOKSMA_SPECTRUM_EXACT : KOKSMA_SPECTRUM_FAST;
-    return options_fit(arguments, curve, list, before) && cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &c->seed) &&
-           cli_whole(arguments, "trials", 1, 1, 1000000000, &c->trials) &&
+    return options_fit(arguments, curve, list, before) &&
+           cli_trials(arguments, 1, 1000000000, &c->seed, &c->trials) &&
            cli_whole(arguments, "half", 0, 1, KOKSMA_SPECTRUM_MAX_HALF, &c->half) &&
            cli_whole(arguments, "bins", 100, 1, 1000000, &c->bins) &&
            cli_real(arguments, "r-max", 0, 1e-6, 0.5, &c->r_max) && cli_work_begin(arguments, "curves", &c->work);

@@ -93,7 +93,8 @@ const char *cli_curve_names(cli_curve_list list, const char *option, const char 
 #define CLI_CURVE_OPTIONS(list, default_half)                                                                        \
     {'s', "seed", "S", "seed of patterns (default: 0)"},                                                             \
         {'t', "trials", "T",                                                                                         \
-         "{" list ":trials}: print the mean over T sets with seeds S, S+1, .., with standard errors"},               \
+         "{" list                                                                                                    \
+         ":trials}: print the mean over T sets with seeds S, S+1, .. to 2^64 - 1 at most, with standard errors"},    \
         {0, "half", "H",                                                                                             \
          "{" list ":half}: use frequencies up to H in each coordinate (default: " default_half "; at most 2047)"},   \
         {0, "exact", NULL, "{" list ":exact}: sum over all points at each frequency instead of the fast transform"}, \

@@ -349,6 +349,25 @@ bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallba
     return !text || cli_is_whole(arguments, name, text, min, max, out);
 }
 
+bool cli_trials(const cli_arguments *arguments, uint64_t fallback, uint64_t max, uint64_t *seed, uint64_t *trials)
+{
+    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, seed) ||
+        !cli_whole(arguments, "trials", fallback, 1, max, trials)) {
+        return false;
+    }
+    const uint64_t more = *trials - 1;
+    if (more > UINT64_MAX - *seed) {
+        cli_usage_error(
+            arguments,
+            "--seed %llu: %llu trials end at this seed + %llu, but seeds end at %llu; --seed %llu or less "
+            "would do",
+            (unsigned long long)*seed, (unsigned long long)*trials, (unsigned long long)more,
+            (unsigned long long)UINT64_MAX, (unsigned long long)(UINT64_MAX - more));
+        return false;
+    }
+    return true;
+}
+
 bool cli_sizes(const cli_arguments *arguments, const char *name, const char *list, const char *also, uint64_t max,
                size_t sizes[KOKSMA_MAX_SIZES], size_t *n)
 {

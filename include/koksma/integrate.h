@@ -130,7 +130,7 @@ typedef struct koksma_integration {
 typedef struct koksma_integration_options {
     size_t sizes[KOKSMA_MAX_SIZES];
     size_t n_sizes;  /* 1 to KOKSMA_MAX_SIZES different sizes; row i of the result is for sizes[i] points */
-    uint64_t seed;   /* trial t uses seed + t */
+    uint64_t seed;   /* trial t uses seed + t; the last may be UINT64_MAX */
     uint64_t trials; /* number of point sets of each size, 1 to 1000000 */
 } koksma_integration_options;
 

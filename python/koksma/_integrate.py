@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, UnsupportedError, call, check, core, flag, quoted, real, several, sizes_of, spec, text, whole
+from ._library import ArgumentError, UnsupportedError, call, check, core, first_seed, flag, quoted, real, several, sizes_of, spec, text, whole
 from ._points import Member, PointArray, as_points, canonical, generate, numbers, table, view
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
@@ -341,7 +341,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
     dim : int
         Of a pattern.
     trials, seed : int
-        Sets of each size with the seeds seed .. seed + trials - 1; one of a deterministic pattern.
+        Sets of each size with the seeds seed .. seed + trials - 1, at most 2^64 - 1; one of a deterministic pattern.
     integral, variance : float
         Of a callable, where they are known: finite, and the variance not negative.
     anova : bool
@@ -383,7 +383,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
         source = _pattern(pattern)
         sizes = sizes_of("n", _each("n", n))
     dim, trials = whole("dim", dim, 1, s.MAX_DIM), whole("trials", trials, 1, 1000000)
-    seed, samples = whole("seed", seed, 0, s.MAX_SEED - trials), whole("samples", samples, 0, 1 << 20)
+    seed, samples = first_seed(seed, trials), whole("samples", samples, 0, 1 << 20)
     if not 1 <= len(sizes) <= s.MAX_SIZES:
         raise ArgumentError(f"n must be 1 to {s.MAX_SIZES} sizes, not {len(sizes)}")
     options, each = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(*sizes), len(sizes), seed, trials), flag("anova", anova)

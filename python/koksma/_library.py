@@ -398,6 +398,15 @@ def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
     return number
 
 
+def first_seed(seed: SupportsIndex, trials: int) -> int:
+    """The seed of the first of several sets, whose seeds are consecutive."""
+    first, most = whole("seed", seed, 0, s.MAX_SEED), s.MAX_SEED - (trials - 1)
+    if first > most:
+        raise ArgumentError(f"seed {first}: {trials} trials end at this seed + {trials - 1}, but seeds end at {s.MAX_SEED}; "
+                            f"{most} or less would do")
+    return first
+
+
 def seconds_of(name: str, value: Any) -> Optional[float]:
     """A limit of time, or None."""
     if value is None:

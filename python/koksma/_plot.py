@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, check, choice, core, flag, lab, real, spec, text, texts, whole
+from ._library import ArgumentError, check, choice, core, first_seed, flag, lab, real, spec, text, texts, whole
 from ._points import as_points, find_warp, generate, view
 from ._series import Convergence, convergence
 from ._spectrum import spectrum
@@ -214,7 +214,7 @@ def plot_compare(*patterns: str, n: SupportsIndex = 256, measure: str = "l2-star
     sizes : sequence of int, optional
         Numbers of points for the convergence; else 16, 64, 256 and 1024.
     trials, seed : int
-        Sets with the seeds seed .. seed + trials - 1.
+        Sets with the seeds seed .. seed + trials - 1, at most 2^64 - 1.
     size : float
         Width in points, or pixels of a PNG; 0: as many as the patterns need, up to 960.
     title : str, optional
@@ -233,7 +233,8 @@ def plot_compare(*patterns: str, n: SupportsIndex = 256, measure: str = "l2-star
     """
     if not 1 <= len(patterns) <= 16:
         raise ArgumentError(f"{len(patterns)} patterns: give 1 to 16")
-    count, n_sets, first = whole("n", n, 1, s.MAX_COORDINATES), whole("trials", trials, 1, 10**9), whole("seed", seed, 0, s.MAX_SEED)
+    count, n_sets = whole("n", n, 1, s.MAX_COORDINATES), whole("trials", trials, 1, 10**9)
+    first = first_seed(seed, n_sets)
     half = min(math.ceil(2 * math.sqrt(count)), s.MAX_HALF)
     points: List[s.Panel] = []
     spectra: List[s.Panel] = []

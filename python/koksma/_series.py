@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, core, flag, sizes_of, spec, whole
+from ._library import ArgumentError, call, core, first_seed, flag, sizes_of, spec, whole
 from ._matplotlib import curve
 from ._points import as_points, canonical, generate, is_sequence, value_of, view
 
@@ -148,7 +148,7 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
     n, dim : int
         Points of each set, and their dimensions.
     trials, seed : int
-        Sets with the seeds seed .. seed + trials - 1.
+        Sets with the seeds seed .. seed + trials - 1, at most 2^64 - 1.
     warp : str, optional
         Measures the points mapped by it, as `measure` does.
     time_limit : float, optional
@@ -179,7 +179,8 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
     >>> high < 0
     True
     """
-    count, seed = whole("trials", trials, 1, 1 << 24), whole("seed", seed, 0, s.MAX_SEED)
+    count = whole("trials", trials, 1, 1 << 24)
+    seed = first_seed(seed, count)
     found = [value_of(generate(pattern, n, dim, seed + t, threads=threads), measure, warp=warp, threads=threads,
                       time_limit=time_limit) for t in range(count)]
     return Trials(canonical(pattern), canonical_measure(measure), whole("n", n, 1, s.MAX_COORDINATES),
@@ -228,7 +229,8 @@ def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[Su
     Convergence('sobol', 'l2-star', n=16..256: slope -0.963 +- 0.0098)
     """
     numbers = sizes_of("sizes", (16, 64, 256, 1024) if sizes is None else sizes)
-    count, seed = whole("trials", trials, 1, 1 << 24), whole("seed", seed, 0, s.MAX_SEED)
+    count = whole("trials", trials, 1, 1 << 24)
+    seed = first_seed(seed, count)
     if not numbers:
         raise ArgumentError("sizes must have at least one number of points")
     if prefixes is not None and flag("prefixes", prefixes) and not is_sequence(pattern):

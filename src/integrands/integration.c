@@ -198,6 +198,12 @@ koksma_status koksma_integration_errors(const koksma_integral *integral, const k
     KOKSMA__REQUIRE_RUN(run);
     KOKSMA__TRY(check_options(options));
     KOKSMA__FAIL_IF(!pattern->pattern, KOKSMA_ARGUMENT, "koksma_integration_errors: it takes the spec of a pattern");
+    KOKSMA__FAIL_IF(options->trials - 1 > UINT64_MAX - options->seed, KOKSMA_ARGUMENT,
+                    "koksma_integration_options: seed = %llu: %llu trials end at this seed + %llu, but seeds end at "
+                    "%llu; %llu or less would do",
+                    (unsigned long long)options->seed, (unsigned long long)options->trials,
+                    (unsigned long long)options->trials - 1, (unsigned long long)UINT64_MAX,
+                    (unsigned long long)(UINT64_MAX - (options->trials - 1)));
     koksma_integration_options o = *options;
     o.trials = koksma_has_one_set(pattern) ? 1 : o.trials;
     const size_t jobs = (size_t)o.trials * o.n_sizes;

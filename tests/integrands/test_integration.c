@@ -117,6 +117,12 @@ static void wrong_arguments_are_refused(void **state)
     assert_int_equal(koksma_integration_errors(f, &pattern, &twice, NULL, &result), KOKSMA_ARGUMENT);
     assert_string_equal(koksma_error_text(), "n: 4 is given twice");
     assert_int_equal(koksma_integration_summary(0, 1, &twice, (double[6]){0}, &result), KOKSMA_ARGUMENT);
+    /* The last seed is 2^64 - 1; after it there is no other, and least of all 0. */
+    koksma_integration_options last = {.sizes = {4}, .n_sizes = 1, .seed = UINT64_MAX - 1, .trials = 2};
+    assert_ok(koksma_integration_errors(f, &pattern, &last, NULL, &result));
+    last.trials = 3;
+    assert_int_equal(koksma_integration_errors(f, &pattern, &last, NULL, &result), KOKSMA_ARGUMENT);
+    assert_non_null(strstr(koksma_error_text(), "18446744073709551613 or less would do"));
     koksma_integral_close(f);
     koksma_integral_close(NULL);
 }

@@ -113,6 +113,19 @@ class WrongArguments(unittest.TestCase):
         for function in ("disk", lambda x: self.fail("it was called")):
             self.assertRaisesRegex(koksma.ArgumentError, "^n: 16 is given twice$", koksma.integrate, function, "random", [64, 16, 16])
 
+    def test_the_last_seeds(self):
+        """Trials have consecutive seeds, which end at 2^64 - 1; the message has the seed that was given."""
+        last = 2**64 - 1
+        wrong = f"^seed {last - 1}: 3 trials end at this seed . 2, but seeds end at {last}; {last - 2} or less would do$"
+        for function, given in ((koksma.trials, ("random", 4)), (koksma.convergence, ("random", "l2-star", [4, 8])),
+                                (koksma.plot_compare, ("random",)), (koksma.integrate, ("disk", "random", 4)),
+                                (koksma.integrate, (lambda x: x[:, 0], "random", 4))):
+            with self.assertRaisesRegex(koksma.ArgumentError, wrong):
+                function(*given, trials=3, seed=last - 1)
+        values = koksma.trials("random", 4, trials=3, seed=last - 2).values
+        self.assertEqual(list(values), [koksma.measure(koksma.generate("random", 4, seed=last - 2 + t), "star").value for t in range(3)])
+        self.assertEqual(koksma.integrate("disk", "random", 4, trials=3, seed=last - 2).trials, 3)
+
     def test_programs_are_not_run(self):
         """allow_exec guards the execution of code: only True runs a program, also where the same call was made before."""
         with open("evil.sh", "w") as program:
