@@ -35,8 +35,9 @@ koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t
             c--;
         }
     }
+    KOKSMA__FAIL_IF(n < c, KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu would do", name, c, n, c);
     KOKSMA__FAIL_IF(n % c, KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c, n,
-                    n / c ? n / c * c : c, (n / c + 1) * c);
+                    n / c * c, (n / c + 1) * c);
     *columns = c;
     *rows = n / c;
     return KOKSMA_OK;
