@@ -133,6 +133,13 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     -------
     Comparison
 
+    Raises
+    ------
+    ArgumentError
+        A metric is unknown, or the images have other shapes than the reference.
+    MalformedError
+        A pixel is not a finite number.
+
     Warns
     -----
     RuntimeWarning

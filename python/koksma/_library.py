@@ -42,7 +42,7 @@ class MissingError(Error, FileNotFoundError):
 
 
 class MalformedError(Error, ValueError):
-    """A named file is malformed."""
+    """A named file, or the plan (a dict), image or density (arrays) that is given in place of one, is malformed."""
 
 
 class OutOfMemoryError(Error, MemoryError):

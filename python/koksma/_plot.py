@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, check, choice, core, first_seed, flag, lab, real, spec, text, texts, whole
+from ._library import ArgumentError, check, choice, core, first_seed, flag, lab, quoted, real, spec, text, texts, whole
 from ._points import as_points, find_warp, generate, view
 from ._series import Convergence, convergence
 from ._spectrum import spectrum
@@ -57,8 +57,8 @@ class Picture:
 def _figure(rows: "Sequence[Sequence[Union[s.Panel, s.Chart]]]", title: Optional[str], width: float, theme: str,
             kept: Any) -> Picture:
     """A figure of rows of cells; what they point to lives as long as the picture."""
-    if real("size", width) and not 16 <= width <= 32767:
-        raise ArgumentError(f"size must be 16 to 32767, or 0 for the size that the picture needs, not {width}")
+    if real("size", width, nan_too=True) and not 16 <= width <= 32767:
+        raise ArgumentError(f"size must be 16 to 32767, or 0 for the size that the picture needs, not {quoted(width)}")
     flat = [(cell, row) for row, cells in enumerate(rows) for cell in cells]
     cells = (s.Cell * len(flat))()
     for i, (cell, row) in enumerate(flat):

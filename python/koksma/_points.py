@@ -372,6 +372,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     ------
     ArgumentError
         The spec is wrong, or the pattern has no such set; the message says which n would do.
+    MalformedError
+        A density is negative, 0 everywhere or not finite, or a file is malformed.
     ForbiddenError
         The pattern runs a program or shared library, which needs allow_exec=True.
 

@@ -316,7 +316,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     try:
         if sky is not None or environment is not None:
             check(lab().koksma_scene_set_sky(handle, None if environment is None else text(environment, "environment"),
-                                             1.0 if sky is None else real("sky", sky)))
+                                             1.0 if sky is None else real("sky", sky, nan_too=True)))
         lab().koksma_render_options_init(byref(options), handle)
         options.spp, options.seed = spp, seed
         check(lab().koksma_render_patterns(text(pattern, "pattern"), byref(options)))
@@ -336,7 +336,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         if adaptive is not None:
             method = s.AdaptiveOptions()
             check(lab().koksma_adaptive_parse(text(adaptive, "adaptive"), byref(method)))
-            if not 0 <= real("budget", budget) < math.inf:
+            if not 0 <= real("budget", budget, nan_too=True) < math.inf:
                 raise ArgumentError(f"budget must be samples a pixel, or 0 for no limit, not {quoted(budget)}")
             if method.method.contents.own_samples and pattern != "n-rooks":
                 raise ArgumentError(f"pattern '{pattern}': the adaptive method {adaptive} places its own samples")

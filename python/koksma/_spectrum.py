@@ -135,7 +135,7 @@ def pair_correlation(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", r_max: flo
     >>> bool(koksma.pair_correlation(koksma.generate("poisson-disk:d=0.1,torus=1", 50), 0.08, 8).density.max() == 0)
     True
     """
-    width, reach = whole("bins", bins, 1, 1 << 24), real("r_max", r_max)
+    width, reach = whole("bins", bins, 1, 1 << 24), real("r_max", r_max, nan_too=True)
     total, count, values = np.zeros(width), 0, (c_double * width)()
     for points in _each(sets):
         c_points = view(array := as_points(points))

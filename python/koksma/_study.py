@@ -101,7 +101,7 @@ class Study:
     plan : str, path, dict, or a sequence of them
         The name of a plan that ships ("shirley1991"), a JSON file, or the plan itself; studies/README.md lists the
         fields. Relative paths in a plan start at the folder of its file, those of a dict at the present directory.
-        Empty: the plan that the folder has.
+        An empty sequence, as when left out: the plan that the folder has.
     folder : path, optional
         Where results are kept; created if it does not exist. Without one only `estimate` can be called.
     trials : int, optional
@@ -140,6 +140,8 @@ class Study:
         plans = [plan] if isinstance(plan, (str, os.PathLike, dict)) else several("plan", plan)
         names = []
         for one in plans:
+            if isinstance(one, (str, bytes)) and not one:
+                raise ArgumentError("plan must be a name, a path or a dict, or () for the plan that the folder has, not ''")
             if isinstance(one, dict):
                 names.append(json.dumps(one, indent=1, allow_nan=False).encode())
             else:  # a path is a file, a text may be a name

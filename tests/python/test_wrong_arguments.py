@@ -106,6 +106,32 @@ class WrongArguments(unittest.TestCase):
                     self.call(function, {**given, name: right})
         self.assertLessEqual({"allow_exec", "anova", "exact", "layers", "local_discrepancy", "one_size", "prefixes", "quick", "splat"}, seen)
 
+    def test_numbers_that_are_none(self):
+        """NaN is no number of the range that a message states, and the message states the same range as for -1."""
+        for function, given in ((koksma.render, dict(scene="ball", spp=1, size=(4, 3), sky=-1.0)),
+                                (koksma.render, dict(scene="ball", spp=1, size=(4, 3), adaptive="contrast", budget=-1.0)),
+                                (koksma.plot, dict(sets=[[0.5, 0.5]], size=-1.0)), (koksma.pair_correlation, dict(sets=[[0.5, 0.5]], r_max=-1.0))):
+            name = list(given)[-1]
+            said = []
+            for wrong in (-1.0, float("nan")):
+                with self.assertRaises(koksma.ArgumentError) as caught:
+                    self.call(function, {**given, name: wrong})
+                said.append(str(caught.exception))
+            self.assertEqual(said[0].replace("-1.0", "nan").replace("-1", "nan"), said[1])
+            self.assertNotRegex(said[1], "-?inf")
+
+    def test_data_in_place_of_files(self):
+        """What is malformed is said of data as of a file: with MalformedError, and what is wrong."""
+        nothing = np.zeros((4, 4), np.float32)
+        koksma.write_image("nothing.pfm", nothing)
+        for density in (nothing, "nothing.pfm"):
+            self.assertRaisesRegex(koksma.MalformedError, "density is 0 everywhere", koksma.generate, "random", 4, density=density)
+        self.assertRaisesRegex(koksma.MalformedError, "density has a negative", koksma.generate, "random", 4, density=nothing - 1)
+        self.assertRaisesRegex(koksma.MalformedError, "not a finite number", koksma.compare, nothing * np.nan, nothing)
+        for plan in ("", [""]):
+            self.assertRaisesRegex(koksma.ArgumentError, r"^plan must be .* \(\) for the plan that the folder has", koksma.Study, plan, "done")
+        self.assertRaises(koksma.MissingError, koksma.Study, (), "no_study")
+
     def test_sizes_given_twice(self):
         """Two equal sizes and another are no three for a slope. The words are the program's."""
         self.assertRaisesRegex(koksma.ArgumentError, "^sizes: 16 is given twice$", koksma.convergence, "random", "l2-star", [16, 16, 64])
