@@ -325,12 +325,12 @@ static char *split(char **path)
 }
 
 /* Fails if `path` leads to the store's file or one of its logs, also by another name, to where SQLite would expect a log,
-   to a file that runs and reports write into the study's folder, or into the folder of the study's reference images, whose
-   files a run and a report read. */
+   to the name of a file or folder that runs and reports make in the study's folder, whether it is there yet or not, or into
+   the folder of the study's reference images, whose files a run and a report read. */
 static koksma_status check_target(const char *study, const char *results, const char *path)
 {
     static const char *const endings[] = {"", "-wal", "-shm", "-journal"};
-    static const char *const own[] = {"plan.json", "report.json", "report.html"};
+    static const char *const own[] = {"plan.json", "report.json", "report.html", "references"};
     char *store = koksma__atomic_target(results), *target = store ? koksma__atomic_target(path) : NULL;
     const int reason = errno;
     bool same = false, is_own = false, reference = false;
@@ -356,12 +356,12 @@ static koksma_status check_target(const char *study, const char *results, const 
     }
     const bool no_memory = !target && reason == ENOMEM; /* with other reasons the path can't be opened either */
     KOKSMA__FREE(store, target);
-    return no_memory   ? koksma__fail_memory(strlen(path))
-           : same      ? koksma__fail(KOKSMA_ARGUMENT,
-                                      "%s: the export would replace the study's results or their log; choose another file",
-                                      path)
-           : is_own    ? koksma__fail(KOKSMA_ARGUMENT,
-                                      "%s: runs and reports write a file of this name there; choose another one", path)
+    return no_memory ? koksma__fail_memory(strlen(path))
+           : same    ? koksma__fail(KOKSMA_ARGUMENT,
+                                    "%s: the export would replace the study's results or their log; choose another file",
+                                    path)
+           : is_own
+               ? koksma__fail(KOKSMA_ARGUMENT, "%s: runs and reports use this name there; choose another one", path)
            : reference ? koksma__fail(KOKSMA_ARGUMENT,
                                       "%s: the folder has the study's reference images; choose another folder", path)
                        : KOKSMA_OK;
