@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """store_audit.py KOKSMA: what `koksma study audit` says of folders that a stranger made. All reference images are
 rendered again, whichever rows are drawn, and those that cannot be are counted. Nobody can know before which rows are
-drawn. No text of a plan or store reaches the terminal with control characters, and --json is JSON."""
+drawn. No text of a plan or store reaches the terminal with control characters, and --json is JSON. A store of very many
+series takes time in proportion to their number."""
 import json
 import os
 import re
+import resource
 import shutil
 import sqlite3
 import subprocess
@@ -513,6 +515,27 @@ def texts():
     check(b'"source":"\xef\xbf\xbd\\u0085\xc3\xa9.txt"' in told.stdout, f"a name that is no UTF-8: {told}")
 
 
+def many():
+    """Each series names another file. Compared with each other, the names would take minutes; the limit is on processor time."""
+    series, limit = (50000, 120) if os.environ.get("KOKSMA_SANITIZED") == "1" else (200000, 30)
+    copy("r")
+    database = sqlite3.connect("r/results.sqlite")
+    database.execute("DELETE FROM series")
+    database.execute("DELETE FROM result")
+    names = [row[1] for row in database.execute("PRAGMA table_info(series)")]
+    key = {name: "" for name in names} | {"kind": "discrepancy", "n": 4, "dim": 2, "width": 0, "height": 0, "what": "star",
+                                          "made_by": "file 0", "measured_by": "star 0"}
+    database.executemany(f"INSERT INTO series VALUES ({','.join(':' + name for name in names)})",
+                         (key | {"id": 4 * i, "pattern": f"file:none{i}"} for i in range(1, series + 1)))
+    database.executemany("INSERT INTO result VALUES (?, 1, 0.5, NULL, NULL, NULL)", ((4 * i,) for i in range(1, series + 1)))
+    database.commit()
+    database.close()
+    told = subprocess.run([KOKSMA, "study", "audit", "r", "--rows", "1"], capture_output=True, text=True,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
+    check(told.returncode == 1 and re.search("^1 rows drawn .* of which 0 agree", told.stdout, re.MULTILINE),
+          f"an audit of {series} series: exit code {told.returncode}: {told.stdout[-300:]}{told.stderr}")
+
+
 def plain(text):
     """Whether no line has a control character, which also U+0080 to U+009F are."""
     return not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", text)
@@ -527,7 +550,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, families, operands, values, trials, impossible, long_names, keys, revisions, gaps, decoys, draw, texts:
+    for part in references, reasons, families, operands, values, trials, impossible, long_names, keys, revisions, gaps, decoys, draw, texts, many:
         part()
 finally:
     here = os.getcwd()

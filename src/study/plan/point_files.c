@@ -3,15 +3,16 @@
    net-file:PATH, exec:PROGRAM, plugin:LIBRARY.so:NAME), for all uses of an image and for its reference. A result depends
    on the contents of such a file, so that their hash is part of the result's key: after a change of the file, new rows
    are made and the old rows are kept. */
+#define _GNU_SOURCE /* tdestroy */
 #include "study/plan/point_files.h"
 
+#include <search.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <koksma/render.h>
 
-#include "core/capacity.h"
 #include "core/read_file.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
@@ -95,27 +96,47 @@ static uint64_t hash_of_family(const char *path)
     return all;
 }
 
-/* Returns the hash of a file or of a family, 0 if it can't be read. It is taken from the list if the list has it. If the
-   list cannot grow, the file is hashed again next time. */
-static uint64_t look_up(koksma__point_files *known, const char *path, bool family)
+/* A file or a family with its hash, in the tree of those that were hashed. */
+typedef struct known_file {
+    char *path;
+    bool is_family; /* whether {n} and {seed} in the path are placeholders */
+    uint64_t hash;
+} known_file;
+
+static int compare_files(const void *a, const void *b)
 {
-    for (size_t i = 0; known && i < known->n; i++) {
-        if (known->at[i].is_family == family && !strcmp(known->at[i].path, path)) {
-            return known->at[i].hash;
+    const known_file *f = a, *g = b;
+    return f->is_family != g->is_family ? f->is_family - g->is_family : strcmp(f->path, g->path);
+}
+
+static void free_file(void *file)
+{
+    free(((known_file *)file)->path);
+    free(file);
+}
+
+/* Returns the hash of a file or of a family, 0 if it can't be read. It is taken from the tree if the tree has it. If the
+   tree cannot grow, the file is hashed again next time. */
+static uint64_t look_up(koksma__point_files *known, char *path, bool family)
+{
+    known_file file = {path, family, 0};
+    known_file *const *found = known ? tfind(&file, &known->tree, compare_files) : NULL;
+    if (found) {
+        return (*found)->hash;
+    }
+    if (family) {
+        file.hash = hash_of_family(path);
+    } else if (koksma__hash_file(path, &file.hash)) {
+        file.hash = 0;
+    }
+    known_file *more = known ? malloc(sizeof *more) : NULL;
+    if (more) {
+        *more = (known_file){strdup(path), family, file.hash};
+        if (!more->path || !tsearch(more, &known->tree, compare_files)) {
+            free_file(more);
         }
     }
-    uint64_t hash = 0;
-    if (family) {
-        hash = hash_of_family(path);
-    } else if (koksma__hash_file(path, &hash)) {
-        hash = 0;
-    }
-    koksma__point_file *more = known ? koksma__add_one(&known->at, &known->n, sizeof *more) : NULL;
-    if (more) {
-        *more = (koksma__point_file){strdup(path), family, hash};
-        known->n -= !more->path;
-    }
-    return hash;
+    return file.hash;
 }
 
 /* The hash of all files that were visited. */
@@ -185,9 +206,6 @@ bool koksma__points_have_family(const koksma__row_texts *row)
 
 void koksma__point_files_fini(koksma__point_files *known)
 {
-    for (size_t i = 0; i < known->n; i++) {
-        free(known->at[i].path);
-    }
-    free(known->at);
+    tdestroy(known->tree, free_file);
     *known = (koksma__point_files){0};
 }

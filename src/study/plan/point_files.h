@@ -10,16 +10,10 @@
 
 #include <koksma/koksma.h>
 
-typedef struct koksma__point_file {
-    char *path;
-    bool is_family; /* whether {n} and {seed} in the path are placeholders */
-    uint64_t hash;
-} koksma__point_file;
-
-/* The files that were hashed already, so that each is read once; {0} is an empty list. */
+/* The files that were hashed already, so that each is read once; {0}: none. A damaged store may name any number of files,
+   so they are in a balanced tree. */
 typedef struct koksma__point_files {
-    size_t n;
-    koksma__point_file *at;
+    void *tree; /* of tsearch(3) */
 } koksma__point_files;
 
 enum { KOKSMA__HASH_TEXT = 40 };
