@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The program with a fault: linked in by --wrap, so that what the program and the two libraries call comes here, and
-   what outside libraries and libc call does not. */
+   what outside libraries and libc call does not. Long because all calls share the counts and the log. */
 #include "faults.h"
 
 #include <errno.h>
@@ -504,8 +504,22 @@ int __wrap_mkdir(const char *path, mode_t bits)
     return code;
 }
 
+/* Waits once, until somebody removes the file KOKSMA_FAULT_PAUSE. */
+static void pause_here(void)
+{
+    static atomic_bool paused;
+    const char *path = getenv("KOKSMA_FAULT_PAUSE");
+    if (path && !atomic_exchange(&paused, true)) {
+        close(__real_open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+        while (!access(path, F_OK)) {
+            usleep(1000);
+        }
+    }
+}
+
 int __wrap_link(const char *from, const char *to)
 {
+    pause_here();
     const int code = __real_link(from, to);
     if (!code && log_descriptor >= 0) {
         fault_note("link %llu %llu %s\n", inode_above(to), inode_at(to), name_in(to));
@@ -515,6 +529,7 @@ int __wrap_link(const char *from, const char *to)
 
 int __wrap_remove(const char *path)
 {
+    pause_here();
     const int code = __real_remove(path);
     if (!code && log_descriptor >= 0) {
         fault_note("unlink %llu %s\n", inode_above(path), name_in(path));

@@ -5,6 +5,7 @@
  * process ends there, as by kill -9). KOKSMA_FAULT_COUNT is a file that is told, a line a kind, how many calls of it
  * there were, and the first and the last from each place. KOKSMA_FAULT_LOG is a file that is told each change of a file
  * or folder, in order; then time runs fast, so that stores commit often, and their logs are checkpointed after a few pages.
+ * KOKSMA_FAULT_PAUSE is a file that is made before the first file is removed or linked; the program waits until it is gone.
  */
 #ifndef KOKSMA_TESTS_FAULTS_H
 #define KOKSMA_TESTS_FAULTS_H

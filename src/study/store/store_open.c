@@ -3,10 +3,14 @@
    changing any byte (database.h), and rejected if it is not a store. A new store, or the upgraded copy of an old
    one, is written under a temporary name and renamed when complete. */
 #include <errno.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "core/atomic_file.h"
@@ -212,15 +216,75 @@ static koksma_status open_to_read(const char *path, koksma__store **out)
     return status ? status : koksma__seal_read(*out);
 }
 
+/* The endings of the files that SQLite writes beside a database. */
+static const char *const log_endings[] = {"-wal", "-shm", "-journal"};
+
+static bool has_log(const char *path)
+{
+    char beside[4096];
+    struct stat info;
+    bool found = false;
+    for (size_t i = 0; i < sizeof log_endings / sizeof *log_endings; i++) {
+        snprintf(beside, sizeof beside, "%s%s", path, log_endings[i]);
+        found |= !lstat(beside, &info);
+    }
+    return found;
+}
+
 /* Removes the log of a file that was deleted, so that SQLite does not write its contents into the new file. */
 static void remove_log(const char *path)
 {
-    static const char *const endings[] = {"-wal", "-shm", "-journal"};
     char beside[4096];
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        snprintf(beside, sizeof beside, "%s%s", path, endings[i]);
+    for (size_t i = 0; i < sizeof log_endings / sizeof *log_endings; i++) {
+        snprintf(beside, sizeof beside, "%s%s", path, log_endings[i]);
         remove(beside);
     }
+}
+
+/* Locks the folder of `path` until *folder is closed. *folder is -1 if the folder can't be opened or its file system has no
+   such locks (NFS locks only what is open for writing). */
+static koksma_status lock_folder(const char *path, int *folder)
+{
+    enum { WAIT_MS = 5000, LOOK_AGAIN_MS = 10 };
+    const char *slash = strrchr(path, '/');
+    char *name = slash ? strndup(path, (size_t)(slash + 1 - path)) : strdup(".");
+    KOKSMA__REQUIRE_MEMORY(name, strlen(path));
+    *folder = open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    free(name);
+    for (int waited = 0; *folder >= 0 && flock(*folder, LOCK_EX | LOCK_NB); waited += LOOK_AGAIN_MS) {
+        const bool held = errno == EWOULDBLOCK;
+        if (!held || waited >= WAIT_MS) {
+            close(*folder);
+            *folder = -1;
+            KOKSMA__FAIL_IF(held, KOKSMA_IO, "%s: another program has locked its folder; try again when it has ended",
+                            path);
+        } else {
+            nanosleep(&(struct timespec){.tv_nsec = LOOK_AGAIN_MS * 1000000L}, NULL);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Makes a new store where there was none. Several first runs may do so at once, and the log that a run removes must not be
+   that of a store which another has made since. Where a run finds no log it removes none: a log that comes later is another
+   run's. Else it locks the folder until its store is in place, and looks again whether there is a store. */
+static koksma_status make_new(const char *path)
+{
+    koksma__database_header header;
+    int folder = -1;
+    const bool logged = has_log(path);
+    koksma_status status = logged ? lock_folder(path, &folder) : KOKSMA_OK;
+    status = status ? status : koksma__database_look(path, &header);
+    if (!status && !header.exists) {
+        if (logged) {
+            remove_log(path);
+        }
+        status = put_in_place(path, NULL, KOKSMA__SCHEMA);
+    }
+    if (folder >= 0) {
+        close(folder);
+    }
+    return status;
 }
 
 static void pass(void *context, long long series, long long trial)
@@ -243,8 +307,7 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     koksma_status status = look(path, &exists, &schema, &database);
     koksma__database_close(status ? NULL : database);
     if (!status && !exists) {
-        remove_log(path);
-        status = put_in_place(path, NULL, KOKSMA__SCHEMA);
+        status = make_new(path);
     } else if (!status && schema != KOKSMA__SCHEMA) {
         status = upgrade_file(path, schema);
     }
