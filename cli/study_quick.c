@@ -39,17 +39,14 @@ static void put_characters(FILE *out, const char *text, size_t count)
 static void put_item(FILE *out, const char *item, bool is_scene)
 {
     char here[PATH_MAX];
-    size_t at = is_scene ? 0 : koksma_plan_path(item, 0), printed = 0;
+    const size_t at = is_scene ? 0 : koksma_plan_path(item, 0);
     fputc('"', out);
-    if (is_scene ? strpbrk(item, "/.") != NULL : at > 0) {
-        put_characters(out, item + printed, at - printed);
-        printed = at;
-        if (item[at] != '/' && getcwd(here, sizeof here)) {
-            put_characters(out, here, SIZE_MAX);
-            fputc('/', out);
-        }
+    put_characters(out, item, at);
+    if ((is_scene ? strpbrk(item, "/.") != NULL : at > 0) && item[at] != '/' && getcwd(here, sizeof here)) {
+        put_characters(out, here, SIZE_MAX);
+        fputc('/', out);
     }
-    put_characters(out, item + printed, SIZE_MAX);
+    put_characters(out, item + at, SIZE_MAX);
     fputc('"', out);
 }
 

@@ -98,12 +98,12 @@ def reasons():
                    "images": [{"scenes": ["./mine.json"], "patterns": ["random"], "spp": [16], "size": [8, 6], "trials": 1,
                                "references": [{"name": "r", "pattern": "file:points.txt", "spp": 16}]}]}, file)
     check(koksma("study", "run", "./files.json", "-o", "files", "-q").returncode == 0, "a study of files")
-    of_row = r"differs: discrepancy file:points\.txt, .* can't be computed again: the file of its points"
+    of_row = r"differs: discrepancy file:points\.txt, .* can't be computed again: a file that its pattern names"
     of_reference = r"differs: reference r:file:points\.txt@16x1 of \./mine\.json, 8 x 6 can't be rendered again: "
     says(audit("files"), 0, "1 reference images rendered again, of which 1 agree")
     os.rename("points.txt", "kept.txt")
     says(audit("files"), 1, of_row + r": points\.txt: can't be read: No such file or directory",
-         of_reference + r"the file of its points: points\.txt: can't be read: No such file or directory")
+         of_reference + r"a file that its pattern names: points\.txt: can't be read: No such file or directory")
     os.mkfifo("points.txt")
     says(audit("files"), 1, of_row + r": points\.txt: can't be read: it is a pipe .*")
     os.remove("points.txt")
@@ -111,7 +111,7 @@ def reasons():
     says(audit("files"), 1, of_row + r": points\.txt: .*directory.*")
     os.rmdir("points.txt")
     shutil.copy("mine.json", "points.txt")
-    says(audit("files"), 1, of_row + " has changed since", of_reference + "the file of its points has changed since")
+    says(audit("files"), 1, of_row + " has changed since", of_reference + "a file that its pattern names has changed since")
     os.rename("kept.txt", "points.txt")
     with open("mine.json", "a") as file:
         file.write("\n")
@@ -139,7 +139,7 @@ def families():
     says(audit("family"), 1, changed, "9 rows drawn, of which 4 agree: these are all")
     for i in range(1, 5):
         os.remove(f"q_16_{i}.txt")
-    says(audit("family"), 1, r"differs: .* again: the file of its points: file:q_\{n\}_\{seed\}\.txt: there is no file q_\*_\*\.txt .*")
+    says(audit("family"), 1, r"differs: .* again: a file that its pattern names: file:q_\{n\}_\{seed\}\.txt: there is no file q_\*_\*\.txt .*")
 
 
 def values():

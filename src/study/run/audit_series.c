@@ -15,6 +15,7 @@
 #include "core/status.h"
 #include "study/plan/made_by.h"
 #include "study/run/audit_key.h"
+#include "study/run/left_out.h"
 #include "study/run/references.h"
 
 /* Runs compute trials in ascending order, so a trial number far above the number of rows means that the store is
@@ -248,7 +249,7 @@ static koksma_status check_hash(koksma_study *study, koksma__audit_list *list, c
     const koksma_status status = koksma__points_can_be_read(&texts);
     if (status) {
         koksma__study_fail_here(study, status);
-        return koksma__fail_in(status == KOKSMA_MEMORY ? status : KOKSMA_MISSING, "the file of its points");
+        return koksma__fail_in(status == KOKSMA_MEMORY ? status : KOKSMA_MISSING, "a file that its pattern names");
     }
     if (strncmp(key->scene_hash, scene, strlen(scene)) != 0) {
         return koksma__fail(KOKSMA_MALFORMED, "its scene has changed since");
@@ -257,7 +258,7 @@ static koksma_status check_hash(koksma_study *study, koksma__audit_list *list, c
     return koksma__fail(KOKSMA_MALFORMED, "%s",
                         koksma__points_have_family(&texts)
                             ? "a file of its points has changed since, or their family has other files"
-                            : "the file of its points has changed since");
+                            : "a file that its pattern names has changed since");
 }
 
 koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list, koksma__audit_series *series,
@@ -292,15 +293,6 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
 
 /* ---- The plan ------------------------------------------------------------------------------------------ */
 
-static koksma_status set_text(koksma__texts *texts, const char *text)
-{
-    char **at = koksma__add_one(&texts->at, &texts->n, sizeof *at);
-    KOKSMA__TRY(at ? KOKSMA_OK : KOKSMA_MEMORY);
-    *at = strdup(text);
-    texts->n -= !*at;
-    return *at ? KOKSMA_OK : koksma__fail_memory(strlen(text));
-}
-
 static koksma_status set_whole(koksma__wholes *wholes, long long value)
 {
     wholes->at = malloc(sizeof *wholes->at);
@@ -334,8 +326,8 @@ static koksma_status add_measure(koksma__plan *plan, koksma__audit_list *list, k
         !has_points_of(&list->discrepancies[plan->n_discrepancies - 1].members[0]->key, key)) {
         b = add_block((void **)&plan->discrepancies, &plan->n_discrepancies, sizeof *b, &list->discrepancies);
         *row = s->id - place;
-        status = b ? set_text(&b->patterns, key->pattern) : KOKSMA_MEMORY;
-        status = status || !key->options[0] ? status : set_text(&b->warps, key->options);
+        status = b ? koksma__texts_add(&b->patterns, key->pattern) : KOKSMA_MEMORY;
+        status = status || !key->options[0] ? status : koksma__texts_add(&b->warps, key->options);
         status = status ? status : set_whole(&b->n, key->n);
     }
     if (status) {
@@ -345,7 +337,7 @@ static koksma_status add_measure(koksma__plan *plan, koksma__audit_list *list, k
     group->members[b->measures.n] = s;
     b->dim = (int)key->dim;
     b->trials = s->end > b->trials ? s->end : b->trials;
-    return set_text(&b->measures, key->what);
+    return koksma__texts_add(&b->measures, key->what);
 }
 
 /* Adds a block for an image, or for a reference, whose block has the reference's own pattern and no trials. */
@@ -359,9 +351,9 @@ static koksma_status add_image(koksma__plan *plan, koksma__audit_list *list, con
     b->height = (int)key->height;
     koksma__reference made = {0};
     koksma_status status = koksma__reference_parse(key->what, name, pattern, &made.spp, &made.replicates);
-    status = status ? status : set_text(&b->scenes, key->scene);
-    status = status ? status : set_text(&b->patterns, series->is_reference ? pattern : key->pattern);
-    status = status ? status : set_text(&b->variants, key->options);
+    status = status ? status : koksma__texts_add(&b->scenes, key->scene);
+    status = status ? status : koksma__texts_add(&b->patterns, series->is_reference ? pattern : key->pattern);
+    status = status ? status : koksma__texts_add(&b->variants, key->options);
     status = status ? status : set_whole(&b->spp, series->is_reference ? made.spp : key->n);
     b->references = status ? NULL : calloc(1, sizeof *b->references);
     if (!b->references) {
@@ -415,7 +407,8 @@ static koksma_status add_member(koksma__plan *plan, koksma__audit_list *list, ko
 {
     koksma__image_block *b = &plan->images[plan->n_images - 1];
     const size_t place = place_of(b, s);
-    const koksma_status status = !strcmp(s->key.kind, "metric") ? set_text(&b->metrics, s->key.metric) : KOKSMA_OK;
+    const koksma_status status =
+        !strcmp(s->key.kind, "metric") ? koksma__texts_add(&b->metrics, s->key.metric) : KOKSMA_OK;
     if (!status) {
         list->images[plan->n_images - 1].members[place] = s;
         b->trials = s->end > b->trials ? s->end : b->trials;
