@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <koksma/integrate.h>
 #include <koksma/render.h>
@@ -258,6 +259,42 @@ static int check_sizes(const cli_arguments *arguments, const char *patterns, con
     return tried;
 }
 
+/* Whether the pattern of `joined`, in which a relative path at `at` has become absolute, has that path. The name of a
+   folder may end a pattern in the text of an image's uses; {n} or {seed} in it would make a file a family. */
+static bool reads_as_meant(const char *joined, size_t at, const char *here, const char *relative, bool image)
+{
+    koksma_render_options options = {0};
+    koksma_spec spec;
+    const size_t length = strlen(here) + 1;
+    if (koksma_pattern_spec(joined, &spec) || strncmp(spec.path, joined + at, length) ||
+        strcmp(spec.path + length, relative) ||
+        (spec.pattern->whole && (strstr(here, "{n}") || strstr(here, "{seed}")))) {
+        return false;
+    }
+    return !image || (!koksma_render_patterns(joined, &options) && !strcmp(options.pattern.path, spec.path));
+}
+
+/* Relative paths become absolute in the plan. */
+static int check_folder(const cli_arguments *arguments, const cli_quick *quick)
+{
+    char item[KOKSMA_MAX_SPEC], here[PATH_MAX], joined[KOKSMA_MAX_SPEC + PATH_MAX + 1];
+    koksma_spec spec;
+    for (size_t i = 0; cli_pattern_item(quick->patterns, i, item); i++) {
+        const size_t at = koksma_plan_path(item, 0);
+        if (!at || item[at] == '/' || koksma_pattern_spec(item, &spec) || !getcwd(here, sizeof here)) {
+            continue;
+        }
+        snprintf(joined, sizeof joined, "%.*s%s/%s", (int)at, item, here, item + at);
+        if (strlen(joined) < KOKSMA_MAX_SPEC && !reads_as_meant(joined, at, here, spec.path, quick->scenes)) {
+            return cli_usage_error(arguments,
+                                   "--patterns %s: with the current folder '%s' before its path, it would be read as "
+                                   "something else; rename the folder",
+                                   item, here);
+        }
+    }
+    return CLI_YES;
+}
+
 int cli_quick_check(const cli_arguments *arguments, const cli_quick *quick)
 {
     const bool all = !strcmp(quick->patterns, "all");
@@ -269,6 +306,7 @@ int cli_quick_check(const cli_arguments *arguments, const cli_quick *quick)
         return cli_usage_error(arguments, "--metric needs --scene, because it measures the error of images");
     }
     int code = all ? CLI_YES : check_items(arguments, "patterns", quick->patterns, parse_pattern);
+    code = code ? code : check_folder(arguments, quick);
     code = code ? code : check_items(arguments, "measures", quick->measures, parse_measure);
     code =
         code || !quick->integrands ? code : check_items(arguments, "integrands", quick->integrands, parse_integrand);

@@ -114,6 +114,7 @@ def change_each():
         told = koksma("study", "audit", folder, "--allow-exec")
         check(told.returncode == 1 and "2 rows drawn, of which 1 agree" in told.stdout and
               told.stdout.count("has changed since") == 1, f"{pattern}: {told}")
+        check(write is points or "again: a file that its pattern names has changed since" in told.stdout, f"no points: {told}")
 
 
 def change_one_use():
@@ -168,6 +169,36 @@ def plans_elsewhere():
         check(use.format("cw/", "cw/") in found, f"{use}: {found}")
 
 
+def folders():
+    """The name of a plan's folder, or of the current one, may turn a path below it into something else: such a one is named.
+    From the folder itself, and where it means what it says, the same plan runs."""
+    text = json.dumps({"name": "p", "title": "p", "discrepancies": [{"patterns": ["file:one.txt"], "measures": ["star"], "n": [N], "trials": 1}]})
+    image = json.dumps({"name": "p", "title": "p", "images": [{"scenes": ["checker"], "patterns": ["file:one.txt"], "spp": [N], "size": [8, 6],
+                        "trials": 1, "references": [{"name": "r", "pattern": "jittered", "spp": 4}]}]})
+    code = text.replace("file:one.txt", "exec:one.sh")
+    for i, (folder, whole, fits) in enumerate((
+            ("of{n}", text, False), ("of_{seed}", image, False), ("of{n}", code, True), ("x;lens=y", text, True), ("x;lens=y", image, False),
+            ("x;lens=file:y", image, False), ("x;y", image, True), ("a:shift=1", text, True), ("{m}", text, True))):
+        points(folder + "/one.txt", 3)
+        program(folder + "/one.sh", 3)
+        with open(folder + "/p.json", "w") as file:
+            file.write(whole)
+        told = koksma("study", "run", folder + "/p.json", "-o", f"folder{i}", "-q", "--allow-exec")
+        named = f"the plan's folder '{folder}/'" in told.stderr and told.stderr.count("\n") == 1 and not os.path.exists(f"folder{i}")
+        check(told.returncode == 0 if fits else told.returncode == 3 and named, f"{folder}: {told}")
+        for more, quick_fits in ((), fits or "lens" in folder), (("--scene", "ball", "--spp", str(N)), fits and "lens" not in folder):
+            if whole is code and more:
+                continue  # a program is run for each pixel
+            arguments = ["-p", "exec:./one.sh" if whole is code else "file:one.txt", "-m", "star", "-n", str(N), "--trials", "1", "-q", "--allow-exec", *more]
+            told = subprocess.run([KOKSMA, "study", "quick", *arguments, "-o", f"quick{i}{len(more)}"], cwd=folder, capture_output=True, text=True,
+                                  timeout=120)
+            named = f"the current folder '{os.path.abspath(folder)}'" in told.stderr and not os.path.exists(f"{folder}/quick{i}{len(more)}")
+            check(told.returncode == 0 if quick_fits else told.returncode == 2 and named, f"quick in {folder}: {told}")
+        told = subprocess.run([KOKSMA, "study", "run", "./p.json", "-o", f"here{i}", "-q", "--allow-exec"], cwd=folder, capture_output=True, text=True,
+                              timeout=120)
+        check(told.returncode == 0, f"in {folder}: {told}")
+
+
 def sheets():
     """A datasheet takes {n} for a placeholder only in a file of points, and an ending for one only without a pattern."""
     sheets_of = set()
@@ -183,7 +214,7 @@ def sheets():
 
 os.chdir(tempfile.mkdtemp(prefix="koksma-point-files-"))
 try:
-    for part in change_each, change_one_use, rename_of_a_family, plans_elsewhere, sheets:
+    for part in change_each, change_one_use, rename_of_a_family, plans_elsewhere, folders, sheets:
         part()
 finally:
     here = os.getcwd()

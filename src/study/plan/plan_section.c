@@ -93,6 +93,29 @@ size_t koksma_plan_path(const char *text, size_t from)
    an image's patterns may have one for each use. */
 typedef enum text_kind { SCENE, SPEC, USES } text_kind;
 
+static koksma_status read_patterns(const char *text, text_kind kind, koksma_render_options *options)
+{
+    return kind == USES ? koksma_render_patterns(text, options) : koksma_pattern_spec(text, &options->pattern);
+}
+
+/* Whether `joined` still names the patterns of `text`, with the folder before their relative paths. The name of a folder
+   may end a pattern, as "x;lens=y/" does; with {n} or {seed} it would make a file a family. */
+static bool reads_as_meant(const char *joined, const char *text, const char *folder, text_kind kind)
+{
+    koksma_render_options before = {0}, after = {0};
+    const koksma_spec *a, *b;
+    bool same = !read_patterns(text, kind, &before) && !read_patterns(joined, kind, &after);
+    for (size_t i = 0; same && (a = koksma__image_pattern_at(&before, i)); i++) {
+        const bool relative = koksma__names_path(a->pattern) && *a->path != '/';
+        const size_t length = relative ? strlen(folder) : 0;
+        b = koksma__image_pattern_at(&after, i);
+        same = a->pattern == b->pattern && !strncmp(b->path, folder, length) && !strcmp(b->path + length, a->path) &&
+               !(relative && koksma__reads_points(a->pattern) &&
+                 (koksma__file_has(folder, "{n}") || koksma__file_has(folder, "{seed}")));
+    }
+    return same;
+}
+
 /* Changes the paths in *text from relative to the plan's folder to relative to the current folder, by writing the plan's
    folder before them. Names of scenes in the library have neither '/' nor '.'. */
 static koksma_status from_plan(const koksma__json_node *node, text_kind kind, char **text)
@@ -122,12 +145,23 @@ static koksma_status from_plan(const koksma__json_node *node, text_kind kind, ch
         }
         *to++ = (*text)[i];
     }
-    const bool fits = (size_t)(to - joined) < KOKSMA_MAX_SPEC;
-    const koksma_status status =
-        fits ? KOKSMA_OK
-             : koksma__json_fail(node, "'%.60s...': the path, with the plan's folder before it, is too long", *text);
-    free(fits ? *text : joined);
-    *text = fits ? joined : *text;
+    koksma_status status = KOKSMA_OK;
+    if ((size_t)(to - joined) >= KOKSMA_MAX_SPEC) {
+        status =
+            koksma__json_fail(node, "'%.60s...': the path, with the plan's folder before it, is too long", *text);
+    } else if (!is_scene && (size_t)(to - joined) > length) {
+        char before[KOKSMA_MAX_SPEC];
+        snprintf(before, sizeof before, "%.*s", (int)folder, name);
+        status =
+            reads_as_meant(joined, *text, before, kind)
+                ? KOKSMA_OK
+                : koksma__json_fail(node,
+                                    "'%.60s': with the plan's folder '%.100s' before its path, it would be read as "
+                                    "something else; rename the folder, or start in it, with ./%.60s",
+                                    *text, before, slash + 1);
+    }
+    free(status ? joined : *text);
+    *text = status ? *text : joined;
     return status;
 }
 
