@@ -3,7 +3,8 @@
  * Checks the options of `koksma study quick` before it writes its plan. The plan's reader would find the same errors,
  * but would name a line of a file that the user did not write. Each item of a list is parsed once, by the function that
  * the reader uses for it, and its canonical text is compared with those of earlier items. Then the patterns are tried
- * with the numbers of points: the plan leaves out sizes that a pattern does not have, but not all of them.
+ * with the numbers of points: the plan leaves out sizes that a pattern does not have, but not all of them. A measure must
+ * accept a size of which there are sets, and a program or library must be allowed to run and make a set.
  */
 #include "study_quick_check.h"
 
@@ -83,14 +84,13 @@ static bool stop_at_once(void *context, double fraction)
 
 /* Whether a measure accepts n points in the plane. koksma_evaluate checks the number before its first call of
    keep_going. Numbers above MOST_TRIED are not tried. */
-static bool accepts(const koksma_measure *measure, uint64_t n)
+static bool accepts(const char *measure, uint64_t n)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
     koksma_points points;
     koksma_spec spec;
     koksma_value value;
-    if (n < 1 || n > MOST_TRIED || koksma_measure_spec(measure->name, &spec) ||
-        koksma_points_init(&points, (size_t)n, 2)) {
+    if (n < 1 || n > MOST_TRIED || koksma_measure_spec(measure, &spec) || koksma_points_init(&points, (size_t)n, 2)) {
         return true;
     }
     for (size_t i = 0; i < points.n; i++) { /* a regular lattice */
@@ -120,7 +120,7 @@ const char *cli_quick_measures(const cli_arguments *arguments, const char *list,
     for (size_t i = 0; (measure = koksma_measure_at(i)); i++) {
         bool fits = true;
         for (size_t k = 0; fits && cli_list_item(points, k, text, sizeof text); k++) {
-            fits = accepts(measure, strtoull(text, NULL, 10));
+            fits = accepts(measure->name, strtoull(text, NULL, 10));
         }
         append(!fits || parse_measure(measure->name, text) ? left_out : names, measure->name);
     }
@@ -224,17 +224,46 @@ static int check_numbers(const cli_arguments *arguments, const char *option, con
     return *n ? CLI_YES : cli_usage_error(arguments, "--%s: an empty list", option);
 }
 
+/* Generates one set of a pattern that runs code of others, which koksma_plan_try does not. Returns the exit code, which is
+   not CLI_YES if such code may not run or the program or library fails; it may have no set of n points. */
+static int try_code(const cli_arguments *arguments, const char *item, size_t n)
+{
+    koksma_spec spec;
+    koksma_points points;
+    if (koksma_pattern_spec(item, &spec) || !spec.pattern->runs_code) {
+        return CLI_YES;
+    }
+    koksma_status status = koksma_points_init(&points, n, 2);
+    if (!status) {
+        status = koksma_generate(&spec, 0, NULL, &points);
+        koksma_points_fini(&points);
+    }
+    if (!status || status == KOKSMA_IMPOSSIBLE || status == KOKSMA_N) {
+        return CLI_YES;
+    }
+    cli_usage_error(arguments, "--patterns %s: %s", item, koksma_error_text());
+    return koksma_status_exit_code(status);
+}
+
+/* The numbers of points of an option. */
+typedef struct sizes {
+    const char *option, *list;
+    size_t n;
+    uint64_t *at;
+    bool *has_set; /* whether some pattern has such a set, as far as it was tried */
+} sizes;
+
 /* Tries all patterns with all sizes. Returns the exit code, which is CLI_YES if one has a set, or if one is too large to
    be tried. */
-static int try_sets(const cli_arguments *arguments, const char *patterns, const char *option, const char *list,
-                    const uint64_t *sizes, size_t n)
+static int try_sets(const cli_arguments *arguments, const char *patterns, sizes *of)
 {
     char item[KOKSMA_MAX_SPEC], reason[512] = "";
     bool any = false;
     for (size_t i = 0; cli_pattern_item(patterns, i, item); i++) {
-        for (size_t k = 0; k < n; k++) {
+        for (size_t k = 0; k < of->n; k++) {
             const koksma_status tried =
-                sizes[k] > MOST_TRIED ? KOKSMA_OK : koksma_plan_try(item, (size_t)sizes[k], 2);
+                of->at[k] > MOST_TRIED ? KOKSMA_OK : koksma_plan_try(item, (size_t)of->at[k], 2);
+            of->has_set[k] |= !tried;
             any |= !tried;
             if (koksma_status_exit_code(tried) > CLI_USAGE) { /* it concerns a file, not this number of points */
                 cli_usage_error(arguments, "--patterns %s: %s", item, koksma_error_text());
@@ -245,18 +274,45 @@ static int try_sets(const cli_arguments *arguments, const char *patterns, const 
             }
         }
     }
-    return any ? CLI_YES : cli_usage_error(arguments, "--%s %s: no pattern has such a set: %s", option, list, reason);
+    return any ? CLI_YES
+               : cli_usage_error(arguments, "--%s %s: no pattern has such a set: %s", of->option, of->list, reason);
 }
 
-static int check_sizes(const cli_arguments *arguments, const char *patterns, const char *option, const char *list,
-                       uint64_t most)
+/* Tries the patterns that run code with the smallest size, and the measures with all sizes of which there are sets: each
+   must accept one. Returns the exit code. */
+static int try_points(const cli_arguments *arguments, const cli_quick *quick, const sizes *of)
 {
-    uint64_t *numbers;
-    size_t n;
-    const int code = check_numbers(arguments, option, list, most, &numbers, &n);
-    const int tried = code ? code : try_sets(arguments, patterns, option, list, numbers, n);
-    free(numbers);
-    return tried;
+    char item[PATH_MAX];
+    uint64_t least = of->at[0];
+    int code = CLI_YES;
+    for (size_t k = 1; k < of->n; k++) {
+        least = of->at[k] < least ? of->at[k] : least;
+    }
+    for (size_t i = 0; !code && least <= MOST_TRIED && cli_pattern_item(quick->patterns, i, item); i++) {
+        code = try_code(arguments, item, (size_t)least);
+    }
+    for (size_t i = 0; !code && cli_list_item(quick->measures, i, item, sizeof item); i++) {
+        bool any = false;
+        for (size_t k = 0; !any && k < of->n; k++) {
+            any = of->has_set[k] && accepts(item, of->at[k]);
+        }
+        code = any ? CLI_YES : cli_usage_error(arguments, "--measures %s: %s", item, koksma_error_text());
+    }
+    return code;
+}
+
+/* Checks the numbers of an option, and tries sets of them. `measured`: they are those of the sets that are measured. */
+static int check_sizes(const cli_arguments *arguments, const cli_quick *quick, const char *option, const char *list,
+                       uint64_t most, bool measured)
+{
+    sizes of = {option, list, 0, NULL, NULL};
+    int code = check_numbers(arguments, option, list, most, &of.at, &of.n);
+    of.has_set = calloc(MOST_ITEMS, sizeof *of.has_set);
+    code = code ? code : of.has_set ? try_sets(arguments, quick->patterns, &of) : cli_no_memory();
+    code = code || !measured ? code : try_points(arguments, quick, &of);
+    free(of.has_set);
+    free(of.at);
+    return code;
 }
 
 /* Whether the pattern of `joined`, in which a relative path at `at` has become absolute, has that path. The name of a
@@ -311,6 +367,6 @@ int cli_quick_check(const cli_arguments *arguments, const cli_quick *quick)
     code =
         code || !quick->integrands ? code : check_items(arguments, "integrands", quick->integrands, parse_integrand);
     code = code || !quick->scenes ? code : check_items(arguments, "scene", quick->scenes, parse_scene);
-    code = code ? code : check_sizes(arguments, quick->patterns, "points", quick->points, KOKSMA_MAX_COORDINATES);
-    return code || !quick->scenes ? code : check_sizes(arguments, quick->patterns, "spp", quick->spp, KOKSMA_MAX_SPP);
+    code = code ? code : check_sizes(arguments, quick, "points", quick->points, KOKSMA_MAX_COORDINATES, true);
+    return code || !quick->scenes ? code : check_sizes(arguments, quick, "spp", quick->spp, KOKSMA_MAX_SPP, false);
 }
