@@ -323,9 +323,7 @@ static koksma_status set_material(koksma__import *im, koksma__text_place place, 
         if (m->bsdf == &koksma__bsdf_ggx) {
             *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 1e-3), 1);
         }
-        return *from->colour.image || from->colour.is_checker
-                   ? koksma__import_unknown(im, place, "a metal's texture is replaced by one colour")
-                   : KOKSMA_OK;
+        return KOKSMA_OK;
     case KOKSMA__GLASS: {
         double *tint = koksma__material_value(m, "tint");
         tint[0] = tint[1] = tint[2] = 1;

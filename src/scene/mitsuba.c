@@ -587,9 +587,17 @@ static koksma_status constant(reader *r, const node *n, const char *name, double
     return KOKSMA_OK;
 }
 
+/* A metal has one colour. */
+static koksma_status mean_of_metal(reader *r, const node *n, koksma__import_material *m)
+{
+    return m->kind == KOKSMA__METAL ? koksma__import_mean(r->im, n->place, "a metal's texture", &m->colour)
+                                    : KOKSMA_OK;
+}
+
 static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
 {
     double eta[3] = {0}, k[3] = {0}, rgb[3];
+    KOKSMA__TRY(mean_of_metal(r, n, m));
     bool is_constant = true;
     const char *name = text(r, n, "material", property(r, n, "eta") ? "" : "none");
     if (*name && !koksma__import_metal(name, rgb)) {
@@ -624,6 +632,7 @@ static koksma_status principled(reader *r, const node *n, int *out)
     m.kind = number(r, n, "metallic", 0) > 0.5     ? KOKSMA__METAL
              : number(r, n, "spec_trans", 0) > 0.5 ? KOKSMA__GLASS
                                                    : KOKSMA__COATED;
+    KOKSMA__TRY(mean_of_metal(r, n, &m));
     return koksma__import_add_material(r->im, n->place, &m, out);
 }
 

@@ -166,6 +166,36 @@ static void extreme_metals_are_mirrors(void **state)
     }
 }
 
+/* A texture on a metal shows as its mean, which a metal's own reflectance multiplies. */
+static void textured_metals_have_their_mean(void **state)
+{
+#define SQUARES(name)                                                                                                \
+    "<texture type=\"checkerboard\" name=\"" name "\"><rgb name=\"color0\" value=\"1 0 .5\"/>"                       \
+    "<rgb name=\"color1\" value=\".5 1 .5\"/></texture>"
+#define MEAN_OF_SQUARES(name) "<rgb name=\"" name "\" value=\".75 .5 .5\"/>"
+#define METALLIC(inside) BALL("<bsdf type=\"principled\"><float name=\"metallic\" value=\"1\"/>" inside "</bsdf>")
+    static const char *const gold = "<string name=\"material\" value=\"Au\"/>";
+    static const char *const forms[][2] = {
+        {METAL(SQUARES("specular_reflectance") "%s"), METAL(MEAN_OF_SQUARES("specular_reflectance") "%s")},
+        {METALLIC(SQUARES("base_color") "%.0s"), METALLIC(MEAN_OF_SQUARES("base_color") "%.0s")}};
+    (void)state;
+    for (size_t i = 0; can_read("a.xml") && i < 4; i++) {
+        double *reflectances[2];
+        koksma_scene *scenes[2];
+        char text[1024];
+        for (int k = 0; k < 2; k++) {
+            snprintf(text, sizeof text, forms[i / 2][k], i % 2 ? gold : "");
+            scenes[k] = opened("a.xml", text);
+            reflectances[k] =
+                koksma__material_value(&scenes[k]->materials[scenes[k]->n_materials - 1], "reflectance");
+        }
+        assert_true(scenes[0]->n_unknown == scenes[1]->n_unknown + 1);
+        check_rgb(text, reflectances[0], reflectances[1], 1e-12);
+        koksma_scene_close(scenes[0]);
+        koksma_scene_close(scenes[1]);
+    }
+}
+
 /* ---- Media --------------------------------------------------------------------------------------------------- */
 
 #define FOG(inside) MITSUBA("<medium type=\"homogeneous\">" inside "</medium>", "<shape type=\"sphere\"/>")
@@ -554,6 +584,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(metals_are_the_same_in_all_forms),
                                        cmocka_unit_test(extreme_metals_are_mirrors),
+                                       cmocka_unit_test(textured_metals_have_their_mean),
                                        cmocka_unit_test(media_are_the_same_in_all_forms),
                                        cmocka_unit_test(coefficients_are_finite),
                                        cmocka_unit_test(daylight_is_white),
