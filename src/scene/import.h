@@ -135,6 +135,9 @@ bool koksma__import_metal(const char *name, double rgb[3]);
    [0, 1e6]. */
 void koksma__import_fresnel(const double eta[3], const double k[3], double rgb[3]);
 
+/* Whether it is the one colour 1. */
+bool koksma__import_is_white(const koksma__import_colour *c);
+
 /* Where only one colour fits: replaces an image or a checkerboard by its mean colour, with a warning that names it as
    `what`. An image that can't be decoded is left out, as it is where it would be shown. */
 koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, const char *what,

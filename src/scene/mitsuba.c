@@ -470,11 +470,18 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
         KOKSMA__TRY(transform(r, n, "to_uv", m));
         memcpy(out->second, second.rgb, sizeof second.rgb);
         out->is_checker = true;
-        out->period = 0.5 / fmax(fabs(m[0]), 1e-6); /* turned by 180 degrees, the squares are where they were */
-        return m[0] != m[5] || m[1] != 0 || m[3] != 0 || m[4] != 0 || m[7] != 0
-                   ? koksma__import_unknown(r->im, n->place,
-                                            "only the scale along u of a checkerboard's transform is used")
-                   : KOKSMA_OK;
+        /* moved by whole periods or turned by 180 degrees, the squares are where they were */
+        const double scale = fmax(hypot(m[0], m[4]), 1e-6);
+        const double off[] = {(m[0] - m[5]) / scale, m[1] / scale, m[4] / scale, remainder(m[3], 1),
+                              remainder(m[7], 1)};
+        bool differs = false;
+        for (size_t i = 0; i < sizeof off / sizeof *off; i++) {
+            differs |= fabs(off[i]) > 1e-6;
+        }
+        out->period = 0.5 / scale;
+        return differs ? koksma__import_unknown(r->im, n->place,
+                                                "only the scale along u of a checkerboard's transform is used")
+                       : KOKSMA_OK;
     }
     KOKSMA__TRY(spectrum(r, n, use, out, depth, &known));
     if (!known && is(n, "spectrum")) {
@@ -645,11 +652,6 @@ static const node *find_inner(const reader *r, const node *c)
     return c;
 }
 
-static bool is_one(const koksma__import_colour *c)
-{
-    return !*c->image && !c->is_checker && c->rgb[0] == 1 && c->rgb[1] == 1 && c->rgb[2] == 1;
-}
-
 static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
 {
     static const bsdf_kind other = {"", KOKSMA__MATTE, "reflectance", 0.5, 0, "Lambert"};
@@ -691,7 +693,8 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     }
     m.kind = (unsigned)found->kind;
     KOKSMA__TRY(colour(r, n, found->colour, found->otherwise, &m.colour, 0));
-    if (m.kind == KOKSMA__GLASS && !is_one(&m.colour)) { /* a tint would colour what it reflects as well */
+    if (m.kind == KOKSMA__GLASS &&
+        !koksma__import_is_white(&m.colour)) { /* a tint would colour what it reflects as well */
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a glass's '%s' is ignored", found->colour));
     }
     KOKSMA__TRY(m.kind == KOKSMA__METAL ? metal(r, n, &m) : KOKSMA_OK);
@@ -724,11 +727,11 @@ static koksma_status area_light(reader *r, const node *n, koksma__import_surface
     koksma__import_colour radiance;
     set_read(r, n);
     KOKSMA__TRY(colour(r, n, "radiance", 1, &radiance, 0));
+    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", &radiance));
     memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
     surface->emits = true;
-    return *radiance.image || radiance.is_checker || strcmp(type_of(n), "area") != 0
-               ? koksma__import_unknown(r->im, n->place, "a light's texture or direction is ignored")
-               : KOKSMA_OK;
+    return strcmp(type_of(n), "area") != 0 ? koksma__import_unknown(r->im, n->place, "a light's direction is ignored")
+                                           : KOKSMA_OK;
 }
 
 /* Finds a shape's material and emission among its children. */
@@ -824,6 +827,12 @@ static const node *medium_of(const reader *r, const node *n, const char *name)
     return NULL;
 }
 
+/* The object that a child of the scene adds: a <ref> is one more of what it names, an <alias> only names it. */
+static const node *object_of(const reader *r, const node *c)
+{
+    return is(c, "alias") ? c : resolve(r, c);
+}
+
 /* Finds the bounds of a cube under a matrix; returns false if its edges are not along the axes. */
 static bool find_bounds(const double m[12], double low[3], double high[3])
 {
@@ -844,12 +853,13 @@ static bool find_bounds(const double m[12], double low[3], double high[3])
    medium in a cube along the axes. */
 static koksma_status find_medium(reader *r, const node *root)
 {
-    const node *sensor = first_of(r, root);
-    while (sensor && !is(sensor, "sensor")) {
-        sensor = next_of(r, sensor);
+    const node *child = first_of(r, root);
+    while (child && !is(object_of(r, child), "sensor")) {
+        child = next_of(r, child);
     }
-    r->medium = sensor ? medium_of(r, sensor, NULL) : NULL;
-    for (const node *n = first_of(r, root); n && !r->box; n = next_of(r, n)) {
+    r->medium = child ? medium_of(r, object_of(r, child), NULL) : NULL;
+    for (child = first_of(r, root); child && !r->box; child = next_of(r, child)) {
+        const node *n = object_of(r, child);
         const bool cube = is(n, "shape") && !strcmp(type_of(n), "cube");
         const node *inside = cube ? medium_of(r, n, "interior") : NULL;
         double m[12];
@@ -1210,7 +1220,7 @@ static koksma_status read_root(reader *r)
     }
     KOKSMA__TRY(find_medium(r, root));
     for (const node *c = first_of(r, root); c; c = next_of(r, c)) {
-        const node *n = is(c, "alias") ? c : resolve(r, c); /* a <ref> is one more of it, an <alias> only names it */
+        const node *n = object_of(r, c);
         KOKSMA__TRY(is(n, "sensor")                                       ? sensor(r, n)
                     : is(n, "shape")                                      ? shape(r, n, NULL, 0)
                     : is(n, "emitter") && strcmp(type_of(n), "area") != 0 ? emitter(r, n)

@@ -262,7 +262,7 @@ static koksma_status read_scaled(koksma__pbrt_scene *scene, const koksma__pbrt_p
     koksma__import_colour by;
     KOKSMA__TRY(find_texture_colour(scene, p, "tex", 1, is_float, c));
     KOKSMA__TRY(find_texture_colour(scene, p, "scale", 1, true, &by));
-    if (!*c->image && !c->is_checker && by.is_checker) {
+    if (!*c->image && !c->is_checker && (by.is_checker || koksma__import_is_white(c))) {
         const koksma__import_colour first = *c;
         *c = by;
         by = first;
@@ -272,7 +272,7 @@ static koksma_status read_scaled(koksma__pbrt_scene *scene, const koksma__pbrt_p
         c->rgb[k] *= by.rgb[k];
         c->second[k] *= by.rgb[k];
     }
-    return *c->image && (by.rgb[0] != 1 || by.rgb[1] != 1 || by.rgb[2] != 1)
+    return *c->image && !koksma__import_is_white(&by)
                ? koksma__import_unknown(scene->im, p->place, "an image times a colour is replaced by the image alone")
                : KOKSMA_OK;
 }

@@ -196,6 +196,22 @@ static void textured_metals_have_their_mean(void **state)
     }
 }
 
+/* So does one of a light. */
+static void textured_lights_have_their_mean(void **state)
+{
+    static const char *const text = MITSUBA(
+        "", "<shape type=\"rectangle\"><emitter type=\"area\"><texture type=\"checkerboard\" "
+            "name=\"radiance\"><rgb name=\"color0\" value=\"1 0 .5\"/><rgb name=\"color1\" value=\".5 1 .5\"/>"
+            "</texture></emitter></shape>");
+    (void)state;
+    if (can_read("a.xml")) {
+        koksma_scene *scene = opened("a.xml", text);
+        assert_int_equal(scene->n_unknown, 1);
+        check_rgb(text, scene->lights[0].radiance, (double[]){.75, .5, .5}, 1e-12);
+        koksma_scene_close(scene);
+    }
+}
+
 /* ---- Media --------------------------------------------------------------------------------------------------- */
 
 #define FOG(inside) MITSUBA("<medium type=\"homogeneous\">" inside "</medium>", "<shape type=\"sphere\"/>")
@@ -490,6 +506,11 @@ static void textures_combine(void **state)
          {.2, 0, .4},
          {.2, 0, .4},
          "the scale of a texture is replaced by its mean colour"},
+        {"Texture \"i\" \"float\" \"imagemap\" \"string filename\" \"grey.pfm\" Texture \"t\" \"spectrum\" \"scale\" "
+         "\"rgb tex\" [1 1 1] \"texture scale\" \"i\" " SHOWN,
+         {.4, .4, .4},
+         {.4, .4, .4},
+         NULL},
         {IMAGE "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"i\" \"float scale\" 1 " SHOWN,
          {.4, .4, .4},
          {.4, .4, .4},
@@ -585,6 +606,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(metals_are_the_same_in_all_forms),
                                        cmocka_unit_test(extreme_metals_are_mirrors),
                                        cmocka_unit_test(textured_metals_have_their_mean),
+                                       cmocka_unit_test(textured_lights_have_their_mean),
                                        cmocka_unit_test(media_are_the_same_in_all_forms),
                                        cmocka_unit_test(coefficients_are_finite),
                                        cmocka_unit_test(daylight_is_white),

@@ -898,6 +898,10 @@ static const struct {
      "a.xml:2: a light's texture is replaced by its mean colour"},
     {"a.xml", MITSUBA("<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\"/></shape>"),
      "a.xml:2: a medium in a shape"},
+    {"a.xml",
+     MITSUBA("<shape type=\"shapegroup\"><shape type=\"cube\" id=\"c\"><medium name=\"interior\" "
+             "type=\"homogeneous\"/></shape></shape><ref id=\"c\"/>"),
+     NULL},
     {"a.xml", MITSUBA("<shape type=\"cube\"><medium name=\"interior\" type=\"heterogeneous\"/></shape>"),
      "a.xml:2: media that vary in space"},
     {"a.xml", MITSUBA("<shape type=\"cube\"><medium name=\"interior\" type=\"homogeneous\"/></shape>"), NULL},
@@ -967,7 +971,10 @@ static const struct {
     {"a.xml", CHECKED("<scale x=\"-2\" y=\"-2\"/>"), NULL},
     {"a.xml", CHECKED("<scale x=\"2\" y=\"3\"/>"), SCALED},
     {"a.xml", CHECKED("<scale x=\"-1\"/>"), SCALED},
+    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"180\"/>"), NULL},
+    {"a.xml", CHECKED("<translate x=\"1\" y=\"-2\"/>"), NULL},
     {"a.xml", CHECKED("<rotate z=\"1\" angle=\"45\"/>"), SCALED},
+    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"90\"/>"), SCALED},
     {"a.xml", CHECKED("<translate x=\"0.25\"/>"), SCALED},
     {"a.xml", CHECKED("<translate y=\"0.25\"/>"), SCALED},
     {"a.xml", CHECKED("<matrix value=\"1 0.5 0 0 1 0 0 0 1\"/>"), SCALED},
@@ -1112,6 +1119,21 @@ static void images_are_mapped_as_in_mitsuba(void **state)
         for (int k = 0; k < 6; k++) {
             assert_near((double)m->mapping.matrix[k], (double)cases[i].matrix[k], 1e-6);
         }
+        koksma_scene_close(scene);
+    }
+}
+
+/* The squares keep their size when they are turned, although not their places. */
+static void turned_checkerboards_keep_their_size(void **state)
+{
+    static const char *const texts[] = {CHECKED("<scale value=\"2\"/>"),
+                                        CHECKED("<scale value=\"2\"/><rotate z=\"1\" angle=\"90\"/>"),
+                                        CHECKED("<rotate z=\"1\" angle=\"30\"/><scale value=\"2\"/>"),
+                                        CHECKED("<matrix value=\"0 2 0 2 0 0 0 0 1\"/>")};
+    (void)state;
+    for (size_t i = 0; reads_xml() && i < sizeof texts / sizeof *texts; i++) {
+        koksma_scene *scene = opened("a.xml", texts[i]);
+        assert_near(scene->materials[0].period, 0.25, 1e-9);
         koksma_scene_close(scene);
     }
 }
@@ -1414,6 +1436,7 @@ int main(void)
         cmocka_unit_test(unknown_things_are_named),
         cmocka_unit_test(references_and_includes_are_objects),
         cmocka_unit_test(images_are_mapped_as_in_mitsuba),
+        cmocka_unit_test(turned_checkerboards_keep_their_size),
         cmocka_unit_test(textures_in_checkerboards_are_their_means),
         cmocka_unit_test(the_cameras_medium_is_read),
         cmocka_unit_test(fog_does_not_glow),
