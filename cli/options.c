@@ -356,7 +356,7 @@ bool cli_trials(const cli_arguments *arguments, uint64_t fallback, uint64_t max,
         return false;
     }
     const uint64_t more = *trials - 1;
-    if (more > UINT64_MAX - *seed) {
+    if (cli_text(arguments, "trials", NULL) && more > UINT64_MAX - *seed) {
         cli_usage_error(
             arguments,
             "--seed %llu: %llu trials end at this seed + %llu, but seeds end at %llu; --seed %llu or less "
@@ -371,10 +371,11 @@ bool cli_trials(const cli_arguments *arguments, uint64_t fallback, uint64_t max,
 bool cli_sizes(const cli_arguments *arguments, const char *name, const char *list, const char *also, uint64_t max,
                size_t sizes[KOKSMA_MAX_SIZES], size_t *n)
 {
-    for (*n = 0; list;) {
+    const char *item = list;
+    for (*n = 0; item;) {
         char *end;
-        const unsigned long long k = strtoull(list, &end, 10);
-        if (*list < '0' || *list > '9' || k == 0 || k > max || (*end && *end != ',') || *n == KOKSMA_MAX_SIZES) {
+        const unsigned long long k = strtoull(item, &end, 10);
+        if (*item < '0' || *item > '9' || k == 0 || k > max || (*end && *end != ',') || *n == KOKSMA_MAX_SIZES) {
             cli_usage_error(arguments, "--%s %s: it takes %sup to %d numbers from 1 to %llu, as in 16,64,256", name,
                             list, also, KOKSMA_MAX_SIZES, (unsigned long long)max);
             return false;
@@ -386,7 +387,7 @@ bool cli_sizes(const cli_arguments *arguments, const char *name, const char *lis
             }
         }
         sizes[(*n)++] = k;
-        list = *end ? end + 1 : NULL;
+        item = *end ? end + 1 : NULL;
     }
     return true;
 }

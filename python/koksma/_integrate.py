@@ -383,6 +383,8 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
         source = _pattern(pattern)
         sizes = sizes_of("n", _each("n", n))
     dim, trials = whole("dim", dim, 1, s.MAX_DIM), whole("trials", trials, 1, 1000000)
+    if isinstance(source, str) and core().koksma_has_one_set(byref(spec("pattern", source))):
+        trials = 1
     seed, samples = first_seed(seed, trials), whole("samples", samples, 0, 1 << 20)
     if not 1 <= len(sizes) <= s.MAX_SIZES:
         raise ArgumentError(f"n must be 1 to {s.MAX_SIZES} sizes, not {len(sizes)}")

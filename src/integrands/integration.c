@@ -198,14 +198,13 @@ koksma_status koksma_integration_errors(const koksma_integral *integral, const k
     KOKSMA__REQUIRE_RUN(run);
     KOKSMA__TRY(check_options(options));
     KOKSMA__FAIL_IF(!pattern->pattern, KOKSMA_ARGUMENT, "koksma_integration_errors: it takes the spec of a pattern");
-    KOKSMA__FAIL_IF(options->trials - 1 > UINT64_MAX - options->seed, KOKSMA_ARGUMENT,
-                    "koksma_integration_options: seed = %llu: %llu trials end at this seed + %llu, but seeds end at "
-                    "%llu; %llu or less would do",
-                    (unsigned long long)options->seed, (unsigned long long)options->trials,
-                    (unsigned long long)options->trials - 1, (unsigned long long)UINT64_MAX,
-                    (unsigned long long)(UINT64_MAX - (options->trials - 1)));
     koksma_integration_options o = *options;
     o.trials = koksma_has_one_set(pattern) ? 1 : o.trials;
+    KOKSMA__FAIL_IF(o.trials - 1 > UINT64_MAX - o.seed, KOKSMA_ARGUMENT,
+                    "seed %llu: %llu trials end at this seed + %llu, but seeds end at "
+                    "%llu; %llu or less would do",
+                    (unsigned long long)o.seed, (unsigned long long)o.trials, (unsigned long long)o.trials - 1,
+                    (unsigned long long)UINT64_MAX, (unsigned long long)(UINT64_MAX - (o.trials - 1)));
     const size_t jobs = (size_t)o.trials * o.n_sizes;
     const bool together = jobs >= (size_t)koksma__threads(run);
     const koksma_run one = {.threads = 1},
