@@ -3,7 +3,8 @@
 # of plan.json, made with the text of that schema) are read without a byte being changed; a run upgrades them, and keeps
 # their rows. Those of images of schemas 3 to 5 are the first renderer's: they stay, and the next run renders these again.
 # Then all others are those of a new folder, also after more trials. Rows of schema 6 have no metrics: the report says so,
-# and the next run adds them. A damaged store of schema 6 is refused, and stays as it is.
+# and the next run adds them. A plan that this version refuses is read. A damaged store of schema 6 is refused, and stays as
+# it is.
 set -eu
 koksma=$1
 here=$(cd "$(dirname "$0")" && pwd)
@@ -65,6 +66,32 @@ reseal("asked")
 END
 "$koksma" study report asked
 said asked | grep -q 'patterns ranked, by relmse: .* It is not measured in 4 of 4 images'
+# A plan that only an older version ran, whose patterns or measures refuse numbers of points, is read from its store; a
+# new run is refused.
+cat > refused.json << 'END'
+{"name": "r", "title": "r", "discrepancies": [{"patterns": ["random", "jittered"], "measures": ["t-value", "l2-star"],
+ "n": [16, 24], "trials": 2, "skip": true}], "images": [{"scenes": ["ball"], "patterns": ["random", "jittered"],
+ "spp": [2, 4], "size": [8, 6], "trials": 2, "skip": true, "references": [{"name": "c", "pattern": "random", "spp": 8}]}]}
+END
+"$koksma" study run ./refused.json -o refused -q
+"$koksma" study export refused -q > refused.csv
+python3 - "$here" << 'END'
+import sqlite3, sys
+sys.path.insert(0, sys.argv[1])
+from reseal import reseal
+database = sqlite3.connect("refused/results.sqlite")
+database.execute("""UPDATE meta SET value = replace(value, '"skip": true', '"skip": false') WHERE key = 'plan-text-0'""")
+database.commit()
+database.close()
+reseal("refused")
+END
+"$koksma" study report refused
+"$koksma" study export refused -q | cmp - refused.csv
+"$koksma" study audit refused --rows all -q > audit.txt
+sed -i 's/"skip": true/"skip": false/' refused.json
+if "$koksma" study run ./refused.json -o new_refused -q 2> error.txt; then exit 1; fi
+grep -q 'n = 24 is not ' error.txt
+test ! -e new_refused
 # Damage to a store of schema 6 is found by a reader, by an audit, and by a run, which leaves the file as it is.
 cp "$file" damaged/results.sqlite
 python3 -c 'import sqlite3; d = sqlite3.connect("damaged/results.sqlite"); d.execute("PRAGMA journal_mode=DELETE"); d.execute("UPDATE result SET v0 = 0.5 WHERE id = (SELECT max(id) FROM result)"); d.commit()'

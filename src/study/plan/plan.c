@@ -108,7 +108,7 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
     status = status ? status : parse_trials(node, trials, &b->trials);
     b->dim = (int)dim;
-    status = status ? status : koksma__plan_check_sets(node, b);
+    status = status ? status : koksma__plan_check_sets(node, trials->stored, b);
     status = status ? status : koksma__plan_check_measures(node, b);
     return status ? status : check_warps(node, b);
 }
@@ -116,7 +116,6 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
 static koksma_status parse_reference(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
     static const char *const keys[] = {"comment", "name", "pattern", "spp", "replicates", NULL};
-    (void)trials;
     koksma__reference *r = item;
     r->replicates = 1;
     koksma_status status = koksma__json_only(node, keys);
@@ -130,7 +129,7 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     if (!status && strchr(r->name, ':')) {
         return koksma__json_fail(node, "the name contains ':'");
     }
-    return status ? status : koksma__plan_check_reference(node, r);
+    return status ? status : koksma__plan_check_reference(node, trials->stored, r);
 }
 
 /* Checks that a scene opens; an error of the scene is reported with the plan's line. */
@@ -187,7 +186,7 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_texts(node, "patterns", koksma__image_pattern_text, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
-    status = status ? status : koksma__plan_check_spp(node, b);
+    status = status ? status : koksma__plan_check_spp(node, trials->stored, b);
     status = status ? status : parse_size(node, b);
     status = status ? status : parse_trials(node, trials, &b->trials);
     return status ? status

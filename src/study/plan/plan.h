@@ -192,10 +192,13 @@ typedef struct koksma__plan {
     koksma__figure *figures;
 } koksma__plan;
 
-/* Options of a run that change a plan's numbers of trials. */
+/* Options of a run that change a plan's numbers of trials, and where the plan comes from. */
 typedef struct koksma__plan_trials {
     long long trials; /* if > 0, replaces the plan's numbers of trials */
     bool quick;       /* whether blocks that have the member `quick` use its number of trials */
+    /* the plan of a store, which an older version may have accepted: that a pattern or measure refuses a number of points
+       is no error, so that the rows stay readable */
+    bool stored;
 } koksma__plan_trials;
 
 /* Parses a plan; `name` is its name in error messages ("plan 'my.json': line 3: …"). Checks every spec, so that a

@@ -94,17 +94,21 @@ typedef struct tried {
     long long most;
 } tried;
 
-static koksma_status refuse_first(const tried *t)
+/* Whether a failed trial is an error of a plan: in that of a store only if it concerns a file or the system. */
+static bool is_error(koksma_status status, bool stored)
+{
+    return koksma_status_exit_code(status) > (stored ? 2 : 0);
+}
+
+static koksma_status refuse_first(const tried *t, bool stored)
 {
     koksma__json_node list;
     koksma_status status = koksma__json_member(t->node, t->key, &list);
     for (size_t k = 0; !status && k < t->n->n; k++) {
         for (size_t p = 0; !status && p < t->names->n && t->n->at[k] <= t->most; p++) {
+            const koksma__json_node item = koksma__json_item(&list, k);
             status = t->trial(t->block, t->names->at[p], t->n->at[k]);
-            if (status) {
-                const koksma__json_node item = koksma__json_item(&list, k);
-                status = koksma__json_fail_in(&item, status);
-            }
+            status = is_error(status, stored) ? koksma__json_fail_in(&item, status) : KOKSMA_OK;
         }
     }
     return status;
@@ -219,13 +223,13 @@ static bool leaves(const tried *t, const bool *is, size_t k)
 
 /* Tries the patterns (kinds > 0) and the measures (kinds > 1) of a block. Reports the first size that one of them refuses
    as an error; with `skip`, leaves such sizes out instead. */
-static koksma_status check(const tried *t, size_t kinds, koksma__left_out *out)
+static koksma_status check(const tried *t, size_t kinds, bool stored, koksma__left_out *out)
 {
     bool **const is[] = {&out->is, &out->unmeasured};
     bool skip = false, any = false;
     koksma_status status = koksma__json_get_flag(t->node, "skip", false, &skip);
     for (size_t i = 0; !status && !skip && i < kinds; i++) {
-        status = refuse_first(&t[i]);
+        status = refuse_first(&t[i], stored);
     }
     koksma__plan_sort(t->n);
     out->skip = skip;
@@ -246,14 +250,15 @@ static koksma_status check(const tried *t, size_t kinds, koksma__left_out *out)
             any = any && leaves(&t[i], *is[i], k);
         }
     }
-    return status || any ? status : koksma__json_fail(t->node, "'skip' leaves nothing: %s", out->lines.at[0]);
+    return status || any || stored ? status
+                                   : koksma__json_fail(t->node, "'skip' leaves nothing: %s", out->lines.at[0]);
 }
 
-koksma_status koksma__plan_check_sets(const koksma__json_node *node, koksma__discrepancy_block *block)
+koksma_status koksma__plan_check_sets(const koksma__json_node *node, bool stored, koksma__discrepancy_block *block)
 {
     const tried t[] = {{node, "n", block, try_points, &block->patterns, &block->n, MOST_TRIED},
                        {node, "n", block, try_measure, &block->measures, &block->n, MOST_MEASURED / block->dim}};
-    koksma_status status = check(t, 2, &block->left_out);
+    koksma_status status = check(t, 2, stored, &block->left_out);
     for (size_t p = 0; !status && p < block->patterns.n; p++) {
         status = find_short_sizes(block, p, &block->left_out);
     }
@@ -325,7 +330,7 @@ static koksma_status check_variant(const char *variant, const koksma__texts *pat
     return status;
 }
 
-koksma_status koksma__plan_check_spp(const koksma__json_node *node, koksma__image_block *block)
+koksma_status koksma__plan_check_spp(const koksma__json_node *node, bool stored, koksma__image_block *block)
 {
     const tried t = {node, "spp", block, try_image, &block->patterns, &block->spp, MOST_TRIED};
     koksma_status status = KOKSMA_OK;
@@ -335,12 +340,13 @@ koksma_status koksma__plan_check_spp(const koksma__json_node *node, koksma__imag
         status = check_variant(block->variants.at[v], &block->patterns);
         status = status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
     }
-    return status ? status : check(&t, takes_spp, &block->left_out);
+    return status ? status : check(&t, takes_spp, stored, &block->left_out);
 }
 
-koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__reference *reference)
+koksma_status koksma__plan_check_reference(const koksma__json_node *node, bool stored,
+                                           const koksma__reference *reference)
 {
     const koksma_status status =
         reference->spp > MOST_TRIED ? KOKSMA_OK : try_image_set(reference->pattern, reference->spp);
-    return status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
+    return is_error(status, stored) ? koksma__json_fail_in(node, status) : KOKSMA_OK;
 }

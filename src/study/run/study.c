@@ -214,6 +214,7 @@ static koksma_status recall_plan(koksma_study *study)
     }
     free(what);
     trials.quick = quick;
+    trials.stored = true;
     for (unsigned long i = 0; !status && i < n; i++) {
         koksma__plan plan = {0};
         char *text = NULL, *name = NULL; /* databases of older versions lack the plan's name */
@@ -247,7 +248,7 @@ static koksma_status check_text(const koksma_study_options *options, char *const
 
 static koksma_status load_plans(koksma_study *study, const koksma_study_options *options, char **texts)
 {
-    const koksma__plan_trials trials = {options->trials, options->quick};
+    const koksma__plan_trials trials = {.trials = options->trials, .quick = options->quick};
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < options->n_plans; i++) {
         koksma__plan plan = {0};
