@@ -145,7 +145,7 @@ koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference
         study->sink->fail_reference(study->sink->context, r, koksma_error_text());
         return do_substitute(r, tile, run, out);
     }
-    return koksma__is_impossible(status) ? fail_reference(r, status) : status;
+    return koksma__is_impossible(status) ? fail_reference(r, KOKSMA_IMPOSSIBLE) : status;
 }
 
 koksma_status koksma__tiles_put(koksma__reference_tiles *tiles, const koksma__reference_tile *tile,
