@@ -61,7 +61,8 @@ koksma_status koksma__failures_count(const koksma__tasks *tasks, size_t job, con
 }
 
 /* Writes the label of a task, which tells all but n: the pattern, the dimension unless it is 2, and the warp; or the
-   pattern, scene, size and options. Lines of equal label and n are of the same jobs, and a list has one of them. */
+   pattern, scene, size and options. Lines of equal label, n and reason may be of several blocks, and a list has one of
+   them. */
 static void put_label(FILE *f, const koksma__task *t)
 {
     fputs(t->pattern, f);
@@ -89,7 +90,7 @@ static koksma_status add_line(koksma__texts *lines, const koksma__task *t, const
         const bool separates = text[i] == '\n' || text[i] == '\r' || (text[i] == '\t' && i < label);
         text[i] = separates ? ' ' : text[i];
     }
-    status = status ? status : koksma__texts_add(lines, text);
+    status = status || koksma__left_out_knows(lines, text, false) ? status : koksma__texts_add(lines, text);
     free(text);
     return status;
 }
@@ -117,12 +118,14 @@ koksma_status koksma__failures_record(koksma_study *study, const koksma__failure
     const char *line;
     koksma_status status = all ? KOKSMA_OK : koksma__left_out_recall(study->store, &before);
     for (size_t i = 0; !status && i < before.n; i++) {
-        status =
-            koksma__left_out_knows(&run->lines, before.at[i]) ? KOKSMA_OK : koksma__texts_add(&stored, before.at[i]);
+        status = koksma__left_out_knows(&run->lines, before.at[i], true) ? KOKSMA_OK
+                                                                         : koksma__texts_add(&stored, before.at[i]);
     }
+    const size_t n_kept = stored.n;
     for (size_t i = 0; !status && i < run->lines.n; i++) {
         line = run->lines.at[i];
-        status = koksma__left_out_knows(&stored, line) ? KOKSMA_OK : koksma__texts_add(&stored, line);
+        const koksma__texts kept = {.n = n_kept, .at = stored.at};
+        status = koksma__left_out_knows(&kept, line, true) ? KOKSMA_OK : koksma__texts_add(&stored, line);
     }
     status = status ? status : koksma__left_out_show(&stored, &study->failed);
     for (size_t i = 0; !status && (line = koksma_study_left_out_at(study, i)); i++) {

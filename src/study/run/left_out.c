@@ -3,7 +3,8 @@
  * The list of failed jobs in a store, and its form for readers. The store has a text "failed" with one line for each task
  * that has failed jobs: label, n, number of failed trials, number of trials and reason, separated by tabs. For readers,
  * lines of equal label become one: "poisson-disk:d=0.3, N = 64 (100 of 100 trials), 256 (100 of 100 trials):
- * reason". The text "left-out" has the lines on the plan's blocks with `skip`, followed by these.
+ * reason". Lines of equal n as well, which have different reasons, remain several. The text "left-out" has the lines on
+ * the plan's blocks with `skip`, followed by these.
  */
 #include "study/run/left_out.h"
 
@@ -37,6 +38,7 @@ typedef struct fields {
     int label_length;
     long long n, failed, trials;
     size_t place; /* among the lines that were read */
+    size_t rank;  /* number of earlier lines of equal label and n */
 } fields;
 
 static bool read_line(const char *line, fields *out)
@@ -71,19 +73,51 @@ static koksma_status add_line(koksma__texts *lines, const char *text)
     return status;
 }
 
-/* By label, then by place. */
-static int compare_labels(const void *a, const void *b)
+static int compare_labels(const fields *x, const fields *y)
 {
-    const fields *x = a, *y = b;
     const int shorter = x->label_length < y->label_length ? x->label_length : y->label_length;
     const int order = memcmp(x->label, y->label, (size_t)shorter);
-    return order ? order
-           : x->label_length != y->label_length
-               ? (x->label_length > y->label_length) - (x->label_length < y->label_length)
-               : (x->place > y->place) - (x->place < y->place);
+    return order ? order : (x->label_length > y->label_length) - (x->label_length < y->label_length);
 }
 
-/* Appends to `lines` one line for the n tasks of one label. */
+static int by_place(const fields *x, const fields *y)
+{
+    return (x->place > y->place) - (x->place < y->place);
+}
+
+/* By label, n and place. */
+static int compare_tasks(const void *a, const void *b)
+{
+    const fields *x = a, *y = b;
+    const int order = compare_labels(x, y);
+    return order ? order : x->n != y->n ? (x->n > y->n) - (x->n < y->n) : by_place(x, y);
+}
+
+/* By label, rank and place. */
+static int compare_ranks(const void *a, const void *b)
+{
+    const fields *x = a, *y = b;
+    const int order = compare_labels(x, y);
+    return order ? order : x->rank != y->rank ? (x->rank > y->rank) - (x->rank < y->rank) : by_place(x, y);
+}
+
+/* Sorts the tasks by label, rank and place; sets the ranks. */
+static void sort(fields *tasks, size_t n)
+{
+    qsort(tasks, n, sizeof *tasks, compare_tasks);
+    for (size_t i = 1; i < n; i++) {
+        const bool again = same_label(&tasks[i - 1], &tasks[i]) && tasks[i - 1].n == tasks[i].n;
+        tasks[i].rank = again ? tasks[i - 1].rank + 1 : 0;
+    }
+    qsort(tasks, n, sizeof *tasks, compare_ranks);
+}
+
+static bool same_line(const fields *a, const fields *b)
+{
+    return same_label(a, b) && a->rank == b->rank;
+}
+
+/* Appends to `lines` one line for the n tasks of one label and rank. */
 static koksma_status show(const fields *tasks, size_t n, koksma__texts *lines)
 {
     char *text = NULL;
@@ -102,8 +136,8 @@ static koksma_status show(const fields *tasks, size_t n, koksma__texts *lines)
     return status;
 }
 
-/* Makes the readers' lines of the store's lines: one for each label, in the order of their first tasks. The tasks are
-   sorted, because a damaged store may have any number of labels. */
+/* Makes the readers' lines of the store's lines: one for each label and rank, in the order of their first tasks. The
+   tasks are sorted, because a damaged store may have any number of labels. */
 koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *lines)
 {
     fields *tasks = calloc(stored->n + 1, sizeof *tasks);
@@ -116,7 +150,7 @@ koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *
         n += read_line(stored->at[i], &tasks[n]);
     }
     if (n) {
-        qsort(tasks, n, sizeof *tasks, compare_labels);
+        sort(tasks, n);
     }
     for (size_t i = 0; i < n; i++) {
         sorted[tasks[i].place] = i;
@@ -124,10 +158,10 @@ koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *
     for (size_t i = 0; !status && i < n; i++) {
         const size_t first = sorted[i];
         size_t end = first + 1;
-        if (first && same_label(&tasks[first - 1], &tasks[first])) {
+        if (first && same_line(&tasks[first - 1], &tasks[first])) {
             continue; /* it is on the line of an earlier one */
         }
-        while (end < n && same_label(&tasks[first], &tasks[end])) {
+        while (end < n && same_line(&tasks[first], &tasks[end])) {
             end++;
         }
         status = show(tasks + first, end - first, lines);
@@ -199,12 +233,13 @@ koksma_status koksma__left_out_record(koksma__store *store, const koksma__texts 
     return status ? status : set_lines(store, left_out_key, lines);
 }
 
-bool koksma__left_out_knows(const koksma__texts *lines, const char *line)
+bool koksma__left_out_knows(const koksma__texts *lines, const char *line, bool any_reason)
 {
     fields a, b;
     bool more = !read_line(line, &a);
     for (size_t i = 0; !more && i < lines->n; i++) {
-        more = read_line(lines->at[i], &b) && same_label(&a, &b) && a.n == b.n && b.failed >= a.failed;
+        more = read_line(lines->at[i], &b) && same_label(&a, &b) && a.n == b.n && b.failed >= a.failed &&
+               (any_reason || !strcmp(a.reason, b.reason));
     }
     return more;
 }

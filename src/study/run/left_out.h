@@ -18,8 +18,10 @@ koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *
 /* Writes the lines, and those for readers, into the store. Errors: those of the store, MEMORY. */
 koksma_status koksma__left_out_record(koksma__store *store, const koksma__texts *stored, const koksma__texts *lines);
 
-/* Whether `lines` has a line of the same task with at least as many failed trials. Trials that failed once fail in
-   every run, so that the run that counted more of them has tried more of them. */
-bool koksma__left_out_knows(const koksma__texts *lines, const char *line);
+/* Whether `lines` has a line of equal label and n with at least as many failed trials and, unless any_reason, the same
+   reason. Of one run, such lines with different reasons are of different jobs: the measures of two blocks may refuse the
+   same set. Between runs, the reason may be another trial's. Trials that failed once fail in every run, so that the run
+   that counted more of them has tried more of them. */
+bool koksma__left_out_knows(const koksma__texts *lines, const char *line, bool any_reason);
 
 #endif
