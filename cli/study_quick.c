@@ -4,7 +4,8 @@
  * measures, integrands and numbers of points of the command line become one block of points, the scenes one block of
  * images. Both blocks of the plan have `skip`, which leaves out sizes that a pattern does not have. Relative paths
  * become absolute, because a plan's paths are relative to the plan's folder. The options are checked before anything
- * is written (study_quick_check.c), and an existing plan.json of another text stays (koksma_plan_write).
+ * is written, and the programs and libraries of a new plan are tried (study_quick_check.c). An existing plan.json of
+ * another text stays (koksma_plan_write).
  *
  * Under mpirun only rank 0 uses DIR, which may be on its machine alone. Every rank makes the same text from the same
  * options, and the other ranks open it as a text.
@@ -164,13 +165,19 @@ static void store_path(const char *folder, char path[CLI_QUICK_PATH])
     snprintf(path, CLI_QUICK_PATH, "%s/results.sqlite", folder);
 }
 
-/* Writes the plan's text and notes which names are new. Returns the exit code. */
-static int write_plan(const cli_arguments *arguments, const char *folder, const char *text, cli_quick_plan *plan)
+/* Writes the plan's text and notes which names are new. Programs and libraries are tried only for a new plan: a study
+   that goes on may be complete. Returns the exit code. */
+static int write_plan(const cli_arguments *arguments, const cli_quick *quick, const char *folder, const char *text,
+                      cli_quick_plan *plan)
 {
     struct stat info;
     snprintf(plan->path, sizeof plan->path, "%s/plan.json", folder);
     if (strlen(folder) > 1000) { /* as the library's functions on studies have it */
         return cli_usage_error(arguments, "the name of a study's folder is longer than 1000 bytes: %.40s...", folder);
+    }
+    const int code = lstat(plan->path, &info) ? cli_quick_try_code(arguments, quick) : CLI_YES;
+    if (code) {
+        return code;
     }
     const bool new_folder = lstat(folder, &info);
     char store[CLI_QUICK_PATH];
@@ -213,7 +220,7 @@ int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cli
     const int code = !good     ? CLI_USAGE
                      : !closed ? cli_no_memory()
                      : keeps   ? CLI_YES
-                               : write_plan(arguments, folder, text, plan);
+                               : write_plan(arguments, &quick, folder, text, plan);
     plan->text = keeps ? text : NULL;
     free(keeps ? NULL : text);
     return code;

@@ -4,7 +4,7 @@
  * but would name a line of a file that the user did not write. Each item of a list is parsed once, by the function that
  * the reader uses for it, and its canonical text is compared with those of earlier items. Then the patterns are tried
  * with the numbers of points: the plan leaves out sizes that a pattern does not have, but not all of them. A measure must
- * accept a size of which there are sets, and a program or library must be allowed to run and make a set.
+ * accept a size of which there are sets, and a program or library of a new plan must be allowed to run and make a set.
  */
 #include "study_quick_check.h"
 
@@ -75,33 +75,6 @@ static koksma_status parse_scene(const char *item, char text[PATH_MAX])
     return status;
 }
 
-static bool stop_at_once(void *context, double fraction)
-{
-    (void)context;
-    (void)fraction;
-    return false;
-}
-
-/* Whether a measure accepts n points in the plane. koksma_evaluate checks the number before its first call of
-   keep_going. Numbers above MOST_TRIED are not tried. */
-static bool accepts(const char *measure, uint64_t n)
-{
-    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
-    koksma_points points;
-    koksma_spec spec;
-    koksma_value value;
-    if (n < 1 || n > MOST_TRIED || koksma_measure_spec(measure, &spec) || koksma_points_init(&points, (size_t)n, 2)) {
-        return true;
-    }
-    for (size_t i = 0; i < points.n; i++) { /* a regular lattice */
-        points.xs[2 * i] = (double)i / (double)n;
-        points.xs[2 * i + 1] = 0.5;
-    }
-    const koksma_status status = koksma_evaluate(&spec, &points, &briefly, &value);
-    koksma_points_fini(&points);
-    return status != KOKSMA_N;
-}
-
 static void append(char *list, const char *name)
 {
     const size_t used = strlen(list);
@@ -120,7 +93,8 @@ const char *cli_quick_measures(const cli_arguments *arguments, const char *list,
     for (size_t i = 0; (measure = koksma_measure_at(i)); i++) {
         bool fits = true;
         for (size_t k = 0; fits && cli_list_item(points, k, text, sizeof text); k++) {
-            fits = accepts(measure->name, strtoull(text, NULL, 10));
+            const size_t n = strtoull(text, NULL, 10); /* 0 if it is no number, which is reported later */
+            fits = !n || koksma_plan_try_measure(measure->name, n, 2) != KOKSMA_N;
         }
         append(!fits || parse_measure(measure->name, text) ? left_out : names, measure->name);
     }
@@ -278,23 +252,30 @@ static int try_sets(const cli_arguments *arguments, const char *patterns, sizes 
                : cli_usage_error(arguments, "--%s %s: no pattern has such a set: %s", of->option, of->list, reason);
 }
 
-/* Tries the patterns that run code with the smallest size, and the measures with all sizes of which there are sets: each
-   must accept one. Returns the exit code. */
-static int try_points(const cli_arguments *arguments, const cli_quick *quick, const sizes *of)
+int cli_quick_try_code(const cli_arguments *arguments, const cli_quick *quick)
 {
     char item[PATH_MAX];
-    uint64_t least = of->at[0];
+    uint64_t least = UINT64_MAX;
     int code = CLI_YES;
-    for (size_t k = 1; k < of->n; k++) {
-        least = of->at[k] < least ? of->at[k] : least;
+    for (size_t k = 0; cli_list_item(quick->points, k, item, sizeof item); k++) {
+        const uint64_t n = strtoull(item, NULL, 10);
+        least = n < least ? n : least;
     }
     for (size_t i = 0; !code && least <= MOST_TRIED && cli_pattern_item(quick->patterns, i, item); i++) {
         code = try_code(arguments, item, (size_t)least);
     }
-    for (size_t i = 0; !code && cli_list_item(quick->measures, i, item, sizeof item); i++) {
+    return code;
+}
+
+/* Tries the measures with all sizes of which there are sets: each must accept one. Returns the exit code. */
+static int try_measures(const cli_arguments *arguments, const char *measures, const sizes *of)
+{
+    char item[PATH_MAX];
+    int code = CLI_YES;
+    for (size_t i = 0; !code && cli_list_item(measures, i, item, sizeof item); i++) {
         bool any = false;
         for (size_t k = 0; !any && k < of->n; k++) {
-            any = of->has_set[k] && accepts(item, of->at[k]);
+            any = of->has_set[k] && koksma_plan_try_measure(item, (size_t)of->at[k], 2) != KOKSMA_N;
         }
         code = any ? CLI_YES : cli_usage_error(arguments, "--measures %s: %s", item, koksma_error_text());
     }
@@ -309,7 +290,7 @@ static int check_sizes(const cli_arguments *arguments, const cli_quick *quick, c
     int code = check_numbers(arguments, option, list, most, &of.at, &of.n);
     of.has_set = calloc(MOST_ITEMS, sizeof *of.has_set);
     code = code ? code : of.has_set ? try_sets(arguments, quick->patterns, &of) : cli_no_memory();
-    code = code || !measured ? code : try_points(arguments, quick, &of);
+    code = code || !measured ? code : try_measures(arguments, quick->measures, &of);
     free(of.has_set);
     free(of.at);
     return code;

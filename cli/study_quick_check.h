@@ -15,6 +15,10 @@ typedef struct cli_quick {
    not CLI_YES after an error that names the option. */
 int cli_quick_check(const cli_arguments *arguments, const cli_quick *quick);
 
+/* Tries the patterns that run code of others with the smallest number of points. Returns the exit code, which is not
+   CLI_YES after an error: such code may not run, or fails. */
+int cli_quick_try_code(const cli_arguments *arguments, const cli_quick *quick);
+
 /* Size of a text with the names of all measures or integrands. */
 enum { CLI_QUICK_LIST = 4096 };
 

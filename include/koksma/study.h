@@ -45,6 +45,11 @@ KOKSMA_API size_t koksma_plan_path(const char *text, size_t from);
    it has no file, and N if it has files, but none for this n. */
 KOKSMA_API koksma_status koksma_plan_try(const char *pattern, size_t n, int dim);
 
+/* Tries whether a measure accepts n points in dim dimensions, as the reader of a plan does, by a call that is stopped at
+   once. More than 2^21 / dim points are not tried.
+   Errors: those of koksma_measure_spec and koksma_points_init, N. */
+KOKSMA_API koksma_status koksma_plan_try_measure(const char *measure, size_t n, int dim);
+
 /* Checks the text of a plan, then makes the folder and writes the text to DIR/plan.json. A text with an error writes
    nothing. An existing DIR/plan.json is never replaced, and a link of that name is not followed.
      folder  folder of the study; its parent must exist

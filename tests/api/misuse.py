@@ -89,7 +89,7 @@ VALID = {
     "koksma_mask_void_and_cluster.size": "4", "koksma_mask_void_and_cluster_3d.size": "4", "koksma_mask_void_and_cluster_3d.frames": "4",
     "koksma_mask_vectors.size": "4", "koksma_mask_vectors.dim": "1",
     "koksma_mask_void_and_cluster_3d.ranks": "a_buffer(64 * sizeof(uint32_t))", "koksma_render_options_init.options": "a_buffer(sizeof(koksma_render_options))",
-    "koksma_render_patterns.options": "render_options(\"jittered\")", "koksma_plan_try.pattern": "\"jittered\"", "koksma_plan_try.n": "4", "koksma_plan_try.dim": "2", "koksma_plan_write.folder": "study_folder()", "koksma_plan_write.text": "a_plan()", "koksma_study_export.folder": "work_path(\"done\")", "koksma_study_left_out.folder": "work_path(\"done\")", "koksma_study_table_row.id": "\"5.1\"",
+    "koksma_render_patterns.options": "render_options(\"jittered\")", "koksma_plan_try.pattern": "\"jittered\"", "koksma_plan_try.n": "4", "koksma_plan_try.dim": "2", "koksma_plan_try_measure.measure": "\"star\"", "koksma_plan_try_measure.n": "4", "koksma_plan_try_measure.dim": "2", "koksma_plan_write.folder": "study_folder()", "koksma_plan_write.text": "a_plan()", "koksma_study_export.folder": "work_path(\"done\")", "koksma_study_left_out.folder": "work_path(\"done\")", "koksma_study_table_row.id": "\"5.1\"",
     "koksma_study_images.places": "work_path(\"in_{trial}.pfm\")", "koksma_study_images.reference": "work_path(\"in.pfm\")", "koksma_study_images.folder": "work_path(\"images\")",
     "koksma_name_at *": "a_name", "koksma_closest_name.table": "NULL", "koksma_closest_name.word": "\"jitered\"", "koksma_text_escape.text": "a_copy(\"jittered\", 9)",
     "koksma_text_escape.size": "9", "koksma_entry *": "a_buffer(sizeof(koksma_entry))", "koksma_scene_kind_at.member": "\"lights\"",

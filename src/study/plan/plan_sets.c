@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Checks before a study runs that every pattern can make the numbers of points that the plan gives, and that every
    measure accepts them and supports their dimension, so that the study does not fail halfway. */
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,23 +64,31 @@ static koksma_status try_image(const void *block, const char *pattern, long long
 }
 
 /* koksma_evaluate refuses a number of points before its first call of keep_going. Other errors are of the points. */
-static koksma_status try_measure(const void *block, const char *measure, long long n)
+koksma_status koksma_plan_try_measure(const char *measure, size_t n, int dim)
 {
+    KOKSMA__REQUIRE(measure);
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
     koksma_spec spec;
     koksma_points points;
     koksma_value value;
-    if (koksma__integrand_of(measure)) {
+    KOKSMA__TRY(koksma_measure_spec(measure, &spec));
+    if (dim > 0 && n > (size_t)(MOST_MEASURED / dim)) {
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(koksma_measure_spec(measure, &spec));
-    KOKSMA__TRY(koksma_points_init(&points, (size_t)n, ((const koksma__discrepancy_block *)block)->dim));
+    KOKSMA__TRY(koksma_points_init(&points, n, dim));
     for (size_t i = 0; i < points.n * (size_t)points.dim; i++) { /* different points, on a line */
         points.xs[i] = i % (size_t)points.dim ? 0.5 : (double)(i / (size_t)points.dim) / (double)n;
     }
     const koksma_status status = koksma_evaluate(&spec, &points, &briefly, &value);
     koksma_points_fini(&points);
     return status == KOKSMA_N || status == KOKSMA_MEMORY ? status : KOKSMA_OK;
+}
+
+static koksma_status try_measure(const void *block, const char *measure, long long n)
+{
+    return koksma__integrand_of(measure)
+               ? KOKSMA_OK
+               : koksma_plan_try_measure(measure, (size_t)n, ((const koksma__discrepancy_block *)block)->dim);
 }
 
 /* The combinations to try: all patterns, or all measures, with all numbers `n` up to `most`, which are the list `key` of
@@ -257,7 +266,7 @@ static koksma_status check(const tried *t, size_t kinds, bool stored, koksma__le
 koksma_status koksma__plan_check_sets(const koksma__json_node *node, bool stored, koksma__discrepancy_block *block)
 {
     const tried t[] = {{node, "n", block, try_points, &block->patterns, &block->n, MOST_TRIED},
-                       {node, "n", block, try_measure, &block->measures, &block->n, MOST_MEASURED / block->dim}};
+                       {node, "n", block, try_measure, &block->measures, &block->n, LLONG_MAX}};
     koksma_status status = check(t, 2, stored, &block->left_out);
     for (size_t p = 0; !status && p < block->patterns.n; p++) {
         status = find_short_sizes(block, p, &block->left_out);
