@@ -7,7 +7,7 @@
  * The library stays loaded: closing it between two sets would run its constructors again for each set. A path without
  * a slash names a file in the current directory; the loader's search path is not used. The process keeps the code that it
  * loaded first, so that a set of a file that has changed since then is refused: a study hashes the file and would keep the
- * old code's values under the new file's hash.
+ * old code's values under the new file's hash. A file whose times alone differ has the hash that it had.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -17,6 +17,7 @@
 #include <koksma/plugin.h>
 
 #include "core/capacity.h"
+#include "core/read_file.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
@@ -37,10 +38,12 @@ static koksma_status open_library(const char *name, const char *path, void **sym
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A loaded library, and its file as it was before it was loaded. */
+/* A loaded library, its file as it was before it was loaded, and the hash of that file. */
 typedef struct loaded {
     void *library;
     struct stat file;
+    bool hashed; /* whether the file was still the same when it was hashed */
+    uint64_t hash;
 } loaded;
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -53,33 +56,48 @@ static bool same_file(const struct stat *a, const struct stat *b)
            a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec;
 }
 
-/* Fails unless the file is the one that the library was loaded from: dlopen finds a loaded library by the path alone. */
-static koksma_status check_unchanged(const char *name, void *library, const struct stat *before,
-                                     const struct stat *now)
+/* Sets *known to the record of a library, which is made at the first call. */
+static koksma_status find_loaded(const char *path, void *library, const struct stat *before, loaded **known)
 {
-    pthread_mutex_lock(&lock);
+    struct stat now;
     size_t i = 0;
     while (i < n_loaded && all[i].library != library) {
         i++;
     }
-    loaded *known = i < n_loaded ? &all[i] : koksma__add_one(&all, &n_loaded, sizeof *known);
-    if (known && !known->library) { /* it was added */
-        *known = (loaded){library, *before};
+    *known = i < n_loaded ? &all[i] : koksma__add_one(&all, &n_loaded, sizeof **known);
+    KOKSMA__TRY(*known ? KOKSMA_OK : KOKSMA_MEMORY);
+    if (!(*known)->library) { /* it was added */
+        **known = (loaded){.library = library, .file = *before};
+        KOKSMA__TRY(koksma__hash_file(path, &(*known)->hash));
+        (*known)->hashed = !stat(path, &now) && same_file(before, &now);
     }
-    const bool same = known && same_file(&known->file, now);
-    pthread_mutex_unlock(&lock);
-    KOKSMA__TRY(known ? KOKSMA_OK : KOKSMA_MEMORY);
+    return KOKSMA_OK;
+}
+
+/* Fails unless the file is the one that the library was loaded from: dlopen finds a loaded library by the path alone. */
+static koksma_status check_unchanged(const char *name, const char *path, void *library, const struct stat *before)
+{
+    struct stat now;
+    loaded *known;
+    uint64_t hash = 0;
+    koksma_status status = find_loaded(path, library, before, &known);
+    KOKSMA__FAIL_IF(!status && stat(path, &now), KOKSMA_MISSING, "%s: there is no file %s to read", name, path);
+    if (status || same_file(&known->file, &now)) {
+        return status;
+    }
+    status = known->hashed ? koksma__hash_file(path, &hash) : KOKSMA_OK;
     KOKSMA__FAIL_IF(
-        !same, KOKSMA_MALFORMED,
+        !status && (!known->hashed || hash != known->hash), KOKSMA_MALFORMED,
         "%s: the file has changed since this process loaded it, and a process can't load it again; start a "
         "new process, or give the new library another name",
         name);
-    return KOKSMA_OK;
+    known->file = status ? known->file : now; /* so that the next set needs no hash */
+    return status;
 }
 
 static koksma_status load(const char *name, const char *path, void **symbol)
 {
-    struct stat before, now;
+    struct stat before;
     const bool found = !stat(path, &before);
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     KOKSMA__FAIL_IF(!library, KOKSMA_MALFORMED, "%s: it can't be loaded: %s", name, dlerror());
@@ -88,8 +106,11 @@ static koksma_status load(const char *name, const char *path, void **symbol)
         dlclose(library);
         return koksma__fail(KOKSMA_MALFORMED, "%s: it exports no koksma_plugin_at (koksma/plugin.h)", name);
     }
-    KOKSMA__FAIL_IF(!found || stat(path, &now), KOKSMA_MISSING, "%s: there is no file %s to read", name, path);
-    return check_unchanged(name, library, &before, &now);
+    KOKSMA__FAIL_IF(!found, KOKSMA_MISSING, "%s: there is no file %s to read", name, path);
+    pthread_mutex_lock(&lock);
+    const koksma_status status = check_unchanged(name, path, library, &before);
+    pthread_mutex_unlock(&lock);
+    return status;
 }
 
 /* The whole path is loaded: dlopen would take ./a.so of the current directory for that of an earlier one. */

@@ -5,6 +5,7 @@
 The files of samplers have one point, whose discrepancies have closed forms; values are compared with these."""
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -71,6 +72,24 @@ class Libraries(Folder):
                 self.assertEqual([row["value"] for row in study.rows()], [star(0.5)] * 9)
             os.rename("s.so", "t.so")
             self.assertEqual(koksma.measure(koksma.generate("plugin:./t.so", 1), "star").value, star(0.25))
+
+    def test_a_touched_or_copied_library_is_the_same(self):
+        self.build("s.so", 0.5)
+        with koksma.allow_exec():
+            value = lambda: koksma.measure(koksma.generate("plugin:./s.so", 1), "star").value
+            self.assertEqual(value(), star(0.5))
+            for times in ((1, 1), (2, 2)):
+                os.utime("s.so", times)
+                self.assertEqual(value(), star(0.5))
+            shutil.copy("s.so", "copy.so")
+            os.replace("copy.so", "s.so")
+            self.assertEqual(value(), star(0.5))
+            old = os.stat("s.so")
+            self.build("s.so", 0.2)  # the same size
+            os.utime("s.so", ns=(old.st_atime_ns, old.st_mtime_ns))
+            for _ in range(2):
+                with self.assertRaisesRegex(koksma.MalformedError, "the file has changed since"):
+                    value()
 
     def test_equal_names_in_two_folders_are_two_libraries(self):
         for folder, x in (("a", 0.5), ("b", 0.25)):
