@@ -3,7 +3,7 @@
 # of plan.json, made with the text of that schema) are read without a byte being changed; a run upgrades them, and keeps
 # their rows. Those of images of schemas 3 to 5 are the first renderer's: they stay, and the next run renders these again.
 # Then all others are those of a new folder, also after more trials. Rows of schema 6 have no metrics: the report says so,
-# and the next run adds them. A plan that this version refuses is read. A damaged store of schema 6 is refused, and stays as
+# and the next run adds them. Plans that this version refuses are read. A damaged store of schema 6 is refused, and stays as
 # it is.
 set -eu
 koksma=$1
@@ -92,6 +92,27 @@ sed -i 's/"skip": true/"skip": false/' refused.json
 if "$koksma" study run ./refused.json -o new_refused -q 2> error.txt; then exit 1; fi
 grep -q 'n = 24 is not ' error.txt
 test ! -e new_refused
+# So is a plan whose folder's name makes its file a family; an older version read the files of that family.
+mkdir 16
+"$koksma" generate random@16 -q -o 16/a.txt
+cat > family.json << 'END'
+{"name": "f", "title": "f", "discrepancies": [{"patterns": ["file:./{n}/a.txt"], "measures": ["star"], "n": [16], "trials": 1}]}
+END
+"$koksma" study run ./family.json -o family -q
+python3 - "$here" << 'END'
+import sqlite3, sys
+sys.path.insert(0, sys.argv[1])
+from reseal import reseal
+database = sqlite3.connect("family/results.sqlite")
+database.execute("UPDATE meta SET value = replace(value, './{n}/a.txt', 'a.txt') WHERE key = 'plan-text-0'")
+database.execute("UPDATE meta SET value = './{n}/family.json' WHERE key = 'plan-name-0'")
+database.commit()
+database.close()
+reseal("family")
+END
+"$koksma" study report family
+"$koksma" study audit family --rows all -q > audit.txt
+grep -q '^1 rows drawn' audit.txt
 # Damage to a store of schema 6 is found by a reader, by an audit, and by a run, which leaves the file as it is.
 cp "$file" damaged/results.sqlite
 python3 -c 'import sqlite3; d = sqlite3.connect("damaged/results.sqlite"); d.execute("PRAGMA journal_mode=DELETE"); d.execute("UPDATE result SET v0 = 0.5 WHERE id = (SELECT max(id) FROM result)"); d.commit()'

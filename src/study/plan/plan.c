@@ -99,7 +99,8 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     long long dim = 2;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, false, &b->id);
-    status = status ? status : koksma__plan_texts(node, "patterns", koksma__pattern_text, &b->patterns);
+    status =
+        status ? status : koksma__plan_patterns(node, "patterns", koksma__pattern_text, trials->stored, &b->patterns);
     status = status ? status : parse_measures(node, b);
     if (!status && koksma__json_has(node, "warps")) {
         status = koksma__plan_texts(node, "warps", NULL, &b->warps);
@@ -120,7 +121,9 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     r->replicates = 1;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_text(node, "name", true, &r->name);
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, &r->pattern);
+    status =
+        status ? status
+               : koksma__plan_pattern(node, "pattern", koksma__image_pattern_text, true, trials->stored, &r->pattern);
     status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
     status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
     KOKSMA__JSON_FAIL_IF(!status && strlen(r->name) > MAX_NAME, node, "the name has more than %d characters",
@@ -183,7 +186,9 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_id(node, false, &b->id);
     status = status ? status : koksma__plan_texts(node, "scenes", NULL, &b->scenes);
     status = status ? status : check_scenes(node, &b->scenes);
-    status = status ? status : koksma__plan_texts(node, "patterns", koksma__image_pattern_text, &b->patterns);
+    status = status
+                 ? status
+                 : koksma__plan_patterns(node, "patterns", koksma__image_pattern_text, trials->stored, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
     status = status ? status : koksma__plan_check_spp(node, trials->stored, b);

@@ -87,7 +87,6 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
                                        "lines",   "printed",  "spaces", "exposure", NULL};
     koksma__figure *f = item;
     koksma__texts variants = {0};
-    (void)trials;
     f->strata[0] = f->strata[1] = -1;
     f->exposure = 1;
     koksma_status status = koksma__json_only(node, keys);
@@ -97,9 +96,10 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
     status = status ? status : koksma__plan_text(node, "adaptive", false, &f->adaptive);
     status = status ? status : koksma__plan_text(node, "warp", false, &f->warp);
     status = status ? status : koksma__plan_text(node, "printed", false, &f->printed);
-    status = status ? status
-                    : koksma__plan_spec(node, "pattern", f->scene ? koksma__image_pattern_text : koksma__pattern_text,
-                                        true, &f->pattern);
+    status = status
+                 ? status
+                 : koksma__plan_pattern(node, "pattern", f->scene ? koksma__image_pattern_text : koksma__pattern_text,
+                                        true, trials->stored, &f->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_N, &f->n);
     status = status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);
     status = status ? status : get_lines(node, f);

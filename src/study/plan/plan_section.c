@@ -117,8 +117,9 @@ static bool reads_as_meant(const char *joined, const char *text, const char *fol
 }
 
 /* Changes the paths in *text from relative to the plan's folder to relative to the current folder, by writing the plan's
-   folder before them. Names of scenes in the library have neither '/' nor '.'. */
-static koksma_status from_plan(const koksma__json_node *node, text_kind kind, char **text)
+   folder before them. Names of scenes in the library have neither '/' nor '.'. Those of a stored plan are read as its run
+   read them, whatever its folder's name is. */
+static koksma_status from_plan(const koksma__json_node *node, text_kind kind, bool stored, char **text)
 {
     const bool is_scene = kind == SCENE;
     const char *name = koksma__json_document(node), *slash = strrchr(name, '/');
@@ -149,7 +150,7 @@ static koksma_status from_plan(const koksma__json_node *node, text_kind kind, ch
     if ((size_t)(to - joined) >= KOKSMA_MAX_SPEC) {
         status =
             koksma__json_fail(node, "'%.60s...': the path, with the plan's folder before it, is too long", *text);
-    } else if (!is_scene && (size_t)(to - joined) > length) {
+    } else if (!is_scene && !stored && (size_t)(to - joined) > length) {
         char before[KOKSMA_MAX_SPEC];
         snprintf(before, sizeof before, "%.*s", (int)folder, name);
         status =
@@ -165,14 +166,14 @@ static koksma_status from_plan(const koksma__json_node *node, text_kind kind, ch
     return status;
 }
 
-static koksma_status canonical(const koksma__json_node *node, koksma__spec_parser parser, char **out)
+static koksma_status canonical(const koksma__json_node *node, koksma__spec_parser parser, bool stored, char **out)
 {
     const char *text;
     char name[KOKSMA_MAX_SPEC];
     KOKSMA__TRY(koksma__json_text(node, &text));
     const koksma_status status = parser(text, name);
     KOKSMA__TRY(status ? koksma__json_fail_in(node, status) : copy(name, out));
-    return from_plan(node, parser == koksma__image_pattern_text ? USES : SPEC, out);
+    return from_plan(node, parser == koksma__image_pattern_text ? USES : SPEC, stored, out);
 }
 
 koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out)
@@ -180,7 +181,7 @@ koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, 
     const char *text = NULL;
     koksma_status status = koksma__json_get_text(node, key, needed, &text);
     status = status || !text ? status : copy(text, out);
-    return status || !text || strcmp(key, "scene") != 0 ? status : from_plan(node, SCENE, out);
+    return status || !text || strcmp(key, "scene") != 0 ? status : from_plan(node, SCENE, false, out);
 }
 
 koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char **out)
@@ -195,12 +196,18 @@ koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char *
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                 bool needed, char **out)
 {
+    return koksma__plan_pattern(node, key, parser, needed, false, out);
+}
+
+koksma_status koksma__plan_pattern(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                   bool needed, bool stored, char **out)
+{
     koksma__json_node member;
     if (!needed && !koksma__json_has(node, key)) {
         return KOKSMA_OK;
     }
     const koksma_status status = koksma__json_member(node, key, &member);
-    return status ? status : canonical(&member, parser, out);
+    return status ? status : canonical(&member, parser, stored, out);
 }
 
 /* Opens the list `key`, fails if it is empty, and allocates an array for its items, which is freed with the plan. */
@@ -223,6 +230,12 @@ static koksma_status open_list(const koksma__json_node *node, const char *key, s
 koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                  koksma__texts *out)
 {
+    return koksma__plan_patterns(node, key, parser, false, out);
+}
+
+koksma_status koksma__plan_patterns(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                    bool stored, koksma__texts *out)
+{
     koksma__json_node list;
     size_t length;
     void *items = NULL;
@@ -232,10 +245,10 @@ koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key,
         const koksma__json_node item = koksma__json_item(&list, out->n);
         const char *text;
         if (parser) {
-            status = canonical(&item, parser, &out->at[out->n]);
+            status = canonical(&item, parser, stored, &out->at[out->n]);
         } else if (!(status = koksma__json_text(&item, &text))) {
             status = copy(text, &out->at[out->n]);
-            status = status || strcmp(key, "scenes") != 0 ? status : from_plan(&item, SCENE, &out->at[out->n]);
+            status = status || strcmp(key, "scenes") != 0 ? status : from_plan(&item, SCENE, false, &out->at[out->n]);
         }
         for (size_t i = 0; !status && i < out->n; i++) {
             if (!strcmp(out->at[i], out->at[out->n])) {

@@ -35,6 +35,14 @@ koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, 
    specs, and their canonical forms are kept. */
 koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                  koksma__texts *out);
+
+/* The same for patterns, whose paths start at the plan's folder. `stored` is that of koksma__plan_trials: otherwise a
+   folder's name with which they would be read as something else is an error. */
+koksma_status koksma__plan_pattern(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                   bool needed, bool stored, char **out);
+koksma_status koksma__plan_patterns(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                    bool stored, koksma__texts *out);
+
 /* Moves the texts of `more` to the end of `to`. */
 koksma_status koksma__plan_join(koksma__texts *to, koksma__texts *more);
 

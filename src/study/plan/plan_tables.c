@@ -65,25 +65,27 @@ static koksma_status parse_published(const koksma__json_node *node, koksma__tabl
 
 /* ---- Tables ---------------------------------------------------------------------------------------------- */
 
-static koksma_status parse_row(const koksma__json_node *node, koksma__spec_parser parser, koksma__table_row *r)
+static koksma_status parse_row(const koksma__json_node *node, koksma__spec_parser parser, bool stored,
+                               koksma__table_row *r)
 {
     static const char *const keys[] = {"comment", "pattern", "label", "published", "rate", NULL};
     r->rate = NAN;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_spec(node, "pattern", parser, true, &r->pattern);
+    status = status ? status : koksma__plan_pattern(node, "pattern", parser, true, stored, &r->pattern);
     status = status ? status : koksma__plan_text(node, "label", true, &r->label);
     status = status ? status : koksma__json_get_number(node, "rate", false, -10, 0, &r->rate);
     return status ? status : parse_published(node, r);
 }
 
-static koksma_status parse_note(const koksma__json_node *node, koksma__spec_parser parser, koksma__note *n)
+static koksma_status parse_note(const koksma__json_node *node, koksma__spec_parser parser, bool stored,
+                                koksma__note *n)
 {
     static const char *const keys[] = {"comment", "pattern", "n", "statistic", "reason", "explained", NULL};
     static const char *const statistics[] = {"mean", "sd", "max"};
     const char *statistic;
     n->explained = true;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_spec(node, "pattern", parser, false, &n->pattern);
+    status = status ? status : koksma__plan_pattern(node, "pattern", parser, false, stored, &n->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", false, 1, (int)KOKSMA_MAX_COORDINATES, &n->n);
     status = status ? status : koksma__plan_text(node, "reason", true, &n->reason);
     status = status ? status : koksma__json_get_flag(node, "explained", false, &n->explained);
@@ -98,26 +100,22 @@ static koksma_status parse_note(const koksma__json_node *node, koksma__spec_pars
 
 static koksma_status row_of_images(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    (void)trials;
-    return parse_row(node, koksma__image_pattern_text, item);
+    return parse_row(node, koksma__image_pattern_text, trials->stored, item);
 }
 
 static koksma_status row_of_points(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    (void)trials;
-    return parse_row(node, koksma__pattern_text, item);
+    return parse_row(node, koksma__pattern_text, trials->stored, item);
 }
 
 static koksma_status note_of_images(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    (void)trials;
-    return parse_note(node, koksma__image_pattern_text, item);
+    return parse_note(node, koksma__image_pattern_text, trials->stored, item);
 }
 
 static koksma_status note_of_points(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    (void)trials;
-    return parse_note(node, koksma__pattern_text, item);
+    return parse_note(node, koksma__pattern_text, trials->stored, item);
 }
 
 /* Reads "n": one number, or a list of several. */
