@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Checks before a study runs that every pattern can make the numbers of points that the plan gives, and that every
    measure accepts them and supports their dimension, so that the study does not fail halfway. */
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +9,7 @@
 #include <koksma/study.h>
 
 #include "core/capacity.h"
+#include "core/points.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
 #include "render/samples/use_patterns.h"
@@ -72,7 +72,8 @@ koksma_status koksma_plan_try_measure(const char *measure, size_t n, int dim)
     koksma_points points;
     koksma_value value;
     KOKSMA__TRY(koksma_measure_spec(measure, &spec));
-    if (dim > 0 && n > (size_t)(MOST_MEASURED / dim)) {
+    KOKSMA__TRY(koksma__points_fit(n, dim));
+    if (n > (size_t)(MOST_MEASURED / dim)) {
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma_points_init(&points, n, dim));
@@ -266,7 +267,7 @@ static koksma_status check(const tried *t, size_t kinds, bool stored, koksma__le
 koksma_status koksma__plan_check_sets(const koksma__json_node *node, bool stored, koksma__discrepancy_block *block)
 {
     const tried t[] = {{node, "n", block, try_points, &block->patterns, &block->n, MOST_TRIED},
-                       {node, "n", block, try_measure, &block->measures, &block->n, LLONG_MAX}};
+                       {node, "n", block, try_measure, &block->measures, &block->n, MOST_MEASURED / block->dim}};
     koksma_status status = check(t, 2, stored, &block->left_out);
     for (size_t p = 0; !status && p < block->patterns.n; p++) {
         status = find_short_sizes(block, p, &block->left_out);
