@@ -5,7 +5,8 @@
  * its interval, which is [0,1] or has length 1/n.
  *
  * Four of five descents start from the best set after a random change (kick); the others start from the points {i a +
- * s} (fractional parts) with random vectors a and s, or from random points.
+ * s} (fractional parts) with random vectors a and s, or from random points. On the torus, where lattices are among the
+ * best sets, the best of many such vectors a is taken.
  */
 #include "optimise/descent.h"
 
@@ -186,13 +187,11 @@ static void kick(koksma__descent *d, koksma__stream *random)
     }
 }
 
-/* Sets point i to {i a + s} (fractional parts) with random vectors a and s. In half of the calls the first entry of a
-   is 1/n; in half of those calls the other entries are multiples of 1/n, which makes the set a shifted rank-1
-   lattice. */
-void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random)
+/* Sets point i to {i a + s} (fractional parts) with random vectors a and s. With a kind above 1, the first entry of a
+   is 1/n; with 3, the other entries are multiples of 1/n, which makes the set a shifted rank-1 lattice. */
+static void kronecker(koksma__descent *d, uint32_t kind, koksma__stream *random)
 {
     const double n = (double)d->points.n;
-    const uint32_t kind = koksma__next(random) % 4;
     for (int k = 0; k < d->points.dim; k++) {
         const double u = koksma__next_unit(random), shift = koksma__next_unit(random);
         const double a = kind > 1 && k == 0 ? 1 / n : kind == 3 ? floor(n * u) / n : u;
@@ -203,19 +202,49 @@ void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random)
     }
 }
 
-void koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep, koksma__stream *random)
+void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random)
+{
+    kronecker(d, koksma__next(random) % 4, random);
+}
+
+/* The best of n such sets of one kind, or of as many as a quarter of the work allows. d->before keeps it. */
+static koksma_status best_kronecker(koksma__descent *d, koksma__stream *random)
+{
+    const uint32_t kind = koksma__next(random) % 4;
+    const double tries = fmin((double)d->points.n, d->budget / 4 / d->cost);
+    double least = INFINITY;
+    koksma_status status = KOKSMA_OK;
+    for (double i = 0; !status && i < tries; i++) {
+        double square;
+        kronecker(d, kind, random);
+        status = value_at(d, &square);
+        if (!status && square < least) {
+            least = square;
+            memcpy(d->before, d->points.xs, d->count * sizeof(double));
+        }
+    }
+    memcpy(d->points.xs, d->before, d->count * sizeof(double));
+    return status;
+}
+
+koksma_status koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep,
+                                    koksma__stream *random)
 {
     memcpy(d->points.xs, best->xs, d->count * sizeof(double));
     const double u = koksma__next_unit(random);
     if (u < 0.8) {
         kick(d, random);
     } else if (keep == KOKSMA_KEEP_NONE && u < 0.96) {
+        if (!d->bounded) {
+            return best_kronecker(d, random);
+        }
         koksma__descent_kronecker(d, random);
     } else {
         for (size_t c = 0; c < d->count; c++) {
             d->points.xs[c] = d->low[c] + d->length * koksma__next_unit(random);
         }
     }
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *points, koksma_keep keep, bool bounded,

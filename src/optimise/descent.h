@@ -35,7 +35,8 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
 void koksma__descent_fini(koksma__descent *d);
 
 /* Sets the points from which a descent starts: a changed copy of the best set, or new points. */
-void koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep, koksma__stream *random);
+koksma_status koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep,
+                                    koksma__stream *random);
 
 /* Sets the points {i a + s} (fractional parts) with random vectors a and s; in half of the calls the first coordinate
    is i / n + s. */

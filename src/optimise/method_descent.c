@@ -30,10 +30,10 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     d.function = square_of;
     d.context = &j;
     while (!status && d.work < d.budget) {
-        koksma__descent_start(&d, points, o->keep, &random);
-        d.goal = best;
         double square;
-        status = koksma__descend(&d, KOKSMA__ITERATIONS, &square);
+        status = koksma__descent_start(&d, points, o->keep, &random);
+        d.goal = best;
+        status = status ? status : koksma__descend(&d, KOKSMA__ITERATIONS, &square);
         if (!status && square < best) {
             best = square;
             memcpy(points->xs, d.points.xs, d.count * sizeof(double));

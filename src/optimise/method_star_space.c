@@ -247,9 +247,9 @@ static koksma_status start(job *j, koksma__descent *d, const koksma_points *poin
         if (keep == KOKSMA_KEEP_NONE) {
             koksma__descent_kronecker(d, random);
         } else {
-            koksma__descent_start(d, points, keep, random);
+            status = koksma__descent_start(d, points, keep, random);
         }
-        status = list(j, d, value, &found);
+        status = status ? status : list(j, d, value, &found);
         if (!status && found < least) {
             least = found;
             memcpy(best, d->points.xs, d->count * sizeof(double));

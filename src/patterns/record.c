@@ -79,7 +79,7 @@ const koksma_pattern koksma__pattern_record = {
     .min_dim = 2,
     .max_dim = 3,
     .claims = KOKSMA_CLAIM_DETERMINISTIC,
-    .revision = 4,
+    .revision = 5,
     .params = params,
     .generate = generate,
 };
