@@ -34,7 +34,8 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
                                    double cost);
 void koksma__descent_fini(koksma__descent *d);
 
-/* Sets the points from which a descent starts: a changed copy of the best set, or new points. */
+/* Sets the points from which a descent starts: a changed copy of the best set, or new points. Errors: those of the
+   function. */
 koksma_status koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep,
                                     koksma__stream *random);
 

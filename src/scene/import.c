@@ -209,11 +209,6 @@ static koksma_status find_image(koksma__import *im, koksma__text_place place, co
     return status ? leave_out(im, place, status) : KOKSMA_OK;
 }
 
-bool koksma__import_is_white(const koksma__import_colour *c)
-{
-    return !*c->image && !c->is_checker && c->rgb[0] == 1 && c->rgb[1] == 1 && c->rgb[2] == 1;
-}
-
 koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, const char *what,
                                   koksma__import_colour *c)
 {

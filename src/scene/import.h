@@ -136,7 +136,10 @@ bool koksma__import_metal(const char *name, double rgb[3]);
 void koksma__import_fresnel(const double eta[3], const double k[3], double rgb[3]);
 
 /* Whether it is the one colour 1. */
-bool koksma__import_is_white(const koksma__import_colour *c);
+static inline bool koksma__import_is_white(const koksma__import_colour *c)
+{
+    return !*c->image && !c->is_checker && c->rgb[0] == 1 && c->rgb[1] == 1 && c->rgb[2] == 1;
+}
 
 /* Where only one colour fits: replaces an image or a checkerboard by its mean colour, with a warning that names it as
    `what`. An image that can't be decoded is left out, as it is where it would be shown. */

@@ -3,7 +3,7 @@
  * Colours of pbrt's and Mitsuba's scenes that may be above 1: eta and k of metals, coefficients of media, factors of
  * daylight. Each form of one value (numbers, pairs, samples at equal or listed wavelengths, textures, the names of
  * Mitsuba 2) gives the same colour, also within textures of pbrt. Indices of refraction and directions of any size give
- * finite pictures.
+ * finite pictures. Long because all of them share the scenes and the checks.
  */
 #include <math.h>
 #include <string.h>
