@@ -15,6 +15,7 @@
 #include "render/samples/use_patterns.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_section.h"
+#include "study/plan/point_files.h"
 #include "study/plan/variants.h"
 
 /* Larger sets are not tried, because that takes time, and a pattern that supports only some n is found at smaller
@@ -104,10 +105,12 @@ typedef struct tried {
     long long most;
 } tried;
 
-/* Whether a failed trial is an error of a plan: in that of a store only if it concerns a file or the system. */
-static bool is_error(koksma_status status, bool stored)
+/* Whether a failed trial of a name is an error of a plan: in that of a store only if it concerns a file or the system. A
+   size that a family of files lacks does: if the files were there, the keys of the rows have another hash. */
+static bool is_error(koksma_status status, bool stored, bool image, const char *name)
 {
-    return koksma_status_exit_code(status) > (stored ? 2 : 0);
+    const koksma__row_texts row = {image, name, ""};
+    return koksma_status_exit_code(status) > (stored && !koksma__points_have_family(&row) ? 2 : 0);
 }
 
 static koksma_status refuse_first(const tried *t, bool stored)
@@ -118,7 +121,9 @@ static koksma_status refuse_first(const tried *t, bool stored)
         for (size_t p = 0; !status && p < t->names->n && t->n->at[k] <= t->most; p++) {
             const koksma__json_node item = koksma__json_item(&list, k);
             status = t->trial(t->block, t->names->at[p], t->n->at[k]);
-            status = is_error(status, stored) ? koksma__json_fail_in(&item, status) : KOKSMA_OK;
+            status = is_error(status, stored, t->trial == try_image, t->names->at[p])
+                         ? koksma__json_fail_in(&item, status)
+                         : KOKSMA_OK;
         }
     }
     return status;
@@ -358,5 +363,5 @@ koksma_status koksma__plan_check_reference(const koksma__json_node *node, bool s
 {
     const koksma_status status =
         reference->spp > MOST_TRIED ? KOKSMA_OK : try_image_set(reference->pattern, reference->spp);
-    return is_error(status, stored) ? koksma__json_fail_in(node, status) : KOKSMA_OK;
+    return is_error(status, stored, true, reference->pattern) ? koksma__json_fail_in(node, status) : KOKSMA_OK;
 }
