@@ -400,7 +400,7 @@ def decoys():
         told = audit("r", "--rows", "all")
         says(told, 1, "39 rows drawn, of which 36 agree: these are all")
         check(told.stdout.count("the stored value is") == 3, f"the real rows, with a twin: {told}")
-    # The same row twice, with another value: SQLite finds only one of them by its id, and a scan both.
+    # The same row twice, with another value, which a scan would find and a search by the id not: the ids of a table ascend.
     copy("r", "real")
     change("r", "INSERT INTO result SELECT id + 4, seed, v0 / 10, v1, v2, v3 FROM result ORDER BY id DESC LIMIT 1", sealed=False)
     database = sqlite3.connect("r/results.sqlite")
@@ -412,8 +412,8 @@ def decoys():
         file.seek(0)
         file.write(whole.replace(varint(last), varint(last - 4)))
     reseal("r")
-    says(audit("r", "--rows", "all"), 1, "differs: of 37 drawn rows, 36 agree and 0 differ, but the others were compared with nothing",
-         "37 rows drawn, of which 36 agree: these are all")
+    told = audit("r", "--rows", "all")
+    check(told.returncode == 3 and "database disk image is malformed" in told.stderr, f"one id twice: {told}")
 
 
 def varint(number):

@@ -2,8 +2,10 @@
 """store_flips.py KOKSMA: 1,000 random bit flips (50 with sanitizers) in the database and the reference images of a study. Each is found by
 `audit --rows all`, which then has another exit code than 0, or changes nothing that export and report have of results;
 and no flip makes `export` write other rows with exit code 0, whatever the audit says. Half of the flips of the database are
-anywhere, half next to bytes that are not 0, as much of a small file is empty. A tenth as many in the log of a killed run: SQLite
-ends the log there, so that rows may be missing, which no audit can see; but no row is another, and the next run makes them."""
+anywhere, half next to bytes that are not 0, as much of a small file is empty. Then one flip in each byte of the headers of the
+database's pages, whose numbers of cells decide which rows there are (SQLite's file format, 1.6). A tenth as many random ones in
+the log of a killed run: SQLite ends the log there, so that rows may be missing, which no audit can see; but no row is another,
+and the next run makes them."""
 import os
 import random
 import re
@@ -34,16 +36,17 @@ def results(folder):
         return export.stdout + re.sub(rb'\{[^{}]*"id":"runs".*', b"", file.read())
 
 
-def flip(path, sound, chance):
+def draw(sound, chance):
     if chance < 0.5:
-        place = random.randrange(len(sound))
-    else:
-        place = random.choice([i for i, byte in enumerate(sound) if byte])
+        return random.randrange(len(sound))
+    return random.choice([i for i, byte in enumerate(sound) if byte])
+
+
+def flip(path, sound, place):
     damaged = bytearray(sound)
     damaged[place] ^= 1 << random.randrange(8)
     with open(path, "wb") as file:
         file.write(damaged)
-    return place
 
 
 def main():
@@ -56,9 +59,12 @@ def main():
     assert sound_results and run("audit", "d", "--rows", "all").returncode == 0
     files = {"d/" + n: open("d/" + n, "rb").read() for n in ["results.sqlite", "references/" + os.listdir("d/references")[0]]}
     database, reference = files
-    for i in range(FLIPS):
-        path = reference if i % 5 == 0 else database
-        place = flip(path, files[path], random.random())
+    size = int.from_bytes(files[database][16:18], "big")  # of a page; that of the first page begins behind the file's header
+    headers = [page + byte + (0 if page else 100) for page in range(0, len(files[database]), size) for byte in range(8)]
+    for i in range(FLIPS + len(headers)):
+        path = reference if i < FLIPS and i % 5 == 0 else database
+        place = headers[i - FLIPS] if i >= FLIPS else draw(files[path], random.random())
+        flip(path, files[path], place)
         audit = run("audit", "d", "--rows", "all", "--threads", "1")
         if audit.returncode in (1, 3):
             found += 1
@@ -72,7 +78,7 @@ def main():
             silent += 1
         with open(path, "wb") as file:
             file.write(files[path])
-    print(f"{FLIPS} flips: {found} found by the audit or at opening, {silent} without effect")
+    print(f"{FLIPS} flips and {len(headers)} in headers: {found} found by the audit or at opening, {silent} without effect")
     assert found > FLIPS / 10 and silent > 0
     flip_logs()
 
@@ -96,7 +102,8 @@ def flip_logs():
     assert len(sound) > 100, "the log has rows"
     fewer = 0
     for _ in range(FLIPS // 10):
-        place = flip(log, files[log], 1)
+        place = draw(files[log], 1)
+        flip(log, files[log], place)
         export, audit = run("export", "k"), run("audit", "k", "--threads", "1")
         rows = set(export.stdout.split(b"\n"))
         assert export.returncode in (0, 3) and audit.returncode in (0, 1, 3), place
@@ -105,7 +112,7 @@ def flip_logs():
         for path, content in files.items():
             with open(path, "wb") as file:
                 file.write(content)
-    flip(log, files[log], 1)
+    flip(log, files[log], draw(files[log], 1))
     assert run("run", "./plan.json", "-o", "k", "-q", "--trials", "3").returncode == 0
     assert run("run", "./plan.json", "-o", "fresh", "-q", "--trials", "3").returncode == 0
     fresh = set(run("export", "fresh").stdout.split(b"\n"))

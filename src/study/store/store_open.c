@@ -194,6 +194,21 @@ static koksma_status look(const char *path, bool *exists, int *schema, koksma__d
     return status;
 }
 
+/* Checks the structure of all pages. A damaged one that is still readable may hide rows from one query and not from
+   another, so that an audit would see all of them and an export would not. */
+static koksma_status check_pages(koksma__database *database)
+{
+    koksma__statement *check;
+    koksma_status status = KOKSMA_OK;
+    KOKSMA__TRY(koksma__statement_open(database, "PRAGMA quick_check(1)", &check));
+    if (koksma__next_row(database, check, &status) && strcmp(koksma__column_text(check, 0), "ok") != 0) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: database disk image is malformed; move it away to begin anew",
+                              koksma__database_path(database));
+    }
+    koksma__statement_close(check);
+    return status;
+}
+
 static koksma_status open_to_read(const char *path, koksma__store **out)
 {
     koksma__database *database;
@@ -203,7 +218,9 @@ static koksma_status open_to_read(const char *path, koksma__store **out)
     if (!status && !exists) {
         status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, strerror(ENOENT));
     }
+    status = status ? status : check_pages(database);
     if (status) {
+        koksma__database_close(database);
         return status;
     }
     if (schema != KOKSMA__SCHEMA) {
