@@ -11,12 +11,11 @@ import shutil
 import sqlite3
 import subprocess
 import sys
-import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE + "/../study")
 from reseal import reseal  # noqa: E402
-from stores import KOKSMA, check, end, koksma  # noqa: E402
+from stores import KOKSMA, check, end, koksma, own_folder  # noqa: E402
 
 PLAN = """{"name": "h", "title": "h",
   "discrepancies": [{"patterns": ["random"], "measures": ["star", "l2-star", "extreme", "l2-extreme"], "n": [4], "trials": 1000}],
@@ -541,8 +540,7 @@ def plain(text):
     return not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", text)
 
 
-os.chdir(tempfile.mkdtemp(prefix="koksma-store-audit-"))
-try:
+with own_folder():
     with open("plan.json", "w") as file:
         file.write(PLAN)
     shutil.copy(HERE + "/../../scenes/checker.json", "mine.json")
@@ -552,8 +550,4 @@ try:
     assert made.returncode == 0, made.stderr
     for part in references, reasons, families, operands, values, trials, impossible, long_names, keys, revisions, gaps, decoys, draw, texts, many:
         part()
-finally:
-    here = os.getcwd()
-    os.chdir("/")
-    shutil.rmtree(here)
 end()

@@ -10,10 +10,9 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 
-from stores import KOKSMA, check, end, koksma
+from stores import KOKSMA, check, end, koksma, own_folder
 
 FAULTS = os.path.abspath(sys.argv[2])
 PLAN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../study/plan.json")
@@ -106,15 +105,10 @@ def locked_by_others():
     check(told.returncode == 0 and export("d") == TRUTH, f"a locked folder: {told}")
 
 
-os.chdir(tempfile.mkdtemp(prefix="koksma-first-runs-"))
-try:
+with own_folder():
     assert koksma(*run("whole")).returncode == 0
     TRUTH, LEFT = export("whole"), sorted(os.listdir("whole"))
     CALL, DONE = next((call, with_it) for call in range(300, 500, 5) for with_it, without in [done_after(call)] if with_it > without > 0)
     for part in without_log, with_log, locked_by_others:
         part()
-finally:
-    here = os.getcwd()
-    os.chdir("/")
-    shutil.rmtree(here)
 end()

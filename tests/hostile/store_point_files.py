@@ -13,9 +13,8 @@ import json
 import os
 import shutil
 import subprocess
-import tempfile
 
-from stores import KOKSMA, check, end, koksma
+from stores import KOKSMA, check, end, koksma, own_folder
 
 INCLUDE = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../include"))
 PLUGIN = """#include <koksma/plugin.h>
@@ -212,12 +211,7 @@ def sheets():
     check(len(sheets_of) == 1, "the same vector has the same sheet under each name")
 
 
-os.chdir(tempfile.mkdtemp(prefix="koksma-point-files-"))
-try:
+with own_folder():
     for part in change_each, change_one_use, rename_of_a_family, plans_elsewhere, folders, sheets:
         part()
-finally:
-    here = os.getcwd()
-    os.chdir("/")
-    shutil.rmtree(here)
 end()
