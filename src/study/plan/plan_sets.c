@@ -106,11 +106,12 @@ typedef struct tried {
 } tried;
 
 /* Whether a failed trial of a name is an error of a plan: in that of a store only if it concerns a file or the system. A
-   size that a family of files lacks does: if the files were there, the keys of the rows have another hash. */
+   size that a named file or family of files lacks does: if the files were those of the run, it would have that size, and
+   the keys of the rows have another hash. */
 static bool is_error(koksma_status status, bool stored, bool image, const char *name)
 {
     const koksma__row_texts row = {image, name, ""};
-    return koksma_status_exit_code(status) > (stored && !koksma__points_have_family(&row) ? 2 : 0);
+    return koksma_status_exit_code(status) > (stored && !koksma__points_read_files(&row) ? 2 : 0);
 }
 
 static koksma_status refuse_first(const tried *t, bool stored)

@@ -191,17 +191,32 @@ koksma_status koksma__points_can_be_read(const koksma__row_texts *row)
     return visit_row(row, can_be_read, NULL);
 }
 
-static koksma_status find_family(void *context, const koksma_spec *spec)
+/* What a row names. */
+typedef struct files_of_row {
+    bool files, families;
+} files_of_row;
+
+static koksma_status find_files(void *context, const koksma_spec *spec)
 {
-    *(bool *)context |= is_family(spec);
+    char path[KOKSMA_MAX_SPEC];
+    files_of_row *of = context;
+    of->files |= find_path(spec, path) && !spec->pattern->runs_code;
+    of->families |= is_family(spec);
     return KOKSMA_OK;
+}
+
+bool koksma__points_read_files(const koksma__row_texts *row)
+{
+    files_of_row of = {0};
+    visit_row(row, find_files, &of);
+    return of.files;
 }
 
 bool koksma__points_have_family(const koksma__row_texts *row)
 {
-    bool found = false;
-    visit_row(row, find_family, &found);
-    return found;
+    files_of_row of = {0};
+    visit_row(row, find_files, &of);
+    return of.families;
 }
 
 void koksma__point_files_fini(koksma__point_files *known)

@@ -36,6 +36,9 @@ void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash
 /* Fails if a file that a row names can't be read, with the reason; OK also if it names none. */
 koksma_status koksma__points_can_be_read(const koksma__row_texts *row);
 
+/* Whether a row names any files but programs and libraries. */
+bool koksma__points_read_files(const koksma__row_texts *row);
+
 /* Whether a row names a family of files (file_names.h). */
 bool koksma__points_have_family(const koksma__row_texts *row);
 
