@@ -52,7 +52,7 @@ koksma_status koksma__scene_note(koksma_scene *scene, const char *text)
 
 void koksma__material_mean(const koksma_scene *scene, koksma__material *m)
 {
-    koksma__scene_image_mean(scene, m->image, m->albedo[0]);
+    koksma__scene_image_mean(scene, m->image, true, m->albedo[0]);
     memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
 }
 

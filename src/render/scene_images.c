@@ -32,9 +32,9 @@ typedef struct koksma__kept_image {
     koksma__image_use use;
     koksma_status status; /* of reading; `text` is the message, NULL without an error */
     char *text;
-    bool hashed, has_mean;
+    bool hashed, has_mean[2];
     uint64_t hash;
-    double mean[3];
+    double mean[2][3]; /* of the pixels, of the clamped pixels */
 } entry;
 
 /* ---- The list --------------------------------------------------------------------------------------------- */
@@ -293,20 +293,20 @@ koksma_status koksma__scene_image_within(koksma_scene *scene, const char *name, 
 
 /* ---- What follows from the pixels -------------------------------------------------------------------------- */
 
-void koksma__scene_image_mean(const koksma_scene *scene, const koksma_image *image, double mean[3])
+void koksma__scene_image_mean(const koksma_scene *scene, const koksma_image *image, bool clamped, double mean[3])
 {
     entry *e = entry_of(scene, image);
     const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
-    for (size_t k = 0; k < 3 && !e->has_mean; k++) {
+    for (size_t k = 0; k < 3 && !e->has_mean[clamped]; k++) {
         double sum = 0;
         for (size_t i = 0; i < n; i++) {
             const double value = (double)image->pixels[i * channels + k % channels];
-            sum += value > 0 ? fmin(value, 1) : 0;
+            sum += value > 0 ? fmin(value, clamped ? 1 : INFINITY) : 0;
         }
-        e->mean[k] = sum / (double)n;
+        e->mean[clamped][k] = sum / (double)n;
     }
-    e->has_mean = true;
-    memcpy(mean, e->mean, sizeof e->mean);
+    e->has_mean[clamped] = true;
+    memcpy(mean, e->mean[clamped], sizeof e->mean[clamped]);
 }
 
 static uint64_t hash_of(entry *e)

@@ -32,8 +32,8 @@ koksma_status koksma__scene_image_keep(koksma_scene *scene, koksma_image *from, 
 /* Frees an image, unless a material or light still uses it. image may be NULL. */
 void koksma__scene_image_drop(koksma_scene *scene, const koksma_image *image);
 
-/* The mean colour, with pixels clamped to [0, 1]; it is computed once. */
-void koksma__scene_image_mean(const koksma_scene *scene, const koksma_image *image, double mean[3]);
+/* The mean colour, with pixels clamped to [0, 1] if `clamped`, else with negative ones as 0. Each is computed once. */
+void koksma__scene_image_mean(const koksma_scene *scene, const koksma_image *image, bool clamped, double mean[3]);
 
 /* The images' part of the scene's hash, because a scene with other pixels is another scene. It covers every image that
    the scene owns, and depends on where the images are shown. */

@@ -210,7 +210,7 @@ static koksma_status find_image(koksma__import *im, koksma__text_place place, co
 }
 
 koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, const char *what,
-                                  koksma__import_colour *c)
+                                  koksma__spectrum_use use, koksma__import_colour *c)
 {
     if (*c->image) {
         koksma_image *image;
@@ -220,7 +220,10 @@ koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, 
         if (!image) {
             return KOKSMA_OK;
         }
-        koksma__scene_image_mean(im->scene, image, c->rgb);
+        koksma__scene_image_mean(im->scene, image, use == KOKSMA__REFLECTANCE, c->rgb);
+        for (int k = 0; k < 3; k++) {
+            c->rgb[k] *= c->image_scale;
+        }
     } else if (c->is_checker) {
         c->is_checker = false;
         for (int k = 0; k < 3; k++) {
@@ -246,7 +249,8 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
         m->mapping = from->mapping;
         koksma__material_mean(im->scene, m);
     }
-    return KOKSMA_OK;
+    return m->image && from->image_scale != 1 ? koksma__import_unknown(im, place, "an image's scale is ignored")
+                                              : KOKSMA_OK;
 }
 
 /* Replaces a coated material by a Phong lobe, which has a dielectric's reflectance along the normal, over a Lambert

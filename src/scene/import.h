@@ -11,6 +11,7 @@
 #include "meshes/mesh_serialized.h"
 #include "meshes/names.h"
 #include "render/description.h"
+#include "scene/import_spectrum.h"
 
 /* A position in a text, for messages. */
 typedef struct koksma__text_place {
@@ -55,6 +56,7 @@ typedef struct koksma__import_colour {
     double rgb[3];
     char image[KOKSMA__MAX_PATH]; /* path of the image; "": no image */
     koksma__mapping mapping;      /* how the image is mapped */
+    double image_scale;           /* factor of the image; only its mean colour can have another one than 1 */
     bool is_checker;
     double second[3], period;
 } koksma__import_colour;
@@ -142,9 +144,10 @@ static inline bool koksma__import_is_white(const koksma__import_colour *c)
 }
 
 /* Where only one colour fits: replaces an image or a checkerboard by its mean colour, with a warning that names it as
-   `what`. An image that can't be decoded is left out, as it is where it would be shown. */
+   `what`. An image's levels above 1 count as 1 in a reflectance. An image that can't be decoded is left out, as it is where
+   it would be shown. */
 koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, const char *what,
-                                  koksma__import_colour *c);
+                                  koksma__spectrum_use use, koksma__import_colour *c);
 
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
                                           const koksma__import_material *from, int *out);

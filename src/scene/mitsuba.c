@@ -348,8 +348,8 @@ static koksma_status in_daylight(reader *r, const node *n, koksma__import_colour
         out->rgb[k] *= scale;
         out->second[k] *= scale;
     }
-    return *out->image && scale != 1 ? koksma__import_unknown(r->im, n->place, "an image's scale is ignored")
-                                     : KOKSMA_OK;
+    out->image_scale *= scale;
+    return KOKSMA_OK;
 }
 
 /* Reads the spectra "regular" and "irregular": samples at equal distances, or at those that are listed. */
@@ -458,6 +458,7 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
                         ? koksma__import_unknown(r->im, n->place, "a texture's 'raw' is ignored: its levels are sRGB")
                         : KOKSMA_OK);
         KOKSMA__TRY(set_mapping(r, n, &out->mapping));
+        out->image_scale = 1;
         return koksma__import_path(r->im, n->place, name, out->image);
     }
     if (!strcmp(type, "checkerboard")) {
@@ -465,8 +466,8 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
         set_read(r, n);
         KOKSMA__TRY(colour(r, n, "color0", 0.4, out, depth + 1));
         KOKSMA__TRY(colour(r, n, "color1", 0.2, &second, depth + 1));
-        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", out));
-        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", &second));
+        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, out));
+        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, &second));
         KOKSMA__TRY(transform(r, n, "to_uv", m));
         memcpy(out->second, second.rgb, sizeof second.rgb);
         out->is_checker = true;
@@ -597,8 +598,9 @@ static koksma_status constant(reader *r, const node *n, const char *name, double
 /* A metal has one colour. */
 static koksma_status mean_of_metal(reader *r, const node *n, koksma__import_material *m)
 {
-    return m->kind == KOKSMA__METAL ? koksma__import_mean(r->im, n->place, "a metal's texture", &m->colour)
-                                    : KOKSMA_OK;
+    return m->kind == KOKSMA__METAL
+               ? koksma__import_mean(r->im, n->place, "a metal's texture", KOKSMA__REFLECTANCE, &m->colour)
+               : KOKSMA_OK;
 }
 
 static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
@@ -727,7 +729,7 @@ static koksma_status area_light(reader *r, const node *n, koksma__import_surface
     koksma__import_colour radiance;
     set_read(r, n);
     KOKSMA__TRY(colour(r, n, "radiance", 1, &radiance, 0));
-    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", &radiance));
+    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &radiance));
     memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
     surface->emits = true;
     return strcmp(type_of(n), "area") != 0 ? koksma__import_unknown(r->im, n->place, "a light's direction is ignored")
@@ -909,7 +911,7 @@ static koksma_status medium_colour(reader *r, const node *n, const char *name, d
         KOKSMA__TRY(found && is(found, "volume")
                         ? colour(r, found, property(r, found, "color") ? "color" : "value", 1, &c, 0)
                         : colour(r, n, name, otherwise, &c, 0));
-        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a medium's texture", &c));
+        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a medium's texture", KOKSMA__UNBOUNDED, &c));
     }
     for (int k = 0; k < 3; k++) {
         rgb[k] = c.rgb[k] > 0 ? fmin(c.rgb[k], FAR) : 0;
@@ -1030,7 +1032,7 @@ static koksma_status emitter(reader *r, const node *n)
     }
     KOKSMA__TRY(transform(r, n, "to_world", m));
     KOKSMA__TRY(colour(r, n, around ? "radiance" : far ? "irradiance" : "intensity", 1, &c, 0));
-    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", &c));
+    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &c));
     memcpy(light.radiance, c.rgb, sizeof c.rgb);
     if (!strcmp(type, "envmap")) {
         const double scale = number(r, n, "scale", 1), rgb[3] = {scale, scale, scale};

@@ -174,7 +174,7 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
     static const char *const unknown[] = {"power", "illuminance", "portal", "alpha"};
     koksma__import_colour colour;
     KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__EMISSION, false, &colour));
-    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "a light's texture", &colour));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "a light's texture", KOKSMA__EMISSION, &colour));
     for (int k = 0; k < 3; k++) {
         rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
     }
@@ -192,7 +192,7 @@ koksma_status koksma__pbrt_coefficient(koksma__pbrt_scene *scene, const koksma__
 {
     koksma__import_colour colour;
     KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__UNBOUNDED, false, &colour));
-    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "a medium's texture", &colour));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "a medium's texture", KOKSMA__UNBOUNDED, &colour));
     for (int k = 0; k < 3; k++) {
         const double value = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
         if (!(value >= 0)) {
@@ -267,7 +267,7 @@ static koksma_status read_scaled(koksma__pbrt_scene *scene, const koksma__pbrt_p
         *c = by;
         by = first;
     }
-    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "the scale of a texture", &by));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "the scale of a texture", KOKSMA__UNBOUNDED, &by));
     for (int k = 0; k < 3; k++) {
         c->rgb[k] *= by.rgb[k];
         c->second[k] *= by.rgb[k];
@@ -283,8 +283,8 @@ static koksma_status read_checkerboard(koksma__pbrt_scene *scene, const koksma__
     koksma__import_colour second;
     KOKSMA__TRY(find_texture_colour(scene, p, "tex1", 1, is_float, c));
     KOKSMA__TRY(find_texture_colour(scene, p, "tex2", 0, is_float, &second));
-    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, c));
-    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, &second));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, c));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, &second));
     c->is_checker = true;
     memcpy(c->second, second.rgb, sizeof c->second);
     const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
@@ -300,6 +300,7 @@ static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, b
     if (!strcmp(kind, "imagemap")) {
         KOKSMA__TRY(koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image));
         set_mapping(p, &c->mapping);
+        c->image_scale = 1;
         return koksma__pbrt_number(p, "scale", 1) != 1
                    ? koksma__import_unknown(scene->im, p->place, "an image's scale is ignored")
                    : KOKSMA_OK;
@@ -315,8 +316,8 @@ static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, b
     }
     KOKSMA__TRY(find_texture_colour(scene, p, "tex1", 0.5, is_float, &first));
     KOKSMA__TRY(find_texture_colour(scene, p, "tex2", 0.5, is_float, &second));
-    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, &first));
-    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, &second));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, &first));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, &second));
     mean_of(&first, &second, c->rgb);
     return koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind);
 }
@@ -399,7 +400,7 @@ static koksma_status metal(koksma__pbrt_scene *scene, const koksma__pbrt_paramet
     m->kind = KOKSMA__METAL;
     if (koksma__pbrt_find(p, "reflectance")) {
         KOKSMA__TRY(find_colour(scene, p, "reflectance", 1, &m->colour));
-        return koksma__import_mean(scene->im, p->place, "a metal's texture", &m->colour);
+        return koksma__import_mean(scene->im, p->place, "a metal's texture", KOKSMA__REFLECTANCE, &m->colour);
     }
     const char *name = named_metal(scene, eta, "-eta", of_eta), *other = named_metal(scene, k, "-k", of_k);
     double eta_rgb[3] = {0}, k_rgb[3] = {0};

@@ -52,7 +52,7 @@ static void a_file_is_read_once_for_each_use(void **state)
     use.tint[2] = 0.5;
     assert_ok(koksma__scene_image(&scene, "two.pfm", &use, &tinted));
     assert_true(tinted->channels == 3 && tinted->pixels[3] == 0.5f && tinted->pixels[5] == 0.25f);
-    koksma__scene_image_mean(&scene, tinted, mean);
+    koksma__scene_image_mean(&scene, tinted, true, mean);
     assert_true(mean[0] == 0.375 && mean[2] == 0.1875);
     assert_int_not_equal(hash_with(&scene, plain), hash_with(&scene, turned));
     assert_int_equal(hash_with(&scene, plain), hash_with(&scene, plain));

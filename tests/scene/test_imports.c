@@ -1138,6 +1138,17 @@ static void turned_checkerboards_keep_their_size(void **state)
     }
 }
 
+/* Writes two.pfm, of 2 x 2 pixels. Its path is put into `path`. */
+static void write_two(const float pixels[12], char path[128])
+{
+    koksma_image two;
+    snprintf(path, 128, "%s/two.pfm", folder);
+    assert_ok(koksma_image_init(&two, 2, 2, 3));
+    memcpy(two.pixels, pixels, 12 * sizeof *pixels);
+    assert_ok(koksma_image_write(path, &two, NULL));
+    koksma_image_fini(&two);
+}
+
 /* A colour of a checkerboard can't be a texture: its mean is taken, of an image's pixels clamped to [0, 1]. */
 static void textures_in_checkerboards_are_their_means(void **state)
 {
@@ -1152,16 +1163,14 @@ static void textures_in_checkerboards_are_their_means(void **state)
                  {"<spectrum name=\"color%d\" type=\"d65\"><float name=\"scale\" value=\"0.5\"/><texture "
                   "type=\"checkerboard\"><rgb name=\"color0\" value=\"1 0.5 0\"/><rgb name=\"color1\" "
                   "value=\"0.25\"/></texture></spectrum>",
-                  {0.3125, 0.1875, 0.0625}}};
+                  {0.3125, 0.1875, 0.0625}},
+                 {"<spectrum name=\"color%d\" type=\"d65\"><float name=\"scale\" value=\"0.5\"/><texture "
+                  "type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture></spectrum>",
+                  {0.25, 0.1875, 0.0625}}};
     static const float pixels[] = {1, 0.5F, 0.25F, 0, 0.25F, 0, 9, 0.5F, 0.25F, 0, 0.25F, 0};
     char path[128];
-    koksma_image two;
     (void)state;
-    snprintf(path, sizeof path, "%s/two.pfm", folder);
-    assert_ok(koksma_image_init(&two, 2, 2, 3));
-    memcpy(two.pixels, pixels, sizeof pixels);
-    assert_ok(koksma_image_write(path, &two, NULL));
-    koksma_image_fini(&two);
+    write_two(pixels, path);
     for (size_t i = 0; reads_xml() && i < 2 * sizeof cases / sizeof *cases; i++) {
         const int which = (int)(i % 2);
         char inner[512], text[1024];
@@ -1180,6 +1189,51 @@ static void textures_in_checkerboards_are_their_means(void **state)
         }
         assert_true(koksma_scene_unknown(scene, 0, text, sizeof text));
         assert_string_equal(text, "a.xml:2: a texture in a checkerboard is replaced by its mean colour");
+        koksma_scene_close(scene);
+    }
+    unlink(path);
+}
+
+/* A light has one colour: the mean of its image, of all its levels, times the scale of a spectrum around it. */
+static void images_of_lights_are_their_means(void **state)
+{
+#define TWO "<texture name=\"%s\" type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture>"
+    static const struct {
+        const char *colour;
+        double mean[3];
+    } cases[] = {
+        {TWO, {10, 0.5, 0.25}},
+        {"<spectrum name=\"%s\" type=\"d65\"><float name=\"scale\" value=\"10\"/>" TWO "</spectrum>", {100, 5, 2.5}},
+        {"<texture name=\"%s\" type=\"checkerboard\"><rgb name=\"color0\" value=\"0 1 2\"/>"
+         "<texture name=\"color1\" type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture>"
+         "</texture>",
+         {5, 0.75, 1.125}}};
+#undef TWO
+    static const float pixels[] = {5, 0.5F, 0.25F, 15, 0.5F, 0.25F, 5, 0.5F, 0.25F, 15, 0.5F, 0.25F};
+    char path[128];
+    (void)state;
+    write_two(pixels, path);
+    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+        char text[2048], of[3][512];
+        static const char *const names[] = {"intensity", "radiance", "radiance"};
+        for (int k = 0; k < 3; k++) {
+            snprintf(of[k], sizeof of[k], cases[i].colour, names[k], "x");
+        }
+        snprintf(text, sizeof text,
+                 MITSUBA("<emitter type=\"point\">%s</emitter><emitter type=\"constant\">%s</emitter><shape "
+                         "type=\"sphere\"><emitter type=\"area\">%s</emitter></shape>"),
+                 of[0], of[1], of[2]);
+        koksma_scene *scene = opened("a.xml", text);
+        assert_int_equal(scene->n_lights, 3);
+        for (size_t light = 0; light < 3; light++) {
+            for (int k = 0; k < 3; k++) {
+                assert_near(scene->lights[light].radiance[k], cases[i].mean[k], 1e-5 * cases[i].mean[k]);
+            }
+        }
+        assert_true(scene->n_unknown > 0);
+        for (size_t warning = 0; koksma_scene_unknown(scene, warning, text, sizeof text); warning++) {
+            assert_non_null(strstr(text, " is replaced by its mean colour"));
+        }
         koksma_scene_close(scene);
     }
     unlink(path);
@@ -1438,6 +1492,7 @@ int main(void)
         cmocka_unit_test(images_are_mapped_as_in_mitsuba),
         cmocka_unit_test(turned_checkerboards_keep_their_size),
         cmocka_unit_test(textures_in_checkerboards_are_their_means),
+        cmocka_unit_test(images_of_lights_are_their_means),
         cmocka_unit_test(the_cameras_medium_is_read),
         cmocka_unit_test(fog_does_not_glow),
         cmocka_unit_test(malformed_and_hostile_texts_are_refused),
