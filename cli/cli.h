@@ -92,6 +92,8 @@ bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallba
    Returns false after an error. */
 bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *text, uint64_t min, uint64_t max,
                   uint64_t *out);
+/* Whether the seeds of so many trials, from `seed` on, are at most UINT64_MAX. Returns false after an error. */
+bool cli_seeds_fit(const cli_arguments *arguments, uint64_t seed, uint64_t trials);
 /* Reads --seed and --trials T, 1 to `max`. Returns false after an error, also where T is given and T seeds from the first
    on exceed UINT64_MAX. */
 bool cli_trials(const cli_arguments *arguments, uint64_t fallback, uint64_t max, uint64_t *seed, uint64_t *trials);

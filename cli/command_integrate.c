@@ -319,6 +319,10 @@ static int open_series(job *j, const char *operand)
     if (code) {
         return code;
     }
+    if (s->source.is_pattern && !koksma_has_one_set(&s->source.spec) &&
+        !cli_seeds_fit(j->arguments, j->seed, j->trials)) {
+        return CLI_USAGE;
+    }
     if (!s->source.is_pattern) {
         code = cli_source_points(j->arguments, operand, j->seed, &j->work.run, &s->points);
         s->options.trials = 1;

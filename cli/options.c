@@ -355,13 +355,18 @@ bool cli_trials(const cli_arguments *arguments, uint64_t fallback, uint64_t max,
         !cli_whole(arguments, "trials", fallback, 1, max, trials)) {
         return false;
     }
-    const uint64_t more = *trials - 1;
-    if (cli_text(arguments, "trials", NULL) && more > UINT64_MAX - *seed) {
+    return !cli_text(arguments, "trials", NULL) || cli_seeds_fit(arguments, *seed, *trials);
+}
+
+bool cli_seeds_fit(const cli_arguments *arguments, uint64_t seed, uint64_t trials)
+{
+    const uint64_t more = trials - 1;
+    if (more > UINT64_MAX - seed) {
         cli_usage_error(
             arguments,
             "--seed %llu: %llu trials end at this seed + %llu, but seeds end at %llu; --seed %llu or less "
             "would do",
-            (unsigned long long)*seed, (unsigned long long)*trials, (unsigned long long)more,
+            (unsigned long long)seed, (unsigned long long)trials, (unsigned long long)more,
             (unsigned long long)UINT64_MAX, (unsigned long long)(UINT64_MAX - more));
         return false;
     }
