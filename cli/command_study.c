@@ -314,9 +314,18 @@ static int report(const cli_arguments *arguments)
     const koksma_study_options options = {.folder = arguments->operands[1]};
     koksma_status status = koksma_study_open(&options, &study);
     status = status ? status : koksma_study_report(study, &work.run);
+    size_t jobs = 0, undone = 0;
+    status = status ? status : koksma_study_undone(study, &jobs, &undone);
     cli_work_end();
     const koksma_status closed = koksma_study_close(study);
     status = status ? status : closed;
+    if (!status && undone && !cli_flag(arguments, "quiet")) {
+        cli_say(
+            "study",
+            "%zu of %zu jobs have no rows: a run ended before them, or made rows of files, scenes or code that have "
+            "changed since; 'koksma study run' does them",
+            undone, jobs);
+    }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
@@ -509,7 +518,7 @@ const cli_command cli_command_study = {
         "the "
         "CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
         "results, fail while a run uses DIR, and fail if anything but a run has changed the results.\n"
-        "report: writes DIR/report.html.\n"
+        "report: writes DIR/report.html, and says how many jobs have no rows.\n"
         "audit: computes rows of DIR and, whichever rows are drawn, all reference images again, and compares them "
         "bit "
         "for bit. It prints each difference and an upper bound of the fraction of wrong rows (95 % confidence), "

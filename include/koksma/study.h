@@ -220,6 +220,13 @@ typedef struct koksma_audit {
 KOKSMA_API koksma_status koksma_study_audit(const koksma_audit_options *options, const koksma_run *run,
                                             koksma_audit *out);
 
+/* Counts the jobs of a study.
+     jobs    receives the number of all jobs
+     undone  receives the number of those whose rows the folder lacks, without those that failed: a run ended before
+             them, or made rows of other files, scenes or code. koksma_study_run does them
+   Errors: ARGUMENT (the study has no folder), those of the store, MEMORY. */
+KOKSMA_API koksma_status koksma_study_undone(koksma_study *study, size_t *jobs, size_t *undone);
+
 /* Writes DIR/report.json, which has every number (docs/report-format.md), and DIR/report.html, a page with the same
    report in one file that needs no network. Errors: ARGUMENT (the study has no folder), MALFORMED (the
    results are damaged or edited), IO. */

@@ -213,6 +213,7 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_study_estimate", c_void_p, POINTER(s.Run), POINTER(s.StudyCost))
     _declare(library, c_int, "koksma_study_export", c_char_p, c_int, c_char_p)
     _declare(library, c_int, "koksma_study_audit", POINTER(s.AuditOptions), POINTER(s.Run), POINTER(s.Audit))
+    _declare(library, c_int, "koksma_study_undone", c_void_p, POINTER(c_size_t), POINTER(c_size_t))
     _declare(library, c_int, "koksma_study_report", c_void_p, POINTER(s.Run))
     _declare(library, c_char_p, "koksma_study_table_at", c_void_p, c_size_t)
     _declare(library, c_char_p, "koksma_study_verdict_name", c_int)

@@ -7,7 +7,7 @@ import os
 import re
 import secrets
 import tempfile
-from ctypes import byref, c_bool, c_char_p, c_void_p
+from ctypes import byref, c_bool, c_char_p, c_size_t, c_void_p
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Union
@@ -212,6 +212,13 @@ class Study:
         """Writes report.html and report.json into the folder; returns the path of the first."""
         call(lab().koksma_study_report, self._open(), run_at=1)
         return Path(self.folder or "") / "report.html"
+
+    def undone(self) -> int:
+        """The number of jobs whose rows the folder lacks, without those that failed: a run ended before them, or made rows of
+        other files, scenes or code. `run` does them."""
+        jobs, number = c_size_t(), c_size_t()
+        check(lab().koksma_study_undone(self._open(), byref(jobs), byref(number)))
+        return number.value
 
     def tables(self) -> List[str]:
         """The ids of the plan's published tables, such as "5.1"."""

@@ -158,7 +158,9 @@ class Files(Folder):
             study.run()
             for x, has in ((0.5, True), (0.25, False), (0.5, True)):
                 self.write("one.txt", x)
+                self.assertEqual(study.undone(), 0 if has else 1)
                 report = study.report().with_suffix(".json").read_text()
+                self.assertEqual(" jobs have no rows" in report, not has)
                 self.assertEqual(str([star(0.5)] * 3).replace(" ", "") in report.replace(" ", ""), has, x)
 
 

@@ -63,7 +63,7 @@ void koksma__doc_paragraph_end(koksma__document *d);
 void koksma__doc_answer_begin(koksma__document *d, bool decided);
 /* Begins a paragraph that names the metric of the image errors in its section. metric: its canonical spec. */
 void koksma__doc_metric_begin(koksma__document *d, const char *metric);
-/* Begins a paragraph that warns of a doubtful number. */
+/* Begins a paragraph that warns of doubtful or missing numbers. */
 void koksma__doc_warning_begin(koksma__document *d);
 
 /* A list. koksma__doc_item begins each item, and koksma__doc_say writes its words. numbered: the items are notes

@@ -194,6 +194,19 @@ koksma_status koksma__left_out_recall(koksma__store *store, koksma__texts *store
     return each_line(store, failed_key, stored, koksma__texts_add);
 }
 
+koksma_status koksma__left_out_count(koksma__store *store, size_t *trials)
+{
+    koksma__texts stored = {0};
+    fields task;
+    const koksma_status status = koksma__left_out_recall(store, &stored);
+    *trials = 0;
+    for (size_t i = 0; !status && i < stored.n; i++) {
+        *trials += read_line(stored.at[i], &task) && task.failed > 0 ? (size_t)task.failed : 0;
+    }
+    koksma__texts_fini(&stored);
+    return status;
+}
+
 /* Writes a text into the store unless its present value is the same; a missing text counts as empty. */
 static koksma_status set_text(koksma__store *store, const char *key, const char *value)
 {

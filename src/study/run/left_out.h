@@ -15,6 +15,9 @@ koksma_status koksma__left_out_recall(koksma__store *store, koksma__texts *store
 /* Makes the lines for readers from the store's lines. Errors: MEMORY. */
 koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *lines);
 
+/* Adds up the failed trials of the store's lines. Errors: those of the store, MEMORY. */
+koksma_status koksma__left_out_count(koksma__store *store, size_t *trials);
+
 /* Writes the lines, and those for readers, into the store. Errors: those of the store, MEMORY. */
 koksma_status koksma__left_out_record(koksma__store *store, const koksma__texts *stored, const koksma__texts *lines);
 

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 #include "core/status.h"
+#include "study/run/left_out.h"
 #include "study/run/mpi_rank.h"
 #include "study/run/mpi_serve.h"
 #include "study/run/mpi_work.h"
@@ -64,7 +65,7 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
     KOKSMA__TRY(koksma__tasks_open(study, images, &tasks));
     koksma__phase phase = {.tasks = &tasks, .control = control, .last = images || !study->plan.n_images};
     koksma_status status =
-        study->sink ? study->sink->look_up(study->sink->context, &tasks) : koksma__tasks_look_up(&tasks);
+        study->sink ? study->sink->look_up(study->sink->context, &tasks) : koksma__tasks_look_up(&tasks, true);
     summary->jobs += tasks.n_jobs;
     size_t done_before = 0;
     for (size_t i = 0; i < tasks.n; i++) {
@@ -98,6 +99,39 @@ double koksma__run_work(koksma_study *study, bool images)
     }
     koksma__tasks_close(&tasks);
     return sum;
+}
+
+/* Adds the jobs of one kind, and those of them that the store has. */
+static koksma_status count_jobs(koksma_study *study, bool images, size_t *jobs, size_t *done)
+{
+    koksma__tasks tasks;
+    KOKSMA__TRY(koksma__tasks_open(study, images, &tasks));
+    const koksma_status status = tasks.n ? koksma__tasks_look_up(&tasks, false) : KOKSMA_OK;
+    *jobs += tasks.n_jobs;
+    for (size_t i = 0; i < tasks.n; i++) {
+        *done += (size_t)tasks.at[i].done_before;
+    }
+    koksma__tasks_close(&tasks);
+    return status;
+}
+
+koksma_status koksma__count_undone(koksma_study *study, size_t *jobs, size_t *undone)
+{
+    size_t done = 0, failed = 0;
+    *jobs = *undone = 0;
+    KOKSMA__TRY(count_jobs(study, false, jobs, &done));
+    KOKSMA__TRY(count_jobs(study, true, jobs, &done));
+    KOKSMA__TRY(koksma__left_out_count(study->store, &failed));
+    *undone = *jobs - done > failed ? *jobs - done - failed : 0;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_study_undone(koksma_study *study, size_t *jobs, size_t *undone)
+{
+    KOKSMA__REQUIRE(study, jobs, undone);
+    KOKSMA__FAIL_IF(!study->store, KOKSMA_ARGUMENT, "a study without a folder has no rows");
+    koksma__study_forget_files(study);
+    return koksma__count_undone(study, jobs, undone);
 }
 
 koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary)

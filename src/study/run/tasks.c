@@ -301,7 +301,7 @@ static void see_row(void *context, long long series, long long trial)
     }
 }
 
-static koksma_status find_series(koksma__tasks *tasks, owners *o)
+static koksma_status find_series(koksma__tasks *tasks, bool add, owners *o)
 {
     koksma_status status = KOKSMA_OK;
     long long most = 0;
@@ -310,7 +310,7 @@ static koksma_status find_series(koksma__tasks *tasks, owners *o)
         for (size_t k = 0; !status && k < t->n_series; k++) {
             char name[KOKSMA__REFERENCE_NAME];
             const koksma__series series = koksma__task_series(t, k, name);
-            status = koksma__store_series(tasks->study->store, &series, true, &t->series[k]);
+            status = koksma__store_series(tasks->study->store, &series, add, &t->series[k]);
             most = t->series[k] > most ? t->series[k] : most;
         }
     }
@@ -324,7 +324,7 @@ static koksma_status find_series(koksma__tasks *tasks, owners *o)
         koksma__task *t = &tasks->at[i];
         for (size_t k = 0; !status && k < t->n_series; k++) {
             owner *own = &o->at[t->series[k]];
-            if (!own->task) { /* several tasks may share a series; the first has the most trials and owns it */
+            if (t->series[k] && !own->task) { /* the first of those that share it has the most trials and owns it */
                 own->bits = calloc(((size_t)t->trials + 7) / 8, 1);
                 status = own->bits ? KOKSMA_OK : koksma__fail_memory((size_t)t->trials / 8);
                 own->task = t;
@@ -341,7 +341,7 @@ static void mark_done(koksma__task *t, const owners *o)
     memset(t->done, 0xff, bytes);
     for (size_t k = 0; k < t->n_series; k++) {
         for (size_t i = 0; i < bytes; i++) {
-            t->done[i] &= o->at[t->series[k]].bits[i];
+            t->done[i] &= t->series[k] ? o->at[t->series[k]].bits[i] : 0;
         }
     }
     t->done_before = 0;
@@ -350,10 +350,10 @@ static void mark_done(koksma__task *t, const owners *o)
     }
 }
 
-koksma_status koksma__tasks_look_up(koksma__tasks *tasks)
+koksma_status koksma__tasks_look_up(koksma__tasks *tasks, bool add)
 {
     owners o = {0};
-    koksma_status status = find_series(tasks, &o);
+    koksma_status status = find_series(tasks, add, &o);
     status = status ? status : koksma__store_scan(tasks->study->store, see_row, &o);
     for (size_t i = 0; !status && i < tasks->n; i++) {
         mark_done(&tasks->at[i], &o);

@@ -28,7 +28,7 @@ typedef struct koksma__task {
     size_t n_series;
     uint64_t *seeds; /* of a family of files (file_names.h): the seed in the name of each trial's file; else NULL */
     size_t *references;    /* for an image: indices into study->references, one per result */
-    long long *series;     /* ids of the series in the store, set by koksma__tasks_look_up */
+    long long *series;     /* ids of the series in the store, set by koksma__tasks_look_up; 0: none */
     unsigned char *done;   /* one bit per trial, which tells whether the trial was done before this run */
     long long done_before; /* number of trials done before this run */
 } koksma__task;
@@ -60,8 +60,8 @@ void koksma__tasks_close(koksma__tasks *tasks);
    MPI run get the same answer. */
 bool koksma__tasks_have_work(const koksma__tasks *tasks, bool images);
 
-/* Finds or creates the series of all tasks in the store, and finds which trials are done. */
-koksma_status koksma__tasks_look_up(koksma__tasks *tasks);
+/* Finds the series of all tasks in the store, creates those that it lacks if `add`, and finds which trials are done. */
+koksma_status koksma__tasks_look_up(koksma__tasks *tasks, bool add);
 
 /* koksma__tasks_job finds the task and trial of job i < n_jobs. koksma__task_is_done tells whether a trial was done
    before this run. */
