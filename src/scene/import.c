@@ -5,6 +5,7 @@
  * kind that Koksma has. Two differences apply to all scenes and are documented in docs/scenes.md: a conductor's Fresnel
  * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other difference is reported in a
  * warning with file and line.
+ * Long because all these functions work on one import.
  */
 #include "scene/import.h"
 

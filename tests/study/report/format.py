@@ -93,12 +93,13 @@ def check_numbers(name, report):
                 complain(f"{name}: the number {run}")
 
 
-def run_study(name, plan):
+def run_study(name, plan, limit=0):
+    """Runs a plan and reads its report; limit: the seconds of a run that is to end early."""
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
         (work / "plan.json").write_text(json.dumps({"name": name, "title": name, **plan}))
-        done = subprocess.run([KOKSMA, "study", "run", "./plan.json", "-o", "out", "-q"], cwd=work, capture_output=True, text=True)
-        if done.returncode:
+        done = subprocess.run([KOKSMA, "study", "run", "./plan.json", "-o", "out", "-q", "--time-limit", str(limit)], cwd=work, capture_output=True, text=True)
+        if done.returncode != (limit > 0):
             complain(f"{name}: {done.stderr.strip()}")
             return None
         text, page = (work / "out/report.json").read_text(), (work / "out/report.html").read_text()
@@ -182,11 +183,15 @@ def check_sections():
                         {"id": "3", "title": "L", "pattern": "random", "n": 16, "lines": "dual"}],
             "questions": [{"id": "q", "title": "Q", "kind": "table", "discrepancies": "d"}]}
     plan["discrepancies"] = [{**POINTS, "n": [4, 8, 16, 64], "skip": True}]
+    sections, undone = lines_of("report/sections/sections.def", "SECTION"), "undone"  # the last is of a part of a study
+    part = run_study("part", {"discrepancies": [POINTS]}, 1e-9)
+    if part and undone not in [b["id"] for b in part["content"] if "id" in b]:
+        complain("sections: a part of a study does not say what is not done")
     report = run_study("sections", plan)
     if report:
         found = [b["id"] for b in report["content"] if "id" in b]
-        if found != lines_of("report/sections/sections.def", "SECTION"):
-            complain(f"sections: {found} are shown, of {lines_of('report/sections/sections.def', 'SECTION')}")
+        if found != [section for section in sections if section != undone]:
+            complain(f"sections: {found} are shown, of {sections}")
         for block in (b for b in report["content"] if not b.get("content")):
             complain(f"sections: {block.get('id')} is empty")
         kinds = {b["kind"] for b in blocks(report["content"])}
