@@ -6,11 +6,13 @@
  * most 1.2 % of the largest channel. D65 is interpolated linearly in a table with steps of 20 nm. Linear sRGB follows
  * by the matrix of IEC 61966-2-1. Mitsuba converts spectra in the same way for its RGB variants: reflectances are
  * multiplied by daylight (D65) and emission is not, so that an emission that is equal at all wavelengths is reddish.
- * Unbounded values, such as refractive indices, are converted as reflectances are, and may be above 1.
+ * Unbounded values, such as refractive indices, are converted as reflectances are, and may be above 1. The functions of
+ * each nanometre are computed once, because a scene may have a million spectra.
  */
 #include "scene/import_spectrum.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 
 #define LARGEST 1e30
@@ -34,7 +36,7 @@ static void matching(double wavelength, double xyz[3])
     }
 }
 
-static double daylight(double wavelength)
+static double daylight_at(double wavelength)
 {
     static const double d65[] = {49.9755, 82.7549, 93.4318, 104.865, 117.812, 115.923, 109.354,
                                  104.79,  104.405, 100,     95.788,  90.0062, 87.6987, 83.6992,
@@ -44,13 +46,25 @@ static double daylight(double wavelength)
     return at < 0 || at > 20 ? 0 : d65[i] + (at - i) * (d65[i + 1] - d65[i]);
 }
 
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static double functions[LAST - FIRST + 1][3], lights[LAST - FIRST + 1]; /* matching() and daylight_at() */
+static koksma__sampled_spectrum even; /* the sums of a spectrum that is 1 everywhere */
+
 static void add(koksma__sampled_spectrum *s, int wavelength, double value)
 {
-    double xyz[3];
-    matching(wavelength, xyz);
     for (int k = 0; k < 3; k++) {
-        s->seen[k] += value * xyz[k];
-        s->in_light[k] += value * xyz[k] * daylight(wavelength);
+        const double seen = value * functions[wavelength - FIRST][k];
+        s->seen[k] += seen;
+        s->in_light[k] += seen * lights[wavelength - FIRST];
+    }
+}
+
+static void tabulate(void)
+{
+    for (int w = FIRST; w <= LAST; w++) {
+        matching(w, functions[w - FIRST]);
+        lights[w - FIRST] = daylight_at(w);
+        add(&even, w, 1);
     }
 }
 
@@ -59,6 +73,7 @@ bool koksma__sampled_spectrum_add(koksma__sampled_spectrum *s, double wavelength
     if (!isfinite(wavelength) || !isfinite(value) || (s->n && !(wavelength > s->last[0]))) {
         return false;
     }
+    pthread_once(&once, tabulate);
     value = fmin(fmax(value, -LARGEST), LARGEST);
     const double from = s->n ? s->last[0] : wavelength, before = s->n ? s->last[1] : value;
     int w = (int)ceil(fmin(fmax(from, FIRST), LAST + 1));
@@ -82,22 +97,13 @@ static void to_rgb(const double xyz[3], double rgb[3])
     }
 }
 
-/* The sums of a spectrum that is 1 everywhere. */
-static koksma__sampled_spectrum even(void)
-{
-    koksma__sampled_spectrum s = {0};
-    koksma__sampled_spectrum_add(&s, FIRST, 1);
-    koksma__sampled_spectrum_add(&s, LAST, 1);
-    return s;
-}
-
 void koksma__sampled_spectrum_colour(const koksma__sampled_spectrum *s, koksma__spectrum_use use, double rgb[3])
 {
-    const koksma__sampled_spectrum all = even();
-    double white[3] = {all.seen[1], all.seen[1], all.seen[1]};
+    pthread_once(&once, tabulate);
+    double white[3] = {even.seen[1], even.seen[1], even.seen[1]};
     to_rgb(use == KOKSMA__EMISSION ? s->seen : s->in_light, rgb);
     if (use != KOKSMA__EMISSION) {
-        to_rgb(all.in_light, white);
+        to_rgb(even.in_light, white);
     }
     for (int k = 0; k < 3; k++) {
         rgb[k] = fmin(fmax(rgb[k] / white[k], 0), use == KOKSMA__REFLECTANCE ? 1 : (double)INFINITY);

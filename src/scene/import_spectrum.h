@@ -6,6 +6,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* The time that a spectrum takes, as many steps of koksma__import_spend: its values at some hundred wavelengths are
+   added. */
+enum { KOKSMA__SPECTRUM_STEPS = 128 };
+
 /* The sums of a spectrum whose samples are added one by one; zeroed at first. */
 typedef struct koksma__sampled_spectrum {
     size_t n;

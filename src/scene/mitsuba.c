@@ -262,6 +262,7 @@ static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use
                    ? koksma__import_unknown(r->im, n->place, "'%s' is replaced by white where a colour is", n->tag)
                    : koksma__import_fail(n->place, "<%s> is not a colour", n->tag);
     }
+    KOKSMA__TRY(koksma__import_spend(r->im, n->place, is(n, "spectrum") ? KOKSMA__SPECTRUM_STEPS : 0));
     KOKSMA__TRY(koksma__mitsuba_colour_read(n, &c));
     if (c.form == KOKSMA__ONE_NUMBER && use == KOKSMA__EMISSION && is(n, "spectrum")) {
         /* one number stands for the same emission at all wavelengths */
@@ -361,6 +362,7 @@ static koksma_status samples(reader *r, const node *n, bool regular, koksma__spe
         return value_of(r, resolve(r, pairs), use, rgb);
     }
     KOKSMA__TRY(values ? KOKSMA_OK : needed(r, n, "values"));
+    KOKSMA__TRY(koksma__import_spend(r->im, n->place, KOKSMA__SPECTRUM_STEPS));
     const bool older = property(r, n, "lambda_min") && property(r, n, "lambda_max"); /* Mitsuba 2 */
     const char *const low = older ? "lambda_min" : "wavelength_min", *high = older ? "lambda_max" : "wavelength_max";
     KOKSMA__TRY(needed(r, n, regular ? low : "wavelengths"));

@@ -55,10 +55,11 @@ static void grey(double value, double rgb[3])
 }
 
 /* Converts pairs of wavelength and value to a colour; an emission is divided by its luminance, as in pbrt. */
-static koksma_status sampled(koksma__text_place place, const double *pairs, size_t n, koksma__spectrum_use use,
-                             double rgb[3])
+static koksma_status sampled(koksma__import *im, koksma__text_place place, const double *pairs, size_t n,
+                             koksma__spectrum_use use, double rgb[3])
 {
     koksma__sampled_spectrum s = {0};
+    KOKSMA__TRY(koksma__import_spend(im, place, KOKSMA__SPECTRUM_STEPS + n / 2));
     for (size_t i = 0; i + 1 < n; i += 2) {
         if (!koksma__sampled_spectrum_add(&s, pairs[i], pairs[i + 1])) {
             return koksma__import_fail(place, "wavelengths of a spectrum must increase");
@@ -140,7 +141,7 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
         return KOKSMA_OK;
     }
     if (!strcmp(p->type, "spectrum") && p->n) {
-        return sampled(place, p->numbers, p->n, use, out->rgb);
+        return sampled(scene->im, place, p->numbers, p->n, use, out->rgb);
     }
     if (p->n != (koksma__pbrt_is(p, "rgb color") ? 3 : 1)) {
         return koksma__import_fail(place, "%s: more than one colour", p->name);

@@ -3,11 +3,12 @@
 """file_work.py PROGRAM FAULTS: small scenes of pbrt and Mitsuba, and small models, that ask for much work or memory.
 
 References let a few kilobytes ask for any amount: instances of instances of nothing, trees of textures, lights with many
-properties that many shapes name, names that stand for long texts. Such a scene must be refused by one line that names the
-file, within the memory and the processor time of an ordinary run. Large honest scenes take time in proportion to their length:
-many names, many meshes of one compressed file, and a mesh to subdivide whose indices are chosen against a hash table. What is
-repeated, a material or a mesh under other names of its file, counts once. So do the files that a model names, and a list of
-indices that many primitives of a glTF file share.
+properties that many shapes name, names that stand for long texts. Such a scene must
+be refused by one line that names the file, within the memory and the processor time of an ordinary run. Large honest scenes
+take time and memory in proportion to their length: many names, shapes, elements and triangles, many meshes of one compressed
+file, and a mesh to subdivide whose indices are chosen against a hash table. What is repeated, a material or a mesh under other
+names of its file, counts once. So do the files that a model names, and a list of indices that many primitives of a glTF file
+share.
 """
 import json
 import os
@@ -61,12 +62,13 @@ class Bench:
     def run(self, *arguments):
         return files.run(self.program, *arguments, cwd=self.folder, env=SANITIZER, processor=PROCESSOR)
 
-    def refused(self, what, name, text, *words):
+    def refused(self, what, name, text, *words, place=None):
+        """place: the file that the message names, if that is another."""
         self.put(name, text)
         done = self.run("scene", "check", name)
-        self.checks.refused(what, done, 3, f"{name}:", *words)
+        self.checks.refused(what, done, 3, f"{place or name}:", *words)
         if done:
-            self.checks.check(done.err.count(f"{name}:".encode()) == 1, f"{what}: the place is given twice: {done.err}")
+            self.checks.check(done.err.count(f"{place or name}:".encode()) == 1, f"{what}: the place is given twice: {done.err}")
 
     def counts(self, what, name, text, **expected):
         """Numbers of what the scene has; warnings are allowed."""
@@ -113,6 +115,23 @@ def trees(bench):
     coat = '<bsdf type="twosided" id="t">' + '<float name="x" value="1"/>' * 50000 + '<bsdf type="diffuse"/></bsdf>'
     bench.refused("50,000 BSDFs around one with 50,000 properties", "s.xml",
                   mitsuba(coat, '<shape type="cube">' + '<bsdf type="twosided"><ref id="t"/></bsdf>' * 50000 + "</shape>"), STEPS)
+
+
+def spectra(bench):
+    """Each takes as long as the sum of its values at some hundred wavelengths."""
+    leaf = '<texture type="checkerboard" id="c{}"><spectrum name="color0" value="{}"/><spectrum name="color1" value="{}"/></texture>'
+    shape = '<shape type="sphere"><bsdf type="diffuse"><ref name="reflectance" id="c0"/></bsdf></shape>'
+    for value in ("360:.1 830:.2", "360:.1, 595:.3, 830:.2")[:1 if files.SANITIZED else 2]:
+        tree = checkers(14).replace('<texture type="checkerboard" id="c14"/>', leaf.format(14, value, value))
+        bench.refused(f"100 trees of spectra {value}", "s.xml", mitsuba(tree, shape * 100), STEPS)
+        bench.counts(f"a tree of spectra {value}", "s.xml", mitsuba(tree, shape), placements=1)
+    if files.SANITIZED:
+        return
+    bench.put("part", 'Material"diffuse""spectrum reflectance"[360 1 830 1]\n' * 2000)
+    bench.put("parts", 'Include "part"\n' * 500)
+    bench.refused("a million spectra", "s.pbrt", PBRT + 'Include "parts"\n', STEPS, place="part")
+    bench.put("parts", 'Include "part"\n' * 200)
+    bench.counts("400,000 spectra", "s.pbrt", PBRT + 'Include "parts"\n', lights=1)
 
 
 def references(bench):
@@ -257,7 +276,7 @@ def main():
         if re.search(b"no zlib|no expat|no Embree", done.err):
             print("skipped: " + done.err.decode().strip())
             return
-        for part in (instances, trees, references, names, loop, materials, meshes, material_files, buffers, indices):
+        for part in (instances, trees, spectra, references, names, loop, materials, meshes, material_files, buffers, indices):
             part(bench)
         bench.checks.end()
 
