@@ -40,12 +40,12 @@ typedef struct koksma__import {
     struct koksma__text_file *texts; /* the different files among them */
     size_t n_texts;
     uint64_t surplus;                  /* bytes of text beyond those on the disk: koksma__import_surplus */
-    uint64_t steps;                    /* work so far: koksma__import_spend */
+    uint64_t steps, held;              /* work so far, and bytes of memory: import_limits.h */
     char folders[8][KOKSMA__MAX_PATH]; /* folders to search for files that are not beside the scene */
     size_t n_folders;
     koksma__names files;              /* the meshes from files: 1 + the index of each; 0: it is left out */
     int forms[KOKSMA__N_BASIC_FORMS]; /* 1 + the index of the mesh of each basic shape; 0: it is not made yet */
-    int *twins;                       /* for each mesh: the mesh with the same triangles turned inside out, or -1 */
+    int *twins;                       /* for each mesh: the same mesh turned inside out, or below 0 */
     koksma__serialized *packed;       /* the .serialized files */
     koksma__names packed_names;
     size_t n_twins, n_packed, packed_size; /* packed_size: length of those that are open */

@@ -33,7 +33,7 @@ bool koksma__is_import_file(const char *path)
 static koksma_status open_text(const char *path, const char *text, size_t size, koksma_scene *scene)
 {
     const char *slash = strrchr(path, '/');
-    koksma__import im = {.scene = scene, .path = path, .n_files = 1};
+    koksma__import im = {.scene = scene, .path = path, .n_files = 1, .held = size};
     scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
     scene->materials = calloc(KOKSMA__MAX_MATERIALS, sizeof *scene->materials);
     if (!scene->lights || !scene->materials) {

@@ -26,6 +26,7 @@
 #include "render/materials/materials.h"
 #include "render/placements.h"
 #include "render/shapes/shapes.h"
+#include "scene/import_limits.h"
 
 enum { SIDES = 64, RINGS = 32 };
 
@@ -40,6 +41,9 @@ void koksma__import_shapes_fini(koksma__import *im)
 }
 
 /* ---- Meshes ------------------------------------------------------------------------------------------------ */
+
+/* In im->twins: a mesh without a twin yet, of the scene's text or of a file. */
+enum { NO_TWIN = -1, NO_TWIN_OF_FILE = -2 };
 
 /* in_file: the mesh is from a file; otherwise the scene's text has it. */
 static koksma_status add_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, bool in_file,
@@ -57,7 +61,7 @@ static koksma_status add_mesh(koksma__import *im, koksma__text_place place, koks
         koksma__mesh_fini(mesh);
         return koksma__import_fail_at(place, status);
     }
-    *twin = -1;
+    *twin = in_file ? NO_TWIN_OF_FILE : NO_TWIN;
     *to = *mesh;
     *out = (int)im->scene->n_meshes - 1;
     koksma__scene_hash_mesh(im->scene, in_file);
@@ -66,6 +70,11 @@ static koksma_status add_mesh(koksma__import *im, koksma__text_place place, koks
 
 koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out)
 {
+    const koksma_status status = koksma__import_hold_mesh(im, place, mesh);
+    if (status) {
+        koksma__mesh_fini(mesh);
+        return status;
+    }
     return add_mesh(im, place, mesh, false, out);
 }
 
@@ -161,13 +170,14 @@ static koksma_status find_twin(koksma__import *im, koksma__text_place place, int
 {
     koksma__mesh twin = {0};
     if (im->twins[mesh] < 0) {
+        const bool of_file = im->twins[mesh] == NO_TWIN_OF_FILE; /* a file may be larger than what counts as held */
         const koksma_status status = koksma__mesh_copy(&im->scene->meshes[mesh], &twin);
         if (status) {
             koksma__mesh_fini(&twin);
             return status;
         }
         koksma__mesh_flip(&twin);
-        KOKSMA__TRY(koksma__import_mesh(im, place, &twin, out));
+        KOKSMA__TRY((of_file ? add_mesh(im, place, &twin, false, out) : koksma__import_mesh(im, place, &twin, out)));
         im->twins[mesh] = *out;
         im->twins[*out] = mesh;
     }

@@ -12,6 +12,7 @@
 #include "core/capacity.h"
 #include "core/hash.h"
 #include "meshes/inflate.h"
+#include "scene/import_limits.h"
 
 enum { MOST_INCLUDES = 4096, MOST_RATIO = 16, MOST_SURPLUS = 256 << 20 };
 
@@ -97,7 +98,8 @@ koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, 
         return koksma__import_fail(place, "it includes '%s', which is not below the scene's own folder", path);
     }
     KOKSMA__TRY(koksma__import_fail_at(place, read_text(full, &read, size)));
-    const koksma_status status = count_text(im, place, full, *size);
+    koksma_status status = koksma__import_hold(im, place, *size);
+    status = status ? status : count_text(im, place, full, *size);
     if (status) {
         free(read);
         return status;
@@ -105,4 +107,10 @@ koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, 
     *bytes = (char *)read;
     im->scene->hash += koksma__hash(read, *size) * im->n_files;
     return KOKSMA_OK;
+}
+
+void koksma__import_text_close(koksma__import *im, char *bytes, size_t size)
+{
+    free(bytes);
+    im->held -= size;
 }

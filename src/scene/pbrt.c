@@ -23,6 +23,7 @@
 #include "render/fields.h"
 #include "render/lights/lights.h"
 #include "render/medium.h"
+#include "scene/import_limits.h"
 #include "scene/import_shapes.h"
 #include "scene/import_text.h"
 #include "scene/pbrt_values.h"
@@ -180,8 +181,10 @@ static koksma_status take_concat(reader *r, source *s)
     return concat(r, m);
 }
 
-static koksma_status name_space(reader *r, const char *name, const double *start, const double *end)
+static koksma_status name_space(reader *r, koksma__text_place place, const char *name, const double *start,
+                                const double *end)
 {
+    KOKSMA__TRY(koksma__import_hold(r->im, place, sizeof(named_space) + KOKSMA__HELD_WITH_NAME));
     named_space *space = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *space);
     KOKSMA__TRY(space ? KOKSMA_OK : KOKSMA_MEMORY);
     snprintf(space->name, sizeof space->name, "%s", name);
@@ -194,7 +197,7 @@ static koksma_status take_coordinate_system(reader *r, source *s)
 {
     char name[64];
     KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    return name_space(r, name, r->now.matrix[0], r->now.matrix[1]);
+    return name_space(r, s->place, name, r->now.matrix[0], r->now.matrix[1]);
 }
 
 static koksma_status take_coordinate_transform(reader *r, source *s)
@@ -310,6 +313,7 @@ static koksma_status take_object_begin(reader *r, source *s)
         return koksma__import_fail(s->place, "an object within another object");
     }
     KOKSMA__TRY(push(r, s));
+    KOKSMA__TRY(koksma__import_hold(r->im, s->place, sizeof(object) + KOKSMA__HELD_WITH_NAME));
     object *to = koksma__add_one(&r->objects, &r->n_objects, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     snprintf(to->name, sizeof to->name, "%s", name);
@@ -355,6 +359,7 @@ static koksma_status put(reader *r, const koksma__import_item *item)
     if (!r->open) {
         return koksma__import_put(r->im, item, NULL, NULL);
     }
+    KOKSMA__TRY(koksma__import_hold(r->im, item->place, sizeof *item));
     koksma__import_item *to = koksma__add_one(&r->open->items, &r->open->n, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     *to = *item;
@@ -479,7 +484,7 @@ static koksma_status take_camera(reader *r, source *s)
         memcpy(r->window, window->numbers, sizeof r->window);
     }
     r->frame = fmax(koksma__pbrt_number(p, "frameaspectratio", 0), 0);
-    return name_space(r, "camera", r->camera[0], r->camera[1]);
+    return name_space(r, p->place, "camera", r->camera[0], r->camera[1]);
 }
 
 /* Whether the film has a crop that is not the whole film. */
@@ -585,6 +590,7 @@ static koksma_status take_medium(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_a", medium.absorption));
     KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_s", medium.scattering));
     medium.g = fmax(-0.999, fmin(koksma__pbrt_number(p, "g", 0), 0.999));
+    KOKSMA__TRY(koksma__import_hold(r->im, p->place, sizeof medium));
     named_medium *to = koksma__add_one(&r->media, &r->n_media, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     *to = medium;
@@ -630,7 +636,7 @@ static koksma_status take_include(reader *r, source *s)
     char *name = kept ? strdup(path) : NULL;
     /* messages about places in the file point to the name, which must therefore be kept after the file is closed */
     if (!name) {
-        free(bytes);
+        koksma__import_text_close(r->im, bytes, size);
         return kept ? koksma__fail_memory(sizeof path) : KOKSMA_MEMORY;
     }
     *kept = name;
@@ -638,7 +644,7 @@ static koksma_status take_include(reader *r, source *s)
     r->depth++;
     const koksma_status status = read_source(r, &inner);
     r->depth--;
-    free(bytes);
+    koksma__import_text_close(r->im, bytes, size);
     return status;
 }
 
@@ -878,7 +884,7 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     r.parameters->used = r.used;
     r.parameters->mistake = &r.mistake;
     koksma_status status = take_identity(&r, &s);
-    status = status ? status : name_space(&r, "world", r.now.matrix[0], r.now.matrix[1]);
+    status = status ? status : name_space(&r, s.place, "world", r.now.matrix[0], r.now.matrix[1]);
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);
     status = status ? status : read_source(&r, &s);
     status = status ? status : set_camera(&r);

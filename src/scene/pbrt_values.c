@@ -16,6 +16,7 @@
 #include "core/capacity.h"
 #include "meshes/mesh_loop.h"
 #include "render/fields.h"
+#include "scene/import_limits.h"
 #include "scene/import_shapes.h"
 #include "scene/import_spectrum.h"
 
@@ -330,6 +331,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
     if (scene->n_textures == MOST_TEXTURES) {
         return koksma__import_fail(p->place, "more than %d textures", MOST_TEXTURES);
     }
+    KOKSMA__TRY(
+        koksma__import_hold(scene->im, p->place, sizeof(struct koksma__pbrt_texture) + KOKSMA__HELD_WITH_NAME));
     struct koksma__pbrt_texture *to = koksma__add_one(&scene->textures, &scene->n_textures, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     /* the texture is hidden until it is complete, so that its own parameters can't refer to it */
@@ -509,6 +512,7 @@ koksma_status koksma__pbrt_name_material(koksma__pbrt_scene *scene, const char *
 {
     int material = -1;
     KOKSMA__TRY(koksma__pbrt_material(scene, koksma__pbrt_word(p, "type", ""), p, &material));
+    KOKSMA__TRY(koksma__import_hold(scene->im, p->place, sizeof(struct koksma__pbrt_named) + KOKSMA__HELD_WITH_NAME));
     struct koksma__pbrt_named *to = koksma__add_one(&scene->materials, &scene->n_materials, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     snprintf(to->name, sizeof to->name, "%s", name);

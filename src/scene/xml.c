@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "scene/import_limits.h"
 #include "scene/import_text.h"
 
 #ifdef KOKSMA_EXPAT
@@ -21,10 +22,7 @@
 void koksma__xml_fini(koksma__xml *xml)
 {
     for (size_t i = 0; i < xml->n; i++) {
-        for (size_t k = 0; xml->nodes[i].attributes && xml->nodes[i].attributes[k]; k++) {
-            free(xml->nodes[i].attributes[k]);
-        }
-        KOKSMA__FREE(xml->nodes[i].attributes, xml->nodes[i].tag);
+        free(xml->nodes[i].attributes);
     }
     for (size_t i = 0; i < xml->n_files; i++) {
         free(xml->files[i]);
@@ -64,6 +62,9 @@ bool koksma__xml_alike(const char *a, const char *b)
 
 enum { MOST_DEPTH = 64, MOST_INCLUDED = 16, MOST_NODES = 1 << 20, MOST_VALUE = 1 << 16 };
 
+/* What the C library and the readers take for each node beside its texts. */
+enum { HELD_WITH_NODE = 64 + sizeof(koksma__xml_node) };
+
 /* The state while one file is parsed. */
 typedef struct reading {
     koksma__import *im;
@@ -74,6 +75,8 @@ typedef struct reading {
     /* for each depth, the node to which children are added; -1: no node, at the root of the scene's own file */
     int open[MOST_DEPTH + 1];
     int depth, included;
+    char *texts; /* the tag and the attributes of the element that is read, each ended by a zero byte */
+    size_t n_texts, texts_capacity;
 } reading;
 
 static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char *file, const char *text, size_t size,
@@ -92,15 +95,18 @@ static void stop(reading *r, koksma_status status)
     }
 }
 
-/* Replaces $names in a value; the caller frees the result. NULL: out of memory or, with r->status set, an unknown
-   name. */
-static char *replaced(reading *r, const char *value)
+static void fail_memory(reading *r)
 {
-    char *out = malloc(MOST_VALUE + 1);
+    stop(r, r->status ? r->status : koksma__fail_memory(MOST_VALUE));
+}
+
+/* Adds a text to r->texts, with the values of $names in place of the names; sets r->status after an error. */
+static void add_text(reading *r, const char *value)
+{
     size_t used = 0, surplus = 0, index;
-    while (out && *value) {
+    while (*value) {
         const char *from = value;
-        size_t length = 1, taken = 1;
+        size_t length = strcspn(value, "$"), taken = length;
         if (*value == '$') {
             taken = 1 + strspn(value + 1, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_");
             from = koksma__names_find(&r->xml->default_names, value + 1, taken - 1, &index) ? r->xml->defaults[index]
@@ -111,27 +117,22 @@ static char *replaced(reading *r, const char *value)
         if (!from || used + length > MOST_VALUE) {
             stop(r, from ? koksma__import_fail(here(r), "a value is longer than %d characters", MOST_VALUE)
                          : koksma__import_fail(here(r), "no default for '%.*s'", (int)taken, value));
-            free(out);
-            return NULL;
+            return;
         }
-        memcpy(out + used, from, length);
+        stop(r, koksma__reserve(&r->texts, &r->texts_capacity, r->n_texts + length + 1, 1));
+        if (r->status) {
+            return;
+        }
+        memcpy(r->texts + r->n_texts, from, length);
+        r->n_texts += length;
         used += length;
         value += taken;
     }
-    if (out && surplus) {
-        stop(r, koksma__import_surplus(r->im, here(r), surplus));
+    stop(r, koksma__import_surplus(r->im, here(r), surplus));
+    stop(r, koksma__reserve(&r->texts, &r->texts_capacity, r->n_texts + 1, 1));
+    if (!r->status) {
+        r->texts[r->n_texts++] = 0;
     }
-    if (out) {
-        out[used] = 0;
-        char *fitting = realloc(out, used + 1);
-        out = fitting ? fitting : out;
-    }
-    return out;
-}
-
-static void fail_memory(reading *r)
-{
-    stop(r, r->status ? r->status : koksma__fail_memory(MOST_VALUE));
 }
 
 static void add_default(reading *r, const koksma__xml_node *node)
@@ -139,6 +140,10 @@ static void add_default(reading *r, const koksma__xml_node *node)
     const char *name = koksma__xml_attribute(node, "name"), *value = koksma__xml_attribute(node, "value");
     size_t index;
     if (!name || !value || koksma__names_find(&r->xml->default_names, name, strlen(name), &index)) {
+        return;
+    }
+    stop(r, koksma__import_hold(r->im, node->place, strlen(value) + KOKSMA__HELD_WITH_NAME));
+    if (r->status) {
         return;
     }
     char **to = koksma__add_one(&r->xml->defaults, &r->xml->n_defaults, sizeof *to);
@@ -172,17 +177,34 @@ static void include(reading *r, const koksma__xml_node *node, int parent)
     *file = kept;
     koksma_status status = koksma__import_text(r->im, place, kept, &bytes, &size);
     status = status ? status : read_text(r->im, r->xml, kept, bytes, size, parent, r->included + 1);
-    free(bytes);
+    koksma__import_text_close(r->im, bytes, size);
     stop(r, status);
+}
+
+/* Makes the block of memory that has a node's attributes, its tag and their texts, from those in r->texts. */
+static void set_texts(reading *r, koksma__xml_node *node, size_t n)
+{
+    const size_t size = (n + 1) * sizeof *node->attributes + r->n_texts;
+    stop(r, koksma__import_hold(r->im, node->place, HELD_WITH_NODE + size));
+    node->attributes = r->status ? NULL : malloc(size);
+    if (!node->attributes) {
+        fail_memory(r);
+        return;
+    }
+    char *at = memcpy(node->attributes + n + 1, r->texts, r->n_texts);
+    node->tag = at;
+    for (size_t i = 0; i < n; i++) {
+        at += strlen(at) + 1;
+        node->attributes[i] = at;
+        node->length += strlen(at);
+    }
+    node->attributes[n] = NULL;
 }
 
 /* Adds a node for an element to the children of its parent. */
 static int add_node(reading *r, const char *tag, const char **attributes, int parent)
 {
     size_t n = 0;
-    while (attributes[n]) {
-        n++;
-    }
     if (r->xml->n == MOST_NODES) {
         stop(r, koksma__import_fail(here(r), "more than %d elements", MOST_NODES));
         return -1;
@@ -192,17 +214,14 @@ static int add_node(reading *r, const char *tag, const char **attributes, int pa
         fail_memory(r);
         return -1;
     }
-    *node = (koksma__xml_node){strdup(tag), calloc(n + 1, sizeof *node->attributes), here(r), 0, -1, -1, -1};
-    for (size_t i = 0; node->tag && node->attributes && i < n && !r->status; i++) {
-        node->attributes[i] = replaced(r, attributes[i]);
-        if (!node->attributes[i]) {
-            fail_memory(r);
-            break;
-        }
-        node->length += strlen(node->attributes[i]);
+    *node = (koksma__xml_node){NULL, NULL, here(r), 0, -1, -1, -1};
+    r->n_texts = 0;
+    add_text(r, tag);
+    for (; attributes[n] && !r->status; n++) {
+        add_text(r, attributes[n]);
     }
-    if (!node->tag || !node->attributes) {
-        fail_memory(r);
+    if (!r->status) {
+        set_texts(r, node, n);
     }
     const int self = (int)r->xml->n - 1;
     if (parent >= 0 && !r->status) {
@@ -277,6 +296,7 @@ static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char 
                        : koksma__import_fail(here(&r), "%s", XML_ErrorString(XML_GetErrorCode(r.parser)));
     }
     XML_ParserFree(r.parser);
+    free(r.texts);
     return r.status;
 }
 

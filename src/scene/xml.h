@@ -7,8 +7,8 @@
 #include "scene/import.h"
 
 typedef struct koksma__xml_node {
-    char *tag;
-    char **attributes; /* names and values in turn, ended by NULL */
+    const char *tag;
+    char **attributes; /* names and values in turn, ended by NULL; their texts and the tag are in the same block */
     koksma__text_place place;
     size_t length;         /* characters of the attributes */
     int first, last, next; /* first and last child; next child of the same parent; -1: none */

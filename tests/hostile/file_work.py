@@ -3,7 +3,7 @@
 """file_work.py PROGRAM FAULTS: small scenes of pbrt and Mitsuba, and small models, that ask for much work or memory.
 
 References let a few kilobytes ask for any amount: instances of instances of nothing, trees of textures, lights with many
-properties that many shapes name, names that stand for long texts. Such a scene must
+properties that many shapes name, names that stand for long texts, texts that are included again and again. Such a scene must
 be refused by one line that names the file, within the memory and the processor time of an ordinary run. Large honest scenes
 take time and memory in proportion to their length: many names, shapes, elements and triangles, many meshes of one compressed
 file, and a mesh to subdivide whose indices are chosen against a hash table. What is repeated, a material or a mesh under other
@@ -13,6 +13,7 @@ share.
 import json
 import os
 import re
+import string
 import struct
 import sys
 import tempfile
@@ -25,6 +26,7 @@ LARGE = 4 if files.SANITIZED else 1  # what large scenes are divided by
 # without the texts that AddressSanitizer keeps after they are freed
 SANITIZER = {"ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=8"}
 STEPS = "more than 67108864 steps"
+HELD = "more than 384 MiB of memory"
 SENSOR = ('<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="{width}"/>'
           '<integer name="height" value="4"/></film></sensor><emitter type="constant"/>')
 PBRT = 'LookAt 0 0 5 0 0 0 0 1 0\nCamera "perspective"\nWorldBegin\nLightSource "infinite"\n'
@@ -62,11 +64,11 @@ class Bench:
     def run(self, *arguments):
         return files.run(self.program, *arguments, cwd=self.folder, env=SANITIZER, processor=PROCESSOR)
 
-    def refused(self, what, name, text, *words, place=None):
-        """place: the file that the message names, if that is another."""
+    def refused(self, what, name, text, *words, place=None, most=files.OTHER):
+        """place: the file that the message names, if that is another; most: MiB that the run may take."""
         self.put(name, text)
         done = self.run("scene", "check", name)
-        self.checks.refused(what, done, 3, f"{place or name}:", *words)
+        self.checks.refused(what, done, 3, f"{place or name}:", *words, most=most)
         if done:
             self.checks.check(done.err.count(f"{place or name}:".encode()) == 1, f"{what}: the place is given twice: {done.err}")
 
@@ -132,6 +134,38 @@ def spectra(bench):
     bench.refused("a million spectra", "s.pbrt", PBRT + 'Include "parts"\n', STEPS, place="part")
     bench.put("parts", 'Include "part"\n' * 200)
     bench.counts("400,000 spectra", "s.pbrt", PBRT + 'Include "parts"\n', lights=1)
+
+
+def texts(bench):
+    """What a few characters describe takes hundreds of bytes. A text may be included until it has 256 MiB."""
+    bench.put("p.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    shape = 'Shape "plymesh" "string filename" "p.ply"\n'
+    bench.counts("100,000 shapes in an object", "s.pbrt",
+                 PBRT + 'ObjectBegin "o"\n' + shape * (100000 // LARGE) + "ObjectEnd\n", meshes=1)
+    side = 708 // (2 if files.SANITIZED else 1)
+    faces = " ".join(f"{i} {i + 1} {i + side} {i + 1} {i + side} {i + side + 1}"
+                     for i in range(side * (side - 1)) if i % side < side - 1)
+    places = " ".join(f"{i % side} {i // side} 0" for i in range(side * side))
+    bench.counts("a million triangles", "s.pbrt",
+                 PBRT + f'Shape "trianglemesh" "integer indices" [{faces}] "point3 P" [{places}]\n',
+                 triangles=2 * (side - 1) ** 2)
+    elements = "".join(f'<float name="n{i}" value="{i}"/>' for i in range(1000000 // LARGE))
+    bench.counts("a million elements", "s.xml", mitsuba(elements), lights=1)
+    if files.SANITIZED:
+        return
+    triangle = 'Shape"trianglemesh""point3 P"[0 0 0 1 0 0 0 1 0]\n'
+    for what, one in (("shapes in an object", 'Shape"disk"\n'), ("triangles in an object", triangle),
+                      ("coordinate systems", 'CoordinateSystem""\n'), ("objects", 'ObjectBegin""ObjectEnd\n'),
+                      ("materials", 'MakeNamedMaterial""\n'), ("media", 'MakeNamedMedium"""string type""homogeneous"\n')):
+        bench.put("part", one * (60000 // len(one)))
+        bench.put("parts", 'Include "part"\n' * 60)
+        around = ('ObjectBegin"a"\n', "ObjectEnd\n") if "in an object" in what else ("", "")
+        bench.refused(what, "s.pbrt", PBRT + around[0] + 'Include "parts"\n' * 60 + around[1], HELD, place="part", most=1024)
+    attributes = "<a " + " ".join(f'{letter}=""' for letter in string.ascii_letters) + "/>"
+    bench.put("part", "<scene>" + attributes * (60000 // len(attributes)) + "</scene>")
+    bench.put("parts", "<scene>" + '<include filename="part"/>' * 60 + "</scene>")
+    bench.refused("attributes", "s.xml", mitsuba('<include filename="parts"/>' * 60), HELD, place="part", most=1024)
 
 
 def references(bench):
@@ -276,7 +310,7 @@ def main():
         if re.search(b"no zlib|no expat|no Embree", done.err):
             print("skipped: " + done.err.decode().strip())
             return
-        for part in (instances, trees, spectra, references, names, loop, materials, meshes, material_files, buffers, indices):
+        for part in (instances, trees, spectra, texts, references, names, loop, materials, meshes, material_files, buffers, indices):
             part(bench)
         bench.checks.end()
 

@@ -31,13 +31,13 @@ class Checks:
             print("FAILED:", text)
         return holds
 
-    def refused(self, what, done, code, *words):
-        """Ended with the code and one line of UTF-8 that has the words."""
+    def refused(self, what, done, code, *words, most=OTHER):
+        """Ended with the code and one line of UTF-8 that has the words, and took at most so many MiB."""
         if done is None:
             return self.check(False, f"{what}: did not end")
         line = done.err.decode("utf-8", "strict") if is_utf8(done.err) else repr(done.err)
         self.check(is_utf8(done.err), f"{what}: not UTF-8: {done.err!r}")
-        self.check(done.mib < OTHER, f"{what}: took {done.mib:.0f} MiB")
+        self.check(done.mib < most, f"{what}: took {done.mib:.0f} MiB")
         return self.check(done.code == code and line.count("\n") == 1 and all(word in line for word in words),
                           f"{what}: exit code {done.code} for {code}, without {words}: {line}")
 
