@@ -5,7 +5,7 @@
  * kind that Koksma has. Two differences apply to all scenes and are documented in docs/scenes.md: a conductor's Fresnel
  * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other difference is reported in a
  * warning with file and line.
- * Long because all these functions work on one import.
+ * Long because materials, lights and the camera share the rules for what a scene may have.
  */
 #include "scene/import.h"
 
@@ -467,6 +467,19 @@ static koksma_status turn_image(const koksma_image *from, bool octahedral, const
     return KOKSMA_OK;
 }
 
+/* Checks the matrix by which an environment is turned, or its inverse: with entries that are not too large, except for
+   those that move, directions keep a length that is finite and above 0. */
+static koksma_status check_turn(koksma__text_place place, const double matrix[12])
+{
+    for (int i = 0; i < 12; i++) {
+        if (i % 4 < 3 && !(fabs(matrix[i]) <= 1e9)) {
+            return koksma__import_fail(place,
+                                       "the matrix of an environment, or its inverse, has an entry beyond 1e9");
+        }
+    }
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
                                  const double scale[3], const double matrix[12])
 {
@@ -486,13 +499,13 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
         KOKSMA__TRY(leave_out(im, place, status));
         return koksma__import_light(im, place, &light);
     }
-    if (!koksma__import_invert(matrix, inverse)) {
-        status = koksma__import_fail(place, "the matrix of an environment has no inverse");
-    } else {
-        status = turn_image(&image, octahedral, inverse, &turned);
-        status = status ? status : koksma__scene_image_keep(im->scene, &turned, &light.image);
-        status = status ? koksma__import_fail_at(place, status) : KOKSMA_OK;
-    }
+    status = koksma__import_invert(matrix, inverse)
+                 ? check_turn(place, matrix)
+                 : koksma__import_fail(place, "the matrix of an environment has no inverse");
+    status = status ? status : check_turn(place, inverse);
+    status = status ? status : koksma__import_fail_at(place, turn_image(&image, octahedral, inverse, &turned));
+    status =
+        status ? status : koksma__import_fail_at(place, koksma__scene_image_keep(im->scene, &turned, &light.image));
     koksma_image_fini(&image);
     koksma_image_fini(&turned);
     return status ? status : koksma__import_light(im, place, &light);

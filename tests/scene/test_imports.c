@@ -636,7 +636,7 @@ static void images_are_mapped_as_in_pbrt(void **state)
 }
 
 /* The environments of pbrt-v4 are square, of any size; it ends with another. Mitsuba's may be of any shape, but narrow
-   rows would become an image that is much larger. */
+   rows would become an image that is much larger. A matrix may make the directions to its pixels overflow. */
 static void environments_have_a_shape(void **state)
 {
     static const struct {
@@ -644,9 +644,15 @@ static void environments_have_a_shape(void **state)
         int width, height;
     } cases[] = {
 #define PBRT_SKY "Camera \"perspective\" WorldBegin\nLightSource \"infinite\" \"string filename\" \"sky.pfm\""
-#define MITSUBA_SKY                                                                                                  \
+#define TURNED_SKY(matrix)                                                                                           \
+    "Camera \"perspective\" WorldBegin ConcatTransform [" matrix " 0 0 0 1]\nLightSource \"infinite\" \"string "     \
+    "filename\" \"sky.pfm\""
+#define MITSUBA_SKY_IN(transform)                                                                                    \
     "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>\n<emitter type=\"envmap\"><string name=\"filename\" "   \
-    "value=\"sky.pfm\"/></emitter></scene>"
+    "value=\"sky.pfm\"/>" transform "</emitter></scene>"
+#define MITSUBA_SKY MITSUBA_SKY_IN("")
+#define MATRIX_SKY(matrix)                                                                                           \
+    MITSUBA_SKY_IN("<transform name=\"to_world\"><matrix value=\"" matrix " 0 0 0 1\"/></transform>")
         {"a.pbrt", PBRT_SKY, NULL, 1, 1},
         {"a.pbrt", PBRT_SKY, NULL, 37, 37},
         {"a.pbrt", PBRT_SKY, NULL, 800, 800},
@@ -654,8 +660,15 @@ static void environments_have_a_shape(void **state)
         {"a.pbrt", PBRT_SKY, "a.pbrt:2: an environment of 64 x 32 pixels is not square", 64, 32},
         {"a.xml", MITSUBA_SKY, NULL, 600, 1200},
         {"a.xml", MITSUBA_SKY, NULL, 64, 1},
-        {"a.xml", MITSUBA_SKY, "a.xml:2: an environment of 4097 x 1 pixels is more than four times as wide", 4097,
-         1}};
+        {"a.xml", MITSUBA_SKY, "a.xml:2: an environment of 4097 x 1 pixels is more than four times as wide", 4097, 1},
+        {"a.pbrt", TURNED_SKY("1e8 0 0 0 0 1e8 0 0 0 0 1e8 0"), NULL, 1, 1},
+        {"a.pbrt", TURNED_SKY("1e-37 1e-37 0 0 -1e37 1e37 0 0 0 0 1 0"),
+         "/a.pbrt:2: the matrix of an environment, or its inverse, has an entry beyond 1e9", 1, 1},
+        {"a.pbrt", TURNED_SKY("1e-20 0 0 0 0 1e-20 0 0 0 0 1e-20 0"),
+         "/a.pbrt:2: the matrix of an environment, or its", 1, 1},
+        {"a.xml", MATRIX_SKY("0 0 1 5e100 0 1 0 0 -1 0 0 0"), NULL, 64, 32},
+        {"a.xml", MATRIX_SKY("3.3e-309 -7e153 0 0 3.3e-309 7e153 0 0 0 0 1e154 0"),
+         "/a.xml:2: the matrix of an environment, or its inverse, has an entry beyond 1e9", 64, 32}};
     char path[128];
     const bool xml = reads_xml();
     (void)state;
