@@ -249,7 +249,7 @@ static koksma_status read_constant(koksma__pbrt_scene *scene, const koksma__pbrt
                                    struct koksma__pbrt_texture *to)
 {
     const koksma__pbrt_parameter *value = koksma__pbrt_find(p, "value");
-    if (value && !strcmp(value->type, "spectrum") && value->n_texts == 1) {
+    if (value && !strcmp(value->type, "spectrum") && value->n_texts == 1 && *value->text) {
         snprintf(to->spectrum, sizeof to->spectrum, "%.63s", value->text);
         return KOKSMA_OK;
     }
@@ -290,7 +290,10 @@ static koksma_status read_checkerboard(koksma__pbrt_scene *scene, const koksma__
     c->is_checker = true;
     memcpy(c->second, second.rgb, sizeof c->second);
     const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
-    c->period = u > 1e-6 ? 1 / u : 1;
+    c->period = 1 / fmax(fabs(u), 1e-6); /* turned by 180 degrees, the squares are where they were */
+    KOKSMA__TRY(fabs(u) > 1e-6 ? KOKSMA_OK
+                               : koksma__import_unknown(scene->im, p->place,
+                                                        "a checkerboard's uscale of %g is replaced by 1e-6", u));
     return u != v ? koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale is replaced by uscale")
                   : KOKSMA_OK;
 }
@@ -328,6 +331,9 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
                                    const koksma__pbrt_parameters *p)
 {
     const bool is_float = !strcmp(type, "float");
+    if (!is_float && strcmp(type, "spectrum") != 0) {
+        return koksma__import_fail(p->place, "'%s' is not a type of textures; 'float' and 'spectrum' are", type);
+    }
     if (scene->n_textures == MOST_TEXTURES) {
         return koksma__import_fail(p->place, "more than %d textures", MOST_TEXTURES);
     }

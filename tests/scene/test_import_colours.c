@@ -466,6 +466,10 @@ static void textures_combine(void **state)
          {.1, .1, .1},
          {.1, .1, .1},
          "reflectance: the float texture 't' stands for a spectrum texture"},
+        {CONSTANT("spectrum", "t", "\"spectrum value\" \"\"") SHOWN,
+         {1, 1, 1},
+         {1, 1, 1},
+         "spectrum '' is replaced by white"},
         {CHECKS("float", "c", "\"float tex1\" 1",
                 "\"float tex2\" .5") "Texture \"t\" \"spectrum\" \"scale\" \"rgb tex\" [.8 0 .2] \"texture scale\" "
                                      "\"c\" " SHOWN,

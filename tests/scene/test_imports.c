@@ -694,6 +694,35 @@ static void environments_have_a_shape(void **state)
     unlink(path);
 }
 
+/* pbrt looks up a checkerboard at (su u, sv v), whose squares are 1 wide; turned by 180 degrees they are where they
+   were. */
+static void checkerboards_are_scaled_as_in_pbrt(void **state)
+{
+    static const struct {
+        double scale, period;
+        const char *said;
+    } cases[] = {{4, 0.25, ""},
+                 {-4, 0.25, ""},
+                 {1e-5, 1e5, ""},
+                 {-1e-7, 1e6, ":1: a checkerboard's uscale of -1e-07 is replaced by 1e-6"},
+                 {0, 1e6, ":1: a checkerboard's uscale of 0 is replaced by 1e-6"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512], warning[256] = "";
+        snprintf(text, sizeof text,
+                 "Camera \"perspective\" WorldBegin Texture \"t\" \"spectrum\" \"checkerboard\" \"float uscale\" %g "
+                 "\"float vscale\" %g Material \"diffuse\" \"texture reflectance\" \"t\"",
+                 cases[i].scale, cases[i].scale);
+        koksma_scene *scene = opened("a.pbrt", text);
+        const koksma__material *m = &scene->materials[scene->n_materials - 1];
+        koksma_scene_unknown(scene, 0, warning, sizeof warning);
+        assert_true(m->checker);
+        assert_near(m->period, cases[i].period, 1e-6 * cases[i].period);
+        assert_true(strstr(warning, cases[i].said) && (*cases[i].said || !*warning));
+        koksma_scene_close(scene);
+    }
+}
+
 /* ---- Lights with two sides ------------------------------------------------------------------------------------------ */
 
 /* A square light, with a surface that reflects or without, seen from behind. */
@@ -1388,6 +1417,7 @@ static const struct {
     {"b.pbrt", PBRT "ObjectInstance \"x\"", "no object 'x'"},
     {"b.pbrt", PBRT "NamedMaterial \"x\"", "material 'x' is not defined before this use"},
     {"b.pbrt", PBRT "Material \"diffuse\" \"texture reflectance\" \"x\"", "reflectance: no texture 'x'"},
+    {"b.pbrt", PBRT "Texture \"t\" \"foo\" \"constant\"", ":2: 'foo' is not a type of textures; 'float' and"},
     {"b.pbrt", PBRT "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]",
      "indices: there is no vertex 3"},
     {"b.pbrt", PBRT "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 -1]",
@@ -1495,6 +1525,7 @@ int main(void)
         cmocka_unit_test(shutters_outlast_motions),
         cmocka_unit_test(media_of_mitsuba_are_read),
         cmocka_unit_test(images_are_mapped_as_in_pbrt),
+        cmocka_unit_test(checkerboards_are_scaled_as_in_pbrt),
         cmocka_unit_test(environments_have_a_shape),
         cmocka_unit_test(lights_of_pbrt_may_have_two_sides),
         cmocka_unit_test(both_sides_light_alike),
