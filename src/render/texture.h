@@ -23,7 +23,8 @@ static inline float koksma__texture_split(float x, int n, koksma__wrap wrap, siz
                         : wrap == KOKSMA__WRAP_MIRROR ? (turn > 1 ? 2 - turn : turn)
                         : x > 0                       ? fminf(x, 1)
                                                       : 0;
-    const float place = turns * (float)n - 0.5f, down = floorf(place);
+    /* a coordinate that is not finite, as those of a mesh may be, has no place: it counts as 0 */
+    const float place = (turns >= 0 ? turns : 0) * (float)n - 0.5f, down = floorf(place);
     const int first = (int)down;
     const bool repeated = wrap == KOKSMA__WRAP_REPEAT;
     pair[0] = (size_t)(repeated ? (first + n) % n : first < 0 ? 0 : first < n ? first : n - 1);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Limits of the memory that a scene of another renderer may take. */
+/* Limits of the memory that a scene of another renderer may take, and of its textures' transforms. */
 #ifndef KOKSMA_SCENE_IMPORT_LIMITS_H
 #define KOKSMA_SCENE_IMPORT_LIMITS_H
 
@@ -15,5 +15,9 @@ koksma_status koksma__import_hold(koksma__import *im, koksma__text_place place, 
 
 /* The same for a mesh. */
 koksma_status koksma__import_hold_mesh(koksma__import *im, koksma__text_place place, const koksma__mesh *mesh);
+
+/* Checks numbers by which a texture is scaled or moved, which must be within 1e6, so that texture coordinates are finite.
+   Error: MALFORMED. */
+koksma_status koksma__import_check_uv(koksma__text_place place, const double *values, size_t n);
 
 #endif

@@ -20,6 +20,7 @@
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/medium.h"
+#include "scene/import_limits.h"
 #include "scene/import_shapes.h"
 #include "scene/mitsuba_values.h"
 
@@ -286,7 +287,19 @@ static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth);
 
-/* Reads how an image is mapped, by its transform of the plane z = 0: the third row and column have no effect. */
+/* Reads a texture's transform of the plane z = 0: the third row and column have no effect. */
+static koksma_status transform_uv(const reader *r, const node *n, double out[6])
+{
+    const node *t = property(r, n, "to_uv");
+    double m[12];
+    KOKSMA__TRY(transform(r, n, "to_uv", m));
+    for (int i = 0; i < 6; i++) {
+        out[i] = m[i / 3 * 4 + (i % 3 < 2 ? i % 3 : 3)];
+    }
+    return koksma__import_check_uv(t ? t->place : n->place, out, 6);
+}
+
+/* Reads how an image is mapped. */
 static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
 {
     /* Mitsuba 0.6 has four more: it filters by MIP maps unless the file says "nearest" */
@@ -295,7 +308,7 @@ static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
     static const koksma__wrap kinds[] = {KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR,
                                          KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_CLAMP};
     const size_t wrap = choice(r, n, "wrap_mode", wraps), filter = choice(r, n, "filter_type", filters);
-    double m[12];
+    double m[6];
     to->wrap[0] = to->wrap[1] = kinds[wrap];
     to->nearest = filter == 1;
     if (wrap > 2) {
@@ -307,9 +320,9 @@ static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
                                            filters[filter]));
     }
     to->moved = property(r, n, "to_uv");
-    KOKSMA__TRY(transform(r, n, "to_uv", m));
+    KOKSMA__TRY(transform_uv(r, n, m));
     for (int i = 0; i < 6; i++) {
-        to->matrix[i] = (float)m[i / 3 * 4 + (i % 3 < 2 ? i % 3 : 3)];
+        to->matrix[i] = (float)m[i];
     }
     return KOKSMA_OK;
 }
@@ -447,7 +460,7 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
                              int depth)
 {
     const char *type = type_of(n);
-    double m[12];
+    double m[6];
     bool known;
     if (depth > MOST_NESTED) {
         return koksma__import_fail(n->place, "textures are nested more than %d deep", MOST_NESTED);
@@ -470,13 +483,13 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
         KOKSMA__TRY(colour(r, n, "color1", 0.2, &second, depth + 1));
         KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, out));
         KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, &second));
-        KOKSMA__TRY(transform(r, n, "to_uv", m));
+        KOKSMA__TRY(transform_uv(r, n, m));
         memcpy(out->second, second.rgb, sizeof second.rgb);
         out->is_checker = true;
         /* moved by whole periods or turned by 180 degrees, the squares are where they were */
-        const double scale = fmax(hypot(m[0], m[4]), 1e-6);
-        const double off[] = {(m[0] - m[5]) / scale, m[1] / scale, m[4] / scale, remainder(m[3], 1),
-                              remainder(m[7], 1)};
+        const double scale = fmax(hypot(m[0], m[3]), 1e-6);
+        const double off[] = {(m[0] - m[4]) / scale, m[1] / scale, m[3] / scale, remainder(m[2], 1),
+                              remainder(m[5], 1)};
         bool differs = false;
         for (size_t i = 0; i < sizeof off / sizeof *off; i++) {
             differs |= fabs(off[i]) > 1e-6;

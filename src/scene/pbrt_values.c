@@ -225,11 +225,13 @@ static void mean_of(const koksma__import_colour *a, const koksma__import_colour 
 
 /* Reads how an image is mapped: (u, v) are scaled, then moved. The wrap mode "black" is not supported; a warning
    names it as an unused parameter. */
-static void set_mapping(const koksma__pbrt_parameters *p, koksma__mapping *to)
+static koksma_status set_mapping(const koksma__pbrt_parameters *p, koksma__mapping *to)
 {
     const double scale[2] = {koksma__pbrt_number(p, "uscale", 1), koksma__pbrt_number(p, "vscale", 1)};
     const double move[2] = {koksma__pbrt_number(p, "udelta", 0), koksma__pbrt_number(p, "vdelta", 0)};
     const koksma__pbrt_parameter *wrap = NULL;
+    KOKSMA__TRY(koksma__import_check_uv(p->place, scale, 2));
+    KOKSMA__TRY(koksma__import_check_uv(p->place, move, 2));
     for (size_t i = 0; i < p->n; i++) {
         wrap = !strcmp(p->items[i].name, "wrap") ? &p->items[i] : wrap;
     }
@@ -243,6 +245,7 @@ static void set_mapping(const koksma__pbrt_parameters *p, koksma__mapping *to)
         to->matrix[4 * k] = (float)scale[k];
         to->matrix[3 * k + 2] = (float)move[k];
     }
+    return KOKSMA_OK;
 }
 
 static koksma_status read_constant(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool is_float,
@@ -290,6 +293,7 @@ static koksma_status read_checkerboard(koksma__pbrt_scene *scene, const koksma__
     c->is_checker = true;
     memcpy(c->second, second.rgb, sizeof c->second);
     const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
+    KOKSMA__TRY(koksma__import_check_uv(p->place, &u, 1));
     c->period = 1 / fmax(fabs(u), 1e-6); /* turned by 180 degrees, the squares are where they were */
     KOKSMA__TRY(fabs(u) > 1e-6 ? KOKSMA_OK
                                : koksma__import_unknown(scene->im, p->place,
@@ -304,7 +308,7 @@ static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, b
     koksma__import_colour first, second, *c = &to->colour;
     if (!strcmp(kind, "imagemap")) {
         KOKSMA__TRY(koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image));
-        set_mapping(p, &c->mapping);
+        KOKSMA__TRY(set_mapping(p, &c->mapping));
         c->image_scale = 1;
         return koksma__pbrt_number(p, "scale", 1) != 1
                    ? koksma__import_unknown(scene->im, p->place, "an image's scale is ignored")
