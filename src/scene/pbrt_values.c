@@ -22,6 +22,7 @@
 
 enum {
     MOST_DIVIDED = 1 << 21, /* largest number of triangles that subdivision may make in a scene */
+    DIVIDED_BYTES = 80,     /* what subdivision takes in passing for each of them */
     MOST_TEXTURES = 1 << 16 /* each takes 5 KB, for the path of its image */
 };
 
@@ -613,7 +614,10 @@ static koksma_status divide(koksma__pbrt_scene *scene, const koksma__pbrt_parame
             koksma__import_unknown(scene->im, p->place, "shape 'loopsubdiv' is divided %d times only", levels));
     }
     scene->n_divided += mesh->n_triangles << 2 * levels;
+    const uint64_t passing = ((uint64_t)mesh->n_triangles << 2 * levels) * DIVIDED_BYTES;
+    KOKSMA__TRY(koksma__import_hold(scene->im, p->place, passing));
     const koksma_status status = koksma__mesh_loop(mesh, levels, &fine);
+    scene->im->held -= passing;
     if (status) {
         koksma__mesh_fini(&fine);
         return koksma__import_fail_at(p->place, status);

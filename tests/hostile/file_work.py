@@ -162,6 +162,9 @@ def texts(bench):
         bench.put("parts", 'Include "part"\n' * 60)
         around = ('ObjectBegin"a"\n', "ObjectEnd\n") if "in an object" in what else ("", "")
         bench.refused(what, "s.pbrt", PBRT + around[0] + 'Include "parts"\n' * 60 + around[1], HELD, place="part", most=1024)
+    bench.refused("a mesh of six million triangles to subdivide", "s.pbrt",
+                  PBRT + 'Shape "loopsubdiv" "integer levels" 0 "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" ['
+                  + "0 1 2 " * 6000000 + "]\n", HELD, most=1024)
     attributes = "<a " + " ".join(f'{letter}=""' for letter in string.ascii_letters) + "/>"
     bench.put("part", "<scene>" + attributes * (60000 // len(attributes)) + "</scene>")
     bench.put("parts", "<scene>" + '<include filename="part"/>' * 60 + "</scene>")
