@@ -14,6 +14,9 @@
 
 #include "core/status.h"
 
+/* Each such part is looked for in all folders of the one before: more of them would list a disk. */
+enum { MOST_PARTS = 2 };
+
 static const char place_n[] = "{n}", place_seed[] = "{seed}";
 
 bool koksma__file_has(const char *path, const char *place)
@@ -122,6 +125,20 @@ static koksma_status fail_none(const char *path)
                         koksma__file_has(path, place_seed) ? " for seed 0" : "");
 }
 
+/* The number of parts of a path that have a placeholder. */
+static int placed_parts(const char *path)
+{
+    int parts = 0;
+    while (*path) {
+        char part[KOKSMA_MAX_SPEC];
+        const size_t length = strcspn(path, "/");
+        snprintf(part, sizeof part, "%.*s", (int)length, path);
+        parts += koksma__file_is_family(part);
+        path += length + (path[length] == '/');
+    }
+    return parts;
+}
+
 koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_t *count)
 {
     char pattern[2 * KOKSMA_MAX_SPEC];
@@ -133,6 +150,9 @@ koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_
             KOKSMA_ARGUMENT,
             "file:%s: its placeholders are adjacent; put a character between them, as in my_{n}_{seed}.npy", path);
     }
+    KOKSMA__FAIL_IF(placed_parts(path) > MOST_PARTS, KOKSMA_ARGUMENT,
+                    "file:%s: more than %d parts of the path have placeholders; two may, as in {n}/{seed}.npy", path,
+                    MOST_PARTS);
     glob_of(path, true, pattern, sizeof pattern);
     const int failed = glob(pattern, GLOB_NOSORT, NULL, &found);
     *sets = failed == GLOB_NOSPACE ? NULL : calloc(found.gl_pathc + 1, sizeof **sets);

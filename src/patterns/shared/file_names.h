@@ -54,7 +54,8 @@ typedef struct koksma__file_set {
 
 /* Allocates the list of the files that match a path with placeholders, sorted by n and seed. The list has at least one
    file: a study that went on without any would have fewer jobs than its plan says. Errors: MISSING (no file matches),
-   ARGUMENT (two placeholders are adjacent, so that their digits cannot be separated), MEMORY. */
+   ARGUMENT (two placeholders are adjacent, so that their digits cannot be separated, or more than two parts of the path
+   have any), MEMORY. */
 KOKSMA__LAB koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_t *count);
 
 /* Fails with a status and the text that a family of files has no set of n points. */
