@@ -112,25 +112,19 @@ koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, k
 {
     const koksma__image_format *format;
     *out = (koksma_image){0};
-    koksma_status status = find_format(bytes, size, &format);
-    if (!status && part == KOKSMA__IMAGE_ALPHA) {
-        koksma__image_limit(KOKSMA__TEXTURE_PIXELS);
+    KOKSMA__TRY(find_format(bytes, size, &format));
+    koksma__image_limit(KOKSMA__TEXTURE_PIXELS);
+    koksma_status status = KOKSMA_OK;
+    if (part == KOKSMA__IMAGE_ALPHA) {
         status = format->read_alpha ? format->read_alpha(bytes, size, out) : KOKSMA_OK;
-        if (status) {
-            koksma_image_fini(out);
-        }
-        return status;
-    }
-    if (!status && part != KOKSMA__IMAGE_COLOURS && format->read_srgb) {
-        koksma__image_limit(KOKSMA__TEXTURE_PIXELS);
-        status = format->read_srgb(bytes, size, out);
-        if (status) {
-            koksma_image_fini(out);
-        }
     } else {
-        status = status ? status : koksma__image_read_bytes(bytes, size, KOKSMA__FILE_TEXTURE, out);
+        const bool srgb = part != KOKSMA__IMAGE_COLOURS && format->read_srgb;
+        status = (srgb ? format->read_srgb : format->read)(bytes, size, out);
     }
-    if (!status && part == KOKSMA__IMAGE_NUMBERS && format->error > 0) {
+    if (status) {
+        free(out->pixels);
+        out->pixels = NULL;
+    } else if (part == KOKSMA__IMAGE_NUMBERS && format->error > 0) {
         uncurve(out);
     }
     return status;

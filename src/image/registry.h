@@ -14,7 +14,8 @@ koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksm
 
 /* The part of an image file to read. COLOURS: in linear light. SRGB: in linear light, with levels read as sRGB
    whatever transfer function the file states. NUMBERS: the numbers of the file, without a transfer function. ALPHA:
-   the transparency, which a file may lack. */
+   the transparency, which a file may lack. After an error *out has no pixels, but the size of those that were allocated
+   and perhaps decoded before it. */
 typedef enum koksma__image_part {
     KOKSMA__IMAGE_COLOURS,
     KOKSMA__IMAGE_SRGB,

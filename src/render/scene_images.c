@@ -4,7 +4,9 @@
  * decoded once for each use (part, tint, orientation), however many materials name them, and a failure is remembered
  * as well. All images of a scene together may take MOST bytes or, if that is more, RATIO bytes for each byte of their
  * files: a small file may not take all memory by many names, and a scene whose files are large may have large images.
- * The sum is compared with the limit after each image, so that one image more is in memory at most.
+ * The sum is compared with the limit after each image, so that one image more is in memory at most. Images that fail
+ * count like others, with their bytes and the pixels that they claim, although neither stays in memory: many places of
+ * a model that begin the same damaged image would otherwise be decoded one after the other without end.
  */
 #include "render/scene_images.h"
 
@@ -29,6 +31,7 @@ typedef struct koksma__kept_image {
     ino_t inode;
     const unsigned char *bytes; /* bytes within a model; NULL for images that the program made */
     size_t size;
+    uint64_t counted; /* part of scene->image_bytes */
     koksma__image_use use;
     koksma_status status; /* of reading; `text` is the message, NULL without an error */
     char *text;
@@ -128,7 +131,7 @@ static uint64_t new_bytes(const koksma_scene *scene, const entry *new)
 static koksma_status add(koksma_scene *scene, entry *from, entry **out)
 {
     const uint64_t files = scene->image_file_bytes + new_bytes(scene, from), limit = RATIO * files;
-    const uint64_t all = scene->image_bytes + bytes_of(&from->image);
+    const uint64_t all = scene->image_bytes + from->counted;
     if (all > (limit > MOST ? limit : MOST)) {
         return koksma__refused(koksma__fail(KOKSMA_MALFORMED,
                                             "the images of the scene take more than %d MiB and more than %d times "
@@ -151,7 +154,7 @@ static koksma_status add(koksma_scene *scene, entry *from, entry **out)
 
 koksma_status koksma__scene_image_keep(koksma_scene *scene, koksma_image *from, koksma_image **out)
 {
-    entry e = {.image = *from}, *added;
+    entry e = {.image = *from, .counted = bytes_of(from)}, *added;
     KOKSMA__TRY(add(scene, &e, &added));
     *from = (koksma_image){0};
     *out = &added->image;
@@ -165,7 +168,7 @@ void koksma__scene_image_drop(koksma_scene *scene, const koksma_image *image)
         at++;
     }
     if (at < scene->n_images && !is_shown(scene, image)) {
-        scene->image_bytes -= bytes_of(image);
+        scene->image_bytes -= scene->images[at]->counted;
         koksma_image_fini(&scene->images[at]->image);
         KOKSMA__FREE(scene->images[at]->text, scene->images[at]);
         scene->images[at] = scene->images[--scene->n_images];
@@ -252,6 +255,7 @@ static koksma_status read_or_find(koksma_scene *scene, const char *name, entry *
         new->size = size;
         status = status ? status : decode(new, name, new->in_file ? read : new->bytes, size);
         free(read);
+        new->counted = bytes_of(&new->image) + (status ? size : 0);
         if (status) {
             koksma_image_fini(&new->image);
         }

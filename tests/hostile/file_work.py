@@ -8,7 +8,7 @@ be refused by one line that names the file, within the memory and the processor 
 take time and memory in proportion to their length: many names, shapes, elements and triangles, many meshes of one compressed
 file, and a mesh to subdivide whose indices are chosen against a hash table. What is repeated, a material or a mesh under other
 names of its file, counts once. So do the files that a model names, and a list of indices that many primitives of a glTF file
-share.
+share; a damaged image counts each time.
 """
 import json
 import os
@@ -304,6 +304,38 @@ def indices(bench):
     bench.counts("100,000 primitives with the same vertices", "s.gltf", gltf(["b.bin"], parts, each), triangles=1)
 
 
+def png(side, last=b"\0"):
+    """A black PNG of 1 bit a pixel. last: the filter of its last row; there is none of number 7."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    row = bytes(side // 8)
+    rows = (b"\0" + row) * (side - 1) + last + row
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 1, 0, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
+SIDE = 8192 // LARGE
+
+
+def damaged(bench):
+    """Of an image that fails in its last row, with more bytes behind it each time."""
+    bad, n = png(SIDE, b"\7"), 400
+    bench.put("b.bin", struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) + bytes(24) + bad + bytes(n))
+    each = range(n)
+    vertices = {"POSITION": 0, "TEXCOORD_0": 1}
+    bench.put("s.gltf", json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": vertices, "material": i} for i in each]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}} for i in each],
+        "textures": [{"source": i} for i in each], "images": [{"bufferView": 2 + i, "mimeType": "image/png"} for i in each],
+        "accessors": [{"bufferView": i, "componentType": 5126, "type": kind, "count": 3} for i, kind in enumerate(("VEC3", "VEC2"))],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}]
+                       + [{"buffer": 0, "byteOffset": 60, "byteLength": len(bad) + i} for i in each],
+        "buffers": [{"uri": "b.bin", "byteLength": 60 + len(bad) + n}]}))
+    bench.checks.refused("400 places of one damaged image", bench.run("scene", "check", "s.gltf"), 3, "s.gltf", "images[",
+                         "more than 2048 MiB")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(os.path.abspath(sys.argv[1]), folder)
@@ -313,7 +345,8 @@ def main():
         if re.search(b"no zlib|no expat|no Embree", done.err):
             print("skipped: " + done.err.decode().strip())
             return
-        for part in (instances, trees, spectra, texts, references, names, loop, materials, meshes, material_files, buffers, indices):
+        for part in (instances, trees, spectra, texts, references, names, loop, materials,
+                     meshes, material_files, buffers, indices, damaged):
             part(bench)
         bench.checks.end()
 

@@ -85,6 +85,26 @@ static void a_damaged_file_is_read_once(void **state)
     koksma__scene_images_fini(&scene);
 }
 
+/* What was decoded before a failure counts, for each part: here one pixel and the bytes of the file. */
+static void failures_count(void **state)
+{
+    (void)state;
+    koksma_scene scene = {.n_images = 0};
+    koksma_image *image;
+    static const unsigned char infinite[] = "Pf\n1 1 -1\n\0\0\x80\x7F";
+    for (int part = KOKSMA__IMAGE_COLOURS; part <= KOKSMA__IMAGE_NUMBERS; part++) {
+        koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+        use.part = (koksma__image_part)part;
+        for (int i = 0; i < 2; i++) {
+            assert_int_equal(koksma__scene_image_within(&scene, "a", infinite, 14, &use, &image), KOKSMA_MALFORMED);
+            assert_string_equal(koksma_error_text(), "a: pixel 0,0 has the value inf");
+        }
+        assert_int_equal(scene.image_bytes, (part + 1) * (4 + 14));
+        assert_int_equal(scene.image_file_bytes, 14);
+    }
+    koksma__scene_images_fini(&scene);
+}
+
 /* Bytes within a model count once, however the images in them overlap. */
 static void bytes_of_files_count_once(void **state)
 {
@@ -133,6 +153,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_is_read_once_for_each_use),
         cmocka_unit_test(a_damaged_file_is_read_once),
+        cmocka_unit_test(failures_count),
         cmocka_unit_test(bytes_of_files_count_once),
         cmocka_unit_test(unused_images_are_dropped),
     };
