@@ -134,15 +134,14 @@ static void take_colour_map(builder *build, const koksma__file_texture *from, ko
 static void take_glow_map(builder *build, const koksma__file_texture *from, double glow[3], koksma__material *m)
 {
     koksma__map *map = &m->maps[KOKSMA__MAP_EMISSION];
-    bool dark = true;
+    double mean[3] = {0};
     koksma__image_use use = KOKSMA__PLAIN_IMAGE;
     use.part = colours_of(m);
     take_map(build, from, &use, &map->image, &map->mapping, m->dark);
-    const size_t n = map->image ? (size_t)map->image->width * (size_t)map->image->height : 0;
-    for (size_t i = 0; i < n * (size_t)(map->image ? map->image->channels : 0) && dark; i++) {
-        dark = !(map->image->pixels[i] > 0);
+    if (map->image) {
+        koksma__scene_image_mean(build->scene, map->image, false, mean);
     }
-    for (int k = 0; k < 3 && dark; k++) {
+    for (int k = 0; k < 3 && !(mean[0] > 0 || mean[1] > 0 || mean[2] > 0); k++) {
         glow[k] = 0;
     }
 }

@@ -7,8 +7,8 @@ properties that many shapes name, names that stand for long texts, texts that ar
 be refused by one line that names the file, within the memory and the processor time of an ordinary run. Large honest scenes
 take time and memory in proportion to their length: many names, shapes, elements and triangles, many meshes of one compressed
 file, and a mesh to subdivide whose indices are chosen against a hash table. What is repeated, a material or a mesh under other
-names of its file, counts once. So do the files that a model names, and a list of indices that many primitives of a glTF file
-share; a damaged image counts each time.
+names of its file, counts once. So do the files that a model names, a list of indices that many primitives of a
+glTF file share, and an image that many materials emit; a damaged one counts each time.
 """
 import json
 import os
@@ -317,6 +317,14 @@ def png(side, last=b"\0"):
 SIDE = 8192 // LARGE
 
 
+def glows(bench):
+    """Emission textures are looked through once."""
+    bench.put("black.png", png(SIDE))
+    bench.put("glow.mtl", "".join(f"newmtl m{i}\nKe 1 1 1\nmap_Ke black.png\n" for i in range(1000)))
+    bench.counts("1,000 materials with one black emission texture", "glow.obj",
+                 "mtllib glow.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n", triangles=1)
+
+
 def damaged(bench):
     """Of an image that fails in its last row, with more bytes behind it each time."""
     bad, n = png(SIDE, b"\7"), 400
@@ -345,8 +353,8 @@ def main():
         if re.search(b"no zlib|no expat|no Embree", done.err):
             print("skipped: " + done.err.decode().strip())
             return
-        for part in (instances, trees, spectra, texts, references, names, loop, materials,
-                     meshes, material_files, buffers, indices, damaged):
+        for part in (instances, trees, spectra, texts, references, names, loop, materials, meshes,
+                     material_files, buffers, indices, damaged, glows):
             part(bench)
         bench.checks.end()
 
