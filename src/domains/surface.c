@@ -160,7 +160,7 @@ koksma_status koksma_generate_on(const koksma_spec *spec, uint64_t seed, const c
         "points on a model have dim = 3, or 6 with their normal, or 7 with their triangle as well; not %d", out->dim);
     KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
     surface s = {.warp = koksma_warp_find("triangle")};
-    koksma_status status = koksma__mesh_read(path, KOKSMA__BY_USER, &s.mesh);
+    koksma_status status = koksma__mesh_read(path, KOKSMA__BY_USER, NULL, &s.mesh);
     status = status ? status : choose(&s, spec, seed, run, out);
     koksma__mesh_fini(&s.mesh);
     return status;

@@ -87,6 +87,7 @@ static koksma_status load(koksma__gltf *g, const field *f, const char *uri, koks
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__names_put(files, key, strlen(key), (size_t)(out - g->buffers)));
+    KOKSMA__TRY(koksma__file_count(g->out->sizes, file));
     KOKSMA__TRY(koksma__read_file(file, KOKSMA__FILE_BUFFER, KOKSMA__BY_FILE, NULL, &bytes, &size));
     koksma__mesh_file_hash(g->out, bytes, size);
     return keep(g, bytes, size, out);

@@ -43,6 +43,19 @@ void koksma__file_key(const char *path, char out[KOKSMA__FILE_KEY])
     }
 }
 
+koksma_status koksma__file_count(koksma__file_sizes *sizes, const char *path)
+{
+    struct stat about;
+    char key[KOKSMA__FILE_KEY];
+    size_t known;
+    koksma__file_key(path, key);
+    if (!sizes || stat(path, &about) || koksma__names_find(&sizes->known, key, strlen(key), &known)) {
+        return KOKSMA_OK;
+    }
+    sizes->bytes += (uint64_t)about.st_size;
+    return koksma__names_put(&sizes->known, key, strlen(key), 0);
+}
+
 /* Decodes %20 and other URI escapes in place; returns false if there are none, or if one encodes a zero byte. */
 static bool decode(char *text)
 {

@@ -7,8 +7,15 @@
 
 #include "core/read_file.h"
 #include "meshes/mesh.h"
+#include "meshes/names.h"
 
 enum { KOKSMA__FILE_KEY = 64 }; /* size of the text of koksma__file_key */
+
+/* The length of files on the disk; each counts once, under whatever names. Zeroed at first. */
+typedef struct koksma__file_sizes {
+    koksma__names known; /* by koksma__file_key; the caller calls koksma__names_fini */
+    uint64_t bytes;
+} koksma__file_sizes;
 
 /* An array whose capacity doubles when it is full. */
 typedef struct koksma__list {
@@ -73,6 +80,7 @@ typedef struct koksma__file_light {
 
 typedef struct koksma__mesh_file {
     const char *path;
+    koksma__file_sizes *sizes; /* NULL, or counts the model and its buffers */
     /* sum of the hashes of all files read: the model's as often as mesh_read.c explains, those that it names once, three
        times, five times, ..., so that their order counts */
     uint64_t hash;
@@ -138,6 +146,9 @@ bool koksma__is_file(const char *path);
 
 /* Writes a text that is the same for all names of a file: its device and inode. It is empty if there is no such file. */
 void koksma__file_key(const char *path, char out[KOKSMA__FILE_KEY]);
+
+/* Adds the length of a file, which need not exist, unless it was counted before. sizes may be NULL. Errors: MEMORY. */
+koksma_status koksma__file_count(koksma__file_sizes *sizes, const char *path);
 
 /* Finds the file beside the model that a model names: by the exact name, or with %20 and other escapes decoded (names
    in glTF are URIs, see RFC 3986, section 2.1), or with \ replaced by / (OBJ files from Windows). Returns false if

@@ -88,16 +88,17 @@ static koksma_status unpack(const unsigned char **bytes, size_t *size, koksma__m
     return *size ? KOKSMA_OK : koksma__fail(KOKSMA_MALFORMED, "%s: empty", out->path);
 }
 
-/* Reads the file. hashed: also computes out->hash, which takes as long as reading a binary file;
-   otherwise out->hash is not set. */
-static koksma_status read_meshes(const char *path, koksma__named by, bool hashed, koksma__mesh_file *out)
+/* Reads the file; out->path and out->sizes must be set. hashed: also computes out->hash, which takes as long as reading
+   a binary file; otherwise out->hash is not set. */
+static koksma_status read_meshes(koksma__named by, bool hashed, koksma__mesh_file *out)
 {
+    const char *path = out->path;
     unsigned char *read = NULL;
     size_t size = 0;
     const reader *how = find_reader(path);
-    *out = (koksma__mesh_file){.path = path};
     KOKSMA__FAIL_IF(!how, KOKSMA_MALFORMED,
                     "%s: a mesh file's name ends in .obj, .ply, .ply.gz, .off, .gltf, .glb or .serialized", path);
+    KOKSMA__TRY(koksma__file_count(out->sizes, path));
     KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_MESH, by, how->check, &read, &size));
     unsigned char **kept = koksma__list_add(&out->owned, 1, sizeof *kept);
     if (!kept) {
@@ -114,7 +115,8 @@ static koksma_status read_meshes(const char *path, koksma__named by, bool hashed
 
 koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma__mesh_file *out)
 {
-    return read_meshes(path, by, true, out);
+    *out = (koksma__mesh_file){.path = path};
+    return read_meshes(by, true, out);
 }
 
 /* ---- One mesh ------------------------------------------------------------------------------- */
@@ -176,10 +178,10 @@ static koksma_status join(const koksma__mesh_file *f, koksma__mesh *out)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__mesh *out)
+koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__file_sizes *sizes, koksma__mesh *out)
 {
-    koksma__mesh_file f;
-    koksma_status status = read_meshes(path, by, false, &f);
+    koksma__mesh_file f = {.path = path, .sizes = sizes};
+    koksma_status status = read_meshes(by, false, &f);
     if (!status) {
         const koksma__file_placement *first = f.placements.items;
         if (f.placements.n == 1 && !memcmp(first->matrix, identity, sizeof identity)) {

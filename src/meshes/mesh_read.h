@@ -12,8 +12,8 @@ bool koksma__is_mesh_file(const char *path);
    Errors: MISSING, MALFORMED, MEMORY. */
 koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma__mesh_file *out);
 
-/* Reads all triangles of a mesh file as one checked mesh. out must be zeroed except for its name. Errors: MISSING,
-   MALFORMED, MEMORY. */
-koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__mesh *out);
+/* Reads all triangles of a mesh file as one checked mesh. sizes: NULL, or counts the files that were read. out must be
+   zeroed except for its name. Errors: MISSING, MALFORMED, MEMORY. */
+koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__file_sizes *sizes, koksma__mesh *out);
 
 #endif

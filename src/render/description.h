@@ -11,7 +11,7 @@
 #include <koksma/warp.h>
 #include <pthread.h>
 
-#include "meshes/mesh.h"
+#include "meshes/mesh_file.h"
 
 enum { KOKSMA__MAX_SHAPES = 4096, KOKSMA__MAX_MATERIALS = 1024, KOKSMA__MAX_LIGHTS = 256 };
 
@@ -165,6 +165,9 @@ struct koksma_scene {
     koksma__light *lights;
     koksma__mesh *meshes;
     koksma__placement *placements; /* of meshes */
+    koksma__names mesh_names;      /* finds the meshes of scene files (shapes/shape_mesh.c) */
+    koksma__file_sizes mesh_files; /* the files that meshes are from */
+    uint64_t mesh_bytes;           /* of the meshes from files, as koksma__scene_limit_mesh counts */
     size_t n_materials, n_shapes, n_lights, n_meshes, n_placements;
     bool grey;                /* the scene has no colours: images have one channel */
     bool moves;               /* some part of the scene depends on time */

@@ -10,15 +10,29 @@
 
 #include "core/capacity.h"
 #include "core/hash.h"
+#include "core/status.h"
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 
-enum { MAX_PLACEMENTS = 1 << 16 };
+enum { MAX_PLACEMENTS = 1 << 16, MESH_RATIO = 64, MESHES_MIB = 1024 };
 
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out)
 {
     *out = koksma__add_one(&scene->meshes, &scene->n_meshes, sizeof **out);
     return *out ? KOKSMA_OK : KOKSMA_MEMORY;
+}
+
+koksma_status koksma__scene_limit_mesh(koksma_scene *scene, const koksma__mesh *mesh, const char *path)
+{
+    const uint64_t each = 6 + (mesh->uvs ? 2 : 0) + (mesh->colours ? 3 : 0), files = scene->mesh_files.bytes;
+    scene->mesh_bytes += sizeof(float) * (each * mesh->n_vertices + 3 * mesh->n_triangles);
+    if (scene->mesh_bytes > (uint64_t)MESHES_MIB << 20 && scene->mesh_bytes / MESH_RATIO > files) {
+        return koksma__refused(koksma__fail(KOKSMA_MALFORMED,
+                                            "%s: with it the meshes of the scene take more than %d MiB and more than "
+                                            "%d times their files: use fewer or smaller ones",
+                                            path, MESHES_MIB, MESH_RATIO));
+    }
+    return KOKSMA_OK;
 }
 
 /* The XOR of sums alone would often stay the same when two meshes are exchanged or change alike: (a + 1) ^ (a + 2) is 1

@@ -10,6 +10,12 @@
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out);
 
+/* Counts a mesh that was read from the file at `path`. Its normals count even if it has none, because they may be made.
+   All meshes from files together may take 1 GiB or, if that is more, 64 bytes for each byte of scene->mesh_files: a
+   small packed file may stand for a large mesh, but many of them not for all memory; a text takes at most 36 bytes for
+   each of its bytes. Errors: MALFORMED. */
+koksma_status koksma__scene_limit_mesh(koksma_scene *scene, const koksma__mesh *mesh, const char *path);
+
 /* Adds the last mesh, which is complete, to the scene's hash. in_file: it is from a file; otherwise the scene's text has
    it. */
 void koksma__scene_hash_mesh(koksma_scene *scene, bool in_file);

@@ -103,6 +103,7 @@ static koksma_status find_packed(koksma__import *im, koksma__text_place place, c
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__import_spend(im, place, s->size / 64)); /* 0 the first time */
+    KOKSMA__TRY(koksma__file_count(&im->scene->mesh_files, path));
     KOKSMA__TRY(koksma__import_fail_at(place, koksma__serialized_open(path, s)));
     im->packed_size += s->size;
     if (im->packed_size > koksma__file_most(KOKSMA__FILE_MESH)) {
@@ -118,11 +119,12 @@ static koksma_status find_packed(koksma__import *im, koksma__text_place place, c
 
 /* Reads the mesh and adapts it to the conventions of the other renderer: Mitsuba turns the texture coordinates of OBJ
    files upside down, and gives smooth normals to meshes that have none. */
-static koksma_status read_mesh(const koksma__import *im, const char *path, koksma__serialized *packed, long part,
+static koksma_status read_mesh(koksma__import *im, const char *path, koksma__serialized *packed, long part,
                                bool with_normals, koksma__mesh *mesh)
 {
     KOKSMA__TRY(packed ? koksma__serialized_mesh(packed, path, part, mesh)
-                       : koksma__mesh_read(path, KOKSMA__BY_FILE, mesh));
+                       : koksma__mesh_read(path, KOKSMA__BY_FILE, &im->scene->mesh_files, mesh));
+    KOKSMA__TRY(koksma__scene_limit_mesh(im->scene, mesh, path));
     const char *dot = strrchr(path, '.');
     if (im->rows_down && dot && !strcmp(dot, ".obj")) {
         turn_rows(mesh);

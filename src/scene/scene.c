@@ -142,6 +142,8 @@ void koksma__scene_fini(koksma_scene *scene)
         koksma__mesh_fini(&scene->meshes[i]);
     }
     free(scene->meshes);
+    koksma__names_fini(&scene->mesh_names);
+    koksma__names_fini(&scene->mesh_files.known);
     free(scene->placements);
     free(scene->notes);
     free(scene->materials);

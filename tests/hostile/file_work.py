@@ -10,9 +10,11 @@ file, and a mesh to subdivide whose indices are chosen against a hash table. Wha
 names of its file, counts once. So do the files that a model names, a list of indices that many primitives of a
 glTF file share, and an image that many materials emit; a damaged one counts each time.
 """
+import gzip
 import json
 import os
 import re
+import shutil
 import string
 import struct
 import sys
@@ -344,6 +346,41 @@ def damaged(bench):
                          "more than 2048 MiB")
 
 
+def packed_ply(n):
+    """n triangles of which one has an area, and three times as many vertices: 48 bytes each once unpacked."""
+    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {3 * n}\nproperty float x\nproperty float y\nproperty float z\n"
+            f"element face {n}\nproperty list uchar int vertex_indices\nend_header\n")
+    vertices = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) + bytes(36 * (n - 1))
+    return gzip.compress(head.encode() + vertices + (b"\3" + struct.pack("<3i", 0, 1, 2)) * n)
+
+
+def packed_meshes(bench):
+    """Shapes of one file share its mesh; many files may not take all memory."""
+    n, files_n = 1000000, 40
+
+    def scene(names):
+        return json.dumps({
+            "camera": {"eye": [0, 0, 4], "target": [0, 0, 0], "fov_deg": 40}, "lights": [{"kind": "environment", "radiance": 1}],
+            "materials": [{"name": "m", "kind": "lambert", "albedo": 0.5}],
+            "shapes": [{"kind": "mesh", "file": name, "material": "m"} for name in names]})
+    bench.put("0.ply.gz", packed_ply(n))
+    bench.counts("1,000 shapes of one packed file", "s.json", scene(["./" * (i % 9) + "0.ply.gz" for i in range(1000)]),
+                 meshes=1, placements=1000)
+    if files.SANITIZED:
+        return
+    for i in range(1, files_n):
+        shutil.copy(os.path.join(bench.folder, "0.ply.gz"), os.path.join(bench.folder, f"{i}.ply.gz"))
+    names = [f"{i}.ply.gz" for i in range(files_n)]
+    bench.counts("4 packed files", "s.json", scene(names[:4]), meshes=4)
+    each = "".join(f'Shape "plymesh" "string filename" "{name}"\n' for name in names)
+    for name, text in (("s.json", scene(names)), ("s.pbrt", PBRT + each)):
+        bench.put(name, text)
+        done = bench.run("scene", "check", name)
+        words = (name, "12.ply.gz: ", "more than 1024 MiB and more than 64 times their files: use fewer or smaller ones")
+        bench.checks.check(done and done.code == 3 and all(word in done.err.decode() for word in words) and done.mib < 1400,
+                           f"40 packed files: {done and (done.code, done.err[-300:], done.mib)}")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(os.path.abspath(sys.argv[1]), folder)
@@ -354,7 +391,7 @@ def main():
             print("skipped: " + done.err.decode().strip())
             return
         for part in (instances, trees, spectra, texts, references, names, loop, materials, meshes,
-                     material_files, buffers, indices, damaged, glows):
+                     material_files, buffers, indices, damaged, glows, packed_meshes):
             part(bench)
         bench.checks.end()
 

@@ -514,7 +514,7 @@ static void mirrored_normals_stay_outside(void **state)
         write_bytes("turn.gltf", text, strlen(text));
         koksma__mesh one = {0};
         koksma_scene *scene;
-        assert_ok(koksma__mesh_read("turn.gltf", KOKSMA__BY_FILE, &one));
+        assert_ok(koksma__mesh_read("turn.gltf", KOKSMA__BY_FILE, NULL, &one));
         assert_ok(koksma_scene_open("turn.gltf", &scene));
         assert_int_equal(one.n_triangles, 4);
         assert_int_equal(scene->n_placements, 2);

@@ -25,7 +25,7 @@ static void write_bytes(const char *path, const void *bytes, size_t size)
 static koksma__mesh read_mesh(const char *path, size_t n_corners, const float (*places)[3])
 {
     koksma__mesh mesh = {0};
-    if (koksma__mesh_read(path, KOKSMA__BY_FILE, &mesh)) {
+    if (koksma__mesh_read(path, KOKSMA__BY_FILE, NULL, &mesh)) {
         fail_msg("%s", koksma_error_text());
     }
     assert_int_equal(3 * mesh.n_triangles, n_corners);
@@ -257,10 +257,10 @@ static void many_faces_of_binary_ply(void **state)
         assert_int_equal(mesh.n_vertices, MANY_VERTICES);
         koksma__mesh_fini(&mesh);
         write_bytes("many.ply", file, n - 5);
-        assert_int_equal(koksma__mesh_read("many.ply", KOKSMA__BY_FILE, &mesh), KOKSMA_MALFORMED);
+        assert_int_equal(koksma__mesh_read("many.ply", KOKSMA__BY_FILE, NULL, &mesh), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "the file ends within element 'face' number 8999 of 9000"));
         write_bytes("many.ply", file, write_many(form & 1, "int", 18000, file, corners, &n_corners));
-        assert_int_equal(koksma__mesh_read("many.ply", KOKSMA__BY_FILE, &mesh), KOKSMA_MALFORMED);
+        assert_int_equal(koksma__mesh_read("many.ply", KOKSMA__BY_FILE, NULL, &mesh), KOKSMA_MALFORMED);
         assert_non_null(
             strstr(koksma_error_text(), "face 6000 names vertex 1300, but there are 1300, numbered from 0"));
     }
@@ -279,11 +279,11 @@ static void a_ply_that_ends_among_its_vertices(void **state)
     koksma__mesh mesh = {0};
     (void)state;
     write_bytes("short.ply", no_vertex, sizeof no_vertex - 1);
-    assert_int_equal(koksma__mesh_read("short.ply", KOKSMA__BY_FILE, &mesh), KOKSMA_MALFORMED);
+    assert_int_equal(koksma__mesh_read("short.ply", KOKSMA__BY_FILE, NULL, &mesh), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "the file ends within element 'face' number 0 of 1"));
     memcpy(file, text, sizeof text - 1);
     write_bytes("short.ply", file, sizeof text - 1 + 35);
-    assert_int_equal(koksma__mesh_read("short.ply", KOKSMA__BY_FILE, &mesh), KOKSMA_MALFORMED);
+    assert_int_equal(koksma__mesh_read("short.ply", KOKSMA__BY_FILE, NULL, &mesh), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "the file ends within element 'vertex' number 2 of 3"));
     unlink("short.ply");
 }

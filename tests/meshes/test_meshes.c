@@ -42,6 +42,14 @@ static koksma_image render_by(const koksma_scene *scene, const char *integrator,
     return image;
 }
 
+static size_t count_meshes(const char *text)
+{
+    koksma_scene *scene = scene_of(text);
+    const size_t n = koksma_scene_count(scene).meshes;
+    koksma_scene_close(scene);
+    return n;
+}
+
 /* The mean difference of two scenes' pictures. */
 static double difference(const char *a, const char *b)
 {
@@ -90,6 +98,32 @@ static void a_cube_is_a_box(void **state)
                            HEAD "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"translate\": [0.3, 0, -0.2], "
                                 "\"scale\": [1, 0.5, 2], \"rotate_deg\": [0, 30, 0]" TAIL),
                 0, 1e-5);
+    unlink("cube.obj");
+}
+
+/* Shapes of one file, under other names of it, share a mesh, and are what shapes of equal files are: each with its own
+   placement, material and normals, and named by its own name. */
+static void a_file_is_one_mesh(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_cube();
+    assert_int_equal(rename("cube.obj", "copy.obj"), 0);
+    write_cube();
+#define THREE(second)                                                                                                \
+    "{\"camera\": {\"eye\": [3, 2.5, 6], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"background\": 0.3, "             \
+    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.7}, {\"name\": \"dark\", "               \
+    "\"kind\": \"lambert\", \"albedo\": 0.2}], \"lights\": [], \"shapes\": [{\"kind\": \"mesh\", \"file\": "         \
+    "\"cube.obj\", \"material\": \"m\"}, {\"kind\": \"mesh\", \"file\": \"" second "\", \"name\": \"b\", "           \
+    "\"translate\": [1, 2, 0], \"scale\": 0.5, \"smooth\": true, \"material\": \"dark\"}, {\"kind\": \"mesh\", "     \
+    "\"file\": \"" second "\", \"translate\": [-2, 1, 0], \"scale\": 0.4, \"emission\": [3, 2, 1]}, {\"kind\": "     \
+    "\"instance\", \"of\": \"b\", \"translate\": [0, -2, 0], \"rotate_deg\": [0, 30, 0]" TAIL
+    assert_int_equal(count_meshes(THREE("copy.obj")), 2);
+    assert_int_equal(symlink("cube.obj", "same.obj"), 0);
+    assert_int_equal(count_meshes(THREE("same.obj")), 1);
+    assert_near(difference(THREE("copy.obj"), THREE("./same.obj")), 0, 0);
+    unlink("same.obj");
+    unlink("copy.obj");
     unlink("cube.obj");
 }
 
@@ -641,6 +675,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cube_is_a_box),
+        cmocka_unit_test(a_file_is_one_mesh),
         cmocka_unit_test(an_instance_is_its_mesh_elsewhere),
         cmocka_unit_test(a_fine_ball_is_a_sphere),
         cmocka_unit_test(normals_are_smooth_in_all_sizes),

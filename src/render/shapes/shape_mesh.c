@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The shapes mesh and instance: a mesh has a file, a placement and a material and is read once; an instance is
- * another placement of the same triangles. Embree intersects them (accel/accel_embree.c).
+ * The shapes mesh and instance: a mesh has a file, a placement and a material; an instance is another placement of
+ * the same triangles. So is a mesh whose file was read before, under whatever name of it. Embree intersects them
+ * (accel/accel_embree.c).
  */
+#include <stdio.h>
 #include <string.h>
 
 #include "core/status.h"
@@ -104,36 +106,64 @@ static koksma_status add_placement(const field *f, koksma_scene *scene, int mesh
     return status ? status : p->smooth ? koksma__mesh_smooth(&scene->meshes[mesh]) : KOKSMA_OK;
 }
 
-static int find_mesh(const koksma_scene *scene, const char *name)
+/* Finds a mesh by its `name` or by its `file`; returns -1 if there is none. */
+static int find_mesh(const koksma_scene *scene, const char *what, const char *name)
 {
-    for (size_t i = 0; *name && i < scene->n_meshes; i++) {
-        if (!strcmp(scene->meshes[i].name, name)) {
-            return (int)i;
-        }
+    char key[128];
+    size_t mesh;
+    snprintf(key, sizeof key, "%s %s", what, name);
+    return *name && koksma__names_find(&scene->mesh_names, key, strlen(key), &mesh) ? (int)mesh : -1;
+}
+
+/* Lets find_mesh find a mesh, unless name is empty. */
+static koksma_status keep_name(koksma_scene *scene, const char *what, const char *name, int mesh)
+{
+    char key[128];
+    snprintf(key, sizeof key, "%s %s", what, name);
+    return *name ? koksma__names_put(&scene->mesh_names, key, strlen(key), (size_t)mesh) : KOKSMA_OK;
+}
+
+/* Reads the mesh in a file, or finds it. The ending of a file's name tells how it is read. */
+static koksma_status find_or_read(const field *f, koksma_scene *scene, const char *path, int *out)
+{
+    char key[KOKSMA__FILE_KEY], file[KOKSMA__FILE_KEY + 16];
+    const char *ending = strrchr(path, '.');
+    koksma__mesh *mesh = NULL;
+    koksma__file_key(path, key);
+    snprintf(file, sizeof file, "%s%.15s", key, *key && ending ? ending : "");
+    *out = find_mesh(scene, "file", file);
+    if (*out >= 0) {
+        return KOKSMA_OK;
     }
-    return -1;
+    KOKSMA__TRY(koksma__scene_add_mesh(scene, &mesh));
+    koksma_status status = koksma__mesh_read(path, KOKSMA__BY_FILE, &scene->mesh_files, mesh);
+    status = status ? status : koksma__scene_limit_mesh(scene, mesh, path);
+    if (status) {
+        koksma__json_fail(f, "%s%s", koksma_error_text(), status == KOKSMA_MISSING ? koksma__package_hint(path) : "");
+        return status;
+    }
+    koksma__scene_hash_mesh(scene, true);
+    *out = (int)scene->n_meshes - 1;
+    return keep_name(scene, "file", file, *out);
 }
 
 static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_scene *scene, koksma__shape *shape)
 {
     const char *file = "", *name = "";
     char path[KOKSMA__MAX_PATH];
-    koksma__mesh *mesh = NULL;
+    int mesh = -1;
     KOKSMA__TRY(koksma__json_get_text(f, "file", true, &file));
     KOKSMA__TRY(koksma__json_get_text(f, "name", false, &name));
-    KOKSMA__JSON_FAIL_IF(strlen(name) >= sizeof mesh->name, f, "a name has at most %zu letters",
-                         sizeof mesh->name - 1);
-    KOKSMA__JSON_FAIL_IF(find_mesh(scene, name) >= 0, f, "a second mesh '%s'", name);
+    KOKSMA__JSON_FAIL_IF(strlen(name) >= sizeof scene->meshes->name, f, "a name has at most %zu letters",
+                         sizeof scene->meshes->name - 1);
+    KOKSMA__JSON_FAIL_IF(find_mesh(scene, "name", name) >= 0, f, "a second mesh '%s'", name);
     KOKSMA__JSON_FAIL_IF(!koksma__path_beside(scene_name, file, path), f, "the path is too long");
-    KOKSMA__TRY(koksma__scene_add_mesh(scene, &mesh));
-    strcpy(mesh->name, name);
-    koksma_status status = koksma__mesh_read(path, KOKSMA__BY_FILE, mesh);
-    if (status) {
-        koksma__json_fail(f, "%s%s", koksma_error_text(), status == KOKSMA_MISSING ? koksma__package_hint(path) : "");
-        return status;
+    KOKSMA__TRY(find_or_read(f, scene, path, &mesh));
+    KOKSMA__TRY(keep_name(scene, "name", name, mesh));
+    if (!*scene->meshes[mesh].name) { /* messages have the first name */
+        strcpy(scene->meshes[mesh].name, name);
     }
-    koksma__scene_hash_mesh(scene, true);
-    return add_placement(f, scene, (int)scene->n_meshes - 1, shape->material);
+    return add_placement(f, scene, mesh, shape->material);
 }
 
 static koksma_status parse_instance(const char *scene_name, const field *f, koksma_scene *scene, koksma__shape *shape)
@@ -144,7 +174,7 @@ static koksma_status parse_instance(const char *scene_name, const field *f, koks
     if (status) {
         return status;
     }
-    const int mesh = find_mesh(scene, of);
+    const int mesh = find_mesh(scene, "name", of);
     return mesh < 0 ? koksma__json_fail(f, "no mesh named '%s' before it", of)
                     : add_placement(f, scene, mesh, shape->material);
 }
