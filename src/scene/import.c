@@ -5,7 +5,6 @@
  * kind that Koksma has. Two differences apply to all scenes and are documented in docs/scenes.md: a conductor's Fresnel
  * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other difference is reported in a
  * warning with file and line.
- * Long because materials, lights and the camera share the rules for what a scene may have.
  */
 #include "scene/import.h"
 
@@ -27,8 +26,9 @@
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/scene_images.h"
+#include "scene/import_sky.h"
 
-enum { MOST_UNKNOWN = 256, FINE = 512, MOST_STEPS = 1 << 26 };
+enum { MOST_UNKNOWN = 256, MOST_STEPS = 1 << 26 };
 
 const double koksma__import_identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -384,89 +384,6 @@ koksma_status koksma__import_light(koksma__import *im, koksma__text_place place,
     return KOKSMA_OK;
 }
 
-/* The point in the square [0, 1]^2 of a direction in the equal-area octahedral map (Clarberg 2008), whose pole is
-   z. */
-static void octahedral_square(const double w[3], double uv[2])
-{
-    const double x = fabs(w[0]), y = fabs(w[1]), z = fabs(w[2]), r = sqrt(fmax(0, 1 - z));
-    double v = r * (x > 0 || y > 0 ? atan2(fmin(x, y), fmax(x, y)) * 2 / M_PI : 0);
-    v = x < y ? r - v : v;
-    double u = r - v;
-    if (w[2] < 0) {
-        const double swapped = 1 - v;
-        v = 1 - u;
-        u = swapped;
-    }
-    uv[0] = (copysign(u, w[0]) + 1) / 2;
-    uv[1] = (copysign(v, w[1]) + 1) / 2;
-}
-
-/* The point of a latitude-longitude image for a direction, with Mitsuba's axes: y is up, column 0 is in direction
-   -z. */
-static void latitude_square(const double w[3], double uv[2])
-{
-    const double turn = atan2(w[0], -w[2]) / TURN;
-    uv[0] = turn - floor(turn);
-    uv[1] = acos(fmin(fmax(w[1], -1), 1)) / M_PI;
-}
-
-/* Channel k of an environment's image at (u, v): in an octahedral image of pbrt the nearest pixel; in an image of
-   Mitsuba the bilinear interpolation, in which the first and the last row lie at the poles and each column in the
-   middle of its strip. */
-static double value_at(const koksma_image *image, bool octahedral, const double uv[2], int k)
-{
-    const int width = image->width, height = image->height;
-    if (octahedral) {
-        const int x = (int)fmin(uv[0] * width, width - 1), y = (int)fmin(uv[1] * height, height - 1);
-        return (double)image->pixels[(y * width + x) * image->channels + k];
-    }
-    const double at = uv[0] * width - 0.5, down = uv[1] * (height - 1);
-    const int x = (int)floor(at), y = (int)fmin(down, height - 1);
-    double sum = 0;
-    for (int i = 0; i < 4; i++) {
-        const int column = (x + i % 2 + width) % width, row = y + i / 2 < height ? y + i / 2 : height - 1;
-        const double weight = (i % 2 ? at - x : 1 - at + x) * (i / 2 ? down - y : 1 - down + y);
-        sum += weight * (double)image->pixels[(row * width + column) * image->channels + k];
-    }
-    return sum;
-}
-
-/* Resamples an environment to a latitude-longitude image with Koksma's axes; each new pixel is the mean of four
-   points. For an image of Mitsuba, which is interpolated, the new pixels are at most .35 degrees high. */
-static koksma_status turn_image(const koksma_image *from, bool octahedral, const double inverse[12],
-                                koksma_image *out)
-{
-    const int own = octahedral ? from->height : (from->width + 1) / 2, height = octahedral || own > FINE ? own : FINE;
-    const int width = 2 * height;
-    const size_t own_pixels = (size_t)from->width * (size_t)from->height, fine = (size_t)2 * FINE * FINE;
-    KOKSMA__FAIL_IF(octahedral && from->width != from->height, KOKSMA_MALFORMED,
-                    "an environment of %d x %d pixels is not square, as the octahedral images of pbrt are: imgtool "
-                    "makeequiarea makes one of latitudes and longitudes",
-                    from->width, from->height);
-    KOKSMA__FAIL_IF(!octahedral && (size_t)width * (size_t)height > 2 * (own_pixels > fine ? own_pixels : fine),
-                    KOKSMA_MALFORMED, "an environment of %d x %d pixels is more than four times as wide as high",
-                    from->width, from->height);
-    KOKSMA__TRY(koksma_image_init(out, width, height, from->channels));
-    for (int i = 0; i < 4 * width * height; i++) {
-        const int pixel = i / 4, px = pixel % width, py = pixel / width;
-        const double theta = M_PI * (py + 0.25 + 0.5 * (i % 2)) / height;
-        const double phi = TURN * (px + 0.25 + 0.5 * (i / 2 % 2)) / width;
-        const double w[3] = {-sin(theta) * sin(phi), cos(theta), sin(theta) * cos(phi)};
-        double local[3], uv[2];
-        for (int k = 0; k < 3; k++) {
-            local[k] = koksma__dot(inverse + 4 * k, w);
-        }
-        if (!koksma__normalise(local)) {
-            continue;
-        }
-        (octahedral ? octahedral_square : latitude_square)(local, uv);
-        for (int k = 0; k < from->channels; k++) {
-            out->pixels[pixel * from->channels + k] += (float)(0.25 * value_at(from, octahedral, uv, k));
-        }
-    }
-    return KOKSMA_OK;
-}
-
 /* Checks the matrix by which an environment is turned, or its inverse: with entries that are not too large, except for
    those that move, directions keep a length that is finite and above 0. */
 static koksma_status check_turn(koksma__text_place place, const double matrix[12])
@@ -503,7 +420,7 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
                  ? check_turn(place, matrix)
                  : koksma__import_fail(place, "the matrix of an environment has no inverse");
     status = status ? status : check_turn(place, inverse);
-    status = status ? status : koksma__import_fail_at(place, turn_image(&image, octahedral, inverse, &turned));
+    status = status ? status : koksma__import_fail_at(place, koksma__sky_turn(&image, octahedral, inverse, &turned));
     status =
         status ? status : koksma__import_fail_at(place, koksma__scene_image_keep(im->scene, &turned, &light.image));
     koksma_image_fini(&image);

@@ -381,6 +381,17 @@ def packed_meshes(bench):
                            f"40 packed files: {done and (done.code, done.err[-300:], done.mib)}")
 
 
+def environments(bench):
+    """A packed image of the largest size as an environment, whose pixels are computed anew."""
+    bench.put("sky.png", png(SIDE))
+    bench.put("s.pbrt", 'Camera "perspective"\nWorldBegin\nLightSource "infinite" "string filename" "sky.png"\nShape "sphere"\n')
+    bench.put("s.xml", '<scene version="3.0.0"><sensor type="perspective"/><emitter type="envmap"><string name="filename" '
+              'value="sky.png"/></emitter><shape type="sphere"/></scene>')
+    for name in ("s.pbrt", "s.xml"):
+        done = files.run(bench.program, "scene", "check", name, cwd=bench.folder, env=SANITIZER, processor=PROCESSOR // 2)
+        bench.checks.check(done and done.code in (0, 1) and done.mib < 1200, f"{name}: {done and (done.code, done.err, done.mib)}")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(os.path.abspath(sys.argv[1]), folder)
@@ -390,8 +401,8 @@ def main():
         if re.search(b"no zlib|no expat|no Embree", done.err):
             print("skipped: " + done.err.decode().strip())
             return
-        for part in (instances, trees, spectra, texts, references, names, loop, materials, meshes,
-                     material_files, buffers, indices, damaged, glows, packed_meshes):
+        for part in (instances, trees, spectra, texts, references, names, loop, materials, meshes, material_files,
+                     buffers, indices, damaged, glows, packed_meshes, environments):
             part(bench)
         bench.checks.end()
 
