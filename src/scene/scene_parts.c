@@ -6,6 +6,7 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
@@ -59,6 +60,21 @@ static void look(const koksma_scene *scene, koksma_scene_part *part)
     part->in_frame = whole || (behind < 8 && part->frame[0] < part->frame[1] && part->frame[2] < part->frame[3]);
 }
 
+static int by_placement(const void *key, const void *name)
+{
+    const size_t a = *(const size_t *)key, b = ((const koksma__part_name *)name)->placement;
+    return (a > b) - (a < b);
+}
+
+/* The name of a placed mesh. */
+static const char *name_of(const koksma_scene *scene, size_t placement)
+{
+    const koksma__part_name *own =
+        scene->n_part_names ? bsearch(&placement, scene->part_names, scene->n_part_names, sizeof *own, by_placement)
+                            : NULL;
+    return own ? own->name : scene->meshes[scene->placements[placement].mesh].name;
+}
+
 bool koksma_scene_part_at(const koksma_scene *scene, size_t i, koksma_scene_part *out)
 {
     KOKSMA__REQUIRE_OR(false, scene, out);
@@ -75,7 +91,7 @@ bool koksma_scene_part_at(const koksma_scene *scene, size_t i, koksma_scene_part
         }
     } else {
         const koksma__placement *placement = &scene->placements[i - scene->n_shapes];
-        const char *name = scene->meshes[placement->mesh].name;
+        const char *name = name_of(scene, i - scene->n_shapes);
         snprintf(out->name, sizeof out->name, "%smesh%s%s", placement->light < 0 ? "" : "light ", *name ? " " : "",
                  name);
         memcpy(out->low, placement->low, sizeof out->low);

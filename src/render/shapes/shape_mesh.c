@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "meshes/mesh_read.h"
 #include "render/placements.h"
@@ -86,7 +87,21 @@ static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma_
     return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
 }
 
-static koksma_status add_placement(const field *f, koksma_scene *scene, int mesh, int material)
+/* Keeps the name of the last placement if the mesh has another one. */
+static koksma_status name_placement(koksma_scene *scene, int mesh, const char *name)
+{
+    if (!strcmp(scene->meshes[mesh].name, name)) {
+        return KOKSMA_OK;
+    }
+    koksma__part_name *to = koksma__add_one(&scene->part_names, &scene->n_part_names, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    to->placement = scene->n_placements - 1;
+    snprintf(to->name, sizeof to->name, "%s", name);
+    return KOKSMA_OK;
+}
+
+/* name: that of the shape, or of the one of which it is an instance. */
+static koksma_status add_placement(const field *f, koksma_scene *scene, int mesh, int material, const char *name)
 {
     koksma__placement *p = NULL;
     koksma_status status = koksma__scene_add_placement(scene, &p);
@@ -95,6 +110,7 @@ static koksma_status add_placement(const field *f, koksma_scene *scene, int mesh
     }
     p->mesh = mesh;
     p->material = material;
+    KOKSMA__TRY(name_placement(scene, mesh, name));
     status = parse_placement(f, &scene->meshes[mesh], p);
     status = status ? status : koksma__json_get_flag(f, "smooth", false, &p->smooth);
     if (!status && material < 0) {
@@ -123,14 +139,20 @@ static koksma_status keep_name(koksma_scene *scene, const char *what, const char
     return *name ? koksma__names_put(&scene->mesh_names, key, strlen(key), (size_t)mesh) : KOKSMA_OK;
 }
 
-/* Reads the mesh in a file, or finds it. The ending of a file's name tells how it is read. */
+/* Reads the mesh in a file, or finds it. The ending of a file's name tells how it is read, and its folder has the buffers
+   that it names. */
 static koksma_status find_or_read(const field *f, koksma_scene *scene, const char *path, int *out)
 {
-    char key[KOKSMA__FILE_KEY], file[KOKSMA__FILE_KEY + 16];
-    const char *ending = strrchr(path, '.');
+    char key[KOKSMA__FILE_KEY], folder[KOKSMA__FILE_KEY], beside[KOKSMA__MAX_PATH],
+        file[2 * KOKSMA__FILE_KEY + 16] = "";
+    const char *ending = strrchr(path, '.'), *slash = strrchr(path, '/');
     koksma__mesh *mesh = NULL;
     koksma__file_key(path, key);
-    snprintf(file, sizeof file, "%s%.15s", key, *key && ending ? ending : "");
+    snprintf(beside, sizeof beside, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+    koksma__file_key(beside, folder);
+    if (*key) {
+        snprintf(file, sizeof file, "%s %s%.15s", key, folder, ending ? ending : "");
+    }
     *out = find_mesh(scene, "file", file);
     if (*out >= 0) {
         return KOKSMA_OK;
@@ -158,12 +180,13 @@ static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_s
                          sizeof scene->meshes->name - 1);
     KOKSMA__JSON_FAIL_IF(find_mesh(scene, "name", name) >= 0, f, "a second mesh '%s'", name);
     KOKSMA__JSON_FAIL_IF(!koksma__path_beside(scene_name, file, path), f, "the path is too long");
+    const size_t before = scene->n_meshes;
     KOKSMA__TRY(find_or_read(f, scene, path, &mesh));
     KOKSMA__TRY(keep_name(scene, "name", name, mesh));
-    if (!*scene->meshes[mesh].name) { /* messages have the first name */
+    if (scene->n_meshes > before) { /* the mesh has the name of the first shape of its file */
         strcpy(scene->meshes[mesh].name, name);
     }
-    return add_placement(f, scene, mesh, shape->material);
+    return add_placement(f, scene, mesh, shape->material, name);
 }
 
 static koksma_status parse_instance(const char *scene_name, const field *f, koksma_scene *scene, koksma__shape *shape)
@@ -176,7 +199,7 @@ static koksma_status parse_instance(const char *scene_name, const field *f, koks
     }
     const int mesh = find_mesh(scene, "name", of);
     return mesh < 0 ? koksma__json_fail(f, "no mesh named '%s' before it", of)
-                    : add_placement(f, scene, mesh, shape->material);
+                    : add_placement(f, scene, mesh, shape->material, of);
 }
 
 #define PLACEMENT "emission", "translate", "rotate_deg", "scale", "motion", "to", "smooth"
