@@ -10,8 +10,8 @@ enum { KOKSMA__HELD_WITH_NAME = 64 };
 
 /* Counts memory, before it is taken, that texts make a reader keep: the texts that are open, elements, names, objects, and
    meshes whose triangles the texts have. A few characters make hundreds of bytes, and a text may be included again and
-   again, so all may take 384 MiB together. What a text of 64 MiB takes in passing is beside that: 320 MiB for the numbers
-   of a mesh, and 830 MiB in expat for as many attributes as fit. Error: MALFORMED. */
+   again, so all may take 384 MiB together. Beside that are 128 MiB for expat (xml.c), and what a text of 64 MiB takes in
+   passing: 320 MiB for the numbers of a mesh. Error: MALFORMED. */
 koksma_status koksma__import_hold(koksma__import *im, koksma__text_place place, uint64_t bytes);
 
 /* The same for a mesh. */

@@ -281,19 +281,72 @@ static void refuse_doctype(void *data, const char *name, const char *system, con
     stop(r, koksma__import_fail(here(r), "a document type declaration is not allowed in a scene"));
 }
 
+/* The memory of expat, which has dozens of bytes for each name and attribute of a text. Its functions have no context, so
+   that the parsers of a thread, which are those of texts that include one another, share the sum. */
+enum { MOST_PARSER = 128 << 20 };
+static _Thread_local size_t parser_bytes;
+static _Thread_local bool is_too_much;
+
+typedef union block {
+    size_t size;
+    max_align_t aligned;
+} block;
+
+static void *parser_realloc(void *old, size_t size)
+{
+    block *b = old ? (block *)old - 1 : NULL;
+    const size_t others = parser_bytes - (b ? b->size : 0);
+    if (size > MOST_PARSER || others > MOST_PARSER - size) {
+        is_too_much = true;
+        return NULL;
+    }
+    b = realloc(b, sizeof *b + size);
+    if (!b) {
+        return NULL;
+    }
+    b->size = size;
+    parser_bytes = others + size;
+    return b + 1;
+}
+
+static void *parser_malloc(size_t size)
+{
+    return parser_realloc(NULL, size);
+}
+
+static void parser_free(void *old)
+{
+    if (old) {
+        parser_bytes -= ((block *)old - 1)->size;
+        free((block *)old - 1);
+    }
+}
+
+static koksma_status fail_parser(reading *r, size_t size)
+{
+    const enum XML_Error error = XML_GetErrorCode(r->parser);
+    if (error != XML_ERROR_NO_MEMORY) {
+        return koksma__import_fail(here(r), "%s", XML_ErrorString(error));
+    }
+    return is_too_much ? koksma__import_fail(here(r), "the names and attributes up to here take more than %d MiB",
+                                             MOST_PARSER >> 20)
+                       : koksma__fail_memory(size);
+}
+
 static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char *file, const char *text, size_t size,
                                int parent, int included)
 {
-    reading r = {.im = im, .xml = xml, .file = file, .parser = XML_ParserCreate(NULL), .included = included};
+    static const XML_Memory_Handling_Suite memory = {parser_malloc, parser_realloc, parser_free};
+    is_too_much = false;
+    reading r = {
+        .im = im, .xml = xml, .file = file, .parser = XML_ParserCreate_MM(NULL, &memory, NULL), .included = included};
     KOKSMA__REQUIRE_MEMORY(r.parser, sizeof r);
     r.open[0] = parent;
     XML_SetUserData(r.parser, &r);
     XML_SetElementHandler(r.parser, start_element, end_element);
     XML_SetStartDoctypeDeclHandler(r.parser, refuse_doctype);
     if (XML_Parse(r.parser, text, (int)size, 1) == XML_STATUS_ERROR && !r.status) {
-        r.status = XML_GetErrorCode(r.parser) == XML_ERROR_NO_MEMORY
-                       ? koksma__fail_memory(size)
-                       : koksma__import_fail(here(&r), "%s", XML_ErrorString(XML_GetErrorCode(r.parser)));
+        r.status = fail_parser(&r, size);
     }
     XML_ParserFree(r.parser);
     free(r.texts);

@@ -171,6 +171,10 @@ def texts(bench):
     bench.put("part", "<scene>" + attributes * (60000 // len(attributes)) + "</scene>")
     bench.put("parts", "<scene>" + '<include filename="part"/>' * 60 + "</scene>")
     bench.refused("attributes", "s.xml", mitsuba('<include filename="parts"/>' * 60), HELD, place="part", most=1024)
+    many = "".join(f'a{i}="" ' for i in range(600000))
+    bench.put("part", f'<scene><shape type="sphere" {many}/></scene>')
+    bench.refused("many attributes within as many", "s.xml", mitsuba(f'<x {many}><include filename="part"/></x>'),
+                  "the names and attributes up to here take more than 128 MiB", place="part", most=1024)
 
 
 def references(bench):
