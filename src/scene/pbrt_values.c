@@ -337,7 +337,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
 {
     const bool is_float = !strcmp(type, "float");
     if (!is_float && strcmp(type, "spectrum") != 0) {
-        return koksma__import_fail(p->place, "'%s' is not a type of textures; 'float' and 'spectrum' are", type);
+        return koksma__import_fail(p->place, "'%s' is not a type of textures; 'float' and 'spectrum' are%s", type,
+                                   strcmp(type, "color") ? "" : " ('color' of pbrt-v3 is 'spectrum')");
     }
     if (scene->n_textures == MOST_TEXTURES) {
         return koksma__import_fail(p->place, "more than %d textures", MOST_TEXTURES);
