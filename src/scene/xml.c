@@ -322,15 +322,19 @@ static void parser_free(void *old)
     }
 }
 
+/* The failure of a parser that did not get the memory it asked for. */
+static koksma_status fail_parser_memory(koksma__text_place place, size_t size)
+{
+    return is_too_much ? koksma__import_fail(place, "the names and attributes up to here take more than %d MiB",
+                                             MOST_PARSER >> 20)
+                       : koksma__fail_memory(size);
+}
+
 static koksma_status fail_parser(reading *r, size_t size)
 {
     const enum XML_Error error = XML_GetErrorCode(r->parser);
-    if (error != XML_ERROR_NO_MEMORY) {
-        return koksma__import_fail(here(r), "%s", XML_ErrorString(error));
-    }
-    return is_too_much ? koksma__import_fail(here(r), "the names and attributes up to here take more than %d MiB",
-                                             MOST_PARSER >> 20)
-                       : koksma__fail_memory(size);
+    return error == XML_ERROR_NO_MEMORY ? fail_parser_memory(here(r), size)
+                                        : koksma__import_fail(here(r), "%s", XML_ErrorString(error));
 }
 
 static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char *file, const char *text, size_t size,
@@ -340,7 +344,9 @@ static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char 
     is_too_much = false;
     reading r = {
         .im = im, .xml = xml, .file = file, .parser = XML_ParserCreate_MM(NULL, &memory, NULL), .included = included};
-    KOKSMA__REQUIRE_MEMORY(r.parser, sizeof r);
+    if (!r.parser) {
+        return fail_parser_memory((koksma__text_place){file, 1}, size);
+    }
     r.open[0] = parent;
     XML_SetUserData(r.parser, &r);
     XML_SetElementHandler(r.parser, start_element, end_element);
