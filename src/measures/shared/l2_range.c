@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "measures/shared/l2_pairs.h"
 
@@ -90,6 +91,9 @@ koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_
                                         koksma_value *out)
 {
     const int dim = points->dim;
+    if (!koksma__keep_going(run, 0)) {
+        return koksma__fail_interrupted();
+    }
     const double largest = dim > PLAIN_DIM ? bits_of_largest(row, points) : 0;
     koksma__l2_row scaled = *row;
     double f = 1;

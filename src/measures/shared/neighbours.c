@@ -163,6 +163,9 @@ koksma_status koksma__min_distance(const char *name, const koksma_points *points
                                    double *distance)
 {
     KOKSMA__FAIL_IF(points->n < 2, KOKSMA_N, "%s: n = 1: the smallest distance needs at least two points", name);
+    if (!koksma__keep_going(run, 0)) {
+        return koksma__fail_interrupted();
+    }
     if (points->dim != 2) {
         return koksma__closest_in_space(points, torus, run, distance);
     }

@@ -109,7 +109,7 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
     status = status ? status : parse_trials(node, trials, &b->trials);
     b->dim = (int)dim;
-    status = status ? status : koksma__plan_check_sets(node, trials->stored, b);
+    status = status ? status : koksma__plan_check_sets(node, trials, b);
     status = status ? status : koksma__plan_check_measures(node, b);
     return status ? status : check_warps(node, b);
 }
@@ -132,7 +132,7 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     if (!status && strchr(r->name, ':')) {
         return koksma__json_fail(node, "the name contains ':'");
     }
-    return status ? status : koksma__plan_check_reference(node, trials->stored, r);
+    return status ? status : koksma__plan_check_reference(node, trials, r);
 }
 
 /* Checks that a scene opens; an error of the scene is reported with the plan's line. */
@@ -191,7 +191,7 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
                  : koksma__plan_patterns(node, "patterns", koksma__image_pattern_text, trials->stored, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
-    status = status ? status : koksma__plan_check_spp(node, trials->stored, b);
+    status = status ? status : koksma__plan_check_spp(node, trials, b);
     status = status ? status : parse_size(node, b);
     status = status ? status : parse_trials(node, trials, &b->trials);
     return status ? status
@@ -238,12 +238,14 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
 koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan)
 {
-    static const koksma__plan_trials as_planned = {0};
+    long long work = 0;
+    koksma__plan_trials of_plan = trials ? *trials : (koksma__plan_trials){0};
     koksma__json *document;
+    of_plan.work = &work;
     *plan = (koksma__plan){0};
     KOKSMA__TRY(koksma__json_open("plan", name, text, size, &document));
     const koksma__json_node root = koksma__json_root(document);
-    const koksma_status status = parse(&root, trials ? trials : &as_planned, plan);
+    const koksma_status status = parse(&root, &of_plan, plan);
     koksma__json_close(document);
     if (status) {
         koksma__plan_fini(plan);

@@ -80,10 +80,12 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
 /* Check that every pattern can make each number of points, of samples of an image block, or of samples of a
    reference, and that every measure accepts each number of points. In a block with `skip` the sizes that a pattern or
    measure refuses are left out, and `stored` (koksma__plan_trials) allows them. Sort the numbers (plan_sets.c). */
-koksma_status koksma__plan_check_sets(const koksma__json_node *node, bool stored, koksma__discrepancy_block *block);
+koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                      koksma__discrepancy_block *block);
 koksma_status koksma__plan_check_measures(const koksma__json_node *node, const koksma__discrepancy_block *block);
-koksma_status koksma__plan_check_spp(const koksma__json_node *node, bool stored, koksma__image_block *block);
-koksma_status koksma__plan_check_reference(const koksma__json_node *node, bool stored,
+koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                     koksma__image_block *block);
+koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__plan_trials *trials,
                                            const koksma__reference *reference);
 
 #endif

@@ -22,8 +22,24 @@
    sets. */
 enum { MOST_TRIED = 1 << 16 };
 
-/* Measures are tried with sets of at most so many coordinates, which takes up to 0.1 s (min-distance). */
+/* Measures are tried with sets of at most so many coordinates. */
 enum { MOST_MEASURED = 1 << 21 };
+
+/* The trials of a plan have at most MOST_WORK coordinates together, where each trial counts as EACH more, or as FILE_READ
+   if it reads a file, and a sample of an image as SAMPLE. From the first that is too many on, none is made: a size that is
+   refused then shows when its job runs. The limit is a count, not a time, because the sizes that `skip` leaves out must be
+   the same on every machine. */
+enum { MOST_WORK = 1 << 27, EACH = 1 << 10, FILE_READ = 1 << 17, SAMPLE = 16 };
+
+/* Whether the plan has work left to try a pattern or measure with n points. */
+static bool has_work(const koksma__plan_trials *trials, bool image, const char *name, long long n, int dim)
+{
+    const koksma__row_texts row = {image, name, ""};
+    const long long left = MOST_WORK - *trials->work;
+    const long long cost = left ? (koksma__points_read_files(&row) ? FILE_READ : EACH) + n * dim : 1;
+    *trials->work += cost < left ? cost : left;
+    return cost <= left;
+}
 
 /* Interrupts a pattern at its first progress call. By then the pattern has checked its arguments, which is all that
    is needed. */
@@ -103,7 +119,17 @@ typedef struct tried {
     const koksma__texts *names;
     koksma__wholes *n;
     long long most;
+    int dim; /* coordinates of a point, for has_work */
+    const koksma__plan_trials *trials;
 } tried;
+
+static koksma_status try_one(const tried *t, size_t p, size_t k)
+{
+    const char *name = t->names->at[p];
+    return has_work(t->trials, t->trial == try_image, name, t->n->at[k], t->dim)
+               ? t->trial(t->block, name, t->n->at[k])
+               : KOKSMA_OK;
+}
 
 /* Whether a failed trial of a name is an error of a plan: in that of a store only if it concerns a file or the system. A
    size that a named file or family of files lacks does: if the files were those of the run, it would have that size, and
@@ -114,15 +140,15 @@ static bool is_error(koksma_status status, bool stored, bool image, const char *
     return koksma_status_exit_code(status) > (stored && !koksma__points_read_files(&row) ? 2 : 0);
 }
 
-static koksma_status refuse_first(const tried *t, bool stored)
+static koksma_status refuse_first(const tried *t)
 {
     koksma__json_node list;
     koksma_status status = koksma__json_member(t->node, t->key, &list);
     for (size_t k = 0; !status && k < t->n->n; k++) {
         for (size_t p = 0; !status && p < t->names->n && t->n->at[k] <= t->most; p++) {
             const koksma__json_node item = koksma__json_item(&list, k);
-            status = t->trial(t->block, t->names->at[p], t->n->at[k]);
-            status = is_error(status, stored, t->trial == try_image, t->names->at[p])
+            status = try_one(t, p, k);
+            status = is_error(status, t->trials->stored, t->trial == try_image, t->names->at[p])
                          ? koksma__json_fail_in(&item, status)
                          : KOKSMA_OK;
         }
@@ -159,7 +185,7 @@ static koksma_status leave_out_of(const tried *t, size_t p, bool *is, koksma__te
     char line[1024], reason[512] = "";
     int length = snprintf(line, sizeof line, "%s, N = ", t->names->at[p]);
     for (size_t k = 0; k < t->n->n && t->n->at[k] <= t->most; k++) {
-        const koksma_status status = t->trial(t->block, t->names->at[p], t->n->at[k]);
+        const koksma_status status = try_one(t, p, k);
         char text[sizeof reason] = "";
         snprintf(text, sizeof text, "%s", status ? koksma_error_text() : "");
         /* the error concerns a file or the system, not this number of points */
@@ -239,13 +265,14 @@ static bool leaves(const tried *t, const bool *is, size_t k)
 
 /* Tries the patterns (kinds > 0) and the measures (kinds > 1) of a block. Reports the first size that one of them refuses
    as an error; with `skip`, leaves such sizes out instead. */
-static koksma_status check(const tried *t, size_t kinds, bool stored, koksma__left_out *out)
+static koksma_status check(const tried *t, size_t kinds, koksma__left_out *out)
 {
+    const bool stored = t->trials->stored;
     bool **const is[] = {&out->is, &out->unmeasured};
     bool skip = false, any = false;
     koksma_status status = koksma__json_get_flag(t->node, "skip", false, &skip);
     for (size_t i = 0; !status && !skip && i < kinds; i++) {
-        status = refuse_first(&t[i], stored);
+        status = refuse_first(&t[i]);
     }
     koksma__plan_sort(t->n);
     out->skip = skip;
@@ -270,11 +297,14 @@ static koksma_status check(const tried *t, size_t kinds, bool stored, koksma__le
                                    : koksma__json_fail(t->node, "'skip' leaves nothing: %s", out->lines.at[0]);
 }
 
-koksma_status koksma__plan_check_sets(const koksma__json_node *node, bool stored, koksma__discrepancy_block *block)
+koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                      koksma__discrepancy_block *block)
 {
-    const tried t[] = {{node, "n", block, try_points, &block->patterns, &block->n, MOST_TRIED},
-                       {node, "n", block, try_measure, &block->measures, &block->n, MOST_MEASURED / block->dim}};
-    koksma_status status = check(t, 2, stored, &block->left_out);
+    const int dim = block->dim;
+    const tried t[] = {
+        {node, "n", block, try_points, &block->patterns, &block->n, MOST_TRIED, dim, trials},
+        {node, "n", block, try_measure, &block->measures, &block->n, MOST_MEASURED / dim, dim, trials}};
+    koksma_status status = check(t, 2, &block->left_out);
     for (size_t p = 0; !status && p < block->patterns.n; p++) {
         status = find_short_sizes(block, p, &block->left_out);
     }
@@ -346,9 +376,10 @@ static koksma_status check_variant(const char *variant, const koksma__texts *pat
     return status;
 }
 
-koksma_status koksma__plan_check_spp(const koksma__json_node *node, bool stored, koksma__image_block *block)
+koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                     koksma__image_block *block)
 {
-    const tried t = {node, "spp", block, try_image, &block->patterns, &block->spp, MOST_TRIED};
+    const tried t = {node, "spp", block, try_image, &block->patterns, &block->spp, MOST_TRIED, SAMPLE, trials};
     koksma_status status = KOKSMA_OK;
     bool takes_spp = false;
     for (size_t v = 0; !status && v < block->variants.n; v++) {
@@ -356,13 +387,15 @@ koksma_status koksma__plan_check_spp(const koksma__json_node *node, bool stored,
         status = check_variant(block->variants.at[v], &block->patterns);
         status = status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
     }
-    return status ? status : check(&t, takes_spp, stored, &block->left_out);
+    return status ? status : check(&t, takes_spp, &block->left_out);
 }
 
-koksma_status koksma__plan_check_reference(const koksma__json_node *node, bool stored,
+koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__plan_trials *trials,
                                            const koksma__reference *reference)
 {
-    const koksma_status status =
-        reference->spp > MOST_TRIED ? KOKSMA_OK : try_image_set(reference->pattern, reference->spp);
-    return is_error(status, stored, true, reference->pattern) ? koksma__json_fail_in(node, status) : KOKSMA_OK;
+    const bool tries =
+        reference->spp <= MOST_TRIED && has_work(trials, true, reference->pattern, reference->spp, SAMPLE);
+    const koksma_status status = tries ? try_image_set(reference->pattern, reference->spp) : KOKSMA_OK;
+    return is_error(status, trials->stored, true, reference->pattern) ? koksma__json_fail_in(node, status)
+                                                                      : KOKSMA_OK;
 }
