@@ -53,6 +53,29 @@ static void largest_of_blocks(void **state)
     assert_near(sd, 1, 1e-14);
 }
 
+/* A printed number of JSON is as precise as the same number as text. */
+static void printed_digits(void **state)
+{
+    (void)state;
+    static const char text[] = "{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], "
+                               "\"measures\": [\"star\"], "
+                               "\"n\": [4], \"trials\": 1}], \"tables\": [{\"id\": \"t\", \"title\": \"t\", "
+                               "\"measure\": \"star\", \"n\": 4, \"rows\": "
+                               "[{\"pattern\": \"random\", \"label\": \"r\", \"published\": [%s]}]}]}";
+    static const char *const numbers[] = {"0.00001, 0.000055, 0.25", "\"0.00001\", \"0.000055\", \"0.25\""};
+    for (size_t i = 0; i < 2; i++) {
+        char plan_text[1024];
+        koksma__plan plan;
+        snprintf(plan_text, sizeof plan_text, text, numbers[i]);
+        assert_int_equal(koksma__plan_parse("p", plan_text, strlen(plan_text), NULL, &plan), KOKSMA_OK);
+        const koksma__printed *published = plan.tables[0].rows[0].published;
+        assert_near(published[0].half_digit, 0.5e-5, 1e-20);
+        assert_near(published[1].half_digit, 0.5e-6, 1e-21);
+        assert_near(published[2].half_digit, 0.5e-2, 1e-17);
+        koksma__plan_fini(&plan);
+    }
+}
+
 static void wrong_plan(const char *text, const char *reason)
 {
     koksma__plan plan;
@@ -558,6 +581,7 @@ int main(void)
         cmocka_unit_test(summary_by_hand),
         cmocka_unit_test(student_table),
         cmocka_unit_test(largest_of_blocks),
+        cmocka_unit_test(printed_digits),
         cmocka_unit_test(wrong_plans),
         cmocka_unit_test(wrong_groups),
         cmocka_unit_test(wrong_metrics),

@@ -38,9 +38,10 @@ static koksma_status parse_printed(const koksma__json_node *node, koksma__printe
         koksma__snprintf(number, sizeof number, "%.9g", out->value);
         text = number;
     }
-    const char *point = strchr(text, '.');
+    const char *point = strchr(text, '.'), *exponent = strchr(text, 'e'); /* a small JSON number has an exponent */
+    const double places = (point ? (double)strcspn(point + 1, "e") : 0) - (exponent ? atoi(exponent + 1) : 0);
     strcpy(out->text, text);
-    out->half_digit = 0.5 * pow(10, -(double)(point ? strlen(point + 1) : 0));
+    out->half_digit = 0.5 * pow(10, -places);
     return KOKSMA_OK;
 }
 
