@@ -101,8 +101,9 @@ static koksma_status split(const koksma__number_lines *lines, char *at, const ch
         const unsigned long long value = *at >= '0' && *at <= '9' ? strtoull(at, &after, 10) : 0;
         const bool whole =
             after > at && !errno && (after == end || is_blank(*after) || *after == ',' || *after == '#');
+        const size_t word = strcspn(at, " \t\r\n,");
         KOKSMA__FAIL_IF(!whole, KOKSMA_MALFORMED, "%s: line %zu: '%.*s' is not a whole number below 2^64",
-                        lines->name, lines->number, (int)strcspn(at, " \t\r\n,") % 24, at);
+                        lines->name, lines->number, (int)(word < 24 ? word : 24), at);
         KOKSMA__FAIL_IF(*count == most, KOKSMA_MALFORMED, "%s: line %zu: more than %zu numbers", lines->name,
                         lines->number, most);
         numbers[(*count)++] = value;
