@@ -68,6 +68,9 @@ typedef struct koksma__kept_rows {
     koksma__rows rows;
     size_t capacity;
     koksma__seal seal; /* of the rows */
+    /* The indices of the rows by group and trial; the group of series g * GROUP has order[first[g]] up to
+       order[first[g + 1] - 1]. */
+    unsigned *order, *first;
 } koksma__kept_rows;
 
 typedef struct koksma__known_series {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Reads results from the store. A scan reads all rows, compares them with the seal, finds the number of trials of
-   each series, and keeps up to MOST_KEPT rows in memory. Results of a series are then looked up trial by trial, or
-   filtered from all rows where that is faster, in memory or, for larger stores, in the database. */
+   each series, and keeps up to MOST_KEPT rows in memory, ordered by series. Of larger stores the results of a series are
+   looked up trial by trial in the database, or filtered from all rows where that is faster. */
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "study/store/store_internal.h"
 
@@ -24,6 +25,34 @@ static bool keep(koksma__kept_rows *kept, const koksma__row *row)
         kept->capacity = capacity;
     }
     kept->rows.at[kept->rows.n++] = *row;
+    return true;
+}
+
+/* The number of the group of a row; n_groups if none of its series is known. */
+static size_t number_of_group(const koksma__row *row, size_t n_groups)
+{
+    const size_t group = (size_t)(row->id & 0xffffffff) / KOKSMA__GROUP;
+    return row->id >= 0 && group < n_groups ? group : n_groups;
+}
+
+/* Sorts the rows by group, by counting; rows of no known series come last. Returns false if no memory is left. */
+static bool group_rows(koksma__kept_rows *kept, size_t n_series)
+{
+    const size_t n_groups = (n_series + KOKSMA__GROUP - 1) / KOKSMA__GROUP;
+    kept->order = malloc((kept->rows.n + 1) * sizeof *kept->order);
+    kept->first = calloc(n_groups + 3, sizeof *kept->first);
+    if (!kept->order || !kept->first) {
+        return false;
+    }
+    for (size_t i = 0; i < kept->rows.n; i++) {
+        kept->first[number_of_group(&kept->rows.at[i], n_groups) + 2]++;
+    }
+    for (size_t g = 0; g <= n_groups; g++) {
+        kept->first[g + 2] += kept->first[g + 1];
+    }
+    for (size_t i = 0; i < kept->rows.n; i++) { /* first[g + 1] grows from the start of group g to its end */
+        kept->order[kept->first[number_of_group(&kept->rows.at[i], n_groups) + 1]++] = (unsigned)i;
+    }
     return true;
 }
 
@@ -66,8 +95,9 @@ static koksma_status read_rows(koksma__store *store, const visitor *v, koksma__s
     }
     koksma__statement_reset(s);
     kept.seal = *found;
-    if (!kept.all || status) {
-        free(kept.rows.at);
+    kept.all = kept.all && !status && group_rows(&kept, store->n_known);
+    if (!kept.all) {
+        KOKSMA__FREE(kept.rows.at, kept.order, kept.first);
         kept = (koksma__kept_rows){.all = false};
     }
     store->kept = kept;
@@ -119,6 +149,27 @@ static void see_end(void *context, long long series, long long trial)
    number of trials is therefore damage; looking up all trials below it would take hours. */
 static const long long MOST_HOLES = 100000;
 
+/* Looking up one row by its id takes as long as reading about this many rows in sequence. */
+static const long long ROWS_A_LOOKUP = 8;
+
+/* Where the rows are not in memory, so many lookups for each row of the store may find the results of all series. Stores
+   that runs made need up to KOKSMA__GROUP, and few more for trials that failed or are missing. */
+static const long long MOST_LOOKUPS = 64;
+
+static koksma_status check_lookups(const koksma__store *store)
+{
+    const long long rows = store->found.rows, filter = rows / ROWS_A_LOOKUP;
+    long long lookups = 0;
+    for (size_t i = 0; i < store->n_known && !store->kept.all; i++) {
+        lookups += store->known[i].end < filter ? store->known[i].end : filter;
+    }
+    KOKSMA__FAIL_IF(
+        lookups / MOST_LOOKUPS > rows, KOKSMA_MALFORMED,
+        "%s: many series have trial numbers far above their numbers of trials; move it away to begin anew",
+        koksma__database_path(store->database));
+    return KOKSMA_OK;
+}
+
 /* Finds the highest trial of every series. */
 static koksma_status find_ends(koksma__store *store)
 {
@@ -134,6 +185,7 @@ static koksma_status find_ends(koksma__store *store)
                     koksma__database_path(store->database), i, k->end - 1, k->count);
             }
         }
+        status = status ? status : check_lookups(store);
         store->knows_ends = !status;
     }
     return status;
@@ -163,8 +215,10 @@ static koksma_status pass_result(const koksma__store *store, const wanted *w, co
     return isnan(result.values[0]) ? KOKSMA_OK : w->visit(w->context, w->key, &result);
 }
 
-static koksma_status each_in_database(koksma__store *store, const wanted *w, bool filter)
+/* Trials are looked up one by one, or filtered from all rows if that is faster. */
+static koksma_status each_in_database(koksma__store *store, const wanted *w)
 {
+    const bool filter = store->found.rows / ROWS_A_LOOKUP <= w->end;
     koksma__statement *s = store->queries[filter ? KOKSMA__FILTER_RESULTS : KOKSMA__GET_RESULTS];
     koksma_status status = KOKSMA_OK;
     int column = 1;
@@ -179,64 +233,37 @@ static koksma_status each_in_database(koksma__store *store, const wanted *w, boo
     return status;
 }
 
-/* The index of the first row, from `low` on, with an id of at least `id`. */
-static size_t find_kept(const koksma__rows *rows, size_t low, long long id)
+static koksma_status each_in_memory(const koksma__store *store, const wanted *w)
 {
-    for (size_t high = rows->n; low < high;) {
-        const size_t middle = low + (high - low) / 2;
-        if (rows->at[middle].id < id) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
-static koksma_status each_in_memory(const koksma__store *store, const wanted *w, bool filter)
-{
-    const koksma__rows *rows = &store->kept.rows;
-    const long long group = koksma__group_of(w->series);
-    const size_t past = find_kept(rows, 0, w->end << 32);
+    const koksma__kept_rows *kept = &store->kept;
+    const size_t group = (size_t)w->series / KOKSMA__GROUP;
     koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; filter && i < past && !status; i++) {
-        if ((rows->at[i].id & 0xffffffff) == group) {
-            status = pass_result(store, w, &rows->at[i]);
-        }
-    }
-    for (size_t i = 0, trial = 0; !filter && trial < (size_t)w->end && !status; trial++) {
-        const long long id = (long long)trial << 32 | group;
-        i = find_kept(rows, i, id);
-        if (i < rows->n && rows->at[i].id == id) {
-            status = pass_result(store, w, &rows->at[i]);
-        }
+    for (size_t i = kept->first[group]; i < kept->first[group + 1] && !status; i++) {
+        const koksma__row *row = &kept->rows.at[kept->order[i]];
+        status = row->id >> 32 < w->end ? pass_result(store, w, row) : KOKSMA_OK;
     }
     return status;
 }
 
-/* Looking up one row by its id takes as long as reading about this many rows in sequence. */
-static const long long ROWS_A_LOOKUP = 8;
-
-/* Calls `visit` for the results in the order of trials. Trials are looked up one by one, or filtered from all rows if
-   that is faster. */
+/* Calls `visit` for the results in the order of trials. */
 static koksma_status each_result(koksma__store *store, const wanted *w)
 {
     if (w->end <= 0) {
         return KOKSMA_OK;
     }
-    const bool filter = store->found.rows / ROWS_A_LOOKUP <= store->known[w->series].count;
-    return store->kept.all ? each_in_memory(store, w, filter) : each_in_database(store, w, filter);
+    return store->kept.all ? each_in_memory(store, w) : each_in_database(store, w);
 }
 
 typedef struct results {
     koksma__result *at;
-    size_t n;
+    size_t n, capacity;
 } results;
 
 static koksma_status keep_result(void *context, const koksma__series *series, const koksma__result *result)
 {
     results *to = context;
     (void)series;
+    KOKSMA__TRY(koksma__reserve(&to->at, &to->capacity, to->n + 1, sizeof *to->at));
     to->at[to->n++] = *result;
     return KOKSMA_OK;
 }
@@ -248,9 +275,6 @@ koksma_status koksma__store_results(koksma__store *store, long long series, long
     koksma__store_enter(store);
     koksma_status status = find_ends(store);
     const long long all = status ? 0 : end_of(store, series), end = all < trials ? all : trials;
-    if (end > 0 && !(to.at = calloc((size_t)end, sizeof *to.at))) {
-        status = koksma__fail_memory((size_t)end * sizeof *to.at);
-    }
     status = status ? status : each_result(store, &(wanted){series, end, NULL, keep_result, &to});
     *out = to.at;
     *n = to.n;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "study/store/store_internal.h"
 
@@ -128,8 +129,7 @@ koksma_status koksma__store_know_series(koksma__store *store)
 
 void koksma__store_forget(koksma__store *store)
 {
-    free(store->known);
-    free(store->kept.rows.at);
+    KOKSMA__FREE(store->known, store->kept.rows.at, store->kept.order, store->kept.first);
     store->kept = (koksma__kept_rows){.all = false};
     store->known = NULL;
     store->n_known = 0;
