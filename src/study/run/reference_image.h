@@ -16,6 +16,8 @@ typedef struct koksma__reference_image {
     int width, height;
     koksma_image image; /* its pixels are NULL until a job needs them */
     bool failed;        /* whether an audit could not render it; the pixels are then those of another picture */
+    uint64_t hash;      /* of all members above `image` */
+    size_t next[2];     /* a tree of the study's references by their hashes (references.c) */
 } koksma__reference_image;
 
 #endif

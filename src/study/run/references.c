@@ -16,6 +16,7 @@
 
 #include "core/atomic_file.h"
 #include "core/capacity.h"
+#include "core/hash.h"
 #include "core/sha256.h"
 #include "core/status.h"
 #include "image/formats.h"
@@ -31,21 +32,49 @@ void koksma__reference_name(const koksma__reference *reference, char *text)
              reference->replicates);
 }
 
+static uint64_t hash_of(const koksma__reference_image *reference, const char *name)
+{
+    const int size[2] = {reference->width, reference->height};
+    uint64_t hash = koksma__hash_more(KOKSMA__HASH_START, size, sizeof size);
+    hash = koksma__hash_more(hash, reference->options, strlen(reference->options) + 1);
+    hash = koksma__hash_more(hash, reference->scene->name, strlen(reference->scene->name) + 1);
+    return koksma__hash_end(koksma__hash_more(hash, name, strlen(name)));
+}
+
+static bool is_same(const koksma__reference_image *at, const koksma__reference_image *wanted, const char *name)
+{
+    char other[KOKSMA__REFERENCE_NAME];
+    if (at->hash != wanted->hash || at->scene != wanted->scene || at->width != wanted->width ||
+        at->height != wanted->height || strcmp(at->options, wanted->options) != 0) {
+        return false;
+    }
+    koksma__reference_name(at->reference, other);
+    return !strcmp(name, other);
+}
+
+/* A plan may have thousands of references, and as many images for each. The bits of a reference's hash, from the lowest,
+   lead from references[0] through the indices `next` down to it, or to where it is added; 0: none. */
 koksma_status koksma__reference_index(koksma_study *study, const koksma__image_block *block,
                                       const koksma__study_scene *scene, const char *variant, size_t r, size_t *index)
 {
     koksma__reference_image wanted = {.scene = scene, .reference = &block->references[r]};
-    char name[KOKSMA__REFERENCE_NAME], other[KOKSMA__REFERENCE_NAME];
+    char name[KOKSMA__REFERENCE_NAME];
     koksma__block_size(block, scene, &wanted.width, &wanted.height);
     koksma__variant_of_reference(variant, wanted.options);
     koksma__reference_name(wanted.reference, name);
-    for (*index = 0; *index < study->n_references; (*index)++) {
-        const koksma__reference_image *at = &study->references[*index];
-        koksma__reference_name(at->reference, other);
-        if (at->scene == scene && at->width == wanted.width && at->height == wanted.height &&
-            !strcmp(at->options, wanted.options) && !strcmp(name, other)) {
-            return KOKSMA_OK;
-        }
+    wanted.hash = hash_of(&wanted, name);
+    uint64_t bits = wanted.hash;
+    size_t *link = NULL;
+    for (*index = 0; *index < study->n_references && !is_same(&study->references[*index], &wanted, name);
+         bits >>= 1) {
+        link = &study->references[*index].next[bits & 1];
+        *index = *link ? *link : study->n_references;
+    }
+    if (*index < study->n_references) {
+        return KOKSMA_OK;
+    }
+    if (link) {
+        *link = *index;
     }
     koksma__reference_image *added = koksma__add_one(&study->references, &study->n_references, sizeof *added);
     if (added) {
