@@ -5,6 +5,7 @@ byte of the folder is changed. Rows and references that were changed by hand, al
 (study/reseal.py): found by the audit. Stored specs that name programs or devices start nothing. Readers need no folder
 that can be written."""
 import hashlib
+import json
 import os
 import re
 import shutil
@@ -61,6 +62,11 @@ def refused(name, folder, verbs=("export", "report", "run", "audit"), code=3):
         lines = told.stderr.rstrip().split("\n")
         check(len(lines) == 1 and folder in lines[0], f"{name}: {verb} says {told.stderr}")
         check(bytes_of(folder) == before, f"{name}: {verb} has changed the folder")
+
+
+def seconds(most):
+    """A prefix that ends a command after so many seconds of processor time."""
+    return "sh", "-c", f'ulimit -t {most}; exec "$@"', "sh"
 
 
 # ---- Databases that are not ours ------------------------------------------------------------------------------
@@ -365,13 +371,29 @@ def far_trials():
     check(koksma("study", "run", "./far.json", "-o", "far", "-q").returncode == 0, "a run of many trials")
     before = study("export", "far").stdout.split("\n")
     change("far", "UPDATE result SET id = id + (99999000 << 32) WHERE id >> 32 = 999", sealed=True)
-    at_most_4_s = ("sh", "-c", 'ulimit -t 4; exec "$@"', "sh")
-    told = koksma("study", "export", "far", prefix=at_most_4_s)
+    told = koksma("study", "export", "far", prefix=seconds(4))
     after = told.stdout.split("\n")
     same = [row for row in after if ",99999999," not in row]
     check(told.returncode == 0 and len(after) == len(before) and len(same) == len(before) - 24 and set(same) < set(before),
           f"an export of far trials: {told.returncode} {told.stderr} {len(after)} {len(same)}")
-    check(koksma("study", "report", "far", prefix=at_most_4_s).returncode == 0, "a report of far trials")
+    check(koksma("study", "report", "far", prefix=seconds(4)).returncode == 0, "a report of far trials")
+
+
+def large_plans():
+    """Plans of 100 KB whose references or failed jobs are many."""
+    references = [{"name": f"r{i}", "pattern": "random", "spp": 1} for i in range(3000)]
+    with open("references.json", "w", encoding="ascii") as file:
+        json.dump({"name": "r", "title": "r", "images": [{"scenes": ["checker"], "patterns": ["random"], "spp": list(range(1, 17)),
+                                                          "size": [1, 1], "trials": 1, "references": references}]}, file)
+    told = koksma("study", "estimate", "./references.json", "--time-limit", "1", prefix=seconds(6))
+    check(told.returncode == 0, f"an estimate with 3,000 references: {told.returncode} {told.stderr}")
+    with open("failures.json", "w", encoding="ascii") as file:
+        json.dump({"name": "f", "title": "f", "discrepancies": [
+            {"patterns": ["orthogonal-array"], "n": list(range(70000, 74000)), "trials": 1, "integrands": ["x"], "dim": dim,
+             "skip": True} for dim in (3, 4, 5, 6)]}, file)
+    for attempt in "first", "second":
+        told = koksma("study", "run", "./failures.json", "-o", "failures", "-q", "--threads", "1", prefix=seconds(15))
+        check(told.returncode in (0, 1), f"16,000 failed jobs, {attempt} run: {told.returncode} {told.stderr[-300:]}")
 
 
 # ---- Readers --------------------------------------------------------------------------------------------------
@@ -432,6 +454,6 @@ if __name__ == "__main__":
             file.write(PLAN)
         assert koksma("study", "run", "./plan.json", "-o", "sound", "-q").returncode == 0
         SOUND = study("export", "sound").stdout
-        for attack in foreign, schema, values, rows, references, exports, programs, far_trials, readers:
+        for attack in foreign, schema, values, rows, references, exports, programs, far_trials, large_plans, readers:
             attack()
     end()

@@ -90,7 +90,7 @@ static koksma_status add_line(koksma__texts *lines, const koksma__task *t, const
         const bool separates = text[i] == '\n' || text[i] == '\r' || (text[i] == '\t' && i < label);
         text[i] = separates ? ' ' : text[i];
     }
-    status = status || koksma__left_out_knows(lines, text, false) ? status : koksma__texts_add(lines, text);
+    status = status ? status : koksma__texts_add(lines, text);
     free(text);
     return status;
 }
@@ -109,7 +109,7 @@ koksma_status koksma__failures_add(koksma__failures *run, const koksma__failures
         }
         free(phase->tasks[i].reason);
     }
-    return status;
+    return status ? status : koksma__left_out_thin(&run->lines);
 }
 
 koksma_status koksma__failures_record(koksma_study *study, const koksma__failures *run, bool all)
@@ -117,16 +117,9 @@ koksma_status koksma__failures_record(koksma_study *study, const koksma__failure
     koksma__texts before = {0}, stored = {0}, lines = {0};
     const char *line;
     koksma_status status = all ? KOKSMA_OK : koksma__left_out_recall(study->store, &before);
-    for (size_t i = 0; !status && i < before.n; i++) {
-        status = koksma__left_out_knows(&run->lines, before.at[i], true) ? KOKSMA_OK
-                                                                         : koksma__texts_add(&stored, before.at[i]);
-    }
-    const size_t n_kept = stored.n;
-    for (size_t i = 0; !status && i < run->lines.n; i++) {
-        line = run->lines.at[i];
-        const koksma__texts kept = {.n = n_kept, .at = stored.at};
-        status = koksma__left_out_knows(&kept, line, true) ? KOKSMA_OK : koksma__texts_add(&stored, line);
-    }
+    status = status ? status : koksma__left_out_add(&before, &run->lines, &stored);
+    const koksma__texts kept = stored;
+    status = status ? status : koksma__left_out_add(&run->lines, &kept, &stored);
     status = status ? status : koksma__left_out_show(&stored, &study->failed);
     for (size_t i = 0; !status && (line = koksma_study_left_out_at(study, i)); i++) {
         status = koksma__texts_add(&lines, line);

@@ -85,12 +85,17 @@ static int by_place(const fields *x, const fields *y)
     return (x->place > y->place) - (x->place < y->place);
 }
 
+static int compare_label_and_n(const fields *x, const fields *y)
+{
+    const int order = compare_labels(x, y);
+    return order ? order : (x->n > y->n) - (x->n < y->n);
+}
+
 /* By label, n and place. */
 static int compare_tasks(const void *a, const void *b)
 {
-    const fields *x = a, *y = b;
-    const int order = compare_labels(x, y);
-    return order ? order : x->n != y->n ? (x->n > y->n) - (x->n < y->n) : by_place(x, y);
+    const int order = compare_label_and_n(a, b);
+    return order ? order : by_place(a, b);
 }
 
 /* By label, rank and place. */
@@ -170,6 +175,96 @@ koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *
     return status;
 }
 
+/* ---- Lines that others make superfluous ---------------------------------------------------------------- */
+
+/* A plan of 100 KB may have thousands of failed jobs, so that lines are sorted and not compared one by one. */
+
+/* By label, n, reason and place. */
+static int compare_reasons(const void *a, const void *b)
+{
+    const fields *x = a, *y = b;
+    const int task = compare_label_and_n(x, y), order = task ? task : strcmp(x->reason, y->reason);
+    return order ? order : by_place(x, y);
+}
+
+/* By label and n, then the most failed trials first. */
+static int compare_failed(const void *a, const void *b)
+{
+    const fields *x = a, *y = b;
+    const int task = compare_label_and_n(x, y);
+    return task ? task : (x->failed < y->failed) - (x->failed > y->failed);
+}
+
+/* Reads the lines and sorts them; leaves out texts that are no line. The caller frees *sorted. */
+static koksma_status read_sorted(const koksma__texts *lines, int (*compare)(const void *, const void *),
+                                 fields **sorted, size_t *n)
+{
+    *n = 0;
+    *sorted = calloc(lines->n + 1, sizeof **sorted);
+    KOKSMA__REQUIRE_MEMORY(*sorted, (lines->n + 1) * sizeof **sorted);
+    for (size_t i = 0; i < lines->n; i++) {
+        (*sorted)[*n].place = i;
+        *n += read_line(lines->at[i], &(*sorted)[*n]);
+    }
+    qsort(*sorted, *n, sizeof **sorted, compare);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__left_out_thin(koksma__texts *lines)
+{
+    fields *sorted;
+    size_t n, left = 0;
+    long long most = 0;
+    bool *keeps = calloc(lines->n + 1, sizeof *keeps);
+    KOKSMA__REQUIRE_MEMORY(keeps, lines->n + 1);
+    const koksma_status status = read_sorted(lines, compare_reasons, &sorted, &n);
+    for (size_t i = 0; !status && i < n; i++) {
+        const bool again =
+            i && !compare_label_and_n(&sorted[i - 1], &sorted[i]) && !strcmp(sorted[i - 1].reason, sorted[i].reason);
+        keeps[sorted[i].place] = !again || sorted[i].failed > most;
+        most = keeps[sorted[i].place] ? sorted[i].failed : most;
+    }
+    for (size_t i = 0; !status && i < lines->n; i++) {
+        if (keeps[i]) {
+            lines->at[left++] = lines->at[i];
+        } else {
+            free(lines->at[i]);
+        }
+    }
+    lines->n = status ? lines->n : left;
+    KOKSMA__FREE(sorted, keeps);
+    return status;
+}
+
+/* Whether `sorted`, in the order of compare_failed, has a line of equal label and n with at least as many failed trials. */
+static bool knows(const fields *sorted, size_t n, const fields *task)
+{
+    size_t low = 0;
+    for (size_t high = n; low < high;) { /* the first line of this label and n, or a later one's */
+        const size_t middle = low + (high - low) / 2;
+        if (compare_label_and_n(&sorted[middle], task) < 0) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < n && !compare_label_and_n(&sorted[low], task) && sorted[low].failed >= task->failed;
+}
+
+koksma_status koksma__left_out_add(const koksma__texts *lines, const koksma__texts *known, koksma__texts *to)
+{
+    fields *sorted, task;
+    size_t n;
+    koksma_status status = read_sorted(known, compare_failed, &sorted, &n);
+    for (size_t i = 0; !status && i < lines->n; i++) {
+        if (read_line(lines->at[i], &task) && !knows(sorted, n, &task)) {
+            status = koksma__texts_add(to, lines->at[i]);
+        }
+    }
+    free(sorted);
+    return status;
+}
+
 /* ---- The store ----------------------------------------------------------------------------------------- */
 
 /* Reads a text of the store and passes each of its lines to `add`. */
@@ -244,17 +339,6 @@ koksma_status koksma__left_out_record(koksma__store *store, const koksma__texts 
 {
     const koksma_status status = set_lines(store, failed_key, stored);
     return status ? status : set_lines(store, left_out_key, lines);
-}
-
-bool koksma__left_out_knows(const koksma__texts *lines, const char *line, bool any_reason)
-{
-    fields a, b;
-    bool more = !read_line(line, &a);
-    for (size_t i = 0; !more && i < lines->n; i++) {
-        more = read_line(lines->at[i], &b) && same_label(&a, &b) && a.n == b.n && b.failed >= a.failed &&
-               (any_reason || !strcmp(a.reason, b.reason));
-    }
-    return more;
 }
 
 koksma_status koksma_study_left_out(const char *folder, char **lines)

@@ -21,10 +21,13 @@ koksma_status koksma__left_out_count(koksma__store *store, size_t *trials);
 /* Writes the lines, and those for readers, into the store. Errors: those of the store, MEMORY. */
 koksma_status koksma__left_out_record(koksma__store *store, const koksma__texts *stored, const koksma__texts *lines);
 
-/* Whether `lines` has a line of equal label and n with at least as many failed trials and, unless any_reason, the same
-   reason. Of one run, such lines with different reasons are of different jobs: the measures of two blocks may refuse the
-   same set. Between runs, the reason may be another trial's. Trials that failed once fail in every run, so that the run
-   that counted more of them has tried more of them. */
-bool koksma__left_out_knows(const koksma__texts *lines, const char *line, bool any_reason);
+/* Removes the lines of one run that repeat an earlier line's label, n and reason with no more failed trials. Lines with
+   different reasons are of different jobs: the measures of two blocks may refuse the same set. Errors: MEMORY. */
+koksma_status koksma__left_out_thin(koksma__texts *lines);
+
+/* Appends the lines to `to`, except those of which `known`, of another run, has a line of equal label and n with at least
+   as many failed trials: the reason may be another trial's. Trials that failed once fail in every run, so that the run that
+   counted more of them has tried more of them. Errors: MEMORY. */
+koksma_status koksma__left_out_add(const koksma__texts *lines, const koksma__texts *known, koksma__texts *to);
 
 #endif
