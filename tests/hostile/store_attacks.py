@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+SLOW = 4 if os.environ.get("KOKSMA_SANITIZED") == "1" else 1  # how many times as long a program takes with sanitizers
 sys.path.insert(0, HERE + "/../study")
 from reseal import reseal  # noqa: E402
 from stores import KOKSMA, check, end, koksma  # noqa: E402
@@ -371,12 +372,12 @@ def far_trials():
     check(koksma("study", "run", "./far.json", "-o", "far", "-q").returncode == 0, "a run of many trials")
     before = study("export", "far").stdout.split("\n")
     change("far", "UPDATE result SET id = id + (99999000 << 32) WHERE id >> 32 = 999", sealed=True)
-    told = koksma("study", "export", "far", prefix=seconds(4))
+    told = koksma("study", "export", "far", prefix=seconds(4 * SLOW))
     after = told.stdout.split("\n")
     same = [row for row in after if ",99999999," not in row]
     check(told.returncode == 0 and len(after) == len(before) and len(same) == len(before) - 24 and set(same) < set(before),
           f"an export of far trials: {told.returncode} {told.stderr} {len(after)} {len(same)}")
-    check(koksma("study", "report", "far", prefix=seconds(4)).returncode == 0, "a report of far trials")
+    check(koksma("study", "report", "far", prefix=seconds(4 * SLOW)).returncode == 0, "a report of far trials")
 
 
 def large_plans():
@@ -385,14 +386,14 @@ def large_plans():
     with open("references.json", "w", encoding="ascii") as file:
         json.dump({"name": "r", "title": "r", "images": [{"scenes": ["checker"], "patterns": ["random"], "spp": list(range(1, 17)),
                                                           "size": [1, 1], "trials": 1, "references": references}]}, file)
-    told = koksma("study", "estimate", "./references.json", "--time-limit", "1", prefix=seconds(6))
+    told = koksma("study", "estimate", "./references.json", "--time-limit", "1", prefix=seconds(6 * SLOW))
     check(told.returncode == 0, f"an estimate with 3,000 references: {told.returncode} {told.stderr}")
     with open("failures.json", "w", encoding="ascii") as file:
         json.dump({"name": "f", "title": "f", "discrepancies": [
             {"patterns": ["orthogonal-array"], "n": list(range(70000, 74000)), "trials": 1, "integrands": ["x"], "dim": dim,
              "skip": True} for dim in (3, 4, 5, 6)]}, file)
     for attempt in "first", "second":
-        told = koksma("study", "run", "./failures.json", "-o", "failures", "-q", "--threads", "1", prefix=seconds(15))
+        told = koksma("study", "run", "./failures.json", "-o", "failures", "-q", "--threads", "1", prefix=seconds(15 * SLOW))
         check(told.returncode in (0, 1), f"16,000 failed jobs, {attempt} run: {told.returncode} {told.stderr[-300:]}")
 
 
