@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Statistics by hand, plans that are wrong, and a store that is opened again. */
+/* Statistics by hand, plans that are wrong, and a store that is opened again.
+   Long because these tests share one folder and plan. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
