@@ -253,27 +253,38 @@ static void see_bit(void *context, long long series, long long trial)
     *(unsigned char *)context |= (unsigned char)(1u << trial);
 }
 
+#define STORE_FOLDER "/tmp/koksma-store-XXXXXX"
+
+static const koksma__series one_series = {.kind = "discrepancy",
+                                          .scene = "",
+                                          .scene_hash = "",
+                                          .options = "",
+                                          .pattern = "random",
+                                          .what = "l2-star",
+                                          .n = 1,
+                                          .dim = 2};
+
+/* Makes a store in a new folder, whose name is written over STORE_FOLDER in `folder`. */
+static koksma__store *new_store(char folder[sizeof STORE_FOLDER], char path[64])
+{
+    koksma__store *store;
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, 64, "%s/r.sqlite", folder);
+    assert_ok(koksma__store_open(path, KOKSMA__STORE_WRITE, "plan", &store));
+    return store;
+}
+
 static void store_keeps_rows(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/koksma-store-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/r.sqlite", folder);
-    koksma__store *store, *second;
-    const koksma__series series = {.kind = "discrepancy",
-                                   .scene = "",
-                                   .scene_hash = "",
-                                   .options = "",
-                                   .pattern = "random",
-                                   .what = "star",
-                                   .n = 16,
-                                   .dim = 2};
+    char folder[] = STORE_FOLDER, path[64];
+    const koksma__series series = one_series;
+    koksma__store *store = new_store(folder, path), *second;
     const koksma__result first = {3, UINT64_MAX, {0.1, NAN, NAN, NAN}}, again = {3, UINT64_MAX, {0.7, NAN, NAN, NAN}};
     koksma__result *results;
     long long id, same;
     unsigned char bits = 0;
     size_t n;
-    assert_ok(koksma__store_open(path, KOKSMA__STORE_WRITE, "plan", &store));
     assert_ok(koksma__store_series(store, &series, false, &id));
     assert_int_equal(id, 0);
     assert_ok(koksma__store_series(store, &series, true, &id));
@@ -317,22 +328,12 @@ static koksma_status count_row(void *context, const koksma__series *series, cons
 static void store_keeps_many_rows(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/koksma-store-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/r.sqlite", folder);
-    koksma__store *store;
-    koksma__series series = {.kind = "discrepancy",
-                             .scene = "",
-                             .scene_hash = "",
-                             .options = "",
-                             .pattern = "random",
-                             .what = "l2-star",
-                             .n = 16,
-                             .dim = 2};
+    char folder[] = STORE_FOLDER, path[64];
+    koksma__series series = one_series;
+    koksma__store *store = new_store(folder, path);
     koksma__result *results;
     long long ids[2], seen = 0;
     size_t n;
-    assert_ok(koksma__store_open(path, KOKSMA__STORE_WRITE, "plan", &store));
     assert_ok(koksma__store_series(store, &series, true, &ids[0]));
     series.what = "star";
     assert_ok(koksma__store_series(store, &series, true, &ids[1]));
@@ -373,21 +374,11 @@ static koksma_status count_any(void *context, const koksma__series *series, cons
 static void store_limits_lookups(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/koksma-store-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/r.sqlite", folder);
-    koksma__store *store;
-    koksma__series series = {.kind = "discrepancy",
-                             .scene = "",
-                             .scene_hash = "",
-                             .options = "",
-                             .pattern = "random",
-                             .what = "l2-star",
-                             .n = 1,
-                             .dim = 2};
+    char folder[] = STORE_FOLDER, path[64];
+    koksma__series series = one_series;
+    koksma__store *store = new_store(folder, path);
     const long long rows = 530000;
     long long id, seen = 0;
-    assert_ok(koksma__store_open(path, KOKSMA__STORE_WRITE, "plan", &store));
     assert_ok(koksma__store_series(store, &series, true, &id));
     for (long long trial = 0; trial < rows; trial++) {
         assert_ok(koksma__store_put(store, &id, &(koksma__result){trial, 1, {1, NAN, NAN, NAN}}, 1));
