@@ -6,7 +6,7 @@
 "use strict";
 (() => {
   const up = document.documentElement.dataset.up, input = document.querySelector("#search input"), list = document.getElementById("found");
-  let sections = null;
+  let sections = null, isLoading = false;
   const small = new Set("a an and are can do does for how i in is it me my of on or the this to what when where which why with you your".split(" "));
   const forDevelopers = /^(decisions|adding)\//;
 
@@ -14,12 +14,12 @@
   const begins = word => new RegExp(`(^|[^\\p{L}\\p{N}])${escape(word)}`, "iu");
 
   function load() {
-    if (sections) return;
-    sections = [];
+    if (isLoading) return;
+    isLoading = true;
     const script = document.createElement("script");
     script.src = up + "search-index.js";
     script.onload = () => { sections = globalThis.koksmaSections; show(); };
-    script.onerror = () => { say("The index of the search, search-index.js, is missing."); };
+    script.onerror = () => { isLoading = false; say("The index of the search, search-index.js, is missing."); };
     document.head.append(script);
   }
 
@@ -86,8 +86,8 @@
   function show() {
     const typed = input.value.trim().split(/\s+/).filter(Boolean), large = typed.filter(word => !small.has(word.toLowerCase()));
     const query = large.length ? large : typed, words = query.map(begins);
-    list.hidden = !words.length;
-    if (!words.length) return;
+    list.hidden = !words.length || !sections; // until the index is there, nothing is known to be missing
+    if (list.hidden) return;
     const found = sections.map(section => [score(section, words, query), section]).filter(([points]) => points > 0).sort((a, b) => b[0] - a[0]);
     if (!found.length) return void suggest(query);
     list.replaceChildren(...found.slice(0, 12).map(([, [address, title, heading, text]]) => {
