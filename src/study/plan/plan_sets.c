@@ -25,18 +25,23 @@ enum { MOST_TRIED = 1 << 16 };
 /* Measures are tried with sets of at most so many coordinates. */
 enum { MOST_MEASURED = 1 << 21 };
 
-/* The trials of a plan have at most MOST_WORK coordinates together, where each trial counts as EACH more, or as FILE_READ
-   if it reads a file, and a sample of an image as SAMPLE. From the first that is too many on, none is made: a size that is
-   refused then shows when its job runs. The limit is a count, not a time, because the sizes that `skip` leaves out must be
-   the same on every machine. */
-enum { MOST_WORK = 1 << 27, EACH = 1 << 10, FILE_READ = 1 << 17, SAMPLE = 16 };
+/* The trials of a plan have at most MOST_WORK coordinates together. Each trial counts as EACH more or, if it reads a file,
+   as FILE_READ or one for each COORDINATE bytes, whichever is more; a sample of an image counts as SAMPLE. From the first
+   that is too many on, none is made: a size that is refused then shows when its job runs. The limit is a count, not a
+   time, because the sizes that `skip` leaves out must be the same on every machine. */
+enum { MOST_WORK = 1 << 27, EACH = 1 << 10, FILE_READ = 1 << 17, COORDINATE = 16, SAMPLE = 16 };
 
 /* Whether the plan has work left to try a pattern or measure with n points. */
 static bool has_work(const koksma__plan_trials *trials, bool image, const char *name, long long n, int dim)
 {
     const koksma__row_texts row = {image, name, ""};
     const long long left = MOST_WORK - *trials->work;
-    const long long cost = left ? (koksma__points_read_files(&row) ? FILE_READ : EACH) + n * dim : 1;
+    long long each = EACH;
+    if (left && koksma__points_read_files(&row)) {
+        const long long length = (long long)(koksma__points_files_length(&row) / COORDINATE);
+        each = length > FILE_READ ? length : FILE_READ;
+    }
+    const long long cost = each + n * dim;
     *trials->work += cost < left ? cost : left;
     return cost <= left;
 }
@@ -137,7 +142,7 @@ static koksma_status try_one(const tried *t, size_t p, size_t k)
 static bool is_error(koksma_status status, bool stored, bool image, const char *name)
 {
     const koksma__row_texts row = {image, name, ""};
-    return koksma_status_exit_code(status) > (stored && !koksma__points_read_files(&row) ? 2 : 0);
+    return status && koksma_status_exit_code(status) > (stored && !koksma__points_read_files(&row) ? 2 : 0);
 }
 
 static koksma_status refuse_first(const tried *t)
@@ -224,7 +229,8 @@ static size_t count_sets(const koksma__file_set *sets, size_t count, size_t n)
 /* A family of files has as many trials as files (tasks.c). Where it has fewer files of a size than of another, some may
    be missing, and no job fails that would tell. Appends the line "PATTERN, N = 16 (1 of 3 trials): reason" for sizes that
    have fewer trials than the block, and than the size with most files. */
-static koksma_status find_short_sizes(const koksma__discrepancy_block *b, size_t p, koksma__left_out *out)
+static koksma_status find_short_sizes(const koksma__discrepancy_block *b, size_t p, const koksma__plan_trials *trials,
+                                      koksma__left_out *out)
 {
     char line[1024];
     koksma_spec spec;
@@ -232,21 +238,22 @@ static koksma_status find_short_sizes(const koksma__discrepancy_block *b, size_t
     size_t count = 0, most = 0;
     KOKSMA__TRY(koksma_pattern_spec(b->patterns.at[p], &spec));
     if (!koksma__reads_points(spec.pattern) || !koksma__file_has(spec.path, "{n}") ||
-        !koksma__file_has(spec.path, "{seed}") || koksma__file_sets(spec.path, &sets, &count)) {
+        !koksma__file_has(spec.path, "{seed}") || !has_work(trials, false, b->patterns.at[p], 0, 1) ||
+        koksma__file_sets(spec.path, &sets, &count)) {
         return KOKSMA_OK; /* a family without any file is an error of a trial to make a set, or of the run */
     }
     for (size_t i = 0, same = 0; i < count; i++) { /* they are sorted by n */
         same = i && sets[i].n == sets[i - 1].n ? same + 1 : 1;
         most = same > most ? same : most;
     }
-    const size_t trials = (size_t)b->trials < most ? (size_t)b->trials : most;
+    const size_t wanted = (size_t)b->trials < most ? (size_t)b->trials : most;
     const size_t begin = (size_t)snprintf(line, sizeof line, "%s, N =", b->patterns.at[p]);
     size_t length = begin;
     for (size_t k = 0; k < b->n.n && length < sizeof line; k++) {
         const size_t has = count_sets(sets, count, (size_t)b->n.at[k]);
-        if (has && has < trials) {
+        if (has && has < wanted) {
             length += (size_t)snprintf(line + length, sizeof line - length, "%s %lld (%zu of %zu trials)",
-                                       length > begin ? "," : "", b->n.at[k], trials - has, trials);
+                                       length > begin ? "," : "", b->n.at[k], wanted - has, wanted);
         }
     }
     free(sets);
@@ -306,7 +313,7 @@ koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksm
         {node, "n", block, try_measure, &block->measures, &block->n, MOST_MEASURED / dim, dim, trials}};
     koksma_status status = check(t, 2, &block->left_out);
     for (size_t p = 0; !status && p < block->patterns.n; p++) {
-        status = find_short_sizes(block, p, &block->left_out);
+        status = find_short_sizes(block, p, trials, &block->left_out);
     }
     return status;
 }
@@ -362,17 +369,15 @@ static bool takes_spp_points(const char *variant)
 }
 
 /* Rejects separate patterns for single uses or groups together with native pairing or an adaptive method that
-   draws its own strata: both need one pattern for all uses. */
-static koksma_status check_variant(const char *variant, const koksma__texts *patterns)
+   draws its own strata: both need one pattern for all uses. separate: such a pattern of the block, or NULL. */
+static koksma_status check_variant(const char *variant, const char *separate)
 {
     koksma__variant v = {0};
     const koksma_status status = koksma__variant_apply(variant, false, &v);
     const bool native = v.render.pairing == KOKSMA_PAIRING_NATIVE;
     const bool takes_one = native || (v.adaptive.method && v.adaptive.method->own_samples);
-    for (size_t p = 0; !status && takes_one && p < patterns->n; p++) {
-        KOKSMA__FAIL_IF(!koksma__image_pattern_is_one(patterns->at[p]), KOKSMA_ARGUMENT,
-                        "%s: %s: it needs one pattern for all uses", patterns->at[p], variant);
-    }
+    KOKSMA__FAIL_IF(!status && takes_one && separate, KOKSMA_ARGUMENT, "%s: %s: it needs one pattern for all uses",
+                    separate, variant);
     return status;
 }
 
@@ -382,9 +387,14 @@ koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma
     const tried t = {node, "spp", block, try_image, &block->patterns, &block->spp, MOST_TRIED, SAMPLE, trials};
     koksma_status status = KOKSMA_OK;
     bool takes_spp = false;
+    size_t p = 0;
+    while (p < block->patterns.n && koksma__image_pattern_is_one(block->patterns.at[p])) {
+        p++;
+    }
+    const char *separate = p < block->patterns.n ? block->patterns.at[p] : NULL;
     for (size_t v = 0; !status && v < block->variants.n; v++) {
         takes_spp |= takes_spp_points(block->variants.at[v]);
-        status = check_variant(block->variants.at[v], &block->patterns);
+        status = check_variant(block->variants.at[v], separate);
         status = status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
     }
     return status ? status : check(&t, takes_spp, &block->left_out);

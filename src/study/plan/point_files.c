@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <koksma/render.h>
 
@@ -189,6 +190,48 @@ static koksma_status can_be_read(void *context, const koksma_spec *spec)
 koksma_status koksma__points_can_be_read(const koksma__row_texts *row)
 {
     return visit_row(row, can_be_read, NULL);
+}
+
+/* Finding one of a family's files takes as long as reading so many bytes for each of them. */
+enum { LOOK_UP = 4096 };
+
+static uint64_t length_of(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) ? 0 : (uint64_t)about.st_size;
+}
+
+static uint64_t length_of_family(const char *path)
+{
+    koksma__file_set *sets = NULL;
+    size_t count = 0;
+    uint64_t longest = 0;
+    if (!koksma__file_sets(path, &sets, &count)) {
+        for (size_t i = 0; i < count; i++) {
+            char name[KOKSMA_MAX_SPEC];
+            const uint64_t length = koksma__file_name(path, sets[i].n, sets[i].seed, name) ? 0 : length_of(name);
+            longest = length > longest ? length : longest;
+        }
+    }
+    free(sets);
+    return longest + (uint64_t)count * LOOK_UP;
+}
+
+static koksma_status add_length(void *context, const koksma_spec *spec)
+{
+    char path[KOKSMA_MAX_SPEC];
+    uint64_t *all = context;
+    if (find_path(spec, path) && !spec->pattern->runs_code) {
+        *all += is_family(spec) ? length_of_family(path) : length_of(path);
+    }
+    return KOKSMA_OK;
+}
+
+uint64_t koksma__points_files_length(const koksma__row_texts *row)
+{
+    uint64_t all = 0;
+    visit_row(row, add_length, &all);
+    return all;
 }
 
 /* What a row names. */

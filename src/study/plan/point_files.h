@@ -39,6 +39,10 @@ koksma_status koksma__points_can_be_read(const koksma__row_texts *row);
 /* Whether a row names any files but programs and libraries. */
 bool koksma__points_read_files(const koksma__row_texts *row);
 
+/* The length in bytes of these files together, as a measure of the time to read one set; of a family, that of its longest
+   file and 4096 for each of its files, whose names are looked at. */
+uint64_t koksma__points_files_length(const koksma__row_texts *row);
+
 /* Whether a row names a family of files (file_names.h). */
 bool koksma__points_have_family(const koksma__row_texts *row);
 
