@@ -22,10 +22,16 @@ koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out)
     return *out ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
+uint64_t koksma__mesh_bytes(const koksma__mesh *mesh)
+{
+    const uint64_t each = 6 + (mesh->uvs ? 2 : 0) + (mesh->colours ? 3 : 0);
+    return sizeof(float) * (each * mesh->n_vertices + 3 * mesh->n_triangles);
+}
+
 koksma_status koksma__scene_limit_mesh(koksma_scene *scene, const koksma__mesh *mesh, const char *path)
 {
-    const uint64_t each = 6 + (mesh->uvs ? 2 : 0) + (mesh->colours ? 3 : 0), files = scene->mesh_files.bytes;
-    scene->mesh_bytes += sizeof(float) * (each * mesh->n_vertices + 3 * mesh->n_triangles);
+    const uint64_t files = scene->mesh_files.bytes;
+    scene->mesh_bytes += koksma__mesh_bytes(mesh);
     if (scene->mesh_bytes > (uint64_t)MESHES_MIB << 20 && scene->mesh_bytes / MESH_RATIO > files) {
         return koksma__refused(koksma__fail(KOKSMA_MALFORMED,
                                             "%s: with it the meshes of the scene take more than %d MiB and more than "

@@ -10,6 +10,9 @@
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out);
 
+/* The bytes that a mesh takes. */
+KOKSMA__LAB uint64_t koksma__mesh_bytes(const koksma__mesh *mesh);
+
 /* Counts a mesh that was read from the file at `path`. Its normals count even if it has none, because they may be made.
    All meshes from files together may take 1 GiB or, if that is more, 64 bytes for each byte of scene->mesh_files: a
    small packed file may stand for a large mesh, but many of them not for all memory; a text takes at most 36 bytes for

@@ -3,8 +3,8 @@
 """file_plans.py PROGRAM FAULTS: small plans that ask for much work before a study starts.
 
 A plan's check tries its patterns and measures with its numbers of points, and a few kilobytes name any number of pairs: many
-sizes with many points, many patterns with many sizes, many coordinates, many reads of one file. Each of these plans ends with
-an unknown field, which is reported after all trials: the limit of processor time is what they are tested against.
+sizes with many points, many patterns with many sizes, many coordinates, many reads of one file, one scene in many blocks, a table of many rows and sizes. Each of these plans ends
+with an unknown field, which is reported after all trials: the limit of processor time is what they are tested against.
 """
 import json
 import os
@@ -12,8 +12,66 @@ import sys
 import tempfile
 
 import files
+from file_pictures import png
 
 PROCESSOR = 300 if files.SANITIZED else 30  # seconds; without a limit the plans below take minutes to hours
+
+
+UNKNOWN = {"questions": [{"id": "q", "zz": 1}]}
+
+
+def check(checks, folder, what, members, reason="questions[0].zz: unknown field"):
+    """The plan with these members is refused for the reason."""
+    with open(os.path.join(folder, "p.json"), "w", encoding="ascii") as stream:
+        json.dump({"name": "p", "title": "p", **members}, stream)
+    done = files.run(os.path.abspath(sys.argv[1]), "study", "run", "./p.json", "-q", "-o", "out", cwd=folder, processor=PROCESSOR)
+    checks.refused(what, done, 3, reason)
+
+
+def check_options(checks, folder):
+    """Blocks of 1,008 combinations of options and 64 patterns."""
+    options = {"filter": ["box", "tent", "hermite", "gaussian", "mitchell", "b-spline", "blackman-harris"],
+               "integrator": ["utah", "whitted", "distribution", "path", "path-balance", "path-light", "path-bsdf", "direct",
+                              "ambient-occlusion"], "lights": ["all", "one"], "pairing": ["shuffled", "native"],
+               "scope": ["pixel", "image"], "splat": ["no", "yes"]}
+    block = {"scenes": ["ball"], "patterns": ["random"] + [f"korobov:a={a}" for a in range(1, 64)], "spp": [1], "trials": 1,
+             "options": options, "references": [{"name": "r", "pattern": "random", "spp": 1}]}
+    check(checks, folder, "combinations of options", {"images": 2000 * [block]},
+          "images[65]: with it the blocks have more than 65536 combinations of options")
+
+
+def check_figures(checks, folder):
+    """A page of a gigabyte: 100 bytes for each point."""
+    figures = [{"id": f"f{i}", "title": "f", "pattern": "random", "n": 1 << 20} for i in range(11)]
+    block = {"patterns": ["random"], "measures": ["star"], "n": [4], "trials": 1}
+    check(checks, folder, "figures of many points", {"discrepancies": [block], "figures": figures},
+          "figures[4]: with it the figures draw more than 4194304 points and lines together")
+
+
+def check_tables(checks, folder):
+    """Rows that the last of many blocks makes, in a table of as many sizes as it has points."""
+    sizes = list(range(1, 9))
+    blocks = [{"patterns": ["random"], "measures": ["star"], "n": [i], "trials": 1} for i in range(9, 4009)]
+    table = {"id": "t", "title": "t", "measure": "star", "n": sizes, "rows": 4000 * [{"pattern": "random", "label": "r", "published": [1]}]}
+    check(checks, folder, "rows, sizes and blocks", {"discrepancies": blocks + [dict(blocks[0], n=sizes)], "tables": [table]},
+          "tables[0]: finding the blocks that make the rows of the tables takes more than 2^28 steps")
+
+
+def check_scenes(checks, folder):
+    """A scene of 48 MiB in 100 blocks, under 25 names: links, and the same path written in other ways."""
+    with open(os.path.join(folder, "black.png"), "wb") as stream:
+        stream.write(png(2048, 2048))
+    with open(os.path.join(folder, "s.pbrt"), "w", encoding="ascii") as stream:
+        stream.write('Camera "perspective"\nWorldBegin\nTexture "t" "spectrum" "imagemap" "string filename" "black.png"\n'
+                     'Material "diffuse" "texture reflectance" "t"\nShape "sphere"\n')
+    for i in range(10):
+        os.link(os.path.join(folder, "s.pbrt"), os.path.join(folder, f"hard{i}.pbrt"))
+        os.symlink("s.pbrt", os.path.join(folder, f"soft{i}.pbrt"))
+    names = [f"./{kind}{i}.pbrt" for kind in ("hard", "soft") for i in range(10)] + [f"{'./' * i}s.pbrt" for i in range(1, 6)]
+    block = {"scenes": names, "patterns": ["random"], "spp": [1], "trials": 1,
+             "references": [{"name": "r", "pattern": "random", "spp": 1}]}
+    figures = [{"id": f"f{i}", "title": "f", "scene": names[i], "pattern": "random", "n": 1} for i in range(25)]
+    check(checks, folder, "one scene in many blocks", {"images": 100 * [block], "figures": figures, **UNKNOWN})
 
 
 def main():
@@ -30,11 +88,11 @@ def main():
                 ("many pairs", korobov, ["star"], range(60001, 64097), {}),
                 ("many reads", read, ["star"], range(1, 1001), {"skip": True})):
             block = {"patterns": patterns, "measures": measures, "n": list(n), "trials": 1, **more}
-            with open(os.path.join(folder, "p.json"), "w", encoding="ascii") as stream:
-                json.dump({"name": "p", "title": "p", "discrepancies": [block], "questions": [{"id": "q", "zz": 1}]}, stream)
-            done = files.run(os.path.abspath(sys.argv[1]), "study", "run", "./p.json", "-q", "-o", "out", cwd=folder,
-                             processor=PROCESSOR)
-            checks.refused(what, done, 3, "questions[0].zz: unknown field")
+            check(checks, folder, what, {"discrepancies": [block], **UNKNOWN})
+        check_scenes(checks, folder)
+        check_tables(checks, folder)
+        check_figures(checks, folder)
+        check_options(checks, folder)
     checks.end()
 
 

@@ -185,6 +185,28 @@ static void wrong_metric(const char *members, const char *reason)
     wrong_plan(text, reason);
 }
 
+static void wrong_ids(void **state)
+{
+    (void)state;
+    static const char *const lists[] = {
+        ("tables\": [{\"id\": \"a\", \"title\": \"t\", \"measure\": \"star\", \"n\": [4], \"rows\": [{\"pattern\": "
+         "\"random\", \"label\": \"r\", \"published\": [1]}]"),
+        "figures\": [{\"id\": \"a\", \"title\": \"t\", \"pattern\": \"random\", \"n\": 4",
+        "questions\": [{\"id\": \"a\", \"title\": \"t\", \"kind\": \"table\", \"discrepancies\": \"d\""};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        char text[2048], reason[128];
+        const char *item = strchr(lists[i], '{');
+        const int key = (int)strcspn(lists[i], "\"");
+        snprintf(text, sizeof text,
+                 "{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"id\": \"d\", \"patterns\": "
+                 "[\"random\"], \"measures\": [\"star\"], \"n\": [4], \"trials\": 1}], \"%s},\n%s}]}",
+                 lists[i], item);
+        snprintf(reason, sizeof reason, "plan 'p': line 2: %.*s[1]: an earlier item has the id 'a' too", key,
+                 lists[i]);
+        wrong_plan(text, reason);
+    }
+}
+
 static void wrong_metrics(void **state)
 {
     (void)state;
@@ -621,6 +643,7 @@ int main(void)
         cmocka_unit_test(printed_digits),
         cmocka_unit_test(wrong_plans),
         cmocka_unit_test(wrong_groups),
+        cmocka_unit_test(wrong_ids),
         cmocka_unit_test(wrong_metrics),
         cmocka_unit_test(shipped_plans_parse),
         cmocka_unit_test(store_keeps_rows),

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Reads a study's plan from JSON (studies/README.md lists the fields) and checks everything in it before any work
    starts. */
+#define _GNU_SOURCE /* tdestroy */
 #include "study/plan/plan.h"
 
+#include <search.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +13,6 @@
 #include <koksma/warp.h>
 
 #include "core/status.h"
-#include "scene/scene.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
@@ -19,7 +20,7 @@
 #include "study/plan/variants.h"
 #include "json/json.h"
 
-enum { MAX_TRIALS = 100000000, MAX_SPP = 1 << 20, MAX_NAME = 64 };
+enum { MAX_TRIALS = 100000000, MAX_SPP = 1 << 20, MAX_NAME = 64, MAX_VARIANTS = 1 << 16 };
 
 const char *koksma_plan_name_at(size_t i)
 {
@@ -135,24 +136,17 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     return status ? status : koksma__plan_check_reference(node, trials, r);
 }
 
-/* Checks that a scene opens; an error of the scene is reported with the plan's line. */
-static koksma_status check_scene(const koksma__json_node *node, const char *name)
-{
-    koksma_scene *scene;
-    const koksma_status status = koksma__scene_open(name, KOKSMA__BY_FILE, &scene);
-    if (!status) {
-        koksma_scene_close(scene);
-    }
-    return status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
-}
-
-static koksma_status check_scenes(const koksma__json_node *node, const koksma__texts *scenes)
+/* Checks that the scenes open; an error of a scene is reported with the plan's line. */
+static koksma_status check_scenes(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                  const koksma__texts *scenes)
 {
     koksma__json_node list;
+    koksma_scene *scene;
     koksma_status status = koksma__json_member(node, "scenes", &list);
     for (size_t i = 0; !status && i < scenes->n; i++) {
         const koksma__json_node item = koksma__json_item(&list, i);
-        status = check_scene(&item, scenes->at[i]);
+        status = koksma__scene_files_open(trials->scenes, scenes->at[i], &scene);
+        status = status ? koksma__json_fail_in(&item, status) : KOKSMA_OK;
     }
     return status;
 }
@@ -185,12 +179,15 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, false, &b->id);
     status = status ? status : koksma__plan_texts(node, "scenes", NULL, &b->scenes);
-    status = status ? status : check_scenes(node, &b->scenes);
+    status = status ? status : check_scenes(node, trials, &b->scenes);
     status = status
                  ? status
                  : koksma__plan_patterns(node, "patterns", koksma__image_pattern_text, trials->stored, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
+    *trials->variants += b->variants.n;
+    KOKSMA__JSON_FAIL_IF(!status && *trials->variants > MAX_VARIANTS, node,
+                         "with it the blocks have more than %d combinations of options", MAX_VARIANTS);
     status = status ? status : koksma__plan_check_spp(node, trials, b);
     status = status ? status : parse_size(node, b);
     status = status ? status : parse_trials(node, trials, &b->trials);
@@ -200,6 +197,40 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
 }
 
 /* ---- The whole plan -------------------------------------------------------------------------------------- */
+
+static int compare_ids(const void *a, const void *b)
+{
+    return strcmp(a, b);
+}
+
+static void keep_id(void *id)
+{
+    (void)id;
+}
+
+/* No two items of a list have the same id, by which readers of a report and of `export` tell them apart. */
+static koksma_status check_ids(const koksma__json_node *root, const char *key)
+{
+    koksma__json_node list;
+    void *ids = NULL; /* of tsearch(3): pointers to the texts of the JSON document */
+    size_t n;
+    if (!koksma__json_has(root, key)) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = koksma__json_member(root, key, &list);
+    status = status ? status : koksma__json_length(&list, SIZE_MAX, &n);
+    for (size_t i = 0; !status && i < n; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        const char *id = NULL;
+        status = koksma__json_get_text(&item, "id", true, &id);
+        const char *const *known = status ? NULL : tsearch(id, &ids, compare_ids);
+        status = status || known ? status : koksma__fail_memory(sizeof known);
+        status =
+            status || *known == id ? status : koksma__json_fail(&item, "an earlier item has the id '%s' too", id);
+    }
+    tdestroy(ids, keep_id);
+    return status;
+}
 
 static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
 {
@@ -227,10 +258,15 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     status = status ? status
                     : koksma__plan_list(root, "questions", false, sizeof *p->questions, koksma__plan_question, trials,
                                         (void **)&p->questions, &p->n_questions);
+    static const char *const with_ids[] = {"tables", "figures", "questions"};
+    for (size_t i = 0; !status && !trials->stored && i < sizeof with_ids / sizeof *with_ids; i++) {
+        status = check_ids(root, with_ids[i]);
+    }
     status = status ? status : koksma__plan_check_questions(root, p);
     KOKSMA__JSON_FAIL_IF(!status && p->n_discrepancies + p->n_images == 0, root,
                          "the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
     status = status ? status : koksma__plan_check_tables(root, p);
+    status = status ? status : koksma__plan_check_figures(root, p);
     status = status ? status : koksma__plan_set_metrics(root, p);
     return status ? status : koksma__plan_own(p);
 }
@@ -239,14 +275,19 @@ koksma_status koksma__plan_parse(const char *name, const char *text, size_t size
                                  koksma__plan *plan)
 {
     long long work = 0;
+    size_t variants = 0;
+    koksma__scene_files scenes = {0};
     koksma__plan_trials of_plan = trials ? *trials : (koksma__plan_trials){0};
     koksma__json *document;
     of_plan.work = &work;
+    of_plan.variants = &variants;
+    of_plan.scenes = of_plan.scenes ? of_plan.scenes : &scenes;
     *plan = (koksma__plan){0};
     KOKSMA__TRY(koksma__json_open("plan", name, text, size, &document));
     const koksma__json_node root = koksma__json_root(document);
     const koksma_status status = parse(&root, &of_plan, plan);
     koksma__json_close(document);
+    koksma__scene_files_fini(&scenes);
     if (status) {
         koksma__plan_fini(plan);
     }

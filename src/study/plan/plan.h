@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+#include "study/plan/scene_files.h"
+
 typedef struct koksma__texts {
     size_t n;
     char **at;
@@ -199,7 +201,9 @@ typedef struct koksma__plan_trials {
     /* the plan of a store, which an older version may have accepted: that a pattern or measure refuses a number of points
        is no error, so that the rows stay readable */
     bool stored;
-    long long *work; /* of the plan's trials of sets (plan_sets.c); koksma__plan_parse sets it */
+    koksma__scene_files *scenes; /* receives the scenes; NULL: they are closed after the check */
+    size_t *variants;            /* the combinations of options in all blocks; koksma__plan_parse sets it */
+    long long *work;             /* of the plan's trials of sets (plan_sets.c); koksma__plan_parse sets it */
 } koksma__plan_trials;
 
 /* Parses a plan; `name` is its name in error messages ("plan 'my.json': line 3: …"). Checks every spec, so that a

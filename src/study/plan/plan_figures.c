@@ -8,13 +8,12 @@
 #include <koksma/warp.h>
 
 #include "core/status.h"
-#include "scene/scene.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 #include "study/plan/variants.h"
 
-enum { MAX_N = 1 << 20 };
+enum { MAX_N = 1 << 20, MAX_DRAWN = 1 << 22 };
 #define MIN_EXPOSURE 1e-3
 #define MAX_EXPOSURE 1e3
 
@@ -32,14 +31,12 @@ static koksma_status get_wholes(const koksma__json_node *node, const char *key, 
     return status;
 }
 
-static koksma_status check_words(const koksma__json_node *node, const koksma__figure *f)
+static koksma_status check_words(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                 const koksma__figure *f)
 {
     koksma_adaptive_options adaptive;
     koksma_scene *scene;
-    koksma_status status = f->scene ? koksma__scene_open(f->scene, KOKSMA__BY_FILE, &scene) : KOKSMA_OK;
-    if (f->scene && !status) {
-        koksma_scene_close(scene);
-    }
+    koksma_status status = f->scene ? koksma__scene_files_open(trials->scenes, f->scene, &scene) : KOKSMA_OK;
     if (!status && f->adaptive) {
         status = koksma_adaptive_parse(f->adaptive, &adaptive);
         if (!status && adaptive.method->own_samples && !koksma__image_pattern_is_one(f->pattern)) {
@@ -123,5 +120,21 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
         variants.at[0] = NULL;
     }
     koksma__texts_fini(&variants);
-    return status ? status : check_words(node, f);
+    return status ? status : check_words(node, trials, f);
+}
+
+koksma_status koksma__plan_check_figures(const koksma__json_node *root, const koksma__plan *plan)
+{
+    long long drawn = 0;
+    for (size_t i = 0; i < plan->n_figures; i++) {
+        drawn += plan->figures[i].scene ? 0 : plan->figures[i].n;
+        if (drawn > MAX_DRAWN) {
+            koksma__json_node figures;
+            koksma__json_member(root, "figures", &figures);
+            const koksma__json_node figure = koksma__json_item(&figures, i);
+            return koksma__json_fail(&figure, "with it the figures draw more than %d points and lines together",
+                                     MAX_DRAWN);
+        }
+    }
+    return KOKSMA_OK;
 }

@@ -74,8 +74,9 @@ koksma_status koksma__plan_check_questions(const koksma__json_node *root, const 
 koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
 koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan *plan);
 
-/* Reads an item of "figures" (plan_figures.c). */
+/* Reads an item of "figures"; checks that all together draw at most 2^22 points, as a page has them (plan_figures.c). */
 koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
+koksma_status koksma__plan_check_figures(const koksma__json_node *root, const koksma__plan *plan);
 
 /* Check that every pattern can make each number of points, of samples of an image block, or of samples of a
    reference, and that every measure accepts each number of points. In a block with `skip` the sizes that a pattern or

@@ -183,6 +183,10 @@ koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__pl
 
 /* ---- Whether the plan's blocks make the rows ------------------------------------------------------------- */
 
+/* A step compares a row's pattern, measure, scene or size with one of a block: a few nanoseconds. A plan of megabytes
+   could ask for any number of them. */
+#define MOST_STEPS ((uint64_t)1 << 28)
+
 static bool makes_image(const koksma__image_block *i, const koksma__table *t, const char *pattern)
 {
     return koksma__texts_have(&i->variants, "") && koksma__texts_have(&i->scenes, t->scene) &&
@@ -192,14 +196,16 @@ static bool makes_image(const koksma__image_block *i, const koksma__table *t, co
 /* Finds the first image block that makes all rows of a table, so that all rows are compared with the same references
    at one size. If there is none, *row is the first row that is missing from the block that makes the most rows
    before it. */
-static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row)
+static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row, uint64_t *steps)
 {
     *row = 0;
-    for (size_t b = 0; b < plan->n_images; b++) {
+    for (size_t b = 0; b < plan->n_images && *steps <= MOST_STEPS; b++) {
+        const koksma__image_block *i = &plan->images[b];
         size_t r = 0;
-        while (r < t->n_rows && makes_image(&plan->images[b], t, t->rows[r].pattern)) {
+        while (r < t->n_rows && makes_image(i, t, t->rows[r].pattern)) {
             r++;
         }
+        *steps += (r + 1) * (i->variants.n + i->scenes.n + i->patterns.n + i->spp.n);
         if (r == t->n_rows) {
             t->images = b;
             return true;
@@ -210,25 +216,29 @@ static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row)
 }
 
 /* Whether discrepancy blocks evaluate the measure for a row's pattern at every n of the table. */
-static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern)
+static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern,
+                    uint64_t *steps)
 {
-    size_t made = 0;
     for (size_t i = 0; i < t->n.n; i++) {
-        size_t b = 0;
-        while (b < plan->n_discrepancies &&
-               !koksma__plan_block_makes(&plan->discrepancies[b], measure, pattern, t->n.at[i], t->dim)) {
-            b++;
+        bool made = false;
+        for (size_t b = 0; b < plan->n_discrepancies && !made && *steps <= MOST_STEPS; b++) {
+            const koksma__discrepancy_block *block = &plan->discrepancies[b];
+            made = koksma__plan_block_makes(block, measure, pattern, t->n.at[i], t->dim);
+            *steps += 1 + block->measures.n + block->patterns.n + block->n.n;
         }
-        made += b < plan->n_discrepancies;
+        if (!made) {
+            return false;
+        }
     }
-    return made == t->n.n;
+    return true;
 }
 
-static bool find_discrepancies(const koksma__plan *plan, const koksma__table *t, size_t *row)
+static bool find_discrepancies(const koksma__plan *plan, const koksma__table *t, size_t *row, uint64_t *steps)
 {
     for (*row = 0; *row < t->n_rows; ++*row) {
         const char *pattern = t->rows[*row].pattern;
-        if (!is_made(plan, t, t->measure, pattern) || (t->also && !is_made(plan, t, t->also, pattern))) {
+        if (!is_made(plan, t, t->measure, pattern, steps) ||
+            (t->also && !is_made(plan, t, t->also, pattern, steps))) {
             return false;
         }
     }
@@ -237,13 +247,17 @@ static bool find_discrepancies(const koksma__plan *plan, const koksma__table *t,
 
 koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan *plan)
 {
+    uint64_t steps = 0;
     for (size_t i = 0; i < plan->n_tables; i++) {
         koksma__table *t = &plan->tables[i];
         size_t row;
-        if (!(t->scene ? find_images(plan, t, &row) : find_discrepancies(plan, t, &row))) {
+        if (!(t->scene ? find_images(plan, t, &row, &steps) : find_discrepancies(plan, t, &row, &steps))) {
             koksma__json_node tables;
             koksma__json_member(root, "tables", &tables);
             const koksma__json_node table = koksma__json_item(&tables, i);
+            KOKSMA__JSON_FAIL_IF(steps > MOST_STEPS, &table,
+                                 "finding the blocks that make the rows of the tables takes more than 2^28 steps: "
+                                 "use fewer rows, sizes or blocks");
             return row && t->scene
                        ? koksma__json_fail(
                              &table,

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Opens and closes studies: parses the plan, creates the study's folder DIR, opens its store, loads each scene once,
    and records the plan in the store. In an MPI run only rank 0 has a folder. */
+#define _GNU_SOURCE /* tdestroy */
 #include <limits.h>
+#include <search.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +14,6 @@
 #include "core/read_file.h"
 #include "core/status.h"
 #include "core/suggestion.h"
-#include "scene/scene.h"
 #include "study/plan/plan_owned.h"
 #include "study/run/left_out.h"
 #include "study/run/mpi_rank.h"
@@ -75,34 +76,34 @@ static koksma_status load_plan(const char *name, const char *label, const koksma
     return status;
 }
 
+static int compare_scenes(const void *a, const void *b)
+{
+    return strcmp(((const koksma__study_scene *)a)->name, ((const koksma__study_scene *)b)->name);
+}
+
 const koksma__study_scene *koksma__study_scene_of(const koksma_study *study, const char *name)
 {
-    for (size_t i = 0; i < study->n_scenes; i++) {
-        if (!strcmp(study->scenes[i].name, name)) {
-            return &study->scenes[i];
-        }
-    }
-    return NULL;
+    const koksma__study_scene wanted = {.name = name}, *const *found = tfind(&wanted, &study->scenes, compare_scenes);
+    return found ? *found : NULL;
 }
 
 koksma_status koksma__study_open_scene(koksma_study *study, const char *name)
 {
+    koksma_scene *scene;
+    koksma_render_options options;
     if (koksma__study_scene_of(study, name)) {
         return KOKSMA_OK;
     }
-    koksma_scene *scene;
-    KOKSMA__TRY(koksma__scene_open(name, KOKSMA__BY_FILE, &scene));
-    koksma__study_scene *s = koksma__add_one(&study->scenes, &study->n_scenes, sizeof *s);
-    if (!s) {
-        koksma_scene_close(scene);
-        return KOKSMA_MEMORY;
+    KOKSMA__TRY(koksma__scene_files_open(&study->scene_files, name, &scene));
+    koksma__study_scene *s = calloc(1, sizeof *s);
+    KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
+    koksma_render_options_init(&options, scene);
+    *s = (koksma__study_scene){.name = name, .scene = scene, .width = options.width, .height = options.height};
+    snprintf(s->hash, sizeof s->hash, "%016llx", (unsigned long long)koksma_scene_hash(scene));
+    if (!tsearch(s, &study->scenes, compare_scenes)) {
+        free(s);
+        return koksma__fail_memory(sizeof *s);
     }
-    *s = (koksma__study_scene){.name = name, .scene = scene};
-    koksma_render_options options;
-    koksma_render_options_init(&options, s->scene);
-    s->width = options.width;
-    s->height = options.height;
-    snprintf(s->hash, sizeof s->hash, "%016llx", (unsigned long long)koksma_scene_hash(s->scene));
     return KOKSMA_OK;
 }
 
@@ -215,6 +216,7 @@ static koksma_status recall_plan(koksma_study *study)
     free(what);
     trials.quick = quick;
     trials.stored = true;
+    trials.scenes = &study->scene_files;
     for (unsigned long i = 0; !status && i < n; i++) {
         koksma__plan plan = {0};
         char *text = NULL, *name = NULL; /* databases of older versions lack the plan's name */
@@ -248,7 +250,8 @@ static koksma_status check_text(const koksma_study_options *options, char *const
 
 static koksma_status load_plans(koksma_study *study, const koksma_study_options *options, char **texts)
 {
-    const koksma__plan_trials trials = {.trials = options->trials, .quick = options->quick};
+    const koksma__plan_trials trials = {
+        .trials = options->trials, .quick = options->quick, .scenes = &study->scene_files};
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < options->n_plans; i++) {
         koksma__plan plan = {0};
@@ -367,11 +370,9 @@ koksma_status koksma_study_close(koksma_study *study)
     for (size_t i = 0; i < study->n_references; i++) {
         koksma_image_fini(&study->references[i].image);
     }
-    for (size_t i = 0; i < study->n_scenes; i++) {
-        koksma_scene_close(study->scenes[i].scene);
-    }
+    tdestroy(study->scenes, free);
+    koksma__scene_files_fini(&study->scene_files);
     free(study->references);
-    free(study->scenes);
     koksma__texts_fini(&study->failed);
     koksma__plan_fini(&study->plan);
     free(study->folder);

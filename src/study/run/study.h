@@ -29,8 +29,8 @@ struct koksma_study {
     char *folder;
     koksma__store *store;
     bool is_written; /* whether the store was opened for a run */
-    size_t n_scenes;
-    koksma__study_scene *scenes;
+    koksma__scene_files scene_files;
+    void *scenes; /* koksma__study_scene of each name: a tree of tsearch(3) */
     size_t n_references;
     koksma__reference_image *references;
     koksma__texts failed;     /* lines for readers on the jobs that failed alone (failed_jobs.h) */
