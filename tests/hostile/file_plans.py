@@ -6,6 +6,7 @@ A plan's check tries its patterns and measures with its numbers of points, and a
 sizes with many points, many patterns with many sizes, many coordinates, many reads of one file, one scene in many blocks, a table of many rows and sizes. Each of these plans ends
 with an unknown field, which is reported after all trials: the limit of processor time is what they are tested against.
 """
+import itertools
 import json
 import os
 import sys
@@ -46,6 +47,11 @@ def check_figures(checks, folder):
     block = {"patterns": ["random"], "measures": ["star"], "n": [4], "trials": 1}
     check(checks, folder, "figures of many points", {"discrepancies": [block], "figures": figures},
           "figures[4]: with it the figures draw more than 4194304 points and lines together")
+    for name in "ab":
+        with open(os.path.join(folder, f"{name}.json"), "w", encoding="ascii") as stream:
+            json.dump({"name": name, "title": name, "discrepancies": [block], "figures": figures[:3]}, stream)
+    done = files.run(os.path.abspath(sys.argv[1]), "study", "run", "./a.json", "./b.json", "-q", "-o", "out", cwd=folder)
+    checks.refused("figures of two plans", done, 3, "plan './b.json': line 1: figures[1]: with it the figures draw more")
 
 
 def check_tables(checks, folder):
@@ -54,7 +60,24 @@ def check_tables(checks, folder):
     blocks = [{"patterns": ["random"], "measures": ["star"], "n": [i], "trials": 1} for i in range(9, 4009)]
     table = {"id": "t", "title": "t", "measure": "star", "n": sizes, "rows": 4000 * [{"pattern": "random", "label": "r", "published": [1]}]}
     check(checks, folder, "rows, sizes and blocks", {"discrepancies": blocks + [dict(blocks[0], n=sizes)], "tables": [table]},
-          "tables[0]: finding the blocks that make the rows of the tables takes more than 2^28 steps")
+          "tables[0]: finding what tables and questions refer to takes more than 2^28 steps")
+
+
+def check_groups(checks, folder):
+    """Scenes of groups, which the last of many blocks has under other names than the ones before."""
+    with open(os.path.join(folder, "s.json"), "w", encoding="ascii") as stream:
+        stream.write('{"camera": {"eye": [0, 1, 0], "target": [0, 1, -1], "fov_deg": 20}, "background": 0.5, "ambient": 1, '
+                     '"materials": [], "shapes": []}')
+    names = ["./" + "".join(part) + "s.json" for part in itertools.product(("/", "./"), repeat=12)]
+    block = {"id": "b", "patterns": ["random"], "spp": [1], "trials": 1,
+             "references": [{"name": "r", "pattern": "random", "spp": 1}]}
+    other = [name.replace("./", ".//", 1) for name in names]
+    questions = [{"id": "q", "title": "q", "kind": "correlation", "discrepancies": "d", "images": "b",
+                  "groups": [{"title": f"g{i}", "scenes": other} for i in range(8)]}]
+    points = {"id": "d", "patterns": ["random"], "measures": ["star"], "n": [4], "trials": 1}
+    check(checks, folder, "scenes of groups", {"discrepancies": [points], "questions": questions,
+                                               "images": 15 * [dict(block, scenes=names)] + [dict(block, scenes=other)]},
+          "finding what tables and questions refer to takes more than 2^28 steps")
 
 
 def check_scenes(checks, folder):
@@ -89,6 +112,10 @@ def main():
                 ("many reads", read, ["star"], range(1, 1001), {"skip": True})):
             block = {"patterns": patterns, "measures": measures, "n": list(n), "trials": 1, **more}
             check(checks, folder, what, {"discrepancies": [block], **UNKNOWN})
+        block = {"patterns": korobov, "measures": ["star"], "n": list(range(1, 4097)), "trials": 1, "skip": True}
+        check(checks, folder, "many pairs in many blocks", {"discrepancies": 40 * [block]},
+              "discrepancies[1]: with it the blocks have more than 33554432 pairs")
+        check_groups(checks, folder)
         check_scenes(checks, folder)
         check_tables(checks, folder)
         check_figures(checks, folder)

@@ -145,7 +145,7 @@ static koksma_status check_scenes(const koksma__json_node *node, const koksma__p
     koksma_status status = koksma__json_member(node, "scenes", &list);
     for (size_t i = 0; !status && i < scenes->n; i++) {
         const koksma__json_node item = koksma__json_item(&list, i);
-        status = koksma__scene_files_open(trials->scenes, scenes->at[i], &scene);
+        status = koksma__scene_files_open(&trials->totals->scenes, scenes->at[i], &scene);
         status = status ? koksma__json_fail_in(&item, status) : KOKSMA_OK;
     }
     return status;
@@ -185,8 +185,8 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
                  : koksma__plan_patterns(node, "patterns", koksma__image_pattern_text, trials->stored, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
-    *trials->variants += b->variants.n;
-    KOKSMA__JSON_FAIL_IF(!status && *trials->variants > MAX_VARIANTS, node,
+    trials->totals->variants += b->variants.n;
+    KOKSMA__JSON_FAIL_IF(!status && trials->totals->variants > MAX_VARIANTS, node,
                          "with it the blocks have more than %d combinations of options", MAX_VARIANTS);
     status = status ? status : koksma__plan_check_spp(node, trials, b);
     status = status ? status : parse_size(node, b);
@@ -262,11 +262,11 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     for (size_t i = 0; !status && !trials->stored && i < sizeof with_ids / sizeof *with_ids; i++) {
         status = check_ids(root, with_ids[i]);
     }
-    status = status ? status : koksma__plan_check_questions(root, p);
+    status = status ? status : koksma__plan_check_questions(root, trials, p);
     KOKSMA__JSON_FAIL_IF(!status && p->n_discrepancies + p->n_images == 0, root,
                          "the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
-    status = status ? status : koksma__plan_check_tables(root, p);
-    status = status ? status : koksma__plan_check_figures(root, p);
+    status = status ? status : koksma__plan_check_tables(root, trials, p);
+    status = status ? status : koksma__plan_check_figures(root, trials, p);
     status = status ? status : koksma__plan_set_metrics(root, p);
     return status ? status : koksma__plan_own(p);
 }
@@ -274,20 +274,16 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
 koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan)
 {
-    long long work = 0;
-    size_t variants = 0;
-    koksma__scene_files scenes = {0};
+    koksma__plan_totals alone = {0};
     koksma__plan_trials of_plan = trials ? *trials : (koksma__plan_trials){0};
     koksma__json *document;
-    of_plan.work = &work;
-    of_plan.variants = &variants;
-    of_plan.scenes = of_plan.scenes ? of_plan.scenes : &scenes;
+    of_plan.totals = of_plan.totals ? of_plan.totals : &alone;
     *plan = (koksma__plan){0};
     KOKSMA__TRY(koksma__json_open("plan", name, text, size, &document));
     const koksma__json_node root = koksma__json_root(document);
     const koksma_status status = parse(&root, &of_plan, plan);
     koksma__json_close(document);
-    koksma__scene_files_fini(&scenes);
+    koksma__scene_files_fini(&alone.scenes);
     if (status) {
         koksma__plan_fini(plan);
     }

@@ -194,6 +194,17 @@ typedef struct koksma__plan {
     koksma__figure *figures;
 } koksma__plan;
 
+/* What all plans of a study ask for together, each within a limit (docs/files.md): a plan of kilobytes names any amount of
+   work, and a store any number of plans. Zeroed at first. */
+typedef struct koksma__plan_totals {
+    koksma__scene_files scenes;
+    long long work;  /* coordinates of the trials of sets (plan_sets.c) */
+    uint64_t pairs;  /* patterns and measures x sizes, of all blocks */
+    size_t variants; /* combinations of options, of all blocks of images */
+    uint64_t steps;  /* comparisons that find what tables and questions refer to */
+    long long drawn; /* points and lines in figures */
+} koksma__plan_totals;
+
 /* Options of a run that change a plan's numbers of trials, and where the plan comes from. */
 typedef struct koksma__plan_trials {
     long long trials; /* if > 0, replaces the plan's numbers of trials */
@@ -201,9 +212,7 @@ typedef struct koksma__plan_trials {
     /* the plan of a store, which an older version may have accepted: that a pattern or measure refuses a number of points
        is no error, so that the rows stay readable */
     bool stored;
-    koksma__scene_files *scenes; /* receives the scenes; NULL: they are closed after the check */
-    size_t *variants;            /* the combinations of options in all blocks; koksma__plan_parse sets it */
-    long long *work;             /* of the plan's trials of sets (plan_sets.c); koksma__plan_parse sets it */
+    koksma__plan_totals *totals; /* of the study; NULL: this plan is alone */
 } koksma__plan_trials;
 
 /* Parses a plan; `name` is its name in error messages ("plan 'my.json': line 3: …"). Checks every spec, so that a

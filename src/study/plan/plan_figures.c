@@ -36,7 +36,7 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__pl
 {
     koksma_adaptive_options adaptive;
     koksma_scene *scene;
-    koksma_status status = f->scene ? koksma__scene_files_open(trials->scenes, f->scene, &scene) : KOKSMA_OK;
+    koksma_status status = f->scene ? koksma__scene_files_open(&trials->totals->scenes, f->scene, &scene) : KOKSMA_OK;
     if (!status && f->adaptive) {
         status = koksma_adaptive_parse(f->adaptive, &adaptive);
         if (!status && adaptive.method->own_samples && !koksma__image_pattern_is_one(f->pattern)) {
@@ -123,12 +123,13 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
     return status ? status : check_words(node, trials, f);
 }
 
-koksma_status koksma__plan_check_figures(const koksma__json_node *root, const koksma__plan *plan)
+koksma_status koksma__plan_check_figures(const koksma__json_node *root, const koksma__plan_trials *trials,
+                                         const koksma__plan *plan)
 {
-    long long drawn = 0;
+    long long *drawn = &trials->totals->drawn;
     for (size_t i = 0; i < plan->n_figures; i++) {
-        drawn += plan->figures[i].scene ? 0 : plan->figures[i].n;
-        if (drawn > MAX_DRAWN) {
+        *drawn += plan->figures[i].scene ? 0 : plan->figures[i].n;
+        if (*drawn > MAX_DRAWN) {
             koksma__json_node figures;
             koksma__json_member(root, "figures", &figures);
             const koksma__json_node figure = koksma__json_item(&figures, i);

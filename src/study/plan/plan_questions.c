@@ -91,20 +91,23 @@ koksma_status koksma__plan_question(const koksma__json_node *node, const koksma_
                                       (void **)&q->groups, &q->n_groups);
 }
 
-/* Whether an image block that the question names has the scene. */
-static bool has_scene(const koksma__plan *p, const koksma__question *q, const char *scene)
+/* Finds whether an image block that the question names has the scene. */
+static koksma_status find_scene(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                const koksma__plan *p, const koksma__question *q, const char *scene, bool *found)
 {
-    for (size_t b = 0; b < p->n_images; b++) {
+    *found = false;
+    for (size_t b = 0; b < p->n_images && !*found; b++) {
         const koksma__image_block *i = &p->images[b];
-        if (i->id && !strcmp(i->id, q->images) && koksma__texts_have(&i->scenes, scene)) {
-            return true;
-        }
+        const bool is_meant = i->id && !strcmp(i->id, q->images);
+        *found = is_meant && koksma__texts_have(&i->scenes, scene);
+        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + (is_meant ? i->scenes.n : 0)));
     }
-    return false;
+    return KOKSMA_OK;
 }
 
 /* Checks that no two groups have the same title and that all their scenes are in the question's blocks. */
-static koksma_status check_groups(const koksma__json_node *question, const koksma__plan *p, const koksma__question *q)
+static koksma_status check_groups(const koksma__json_node *question, const koksma__plan_trials *trials,
+                                  const koksma__plan *p, const koksma__question *q)
 {
     koksma__json_node list, scenes;
     koksma_status status = q->n_groups ? koksma__json_member(question, "groups", &list) : KOKSMA_OK;
@@ -114,10 +117,13 @@ static koksma_status check_groups(const koksma__json_node *question, const koksm
             KOKSMA__JSON_FAIL_IF(!strcmp(q->groups[before].title, q->groups[g].title), &group,
                                  "title '%s': another group has the same title", q->groups[g].title);
         }
+        KOKSMA__TRY(koksma__plan_step(&group, trials, g));
         status = koksma__json_member(&group, "scenes", &scenes);
         for (size_t s = 0; !status && s < q->groups[g].scenes.n; s++) {
-            if (!has_scene(p, q, q->groups[g].scenes.at[s])) {
-                const koksma__json_node item = koksma__json_item(&scenes, s);
+            const koksma__json_node item = koksma__json_item(&scenes, s);
+            bool found;
+            status = find_scene(&item, trials, p, q, q->groups[g].scenes.at[s], &found);
+            if (!status && !found) {
                 status = koksma__json_fail(&item, "no block of images '%s' has the scene '%s'", q->images,
                                            q->groups[g].scenes.at[s]);
             }
@@ -126,7 +132,8 @@ static koksma_status check_groups(const koksma__json_node *question, const koksm
     return status;
 }
 
-koksma_status koksma__plan_check_questions(const koksma__json_node *root, const koksma__plan *p)
+koksma_status koksma__plan_check_questions(const koksma__json_node *root, const koksma__plan_trials *trials,
+                                           const koksma__plan *p)
 {
     for (size_t i = 0; i < p->n_questions; i++) {
         const koksma__question *q = &p->questions[i];
@@ -141,9 +148,10 @@ koksma_status koksma__plan_check_questions(const koksma__json_node *root, const 
         koksma__json_node questions;
         koksma__json_member(root, "questions", &questions);
         const koksma__json_node node = koksma__json_item(&questions, i);
+        KOKSMA__TRY(koksma__plan_step(&node, trials, p->n_discrepancies + p->n_images));
         KOKSMA__JSON_FAIL_IF(!discrepancies || !images, &node, "no block of the plan has the id '%s'",
                              discrepancies ? q->images : q->discrepancies);
-        KOKSMA__TRY(check_groups(&node, p, q));
+        KOKSMA__TRY(check_groups(&node, trials, p, q));
     }
     return KOKSMA_OK;
 }

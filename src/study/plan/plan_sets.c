@@ -31,18 +31,21 @@ enum { MOST_MEASURED = 1 << 21 };
    time, because the sizes that `skip` leaves out must be the same on every machine. */
 enum { MOST_WORK = 1 << 27, EACH = 1 << 10, FILE_READ = 1 << 17, COORDINATE = 16, SAMPLE = 16 };
 
+/* Each takes a byte with `skip`, and some steps. */
+enum { MOST_PAIRS = 1 << 25 };
+
 /* Whether the plan has work left to try a pattern or measure with n points. */
 static bool has_work(const koksma__plan_trials *trials, bool image, const char *name, long long n, int dim)
 {
     const koksma__row_texts row = {image, name, ""};
-    const long long left = MOST_WORK - *trials->work;
+    const long long left = MOST_WORK - trials->totals->work;
     long long each = EACH;
     if (left && koksma__points_read_files(&row)) {
         const long long length = (long long)(koksma__points_files_length(&row) / COORDINATE);
         each = length > FILE_READ ? length : FILE_READ;
     }
     const long long cost = each + n * dim;
-    *trials->work += cost < left ? cost : left;
+    trials->totals->work += cost < left ? cost : left;
     return cost <= left;
 }
 
@@ -191,21 +194,24 @@ static koksma_status leave_out_of(const tried *t, size_t p, bool *is, koksma__te
     int length = snprintf(line, sizeof line, "%s, N = ", t->names->at[p]);
     for (size_t k = 0; k < t->n->n && t->n->at[k] <= t->most; k++) {
         const koksma_status status = try_one(t, p, k);
-        char text[sizeof reason] = "";
-        snprintf(text, sizeof text, "%s", status ? koksma_error_text() : "");
+        if (!status) {
+            continue;
+        }
+        char text[sizeof reason];
+        snprintf(text, sizeof text, "%s", koksma_error_text());
         /* the error concerns a file or the system, not this number of points */
         if (koksma_status_exit_code(status) > 2) {
             koksma__fail(status, "%s", text);
             return koksma__json_fail_in(t->node, status);
         }
-        if (status && length < (int)sizeof line) {
+        if (length < (int)sizeof line) {
             length +=
                 snprintf(line + length, sizeof line - (size_t)length, "%s%lld", reason[0] ? ", " : "", t->n->at[k]);
         }
-        if (status && !reason[0]) {
+        if (!reason[0]) {
             snprintf(reason, sizeof reason, "%s", text);
         }
-        is[p * t->n->n + k] = status != KOKSMA_OK;
+        is[p * t->n->n + k] = true;
     }
     if (!reason[0]) {
         return KOKSMA_OK;
@@ -278,6 +284,12 @@ static koksma_status check(const tried *t, size_t kinds, koksma__left_out *out)
     bool **const is[] = {&out->is, &out->unmeasured};
     bool skip = false, any = false;
     koksma_status status = koksma__json_get_flag(t->node, "skip", false, &skip);
+    for (size_t i = 0; i < kinds; i++) {
+        t->trials->totals->pairs += (uint64_t)t[i].names->n * t[i].n->n;
+    }
+    KOKSMA__JSON_FAIL_IF(!status && t->trials->totals->pairs > MOST_PAIRS, t->node,
+                         "with it the blocks have more than %d pairs of patterns, or of measures, and sizes",
+                         MOST_PAIRS);
     for (size_t i = 0; !status && !skip && i < kinds; i++) {
         status = refuse_first(&t[i]);
     }

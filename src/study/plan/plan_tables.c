@@ -183,10 +183,6 @@ koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__pl
 
 /* ---- Whether the plan's blocks make the rows ------------------------------------------------------------- */
 
-/* A step compares a row's pattern, measure, scene or size with one of a block: a few nanoseconds. A plan of megabytes
-   could ask for any number of them. */
-#define MOST_STEPS ((uint64_t)1 << 28)
-
 static bool makes_image(const koksma__image_block *i, const koksma__table *t, const char *pattern)
 {
     return koksma__texts_have(&i->variants, "") && koksma__texts_have(&i->scenes, t->scene) &&
@@ -195,76 +191,75 @@ static bool makes_image(const koksma__image_block *i, const koksma__table *t, co
 
 /* Finds the first image block that makes all rows of a table, so that all rows are compared with the same references
    at one size. If there is none, *row is the first row that is missing from the block that makes the most rows
-   before it. */
-static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row, uint64_t *steps)
+   before it; otherwise the number of rows. */
+static koksma_status find_images(const koksma__json_node *table, const koksma__plan_trials *trials,
+                                 const koksma__plan *plan, koksma__table *t, size_t *row)
 {
     *row = 0;
-    for (size_t b = 0; b < plan->n_images && *steps <= MOST_STEPS; b++) {
+    for (size_t b = 0; b < plan->n_images && *row < t->n_rows; b++) {
         const koksma__image_block *i = &plan->images[b];
         size_t r = 0;
         while (r < t->n_rows && makes_image(i, t, t->rows[r].pattern)) {
             r++;
         }
-        *steps += (r + 1) * (i->variants.n + i->scenes.n + i->patterns.n + i->spp.n);
-        if (r == t->n_rows) {
-            t->images = b;
-            return true;
-        }
+        KOKSMA__TRY(
+            koksma__plan_step(table, trials, (r + 1) * (i->variants.n + i->scenes.n + i->patterns.n + i->spp.n)));
+        t->images = r == t->n_rows ? b : t->images;
         *row = r > *row ? r : *row;
     }
-    return false;
+    return KOKSMA_OK;
 }
 
 /* Whether discrepancy blocks evaluate the measure for a row's pattern at every n of the table. */
-static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern,
-                    uint64_t *steps)
+static koksma_status is_made(const koksma__json_node *table, const koksma__plan_trials *trials,
+                             const koksma__plan *plan, const koksma__table *t, const char *measure,
+                             const char *pattern, bool *made)
 {
-    for (size_t i = 0; i < t->n.n; i++) {
-        bool made = false;
-        for (size_t b = 0; b < plan->n_discrepancies && !made && *steps <= MOST_STEPS; b++) {
+    *made = true;
+    for (size_t i = 0; i < t->n.n && *made; i++) {
+        *made = false;
+        for (size_t b = 0; b < plan->n_discrepancies && !*made; b++) {
             const koksma__discrepancy_block *block = &plan->discrepancies[b];
-            made = koksma__plan_block_makes(block, measure, pattern, t->n.at[i], t->dim);
-            *steps += 1 + block->measures.n + block->patterns.n + block->n.n;
-        }
-        if (!made) {
-            return false;
+            *made = koksma__plan_block_makes(block, measure, pattern, t->n.at[i], t->dim);
+            KOKSMA__TRY(koksma__plan_step(table, trials, 1 + block->measures.n + block->patterns.n + block->n.n));
         }
     }
-    return true;
+    return KOKSMA_OK;
 }
 
-static bool find_discrepancies(const koksma__plan *plan, const koksma__table *t, size_t *row, uint64_t *steps)
+/* *row: the first row that no blocks make, or the number of rows. */
+static koksma_status find_discrepancies(const koksma__json_node *table, const koksma__plan_trials *trials,
+                                        const koksma__plan *plan, const koksma__table *t, size_t *row)
 {
     for (*row = 0; *row < t->n_rows; ++*row) {
-        const char *pattern = t->rows[*row].pattern;
-        if (!is_made(plan, t, t->measure, pattern, steps) ||
-            (t->also && !is_made(plan, t, t->also, pattern, steps))) {
-            return false;
+        bool made, also = true;
+        KOKSMA__TRY(is_made(table, trials, plan, t, t->measure, t->rows[*row].pattern, &made));
+        if (made && t->also) {
+            KOKSMA__TRY(is_made(table, trials, plan, t, t->also, t->rows[*row].pattern, &also));
+        }
+        if (!made || !also) {
+            break;
         }
     }
-    return true;
+    return KOKSMA_OK;
 }
 
-koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan *plan)
+koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan_trials *trials,
+                                        const koksma__plan *plan)
 {
-    uint64_t steps = 0;
+    koksma__json_node tables;
+    KOKSMA__TRY(plan->n_tables ? koksma__json_member(root, "tables", &tables) : KOKSMA_OK);
     for (size_t i = 0; i < plan->n_tables; i++) {
         koksma__table *t = &plan->tables[i];
+        const koksma__json_node table = koksma__json_item(&tables, i);
         size_t row;
-        if (!(t->scene ? find_images(plan, t, &row, &steps) : find_discrepancies(plan, t, &row, &steps))) {
-            koksma__json_node tables;
-            koksma__json_member(root, "tables", &tables);
-            const koksma__json_node table = koksma__json_item(&tables, i);
-            KOKSMA__JSON_FAIL_IF(steps > MOST_STEPS, &table,
-                                 "finding the blocks that make the rows of the tables takes more than 2^28 steps: "
-                                 "use fewer rows, sizes or blocks");
-            return row && t->scene
-                       ? koksma__json_fail(
-                             &table,
+        KOKSMA__TRY(t->scene ? find_images(&table, trials, plan, t, &row)
+                             : find_discrepancies(&table, trials, plan, t, &row));
+        KOKSMA__JSON_FAIL_IF(row < t->n_rows && row && t->scene, &table,
                              "no single block of the plan makes the row of %s together with the rows before it",
-                             t->rows[row].pattern)
-                       : koksma__json_fail(&table, "no block of the plan makes the row of %s", t->rows[row].pattern);
-        }
+                             t->rows[row].pattern);
+        KOKSMA__JSON_FAIL_IF(row < t->n_rows, &table, "no block of the plan makes the row of %s",
+                             t->rows[row].pattern);
     }
     return KOKSMA_OK;
 }

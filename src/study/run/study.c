@@ -94,7 +94,7 @@ koksma_status koksma__study_open_scene(koksma_study *study, const char *name)
     if (koksma__study_scene_of(study, name)) {
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(koksma__scene_files_open(&study->scene_files, name, &scene));
+    KOKSMA__TRY(koksma__scene_files_open(&study->totals.scenes, name, &scene));
     koksma__study_scene *s = calloc(1, sizeof *s);
     KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
     koksma_render_options_init(&options, scene);
@@ -216,7 +216,7 @@ static koksma_status recall_plan(koksma_study *study)
     free(what);
     trials.quick = quick;
     trials.stored = true;
-    trials.scenes = &study->scene_files;
+    trials.totals = &study->totals;
     for (unsigned long i = 0; !status && i < n; i++) {
         koksma__plan plan = {0};
         char *text = NULL, *name = NULL; /* databases of older versions lack the plan's name */
@@ -250,8 +250,7 @@ static koksma_status check_text(const koksma_study_options *options, char *const
 
 static koksma_status load_plans(koksma_study *study, const koksma_study_options *options, char **texts)
 {
-    const koksma__plan_trials trials = {
-        .trials = options->trials, .quick = options->quick, .scenes = &study->scene_files};
+    const koksma__plan_trials trials = {.trials = options->trials, .quick = options->quick, .totals = &study->totals};
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < options->n_plans; i++) {
         koksma__plan plan = {0};
@@ -371,7 +370,7 @@ koksma_status koksma_study_close(koksma_study *study)
         koksma_image_fini(&study->references[i].image);
     }
     tdestroy(study->scenes, free);
-    koksma__scene_files_fini(&study->scene_files);
+    koksma__scene_files_fini(&study->totals.scenes);
     free(study->references);
     koksma__texts_fini(&study->failed);
     koksma__plan_fini(&study->plan);

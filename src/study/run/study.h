@@ -28,9 +28,9 @@ struct koksma_study {
     koksma__plan plan;
     char *folder;
     koksma__store *store;
-    bool is_written; /* whether the store was opened for a run */
-    koksma__scene_files scene_files;
-    void *scenes; /* koksma__study_scene of each name: a tree of tsearch(3) */
+    bool is_written;            /* whether the store was opened for a run */
+    koksma__plan_totals totals; /* of its plans */
+    void *scenes;               /* koksma__study_scene of each name: a tree of tsearch(3) */
     size_t n_references;
     koksma__reference_image *references;
     koksma__texts failed;     /* lines for readers on the jobs that failed alone (failed_jobs.h) */
