@@ -229,7 +229,7 @@ KOKSMA_API koksma_status koksma_study_undone(koksma_study *study, size_t *jobs, 
 
 /* Writes DIR/report.json, which has every number (docs/report-format.md), and DIR/report.html, a page with the same
    report in one file that needs no network. Errors: ARGUMENT (the study has no folder), MALFORMED (the
-   results are damaged or edited), IO. */
+   results are damaged or edited), IO, MEMORY, INTERRUPTED (the files stay as they were). */
 KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_run *run);
 
 /* Returns the id of published table i of the plan, such as "5.1", or NULL past the last table. The string is valid

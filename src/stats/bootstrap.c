@@ -10,8 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
+
+enum { BETWEEN_CALLS = 64 }; /* resamples between two calls of run->keep_going */
 
 static int compare_doubles(const void *a, const void *b)
 {
@@ -81,8 +84,8 @@ static void resample(const koksma__means *x, const koksma__means *y, size_t n, u
 }
 
 koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n,
-                                      koksma__pair_statistic statistic, size_t samples, uint64_t seed, double *values,
-                                      koksma__estimate *out)
+                                      koksma__pair_statistic statistic, size_t samples, uint64_t seed,
+                                      const koksma_run *run, double *values, koksma__estimate *out)
 {
     *out = (koksma__estimate){n ? statistic(x->mean, y->mean, n) : (double)NAN, -1, 1};
     if (n < KOKSMA__LEAST_PAIRS) {
@@ -92,6 +95,10 @@ koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__mean
     KOKSMA__REQUIRE_MEMORY(room, (samples + 2 * n) * sizeof *room);
     for (size_t s = 0; s < samples; s++) {
         double *a = room + samples, *b = a + n;
+        if (s % BETWEEN_CALLS == 0 && !koksma__keep_going(run, 0)) {
+            free(room);
+            return koksma__fail_interrupted();
+        }
         resample(x, y, n, seed, s, a, b);
         room[s] = statistic(a, b, n);
     }

@@ -24,10 +24,11 @@ typedef struct koksma__means {
    each resample, in order, or NaN where it has no value. With n below 7 the interval is [-1, 1] and `values` is not
    set: bootstrap intervals of so few pairs exclude 0 in 8 to 13 % of cases without any correlation. If the pairs are
    in perfect order, all resamples have the same order. The interval then has width 0, although the statistic is not
-   certain. Errors: MEMORY. */
+   certain. Calls run->keep_going from time to time, always with the fraction 0; run may be NULL. Errors: MEMORY,
+   INTERRUPTED. */
 koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n,
-                                      koksma__pair_statistic statistic, size_t samples, uint64_t seed, double *values,
-                                      koksma__estimate *out);
+                                      koksma__pair_statistic statistic, size_t samples, uint64_t seed,
+                                      const koksma_run *run, double *values, koksma__estimate *out);
 
 /* The value of a statistic; in resample s it is values[s] * factor. */
 typedef struct koksma__draws {

@@ -16,6 +16,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "core/vector.h"
 #include "stats/correlation.h"
@@ -23,6 +24,11 @@
 enum { PENALTIES = 9 };
 
 static const double penalties[PENALTIES] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10};
+
+static koksma_status go_on(const koksma_run *run)
+{
+    return koksma__keep_going(run, 0) ? KOKSMA_OK : koksma__fail_interrupted();
+}
 
 /* The matrices G (k x k) and c (k) of each scene and of sums over scenes, with memory for the computations. */
 typedef struct sums {
@@ -56,13 +62,14 @@ static koksma_status sums_init(size_t k, size_t n_scenes, sums *s)
     return KOKSMA_OK;
 }
 
-static void add_cases(sums *s, const koksma__rank_case *cases, size_t n_cases)
+static koksma_status add_cases(sums *s, const koksma__rank_case *cases, size_t n_cases, const koksma_run *run)
 {
     const size_t k = s->k;
     for (size_t i = 0; i < n_cases; i++) {
         const koksma__rank_case *at = &cases[i];
         double *g = s->of + at->scene * s->size, *c = g + k * k;
         for (size_t a = 0; a < k; a++) {
+            KOKSMA__TRY(go_on(run));
             for (size_t b = 0; b < k; b++) {
                 g[a * k + b] += koksma__dot_of(at->n, at->ranks + a * at->n, at->ranks + b * at->n);
             }
@@ -76,6 +83,7 @@ static void add_cases(sums *s, const koksma__rank_case *cases, size_t n_cases)
             s->all[i] += s->of[scene * s->size + i];
         }
     }
+    return KOKSMA_OK;
 }
 
 /* Sets s->train to the sum over all scenes except `scene` and `other`, which may be equal. */
@@ -122,13 +130,15 @@ static double error_in(const sums *s, size_t scene)
 
 /* Chooses the penalty with the least error in a cross-validation among all scenes except `scene`; among penalties
    with equal errors, the largest. */
-static double choose_penalty(sums *s, size_t scene, size_t n_used)
+static koksma_status choose_penalty(sums *s, size_t scene, size_t n_used, const koksma_run *run, double *best)
 {
-    double best = penalties[PENALTIES - 1], least = INFINITY;
+    double least = INFINITY;
+    *best = penalties[PENALTIES - 1];
     for (int p = PENALTIES - 1; p >= 0; p--) {
         double error = 0;
         for (size_t other = 0; other < s->n_scenes; other++) {
             if (other != scene && s->cases[other]) {
+                KOKSMA__TRY(go_on(run));
                 leave_out(s, scene, other);
                 fit_ridge(s, penalties[p], n_used - 2);
                 error += error_in(s, other);
@@ -136,10 +146,10 @@ static double choose_penalty(sums *s, size_t scene, size_t n_used)
         }
         if (error < least) {
             least = error;
-            best = penalties[p];
+            *best = penalties[p];
         }
     }
-    return best;
+    return KOKSMA_OK;
 }
 
 /* Returns the part of the squared error that a pair of measures explains in s->train, or -1 if the pair is nearly
@@ -203,13 +213,13 @@ static double predict(const koksma__rank_case *at, size_t k, const size_t *which
     return isnan(rho) ? 0 : rho;
 }
 
-static void predict_scene(sums *s, const koksma__rank_case *cases, size_t n_cases, size_t scene, size_t n_used,
-                          double *scores, koksma__held_out *out)
+static koksma_status predict_scene(sums *s, const koksma__rank_case *cases, size_t n_cases, size_t scene,
+                                   size_t n_used, const koksma_run *run, double *scores, koksma__held_out *out)
 {
     const size_t k = s->k;
     double sign = 1, pair[2] = {0, 0};
     *out = (koksma__held_out){.cases = s->cases[scene]};
-    out->penalty = choose_penalty(s, scene, n_used);
+    KOKSMA__TRY(choose_penalty(s, scene, n_used, run, &out->penalty));
     leave_out(s, scene, scene);
     fit_ridge(s, out->penalty, n_used - 1);
     choose_single(s, out, &sign);
@@ -232,16 +242,16 @@ static void predict_scene(sums *s, const koksma__rank_case *cases, size_t n_case
             out->rho_all += share * predict(&cases[i], k, NULL, s->weights, k, scores);
         }
     }
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__rank_regression(const koksma__rank_case *cases, size_t n_cases, size_t k, size_t n_scenes,
-                                      koksma__held_out *out)
+                                      const koksma_run *run, koksma__held_out *out)
 {
     sums s;
     size_t n_used = 0, most = 0;
     KOKSMA__TRY(sums_init(k, n_scenes, &s));
-    koksma_status status = KOKSMA_OK;
-    add_cases(&s, cases, n_cases);
+    koksma_status status = add_cases(&s, cases, n_cases, run);
     for (size_t scene = 0; scene < n_scenes; scene++) {
         n_used += s.cases[scene] > 0;
     }
@@ -249,16 +259,16 @@ koksma_status koksma__rank_regression(const koksma__rank_case *cases, size_t n_c
         most = cases[i].n > most ? cases[i].n : most;
     }
     double *scores = malloc((most + 1) * sizeof *scores);
-    if (!scores) {
+    if (!status && !scores) {
         status = koksma__fail_memory((most + 1) * sizeof *scores);
-    } else if (n_used < 3) {
+    } else if (!status && n_used < 3) {
         status =
             koksma__fail(KOKSMA_ARGUMENT, "rank regression: %zu scenes have cases; at least 3 are needed", n_used);
     }
     for (size_t scene = 0; !status && scene < n_scenes; scene++) {
         out[scene] = (koksma__held_out){0};
         if (s.cases[scene]) {
-            predict_scene(&s, cases, n_cases, scene, n_used, scores, &out[scene]);
+            status = predict_scene(&s, cases, n_cases, scene, n_used, run, scores, &out[scene]);
         }
     }
     free(scores);

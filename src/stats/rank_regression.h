@@ -29,9 +29,9 @@ typedef struct koksma__held_out {
 } koksma__held_out;
 
 /* Predicts the errors in each of n_scenes scenes from all other scenes, which have equal weight. At least 3 scenes
-   must have cases. `out` receives one result for each scene. Errors: ARGUMENT (fewer than 3 scenes with cases),
-   MEMORY. */
+   must have cases. `out` receives one result for each scene. Calls run->keep_going from time to time, always
+   with the fraction 0; run may be NULL. Errors: ARGUMENT (fewer than 3 scenes with cases), MEMORY, INTERRUPTED. */
 koksma_status koksma__rank_regression(const koksma__rank_case *cases, size_t n_cases, size_t k, size_t n_scenes,
-                                      koksma__held_out *out);
+                                      const koksma_run *run, koksma__held_out *out);
 
 #endif

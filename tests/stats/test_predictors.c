@@ -303,7 +303,7 @@ static void a_pair_that_predicts(void **state)
     data d;
     koksma__held_out out[8];
     set_data(&d, 7, 24, 8, 6, true);
-    assert_ok(koksma__rank_regression(d.cases, 24, 6, 8, out));
+    assert_ok(koksma__rank_regression(d.cases, 24, 6, 8, NULL, out));
     for (size_t s = 0; s < 8; s++) {
         assert_int_equal(out[s].cases, 3);
         assert_true(out[s].pair[0] == 0 && out[s].pair[1] == 1);
@@ -322,7 +322,7 @@ static void noise_predicts_nothing(void **state)
     for (uint64_t t = 0; t < 30; t++) {
         koksma__held_out out[8];
         set_data(&d, t, 16, 8, MOST_MEASURES, false);
-        assert_ok(koksma__rank_regression(d.cases, 16, MOST_MEASURES, 8, out));
+        assert_ok(koksma__rank_regression(d.cases, 16, MOST_MEASURES, 8, NULL, out));
         for (size_t s = 0; s < 8; s++) {
             sums[0] += out[s].rho_single / 240;
             sums[1] += out[s].rho_pair / 240;
@@ -349,14 +349,14 @@ static void single_with_its_sign(void **state)
             d.ranks[c][2 * PATTERNS + i] = (c == 1 ? 1 : -1) * d.ranks[c][3 * PATTERNS + i];
         }
     }
-    assert_ok(koksma__rank_regression(d.cases, 4, 3, 5, out)); /* scene 4 has no case */
+    assert_ok(koksma__rank_regression(d.cases, 4, 3, 5, NULL, out)); /* scene 4 has no case */
     for (size_t s = 0; s < 4; s++) {
         assert_int_equal(out[s].single, 2);
         assert_near(out[s].rho_single, s == 1 ? -1 : 1, 1e-12);
         assert_true(out[s].hindsight == 2 && fabs(out[s].rho_hindsight - 1) < 1e-12);
     }
     assert_int_equal(out[4].cases, 0);
-    assert_int_equal(koksma__rank_regression(d.cases, 2, 3, 5, out), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma__rank_regression(d.cases, 2, 3, 5, NULL, out), KOKSMA_ARGUMENT);
 }
 
 int main(void)

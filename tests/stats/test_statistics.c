@@ -223,15 +223,15 @@ static void bootstrap_intervals(void **state)
         values[i] = normal(5, i);
         y[i] = values[i] + 0.1 * normal(6, i);
     }
-    assert_ok(koksma__bootstrap_pairs(&x, &of_y, 100, koksma__spearman, 500, 3, NULL, &e));
+    assert_ok(koksma__bootstrap_pairs(&x, &of_y, 100, koksma__spearman, 500, 3, NULL, NULL, &e));
     assert_true(e.low < e.value && e.value < e.high && e.low > 0.95 && e.high <= 1);
-    assert_ok(koksma__bootstrap_pairs(&x, &of_y, 100, koksma__spearman, 500, 3, NULL, &again));
+    assert_ok(koksma__bootstrap_pairs(&x, &of_y, 100, koksma__spearman, 500, 3, NULL, NULL, &again));
     assert_true(e.low == again.low && e.high == again.high);
     for (size_t n = 1; n < 7; n++) { /* too few to say that it isn't 0 */
-        assert_ok(koksma__bootstrap_pairs(&x, &x, n, koksma__spearman, 500, 3, NULL, &e));
+        assert_ok(koksma__bootstrap_pairs(&x, &x, n, koksma__spearman, 500, 3, NULL, NULL, &e));
         assert_true(e.low == -1 && e.high == 1);
     }
-    assert_ok(koksma__bootstrap_pairs(&x, &x, 7, koksma__spearman, 500, 3, NULL, &e));
+    assert_ok(koksma__bootstrap_pairs(&x, &x, 7, koksma__spearman, 500, 3, NULL, NULL, &e));
     assert_true(e.value == 1 && e.low == 1);
 }
 
@@ -247,13 +247,13 @@ static void bootstrap_redraws_means(void **state)
     }
     const koksma__means sure = {mean, narrow, 1}, x = {mean, wide, 1}, y = {mean, wide, 2}, exact = {mean, NULL, 0};
     koksma__estimate e;
-    assert_ok(koksma__bootstrap_pairs(&exact, &sure, 9, koksma__spearman, 500, 3, NULL, &e));
+    assert_ok(koksma__bootstrap_pairs(&exact, &sure, 9, koksma__spearman, 500, 3, NULL, NULL, &e));
     assert_true(e.value == 1 && e.low == 1 && e.high == 1);
-    assert_ok(koksma__bootstrap_pairs(&x, &y, 9, koksma__spearman, 500, 3, values, &e));
+    assert_ok(koksma__bootstrap_pairs(&x, &y, 9, koksma__spearman, 500, 3, NULL, values, &e));
     assert_true(e.value == 1 && e.low > 0.3 && e.low < 0.9 && e.high <= 1);
-    assert_ok(koksma__bootstrap_pairs(&x, &y, 9, koksma__spearman, 500, 3, again, &e));
+    assert_ok(koksma__bootstrap_pairs(&x, &y, 9, koksma__spearman, 500, 3, NULL, again, &e));
     assert_memory_equal(values, again, sizeof values);
-    assert_ok(koksma__bootstrap_pairs(&x, &x, 9, koksma__spearman, 500, 3, NULL, &e));
+    assert_ok(koksma__bootstrap_pairs(&x, &x, 9, koksma__spearman, 500, 3, NULL, NULL, &e));
     assert_true(e.low == 1); /* the same means with the same noise */
 }
 
@@ -270,7 +270,7 @@ static void correlations_told_apart(void **state)
     }
     const koksma__means y = {errors, NULL, 0}, x[] = {{errors, NULL, 0}, {near, NULL, 0}, {far, NULL, 0}};
     for (size_t m = 0; m < 3; m++) {
-        assert_ok(koksma__bootstrap_pairs(&x[m], &y, 16, koksma__spearman, 500, 3, draws[m], &rho[m]));
+        assert_ok(koksma__bootstrap_pairs(&x[m], &y, 16, koksma__spearman, 500, 3, NULL, draws[m], &rho[m]));
     }
     const koksma__draws first = {2 * rho[0].value, 2, draws[0]}, second = {2 * rho[1].value, 2, draws[1]},
                         third = {rho[2].value, 1, draws[2]};
@@ -294,7 +294,7 @@ static void bootstrap_covers(void **state)
             y[i] = normal(t, 100 + i);
         }
         const koksma__means of_x = {x, NULL, 0}, of_y = {y, NULL, 0};
-        assert_ok(koksma__bootstrap_pairs(&of_x, &of_y, 10, koksma__spearman, 300, t, NULL, &e));
+        assert_ok(koksma__bootstrap_pairs(&of_x, &of_y, 10, koksma__spearman, 300, t, NULL, NULL, &e));
         excluded += e.low > 0 || e.high < 0;
     }
     assert_in_range(excluded, 4, 44);

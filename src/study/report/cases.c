@@ -55,8 +55,9 @@ koksma_status koksma__cases_open(koksma_study *study, const koksma__topic *topic
 {
     koksma_status status = KOKSMA_OK;
     *cases = (koksma__cases){.study = study, .topic = topic};
-    for (size_t b = 0; b < topic->n_discrepancies; b++) {
+    for (size_t b = 0; !status && b < topic->n_discrepancies; b++) {
         const koksma__discrepancy_block *d = topic->discrepancies[b];
+        status = koksma__report_goes_on(study);
         for (size_t m = 0; !status && !d->warps.n && m < d->measures.n; m++) {
             status = add_measured(cases, d->measures.at[m], d->dim);
         }
@@ -171,7 +172,8 @@ koksma_status koksma__cases_visit(const koksma__cases *c, koksma__case_visitor v
                                .scene = i->scenes.at[k / (i->variants.n * i->spp.n)],
                                .variant = i->variants.at[k / i->spp.n % i->variants.n],
                                .spp = i->spp.at[k % i->spp.n]};
-            if (!is_before(c, &at, NULL, b)) {
+            status = koksma__report_goes_on(c->study);
+            if (!status && !is_before(c, &at, NULL, b)) {
                 status = visit_measures(c, &at, visit, context);
             }
         }
@@ -217,7 +219,8 @@ koksma_status koksma__case_pairs(const koksma__cases *c, const koksma__case *at,
             continue;
         }
         for (size_t p = 0; !status && p < i->patterns.n; p++) {
-            if (!is_before(c, at, i->patterns.at[p], b)) {
+            status = koksma__report_goes_on(c->study);
+            if (!status && !is_before(c, at, i->patterns.at[p], b)) {
                 status = add_pair(c, at, i->patterns.at[p], b, out);
             }
         }

@@ -222,7 +222,8 @@ koksma_status koksma__combinations_report(koksma__document *d, const char *id, c
     findings f;
     koksma_status status = findings_init(c, &f);
     if (!status && f.n_scenes >= 3 && c->cases->n >= 2) {
-        status = koksma__rank_regression(f.cases, f.n_cases, c->cases->n, f.n_scenes, f.held_out);
+        status =
+            koksma__rank_regression(f.cases, f.n_cases, c->cases->n, f.n_scenes, c->cases->study->report, f.held_out);
         if (!status) {
             koksma__doc_section(d, NULL, "Combinations of measures, tried on the scene left out");
             say_findings(d, c->cases, &f);

@@ -27,7 +27,7 @@ typedef struct koksma__combinations {
 koksma_status koksma__combinations_add(koksma__combinations *c, const koksma__case *at, const koksma__pairs *found);
 
 /* Appends the sentence and the table. Appends nothing unless there are two or more measures, and three or more
-   scenes with cases whose patterns have all measures. Errors: MEMORY. */
+   scenes with cases whose patterns have all measures. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__combinations_report(koksma__document *d, const char *id, const koksma__combinations *c);
 
 void koksma__combinations_fini(koksma__combinations *c);

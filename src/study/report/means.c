@@ -11,15 +11,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "study/run/references.h"
 #include "study/run/tasks.h"
+
+koksma_status koksma__report_goes_on(const koksma_study *study)
+{
+    return koksma__keep_going(study->report, 0) ? KOKSMA_OK : koksma__fail_interrupted();
+}
 
 koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
                                      koksma__result **results, size_t *n)
 {
     long long id;
-    koksma_status status = koksma__store_series(study->store, series, false, &id);
+    koksma_status status = koksma__report_goes_on(study);
+    status = status ? status : koksma__store_series(study->store, series, false, &id);
     status = status ? status : koksma__store_results(study->store, id, trials, results, n);
     if (!status && !*results) {
         *results = calloc(1, sizeof **results);

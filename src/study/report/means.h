@@ -9,8 +9,12 @@
 
 enum { KOKSMA__RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };
 
+/* Asks the caller of the report that is being written, if one is, whether to go on. Every loop over what a plan lists that
+   reads no results asks, too. Errors: INTERRUPTED. */
+koksma_status koksma__report_goes_on(const koksma_study *study);
+
 /* Reads the results of a series from the store, for trials below `trials`. The caller frees *results, which is never
-   NULL. */
+   NULL. Errors: those of the store, MEMORY, INTERRUPTED. */
 koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
                                      koksma__result **results, size_t *n);
 

@@ -59,9 +59,9 @@ static koksma_status add_sections(koksma__report_scope *scope, progress *p, bool
         if (!s->is_shown(scope)) {
             continue;
         }
-        scope->run = &part;
+        scope->study->report = &part;
         status = s->write(scope, &content);
-        scope->run = NULL;
+        scope->study->report = NULL;
         if (!koksma__doc_is_empty(&content)) {
             koksma__doc_section(d, sections[i].name, s->heading);
             koksma__doc_append(d, &content);

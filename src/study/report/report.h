@@ -9,7 +9,6 @@
 /* The data that a section is written from. */
 typedef struct koksma__report_scope {
     koksma_study *study;
-    const koksma_run *run;          /* deadline and cancellation for images that are rendered again; may be NULL */
     char rows[KOKSMA__SHA256_TEXT]; /* SHA-256 of all rows of the store (export.h) */
     size_t plan;                    /* index of the plan that a section with of_each_plan is about */
 } koksma__report_scope;

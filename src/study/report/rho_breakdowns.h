@@ -8,7 +8,7 @@
 
 /* Writes a table of the means by group of scenes if the plan has groups, one by scene if there are two or more
    scenes, and one by number of samples if there are two or more. Each row names its best measure and those that are
-   significantly worse. Errors: MEMORY. */
+   significantly worse. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__rho_breakdowns(koksma__document *d, const koksma__topic *topic, const koksma__rho_means *s);
 
 #endif

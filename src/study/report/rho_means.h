@@ -38,7 +38,8 @@ typedef struct koksma__rho_means {
     size_t n, n_variants, n_scenes, n_sizes;
     koksma__rho_sums *of;
     const char **variants, **scenes;
-    long long *sizes; /* numbers of samples per pixel */
+    long long *sizes;      /* numbers of samples per pixel */
+    const koksma_run *run; /* whose keep_going rankings call; may be NULL */
 } koksma__rho_means;
 
 /* The case that a correlation belongs to; the strings must outlive the means. */

@@ -14,6 +14,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 
 static const double LEVEL = 0.05;
@@ -58,13 +59,15 @@ static koksma_status stand(const koksma__rho_sums *m, const koksma__rho_subset *
 }
 
 /* Computes the p-values of all pairs of measures that can be compared, adjusted by Holm's method. */
-static koksma_status compare_pairs(koksma__rho_ranking *r, double *const *draws)
+static koksma_status compare_pairs(const koksma_run *run, koksma__rho_ranking *r, double *const *draws)
 {
     const size_t n = r->n;
     double *p = malloc((n * n + 1) * sizeof *p);
     KOKSMA__REQUIRE_MEMORY(p, (n * n + 1) * sizeof *p);
-    for (size_t a = 0; a < n; a++) {
-        for (size_t b = a; b < n; b++) {
+    koksma_status status = KOKSMA_OK;
+    for (size_t a = 0; !status && a < n; a++) {
+        status = koksma__keep_going(run, 0) ? KOKSMA_OK : koksma__fail_interrupted();
+        for (size_t b = a; !status && b < n; b++) {
             const koksma__rho_standing *x = &r->at[a], *y = &r->at[b];
             const bool compared = a != b && x->cases == y->cases && !isnan(x->mean.low) && !isnan(y->mean.low);
             r->p[a * n + b] = r->p[b * n + a] = compared ? 1 : (double)NAN;
@@ -73,8 +76,8 @@ static koksma_status compare_pairs(koksma__rho_ranking *r, double *const *draws)
             }
         }
     }
-    const koksma_status status = koksma__holm(p, r->n_pairs);
-    for (size_t a = 0, k = 0; a < n; a++) {
+    status = status ? status : koksma__holm(p, r->n_pairs);
+    for (size_t a = 0, k = 0; !status && a < n; a++) {
         for (size_t b = a + 1; b < n; b++) {
             if (!isnan(r->p[a * n + b])) {
                 r->p[a * n + b] = r->p[b * n + a] = p[k++];
@@ -108,7 +111,8 @@ static koksma_status fill(const koksma__rho_means *s, const koksma__rho_subset *
     for (size_t m = 0; !status && m < s->n; m++) {
         koksma__rho_standing *standing = &r->at[r->n];
         *standing = (koksma__rho_standing){.measure = m};
-        status = stand(&s->of[m], of, draws[r->n], standing);
+        status =
+            koksma__keep_going(s->run, 0) ? stand(&s->of[m], of, draws[r->n], standing) : koksma__fail_interrupted();
         r->n += standing->cases > 0;
     }
     if (status) {
@@ -130,7 +134,7 @@ static koksma_status fill(const koksma__rho_means *s, const koksma__rho_subset *
         }
     }
     free(p);
-    return status ? status : compare_pairs(r, draws);
+    return status ? status : compare_pairs(s->run, r, draws);
 }
 
 koksma_status koksma__rho_rank(const koksma__rho_means *s, const koksma__rho_subset *of, koksma__rho_ranking *r)

@@ -28,7 +28,7 @@ typedef struct koksma__rho_ranking {
     double *p;                /* n x n p-values of "the means are equal", by Holm over the pairs; NaN: not compared */
 } koksma__rho_ranking;
 
-/* Ranks the measures over a subset of the cases. Errors: MEMORY. */
+/* Ranks the measures over a subset of the cases. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__rho_rank(const koksma__rho_means *s, const koksma__rho_subset *of,
                                koksma__rho_ranking *ranking);
 void koksma__rho_ranking_fini(koksma__rho_ranking *ranking);
@@ -46,7 +46,7 @@ typedef struct koksma__rho_jackknife {
     koksma__rho_ranking *of;
 } koksma__rho_jackknife;
 
-/* Computes the rankings over all scenes and without each of them. Errors: MEMORY. */
+/* Computes the rankings over all scenes and without each of them. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__rho_leave_out(const koksma__rho_means *s, koksma__rho_jackknife *jackknife);
 void koksma__rho_jackknife_fini(koksma__rho_jackknife *jackknife);
 

@@ -35,6 +35,7 @@ struct koksma_study {
     koksma__reference_image *references;
     koksma__texts failed;     /* lines for readers on the jobs that failed alone (failed_jobs.h) */
     const koksma__sink *sink; /* NULL: results go into the store */
+    const koksma_run *report; /* of the report that is being written (koksma__report_goes_on); NULL: none is */
 };
 
 /* Opens a scene unless it is open already. `name` must remain valid as long as the study. Errors: those of

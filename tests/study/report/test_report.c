@@ -7,6 +7,8 @@
 
 #include "test.h"
 
+#define PATTERNS "\"random\", \"sobol\", \"jittered\", \"n-rooks\", \"hammersley\", \"halton\", \"korobov:a=3\""
+
 /* Calls of a report: their number, the largest fraction, whether one was below an earlier one, the call that says no. */
 typedef struct calls {
     size_t n, last;
@@ -44,8 +46,43 @@ static void reports_have_progress(void **state)
     assert_ok(koksma_study_close(study));
 }
 
+/* A question asks the callback at a grain of little work: once for every 64 of 150,000 resamples here, then in the
+   rankings, and for every number that it reads. A no at any of these calls is the last call and leaves no file. */
+static void questions_end_where_the_callback_says(void **state)
+{
+    (void)state;
+    const char *plans[] = {
+        "{\"name\": \"p\", \"title\": \"P\", \"discrepancies\": [{\"id\": \"d\", \"patterns\": [" PATTERNS "], "
+        "\"measures\": [\"star\", \"diaphony\"], \"n\": [4, 9], \"trials\": 2}], "
+        "\"images\": [{\"id\": \"i\", \"patterns\": [" PATTERNS "], "
+        "\"scenes\": [\"ball\", \"checker\", \"balls\"], \"size\": [8, 8], \"spp\": [4], \"trials\": 2, "
+        "\"references\": [{\"name\": \"r\", \"pattern\": \"random\", \"spp\": 4}]}], \"questions\": ["
+        "{\"id\": \"c\", \"title\": \"C\", \"kind\": \"correlation\", \"discrepancies\": \"d\", \"images\": \"i\"}, "
+        "{\"id\": \"s\", \"title\": \"S\", \"kind\": \"slopes\", \"discrepancies\": \"d\"}, "
+        "{\"id\": \"k\", \"title\": \"K\", \"kind\": \"inequality\", \"discrepancies\": \"d\"}]}"};
+    const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = "asking"};
+    koksma_study *study;
+    unlink("asking/report.json"); /* of an earlier run of this test */
+    assert_ok(koksma_study_open(&options, &study));
+    assert_ok(koksma_study_run(study, NULL, NULL));
+    calls all = {0};
+    koksma_run run = {.threads = 1, .keep_going = count_call, .context = &all};
+    assert_ok(koksma_study_report(study, &run));
+    assert_true(all.n > 150000 / 64 && !all.fell);
+    unlink("asking/report.json");
+    for (size_t part = 1; part < 8; part++) {
+        calls some = {.last = part < 4 ? all.n * part / 4 : all.n - 64 * (part - 4) - 1};
+        run.context = &some;
+        assert_int_equal(koksma_study_report(study, &run), KOKSMA_INTERRUPTED);
+        assert_int_equal(some.n, some.last);
+        assert_int_equal(access("asking/report.json", F_OK), -1);
+    }
+    assert_ok(koksma_study_close(study));
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(reports_have_progress)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(reports_have_progress),
+                                       cmocka_unit_test(questions_end_where_the_callback_says)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,8 +37,8 @@ static koksma__estimate turned(const koksma__estimate *of)
 
 /* Computes Spearman's rho with its resamples, and Kendall's tau. For tau a quarter of the resamples suffices,
    because its interval is only shown and enters no significance test. */
-static koksma_status correlate(const koksma__case *p, const koksma__pairs *found, double draws[KOKSMA__RHO_SAMPLES],
-                               koksma__estimate *rho, koksma__estimate *tau)
+static koksma_status correlate(const koksma_run *run, const koksma__case *p, const koksma__pairs *found,
+                               double draws[KOKSMA__RHO_SAMPLES], koksma__estimate *rho, koksma__estimate *tau)
 {
     const koksma__means x = {found->x, found->x_error, koksma__job_seed("means|%s|%lld", p->of->label, p->spp)};
     const koksma__means y = {found->y, found->y_error,
@@ -46,9 +46,10 @@ static koksma_status correlate(const koksma__case *p, const koksma__pairs *found
     const uint64_t seed = koksma__job_seed("correlation");
     memset(draws, 0, KOKSMA__RHO_SAMPLES * sizeof *draws);
     koksma_status status =
-        koksma__bootstrap_pairs(&x, &y, found->n, koksma__spearman, KOKSMA__RHO_SAMPLES, seed, draws, rho);
+        koksma__bootstrap_pairs(&x, &y, found->n, koksma__spearman, KOKSMA__RHO_SAMPLES, seed, run, draws, rho);
     if (!status) {
-        status = koksma__bootstrap_pairs(&x, &y, found->n, koksma__kendall, KOKSMA__RHO_SAMPLES / 4, seed, NULL, tau);
+        status =
+            koksma__bootstrap_pairs(&x, &y, found->n, koksma__kendall, KOKSMA__RHO_SAMPLES / 4, seed, run, NULL, tau);
     }
     if (p->of->larger) {
         *rho = turned(rho);
@@ -73,7 +74,7 @@ static koksma_status list_row(const koksma__cases *cases, void *context, const k
         return status;
     }
     status = koksma__combinations_add(l->combinations, p, &found);
-    status = status ? status : correlate(p, &found, draws, &rho, &tau);
+    status = status ? status : correlate(cases->study->report, p, &found, draws, &rho, &tau);
     if (status || isnan(rho.value)) {
         return status;
     }
@@ -169,7 +170,7 @@ static koksma_status report(koksma__document *d, const koksma__cases *cases, con
 koksma_status koksma__answer_correlation(koksma_study *study, koksma__document *d, const koksma__topic *topic)
 {
     koksma__document list = {0};
-    koksma__rho_means s = {0};
+    koksma__rho_means s = {.run = study->report};
     koksma__cases cases;
     char name[64];
     snprintf(name, sizeof name, "correlations-%.40s", topic->id);

@@ -25,7 +25,7 @@ enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 160, PROBES = 16 };
 
 /* Adds the scatter plot of a point set. If the pattern runs code that the user has not allowed, there is no plot, and
    `note` receives a text for the caption that says so; otherwise `note` is unchanged. */
-static koksma_status add_points(koksma__document *d, const koksma__figure *f, char note[NOTE])
+static koksma_status add_points(koksma__document *d, const koksma__figure *f, const koksma_run *run, char note[NOTE])
 {
     koksma_spec spec;
     koksma_points points;
@@ -36,7 +36,7 @@ static koksma_status add_points(koksma__document *d, const koksma__figure *f, ch
     if (status) {
         return status;
     }
-    status = koksma_generate(&spec, koksma__job_seed("figure|%s|%lld", f->pattern, f->n), NULL, &points);
+    status = koksma_generate(&spec, koksma__job_seed("figure|%s|%lld", f->pattern, f->n), run, &points);
     koksma_scatter_options options = {.size = POINTS_WIDTH, .warp = f->warp ? koksma_warp_find(f->warp) : NULL};
     if (f->cells) { /* how to show the strata: as n columns and n rows, or as the cells of a sqrt n x sqrt n grid */
         options.columns = options.rows =
@@ -256,7 +256,8 @@ static koksma_status add_figure(const koksma__report_scope *scope, koksma__docum
     if (f->lines) {
         add_lines(d, f);
     } else {
-        status = f->scene ? add_scene(scope->study, d, f, scope->run, note) : add_points(d, f, note);
+        const koksma_run *run = scope->study->report;
+        status = f->scene ? add_scene(scope->study, d, f, run, note) : add_points(d, f, run, note);
     }
     koksma__doc_caption(d);
     koksma__doc_say(d, "Figure %s: %s%s", f->id, f->title, note);

@@ -227,14 +227,14 @@ static koksma_status add_scene(const koksma__report_scope *scope, koksma__docume
     koksma__doc_say(d, "%s, %lld sample%s a pixel, %d x %d pixels", name, first->n, koksma__plural((double)first->n),
                     first->width, first->height);
     koksma__doc_section_body(d);
-    status = add_pictures(d, first, shown, &reference->image, scope->run, used);
+    status = add_pictures(d, first, shown, &reference->image, study->report, used);
     if (shown < patterns->n) {
         koksma__doc_paragraph(
             d, shown + 1 == patterns->n ? "%zu more pattern is not shown." : "%zu more patterns are not shown.",
             patterns->n - shown);
     }
     status = status ? status : are_done(study, first, shown, trials, &done);
-    status = status || !done ? status : add_spectra(d, first, &reference->image, scope->run);
+    status = status || !done ? status : add_spectra(d, first, &reference->image, study->report);
     koksma__doc_end(d);
     return status;
 }

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "study/report/metric_words.h"
 #include "study/report/questions/topic.h"
@@ -149,7 +150,9 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     const koksma__plan *plan = &scope->study->plan;
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < plan->n_questions; i++) {
-        status = answer_question(scope->study, d, &plan->questions[i]);
+        status = koksma__keep_going(scope->study->report, (double)i / (double)plan->n_questions)
+                     ? answer_question(scope->study, d, &plan->questions[i])
+                     : koksma__fail_interrupted();
     }
     for (size_t i = 0; !status && i < plan->n_parts; i++) {
         if (plan->parts[i].asks) {
