@@ -12,6 +12,7 @@
 #include "core/csv.h"
 #include "core/json_writer.h"
 #include "core/npy.h"
+#include "core/parallel.h"
 #include "core/status.h"
 #include "study/report/export.h"
 #include "study/run/study.h"
@@ -19,6 +20,8 @@
 
 /* The first N_FIRST text columns come before the numbers, the other text columns after them. */
 enum { N_FIRST = 6, N_TEXTS = 9, N_WHOLES = 4, N_VALUES = 9 };
+
+enum { BETWEEN_CALLS = 4096 }; /* rows that are hashed between two calls of keep_going */
 
 static const char *const text_names[N_TEXTS] = {"kind", "scene",  "scene_hash", "options",    "pattern",
                                                 "what", "metric", "made_by",    "measured_by"};
@@ -38,7 +41,9 @@ typedef struct writer {
     long long series;     /* the id of the series to which `before` and `after` belong; 0: no series */
     char *before, *after; /* the text of a CSV row before its trial, and the text after its values */
     koksma__json_writer json;
-    size_t rows, widths[N_TEXTS]; /* NPY: number of rows; lengths of the byte strings */
+    size_t rows;            /* NPY, SHA-256: number of rows */
+    size_t widths[N_TEXTS]; /* NPY: lengths of the byte strings */
+    const koksma_run *run;  /* SHA-256: asked whether to go on */
 } writer;
 
 static const char *text_of(const koksma__series *s, int k)
@@ -256,10 +261,19 @@ static koksma_status put_npy(void *context, const koksma__series *series, const 
 
 /* ---- SHA-256 of the CSV -------------------------------------------------------------------------------- */
 
-koksma_status koksma__rows_sha256(koksma__store *store, char text[KOKSMA__SHA256_TEXT])
+static koksma_status hash_row(void *context, const koksma__series *series, const koksma__result *result)
+{
+    writer *w = context;
+    if (w->rows++ % BETWEEN_CALLS == 0 && !koksma__keep_going(w->run, 0)) {
+        return koksma__fail_interrupted();
+    }
+    return put_csv(w, series, result);
+}
+
+koksma_status koksma__rows_sha256(koksma__store *store, const koksma_run *run, char text[KOKSMA__SHA256_TEXT])
 {
     koksma__sha256 hash;
-    writer w = {.hash = &hash};
+    writer w = {.hash = &hash, .run = run};
     char *header = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&header, &size);
@@ -270,7 +284,7 @@ koksma_status koksma__rows_sha256(koksma__store *store, char text[KOKSMA__SHA256
     koksma__sha256_init(&hash);
     if (!status) {
         koksma__sha256_add(&hash, header, size);
-        status = koksma__store_visit(store, put_csv, &w);
+        status = koksma__store_visit(store, hash_row, &w);
     }
     koksma__sha256_finish(&hash, text);
     KOKSMA__FREE(header, w.before, w.after);
@@ -297,7 +311,7 @@ static koksma_status write_rows(koksma__store *store, koksma_export_format forma
         }
         return status;
     case KOKSMA_EXPORT_SHA256:
-        status = koksma__rows_sha256(store, hash);
+        status = koksma__rows_sha256(store, NULL, hash);
         if (!status) {
             fprintf(w->stream, "%s\n", hash);
         }

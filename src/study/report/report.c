@@ -97,7 +97,7 @@ static koksma_status build(koksma_study *study, const koksma_run *run, koksma__d
     if (!koksma__keep_going(&first, 0)) {
         return koksma__fail_interrupted();
     }
-    koksma_status status = koksma__rows_sha256(study->store, scope.rows);
+    koksma_status status = koksma__rows_sha256(study->store, &first, scope.rows);
     d->json.in_html = true;
     koksma__json_begin_object(&d->json, NULL);
     koksma__json_write_text(&d->json, "format", "koksma-report");

@@ -46,6 +46,23 @@ static void reports_have_progress(void **state)
     assert_ok(koksma_study_close(study));
 }
 
+/* A report also asks while it hashes the rows, which it does first: here at the first row, after 4,096 and after 8,192. */
+static void hashing_rows_can_end(void **state)
+{
+    (void)state;
+    const char *plans[] = {"{\"name\": \"p\", \"title\": \"P\", \"discrepancies\": [{\"patterns\": [\"random\"], "
+                           "\"measures\": [\"star\"], \"n\": [1], \"trials\": 10000}]}"};
+    const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = "hashing"};
+    koksma_study *study;
+    assert_ok(koksma_study_open(&options, &study));
+    assert_ok(koksma_study_run(study, NULL, NULL));
+    calls some = {.last = 4};
+    const koksma_run run = {.keep_going = count_call, .context = &some};
+    assert_int_equal(koksma_study_report(study, &run), KOKSMA_INTERRUPTED);
+    assert_true(some.reached == 0); /* no section had begun */
+    assert_ok(koksma_study_close(study));
+}
+
 /* A question asks the callback at a grain of little work: once for every 64 of 150,000 resamples here, then in the
    rankings, and for every number that it reads. A no at any of these calls is the last call and leaves no file. */
 static void questions_end_where_the_callback_says(void **state)
@@ -83,6 +100,7 @@ static void questions_end_where_the_callback_says(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(reports_have_progress),
+                                       cmocka_unit_test(hashing_rows_can_end),
                                        cmocka_unit_test(questions_end_where_the_callback_says)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
