@@ -21,6 +21,7 @@
 #include "image/metrics/metrics.h"
 #include "patterns/shared/file_names.h"
 #include "study/run/references.h"
+#include "study/run/task_limits.h"
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
@@ -204,8 +205,8 @@ static koksma_status order(koksma__tasks *tasks)
 koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks *tasks)
 {
     const koksma__plan *plan = &study->plan;
-    koksma_status status = KOKSMA_OK;
     *tasks = (koksma__tasks){.study = study};
+    koksma_status status = koksma__task_limits_check(study);
     for (size_t b = 0; !images && !status && b < plan->n_discrepancies; b++) {
         status = add_discrepancies(tasks, &plan->discrepancies[b]);
     }

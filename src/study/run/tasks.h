@@ -52,7 +52,8 @@ typedef struct koksma__tasks {
 /* Whether the pattern is deterministic: all its trials give the same point set, so that one trial is enough. */
 bool koksma__has_one_set(const char *pattern);
 
-/* Lists all tasks of one kind in the plan. Errors: ARGUMENT (more than 2^30 jobs), MEMORY. */
+/* Lists all tasks of one kind in the plan. Errors: ARGUMENT (more than 2^30 jobs of the kind; both kinds together have
+   too many tasks, series or references), MEMORY. */
 koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks *tasks);
 void koksma__tasks_close(koksma__tasks *tasks);
 
