@@ -64,8 +64,8 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
     koksma__tasks tasks;
     KOKSMA__TRY(koksma__tasks_open(study, images, &tasks));
     koksma__phase phase = {.tasks = &tasks, .control = control, .last = images || !study->plan.n_images};
-    koksma_status status =
-        study->sink ? study->sink->look_up(study->sink->context, &tasks) : koksma__tasks_look_up(&tasks, true);
+    koksma_status status = study->sink ? study->sink->look_up(study->sink->context, &tasks)
+                                       : koksma__tasks_look_up(&tasks, !before, &control->run);
     summary->jobs += tasks.n_jobs;
     size_t done_before = 0;
     for (size_t i = 0; i < tasks.n; i++) {
@@ -106,7 +106,7 @@ static koksma_status count_jobs(koksma_study *study, bool images, size_t *jobs, 
 {
     koksma__tasks tasks;
     KOKSMA__TRY(koksma__tasks_open(study, images, &tasks));
-    const koksma_status status = tasks.n ? koksma__tasks_look_up(&tasks, false) : KOKSMA_OK;
+    const koksma_status status = tasks.n ? koksma__tasks_look_up(&tasks, false, NULL) : KOKSMA_OK;
     *jobs += tasks.n_jobs;
     for (size_t i = 0; i < tasks.n; i++) {
         *done += (size_t)tasks.at[i].done_before;

@@ -207,6 +207,10 @@ koksma_status koksma__run_state_open(koksma__phase *phase, koksma__run_state *st
     if (!status) {
         count_work(state);
     }
+    /* tasks may lack series in the store if the run stopped while they were looked up: no worker may take a job */
+    if (atomic_load(&phase->control->stop)) {
+        koksma__run_state_stop(state, KOKSMA_INTERRUPTED, "interrupted");
+    }
     return status;
 }
 

@@ -16,6 +16,7 @@
 #include "core/capacity.h"
 #include "core/csv.h"
 #include "core/hash.h"
+#include "core/parallel.h"
 #include "core/status.h"
 #include "image/coherence.h"
 #include "image/metrics/metrics.h"
@@ -302,15 +303,18 @@ static void see_row(void *context, long long series, long long trial)
     }
 }
 
-static koksma_status find_series(koksma__tasks *tasks, bool add, owners *o)
+/* Once `run` stops, creates no more series, but finds those that there are, so that done trials are known. No
+   trial is done of a task that lacks a series, so its others need not be found. */
+static koksma_status find_series(koksma__tasks *tasks, bool add, const koksma_run *run, owners *o)
 {
     koksma_status status = KOKSMA_OK;
     long long most = 0;
     for (size_t i = 0; i < tasks->n; i++) {
         koksma__task *t = &tasks->at[i];
-        for (size_t k = 0; !status && k < t->n_series; k++) {
+        for (size_t k = 0; !status && k < t->n_series && (add || !k || t->series[k - 1]); k++) {
             char name[KOKSMA__REFERENCE_NAME];
             const koksma__series series = koksma__task_series(t, k, name);
+            add = add && koksma__keep_going(run, 0);
             status = koksma__store_series(tasks->study->store, &series, add, &t->series[k]);
             most = t->series[k] > most ? t->series[k] : most;
         }
@@ -351,10 +355,10 @@ static void mark_done(koksma__task *t, const owners *o)
     }
 }
 
-koksma_status koksma__tasks_look_up(koksma__tasks *tasks, bool add)
+koksma_status koksma__tasks_look_up(koksma__tasks *tasks, bool add, const koksma_run *run)
 {
     owners o = {0};
-    koksma_status status = find_series(tasks, add, &o);
+    koksma_status status = find_series(tasks, add, run, &o);
     status = status ? status : koksma__store_scan(tasks->study->store, see_row, &o);
     for (size_t i = 0; !status && i < tasks->n; i++) {
         mark_done(&tasks->at[i], &o);

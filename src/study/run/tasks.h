@@ -61,8 +61,9 @@ void koksma__tasks_close(koksma__tasks *tasks);
    MPI run get the same answer. */
 bool koksma__tasks_have_work(const koksma__tasks *tasks, bool images);
 
-/* Finds the series of all tasks in the store, creates those that it lacks if `add`, and finds which trials are done. */
-koksma_status koksma__tasks_look_up(koksma__tasks *tasks, bool add);
+/* Finds the series of all tasks in the store, creates those that it lacks if `add`, until `run` (which may be
+   NULL) stops, and finds which trials are done. */
+koksma_status koksma__tasks_look_up(koksma__tasks *tasks, bool add, const koksma_run *run);
 
 /* koksma__tasks_job finds the task and trial of job i < n_jobs. koksma__task_is_done tells whether a trial was done
    before this run. */
