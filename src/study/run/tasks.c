@@ -74,32 +74,48 @@ bool koksma__has_one_set(const char *pattern)
     return !koksma_pattern_spec(pattern, &spec) && koksma_has_one_set(&spec);
 }
 
-/* A family of files, such as file:my_{n}_{seed}.npy, has one set for each file: trial t has the file with the t-th smallest
-   seed, and there are as many trials as files, at most those of the block. */
-static koksma_status find_seeds(koksma__task *t)
+/* The files of the pattern that was looked at last, so that each family is listed once, not for each size. */
+typedef struct family {
+    const char *pattern;
+    size_t n;
+    koksma__file_set *sets; /* NULL: the pattern is no family with {seed} */
+} family;
+
+static koksma_status list_family(const char *pattern, family *f)
 {
     koksma_spec spec;
-    koksma__file_set *sets = NULL;
-    size_t count = 0, n = 0;
-    if (koksma_pattern_spec(t->pattern, &spec) || !koksma__reads_points(spec.pattern) ||
-        !koksma__file_has(spec.path, "{seed}")) {
+    if (f->pattern == pattern) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__file_sets(spec.path, &sets, &count);
-    t->seeds = status ? NULL : calloc(count + 1, sizeof *t->seeds);
-    status = status || t->seeds ? status : koksma__fail_memory(count * sizeof *t->seeds);
-    for (size_t i = 0; !status && i < count && (long long)n < t->trials; i++) {
-        if (!sets[i].n || sets[i].n == (size_t)t->n) {
-            t->seeds[n++] = sets[i].seed;
+    free(f->sets);
+    *f = (family){.pattern = pattern};
+    const bool has_seeds = !koksma_pattern_spec(pattern, &spec) && koksma__reads_points(spec.pattern) &&
+                           koksma__file_has(spec.path, "{seed}");
+    return has_seeds ? koksma__file_sets(spec.path, &f->sets, &f->n) : KOKSMA_OK;
+}
+
+/* A family of files, such as file:my_{n}_{seed}.npy, has one set for each file: trial t has the file with the t-th smallest
+   seed, and there are as many trials as files, at most those of the block. */
+static koksma_status find_seeds(koksma__task *t, const family *f)
+{
+    const size_t most = (size_t)t->trials < f->n ? (size_t)t->trials : f->n;
+    size_t n = 0;
+    if (!f->sets) {
+        return KOKSMA_OK;
+    }
+    t->seeds = calloc(most + 1, sizeof *t->seeds);
+    KOKSMA__REQUIRE_MEMORY(t->seeds, (most + 1) * sizeof *t->seeds);
+    for (size_t i = 0; i < f->n && n < most; i++) {
+        if (!f->sets[i].n || f->sets[i].n == (size_t)t->n) {
+            t->seeds[n++] = f->sets[i].seed;
         }
     }
-    free(sets);
     if (!n) { /* the error of the first trial names the file that is missing */
         free(t->seeds);
         t->seeds = NULL;
     }
     t->trials = n ? (long long)n : 1;
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Lists what a task measures: not what the block leaves out at its size, which is number k of the block. */
@@ -120,6 +136,7 @@ static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discr
 {
     const size_t warps = b->warps.n ? b->warps.n : 1;
     koksma_status status = KOKSMA_OK;
+    family files = {.n = 0};
     for (size_t i = 0; !status && i < b->patterns.n * b->n.n * warps; i++) {
         if (koksma__is_left_out(&b->left_out, i / (b->n.n * warps), b->n.n, i / warps % b->n.n)) {
             continue;
@@ -130,13 +147,15 @@ static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discr
                              .variant = b->warps.n ? b->warps.at[i % warps] : "",
                              .trials = koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials};
         const size_t before = tasks->n;
-        status = find_seeds(&task);
+        status = list_family(task.pattern, &files);
+        status = status ? status : find_seeds(&task, &files);
         status = status ? status : list_measures(&task, i / warps % b->n.n);
         status = status || !task.n_series ? status : add_task(tasks, &task);
         if (tasks->n == before) { /* the list does not own the seeds and measures */
             KOKSMA__FREE(task.seeds, (void *)task.measures);
         }
     }
+    free(files.sets);
     return status;
 }
 
