@@ -20,7 +20,7 @@ enum { MOST_TRIALS = 1000000, MOST_PAIRED_AXES = 16 };
 
 /* A pattern with its sizes, or a file. */
 typedef struct series {
-    const char *operand;
+    const char *operands[KOKSMA_MAX_SIZES]; /* the operand of each size */
     cli_source source;
     char text[KOKSMA_MAX_SPEC]; /* the spec of a pattern without its size, or the name of a file */
     koksma_integration_options options;
@@ -309,12 +309,42 @@ static int put_variance(job *j, const koksma_integral *integral, uint64_t sample
 
 /* ---- The command --------------------------------------------------------------------------------------------- */
 
+/* Whether two operands write the same name of a pattern. */
+static bool same_name(const char *a, const char *b)
+{
+    static const char prefix[] = "pattern:";
+    a += strncmp(a, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+    b += strncmp(b, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+    const size_t length = strcspn(a, ":@");
+    return length == strcspn(b, ":@") && !strncmp(a, b, length);
+}
+
+/* Adds the size of the source s of the same pattern to a series. A size that the series has under another name of the
+   pattern is the same set, whose row stands for both; one that was given twice is an error. Returns the exit code. */
+static int add_size(const job *j, series *to, const series *s)
+{
+    const size_t n = s->options.sizes[0];
+    for (size_t i = 0; i < to->options.n_sizes; i++) {
+        if (to->options.sizes[i] == n) {
+            return same_name(to->operands[i], s->operands[0])
+                       ? cli_usage_error(j->arguments, "%s: n = %zu is given twice", s->text, n)
+                       : CLI_YES;
+        }
+    }
+    if (to->options.n_sizes == KOKSMA_MAX_SIZES) {
+        return cli_usage_error(j->arguments, "%s: it takes up to %d sizes", s->text, KOKSMA_MAX_SIZES);
+    }
+    to->operands[to->options.n_sizes] = s->operands[0];
+    to->options.sizes[to->options.n_sizes++] = n;
+    return CLI_YES;
+}
+
 /* Opens the source `operand`. A pattern that differs from the previous source only in its size is added to that
    series. */
 static int open_series(job *j, const char *operand)
 {
     series *s = &j->series[j->n_series], *before = j->n_series ? s - 1 : NULL;
-    *s = (series){.operand = operand, .options = {.seed = j->seed, .trials = j->trials}};
+    *s = (series){.operands = {operand}, .options = {.seed = j->seed, .trials = j->trials}};
     int code = cli_source_open(j->arguments, operand, &s->source);
     if (code) {
         return code;
@@ -336,11 +366,7 @@ static int open_series(job *j, const char *operand)
     s->options.n_sizes = 1;
     if (before && s->source.is_pattern && before->source.is_pattern && before->dim == s->dim &&
         !strcmp(before->text, s->text)) {
-        if (before->options.n_sizes == KOKSMA_MAX_SIZES) {
-            return cli_usage_error(j->arguments, "%s: it takes up to %d sizes", s->text, KOKSMA_MAX_SIZES);
-        }
-        before->options.sizes[before->options.n_sizes++] = s->options.sizes[0];
-        return code;
+        return add_size(j, before, s);
     }
     j->n_series++;
     return code;
