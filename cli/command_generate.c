@@ -68,6 +68,14 @@ static int stream(const cli_arguments *arguments, const cli_source *source, uint
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+/* Prints why the density of a file that was read can't be used; the library knows no name of an image. Returns the exit
+   code. */
+static int fail_in_density(const cli_arguments *arguments, const char *path)
+{
+    cli_say(arguments->command->name, "%s: %s", path, koksma_error_text());
+    return koksma_status_exit_code(KOKSMA_MALFORMED);
+}
+
 /* Generates points whose density follows the image `density`, or points on the model `on`; one of them is NULL. */
 static int generate_in(const cli_arguments *arguments, const cli_source *source, const char *density, const char *on,
                        uint64_t seed, cli_work *work)
@@ -76,6 +84,7 @@ static int generate_in(const cli_arguments *arguments, const cli_source *source,
     char text[KOKSMA_MAX_SPEC], comment[2 * KOKSMA_MAX_SPEC + 128];
     koksma_points points;
     koksma_image map = {0};
+    bool unfit = false;
     koksma_status status = koksma_points_init(&points, source->n, on && source->dim == 2 ? 3 : source->dim);
     if (status) {
         return cli_fail(arguments, status);
@@ -84,7 +93,10 @@ static int generate_in(const cli_arguments *arguments, const cli_source *source,
         status = koksma_generate_on(&source->spec, seed, on, run, &points);
     } else {
         status = koksma_image_read(density, &map);
-        status = status ? status : koksma_generate_density(&source->spec, seed, &map, run, &points);
+        if (!status) {
+            status = koksma_generate_density(&source->spec, seed, &map, run, &points);
+            unfit = status == KOKSMA_MALFORMED;
+        }
         koksma_image_fini(&map);
     }
     if (!status) {
@@ -96,7 +108,7 @@ static int generate_in(const cli_arguments *arguments, const cli_source *source,
                                                                          comment, run);
     }
     koksma_points_fini(&points);
-    return status ? cli_fail(arguments, status) : CLI_YES;
+    return unfit ? fail_in_density(arguments, density) : status ? cli_fail(arguments, status) : CLI_YES;
 }
 
 static int run(const cli_arguments *arguments)

@@ -14,8 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import (ArgumentError, allow_exec as allowing_exec, call, check, choice, core, flag, kept_spec, lab, quick, quoted,
-                       spec, text, texts, whole)
+from ._library import (ArgumentError, MalformedError, allow_exec as allowing_exec, call, check, choice, core, flag, kept_spec,
+                       lab, quick, quoted, spec, text, texts, whole)
 
 PointArray = npt.NDArray[np.float64]
 SEQUENCE, STRATIFIED, LATIN = 1 << 1, 1 << 3, 1 << 4  # KOKSMA_CLAIM_SEQUENCE and so on
@@ -463,8 +463,13 @@ def _generate_in(pattern: str, n: SupportsIndex, dim: Optional[SupportsIndex], s
         call(lab().koksma_generate_on, byref(parsed), seed, text(on, "on"), byref(points), threads=threads, run_at=3)
     elif density is not None:
         array = read_image(density) if isinstance(density, (str, os.PathLike)) else as_image(density)
-        call(lab().koksma_generate_density, byref(parsed), seed, byref(view_image(array)), byref(points), threads=threads,
-             run_at=3)
+        try:
+            call(lab().koksma_generate_density, byref(parsed), seed, byref(view_image(array)), byref(points),
+                 threads=threads, run_at=3)
+        except MalformedError as error:
+            if isinstance(density, (str, os.PathLike)):  # the library knows no name of an image
+                error.args = (f"{os.fsdecode(density)}: {error}",)
+            raise
     return out
 
 

@@ -43,13 +43,15 @@ class Density(unittest.TestCase):
             np.testing.assert_array_equal(ours[:, 3:6], np.where(ours[:, 6:] == 0, [0, 0, 1], [1, 0, 0]))
 
     def test_refusals(self):
+        koksma.write_image(self.path("dark.pfm"), 0 * self.map)
         for error, said, arguments in (
                 (koksma.ArgumentError, "exclude each other", {"n": None, "density": self.map}),
                 (koksma.ArgumentError, "exclude each other", {"on": "x.obj", "density": self.map}),
                 (koksma.MissingError, "none.obj", {"on": self.path("none.obj")}),
                 (koksma.MissingError, "none.pfm", {"density": self.path("none.pfm")}),
                 (koksma.ArgumentError, "2 dimensions", {"dim": 3, "density": self.map}),
-                (koksma.MalformedError, "0 everywhere", {"density": 0 * self.map})):
+                (koksma.MalformedError, "^the density is 0 everywhere", {"density": 0 * self.map}),
+                (koksma.MalformedError, "dark.pfm: the density is 0 everywhere", {"density": self.path("dark.pfm")})):
             with self.assertRaisesRegex(error, said):
                 koksma.generate("random", **{"n": 5, **arguments})
         with self.assertRaisesRegex(koksma.UnsupportedError, "can't make points with a density"):
