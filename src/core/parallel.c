@@ -18,7 +18,7 @@
 #include "core/clock.h"
 #include "core/status.h"
 
-enum { MAX_THREADS = 256 };
+enum { MAX_THREADS = 256, LOOK_EVERY = 1 << 12 };
 
 typedef struct pool {
     koksma__block_function f;
@@ -53,6 +53,12 @@ int koksma__threads(const koksma_run *run)
 bool koksma__keep_going(const koksma_run *run, double fraction_done)
 {
     return !run || !run->keep_going || run->keep_going(run->context, fraction_done);
+}
+
+koksma_status koksma__look(const koksma_run *run, size_t step, double fraction_done)
+{
+    return step % LOOK_EVERY < LOOK_EVERY - 1 || koksma__keep_going(run, fraction_done) ? KOKSMA_OK
+                                                                                        : koksma__fail_interrupted();
 }
 
 static bool keep_going_in_phase(void *context, double fraction)

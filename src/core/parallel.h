@@ -25,6 +25,10 @@ KOKSMA__LAB int koksma__threads(const koksma_run *run);
 /* Calls run->keep_going and returns its result; returns true if run or run->keep_going is NULL. */
 KOKSMA__LAB bool koksma__keep_going(const koksma_run *run, double fraction_done);
 
+/* Calls koksma__keep_going in one of 4096 steps of a loop whose steps take up to some microseconds. Returns INTERRUPTED
+   if the caller wants to stop. */
+KOKSMA__LAB koksma_status koksma__look(const koksma_run *run, size_t step, double fraction_done);
+
 /* A phase of a call whose work has several: the fractions 0 to 1 that the phase reports to koksma__phase_run count as
    begin .. begin + share of the call, and never fall. The phases of a call take one after another the same struct, of
    zeros at first. share = 0: a phase that is short beside the others. */

@@ -32,13 +32,14 @@
 #include "domains/maximal.h"
 #include "patterns/shared/elimination.h"
 
-enum { REJECTIONS = 20000, LOOK_EVERY = 1 << 14 };
+enum { REJECTIONS = 20000 };
 
 typedef koksma__choice choice;
 
 static koksma_status choose_first(const choice *c)
 {
     for (size_t i = 0; i < c->n; i++) {
+        KOKSMA__TRY(koksma__look(c->run, i, (double)i / (double)c->n));
         c->domain->draw(c->domain->data, c->seed, i, &c->points[i]);
     }
     return KOKSMA_OK;
@@ -87,6 +88,7 @@ static koksma_status order_progressively(const koksma__point_domain *domain, siz
     koksma_status status = layout_init(&l, domain, n);
     for (size_t i = 0; i < n && !status; i++) {
         lay_out(&l, domain, i, &before[i]);
+        status = koksma__look(run, i, 0);
     }
     status = status ? status
                     : koksma__progressive_order(n, domain->dim, l.xs, l.units, domain->torus, 2, d_max, d_min, run,
@@ -107,15 +109,19 @@ static koksma_status choose_from(const choice *c, size_t length, size_t factor, 
     const size_t all = factor * length;
     layout l = {0};
     KOKSMA__TRY(layout_init(&l, domain, all));
-    for (size_t i = 0; i < all; i++) {
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < all && !status; i++) {
         koksma__domain_point point;
         domain->draw(domain->data, c->seed, i, &point);
         lay_out(&l, domain, i, &point);
+        status = koksma__look(c->run, i, 0);
     }
-    const koksma_status status = koksma__eliminate_scaled(all, domain->dim, l.xs, l.units, domain->torus, length,
-                                                          d_max, d_min, c->run, l.order);
+    status = status ? status
+                    : koksma__eliminate_scaled(all, domain->dim, l.xs, l.units, domain->torus, length, d_max, d_min,
+                                               c->run, l.order);
     for (size_t i = 0; i < length && !status; i++) {
         domain->draw(domain->data, c->seed, l.order[i], &chosen[i]);
+        status = koksma__look(c->run, i, 1);
     }
     free(l.xs);
     return status;
@@ -177,9 +183,7 @@ static koksma_status throw_darts(const choice *c, koksma__dart_grid *grid)
             rejections = 0;
             koksma__dart_grid_add(grid, x, q.unit);
         }
-        if (dart % LOOK_EVERY == LOOK_EVERY - 1 && !koksma__keep_going(c->run, (double)grid->n / (double)c->n)) {
-            return koksma__fail_interrupted();
-        }
+        KOKSMA__TRY(koksma__dart_grid_look(grid, c->n, c->run));
     }
     return KOKSMA_OK;
 }
@@ -200,9 +204,10 @@ static koksma_status choose_darts(const choice *c)
 
 /* Returns the square of the smallest distance from a candidate to a point of the grid; each distance is divided by
    the smaller of the units of distance of the two. */
-static double squared_room(const koksma__dart_grid *grid, const koksma__dart_query *q)
+static double squared_room(koksma__dart_grid *grid, const koksma__dart_query *q)
 {
     const size_t dim = (size_t)grid->dim;
+    grid->work += grid->n;
     double least = INFINITY;
     for (size_t i = 0; i < grid->n; i++) {
         const double unit = fmin(q->unit, grid->units[i]);
@@ -218,7 +223,7 @@ static double squared_room(const koksma__dart_grid *grid, const koksma__dart_que
 }
 
 /* Adds as next point the best of `count` candidates. */
-static koksma_status add_best(const choice *c, size_t count, koksma__dart_grid *grid, size_t *looks)
+static koksma_status add_best(const choice *c, size_t count, koksma__dart_grid *grid)
 {
     const koksma__point_domain *domain = c->domain;
     double best = -1, position[3] = {0}, unit = 0;
@@ -237,9 +242,7 @@ static koksma_status add_best(const choice *c, size_t count, koksma__dart_grid *
             memcpy(position, x, (size_t)grid->dim * sizeof *x);
             c->points[grid->n] = point;
         }
-        if (++*looks % LOOK_EVERY == 0 && !koksma__keep_going(c->run, (double)grid->n / (double)c->n)) {
-            return koksma__fail_interrupted();
-        }
+        KOKSMA__TRY(koksma__dart_grid_look(grid, c->n, c->run));
     }
     koksma__dart_grid_add(grid, position, unit);
     return KOKSMA_OK;
@@ -248,11 +251,10 @@ static koksma_status add_best(const choice *c, size_t count, koksma__dart_grid *
 static koksma_status choose_best(const choice *c)
 {
     koksma__dart_grid grid;
-    size_t looks = 0;
     koksma_status status = koksma__dart_grid_init(&grid, c->domain, c->domain->torus, c->n,
                                                   sqrt(c->domain->area / (double)c->n)); /* the cells' width */
     for (size_t i = 0; i < c->n && !status; i++) {
-        status = add_best(c, (size_t)fmin(c->params[0] * (double)i + 1, c->params[1]), &grid, &looks);
+        status = add_best(c, (size_t)fmin(c->params[0] * (double)i + 1, c->params[1]), &grid);
     }
     koksma__dart_grid_fini(&grid);
     return status;

@@ -11,10 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "core/torus.h"
 
 #define NONE UINT32_MAX
+
+/* LOOKS: the work between two questions whether to go on; QUERY: the work that a query takes besides its cells. */
+enum { LOOKS = 1 << 21, QUERY = 1 << 8 };
 
 static size_t cells_of(const koksma__dart_grid *g)
 {
@@ -94,9 +98,10 @@ static bool conflicts(const koksma__dart_grid *g, const koksma__dart_query *q, u
 
 /* Returns whether a point conflicts with the query, by recursion over the axes k and later: visits the cells within
    reach whose index along the axes before k is `row`. */
-static bool meets(const koksma__dart_grid *g, int k, size_t row, const koksma__dart_query *q)
+static bool meets(koksma__dart_grid *g, int k, size_t row, const koksma__dart_query *q)
 {
     if (k == g->dim) {
+        g->work++;
         for (uint32_t i = g->head[row]; i != NONE; i = g->next[i]) {
             if (conflicts(g, q, i)) {
                 return true;
@@ -119,7 +124,17 @@ static bool meets(const koksma__dart_grid *g, int k, size_t row, const koksma__d
     return false;
 }
 
-bool koksma__dart_grid_meets(const koksma__dart_grid *g, const koksma__dart_query *q)
+bool koksma__dart_grid_meets(koksma__dart_grid *g, const koksma__dart_query *q)
 {
+    g->work += QUERY;
     return meets(g, 0, 0, q);
+}
+
+koksma_status koksma__dart_grid_look(koksma__dart_grid *g, size_t n, const koksma_run *run)
+{
+    if (g->work < LOOKS) {
+        return KOKSMA_OK;
+    }
+    g->work = 0;
+    return koksma__keep_going(run, (double)g->n / (double)n) ? KOKSMA_OK : koksma__fail_interrupted();
 }

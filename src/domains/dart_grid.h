@@ -14,6 +14,7 @@ typedef struct koksma__dart_grid {
     double *xs, *units; /* positions and units of distance of the points */
     uint32_t *next, *head;
     uint32_t side; /* number of cells along an axis; about one cell for each point */
+    size_t work;   /* since the last question whether to go on: cells that were visited and distances computed */
 } koksma__dart_grid;
 
 /* A position, or a convex region about it of `corners` corners. */
@@ -35,6 +36,10 @@ void koksma__dart_grid_reset(koksma__dart_grid *grid, size_t n, double d);
 void koksma__dart_grid_add(koksma__dart_grid *grid, const double *x, double unit);
 
 /* Returns whether a point of the grid conflicts with the position, or with every position of the region. */
-bool koksma__dart_grid_meets(const koksma__dart_grid *grid, const koksma__dart_query *query);
+bool koksma__dart_grid_meets(koksma__dart_grid *grid, const koksma__dart_query *query);
+
+/* To be called after each query of a set of n points: asks the caller whether to go on once grid->work takes some
+   milliseconds, as a query may visit a few cells or nearly all. Returns INTERRUPTED if the caller wants to stop. */
+koksma_status koksma__dart_grid_look(koksma__dart_grid *grid, size_t n, const koksma_run *run);
 
 #endif

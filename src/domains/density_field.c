@@ -12,6 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "core/torus.h"
 #include "domains/image_density.h"
@@ -24,6 +25,7 @@ typedef struct density_field {
     double n, sigma;
     size_t capacity;
     koksma__field *field;
+    const koksma_run *run; /* only while the field is opened */
 } density_field;
 
 /* Returns the number of points that the density puts into [0,u] x [0,v], for u and v in [0,1]. */
@@ -117,6 +119,7 @@ static void close_field(void *data)
 /* Adds the node of a square of the quadtree. */
 static koksma_status add_node(density_field *f, const double low[2], double side, double mass, double s)
 {
+    KOKSMA__TRY(koksma__look(f->run, f->field->n_nodes, 0));
     koksma__field_node node = {.mass = mass, .square = s * s + side * side / 6};
     const double part = side / 4;
     double sum = 0;
@@ -172,13 +175,13 @@ static void sum_up(density_field *f)
 }
 
 koksma_status koksma__density_field_open(const koksma__point_domain *domain, size_t n, double sigma,
-                                         koksma__field *field)
+                                         const koksma_run *run, koksma__field *field)
 {
     const koksma__image_density *m = domain->data;
     const size_t bytes = (m->width + 1) * (m->height + 1) * sizeof(double);
     density_field *f = malloc(sizeof *f);
     KOKSMA__REQUIRE_MEMORY(f, sizeof *f);
-    *f = (density_field){.m = m, .table = malloc(bytes), .n = (double)n, .sigma = sigma, .field = field};
+    *f = (density_field){.m = m, .table = malloc(bytes), .n = (double)n, .sigma = sigma, .field = field, .run = run};
     *field = (koksma__field){.data = f, .width = width, .settle = settle, .along = along, .close = close_field};
     KOKSMA__REQUIRE_MEMORY(f->table, bytes); /* the caller closes the field, also after an error */
     sum_up(f);

@@ -36,7 +36,7 @@ typedef struct koksma__point_domain {
     /* Makes the target of gaussian-blue-noise (field.h) for n points and the pattern's parameter sigma;
        koksma__field_close frees it. */
     koksma_status (*open_field)(const struct koksma__point_domain *domain, size_t n, double sigma,
-                                struct koksma__field *field);
+                                const koksma_run *run, struct koksma__field *field);
 } koksma__point_domain;
 
 /* The task of a method: make n points of the pattern, with its parameters and a seed, on the domain. */

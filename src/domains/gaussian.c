@@ -125,15 +125,14 @@ static bool converged(descent *d)
 static koksma_status descend(descent *d)
 {
     const int fixed = (int)d->c->params[0], steps = fixed ? fixed : MOST_STEPS;
-    const koksma_run quiet = {.threads = koksma__threads(d->c->run)};
+    koksma__phases phases = {0};
     for (int t = 0; t < steps; t++) {
         d->momentum = t < SETTLING ? 0.5 : t < LOCKED ? 0.9 : 0.95;
         d->update = t < SETTLING || (t <= LOCKED && t % 100 == 0);
-        KOKSMA__TRY(koksma__source_tree_build(&d->tree, source_of, d));
-        KOKSMA__TRY(koksma__parallel(&quiet, (d->tree.n_groups + BLOCK - 1) / BLOCK, move_block, d));
-        if (!koksma__keep_going(d->c->run, (double)t / steps)) {
-            return koksma__fail_interrupted();
-        }
+        phases.begin = (double)t / steps;
+        const koksma_run run = koksma__phase_run(&phases, d->c->run, 0);
+        KOKSMA__TRY(koksma__source_tree_build(&d->tree, source_of, d, &run));
+        KOKSMA__TRY(koksma__parallel(&run, (d->tree.n_groups + BLOCK - 1) / BLOCK, move_block, d));
         if (!fixed && converged(d) && t >= LEAST_STEPS) {
             break;
         }
@@ -155,6 +154,7 @@ static koksma_status start(descent *d)
     d->squares = d->widths + n;
     memset(d->moves, 0, n * dim * sizeof *d->moves);
     for (size_t i = 0; i < n; i++) {
+        KOKSMA__TRY(koksma__look(d->c->run, i, 0));
         d->domain->draw(d->domain->data, d->c->seed, i, &d->c->points[i]);
         d->domain->place(d->domain->data, &d->c->points[i], d->xs + i * dim);
         d->widths[i] = d->field.width(d->field.data, d->xs + i * dim);
@@ -165,7 +165,7 @@ static koksma_status start(descent *d)
 koksma_status koksma__choose_gaussian(const koksma__choice *c)
 {
     descent d = {.c = c, .domain = c->domain, .step = c->params[2], .least = INFINITY};
-    koksma_status status = c->domain->open_field(c->domain, c->n, c->params[1], &d.field);
+    koksma_status status = c->domain->open_field(c->domain, c->n, c->params[1], c->run, &d.field);
     status = status ? status : start(&d);
     status = status ? status : descend(&d);
     koksma__field_close(&d.field);

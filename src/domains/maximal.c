@@ -35,7 +35,7 @@
 #include "patterns/shared/maximal_search.h"
 #include "patterns/shared/packing.h"
 
-enum { DEEPEST = 30, LOOK_EVERY = 1 << 14, ESTIMATES = 30, SEARCHES = 8, RESTARTS = 200 };
+enum { DEEPEST = 30, ESTIMATES = 30, SEARCHES = 8, RESTARTS = 200 };
 
 #define PER_AREA 0.6965 /* mean of m d^2 for maximal sets of m points on the torus */
 
@@ -90,21 +90,22 @@ static koksma_status store(maximal *m, piece p, piece **pieces, size_t *n)
     return KOKSMA_OK;
 }
 
-/* Makes the first pieces: the parts that have a share of the points and are not covered. */
-static koksma_status begin(maximal *m)
+/* Makes the first pieces: the parts that have a share of the points and are not covered. n: as for fill(). */
+static koksma_status begin(maximal *m, size_t n)
 {
     const koksma__point_domain *domain = m->c->domain;
     m->n_pieces = 0;
     for (size_t part = 0; part < domain->n_parts; part++) {
         if (domain->share(domain->data, part) > 0) {
             KOKSMA__TRY(store(m, (piece){.part = (uint32_t)part, .side = 1}, &m->pieces, &m->n_pieces));
+            KOKSMA__TRY(koksma__dart_grid_look(&m->grid, n, m->c->run));
         }
     }
     return KOKSMA_OK;
 }
 
-/* Divides every piece into four. */
-static koksma_status divide(maximal *m)
+/* Divides every piece into four. n: as for fill(). */
+static koksma_status divide(maximal *m, size_t n)
 {
     piece *old = m->pieces;
     const size_t n_old = m->n_pieces;
@@ -122,6 +123,7 @@ static koksma_status divide(maximal *m)
             }
             status = store(m, p, &m->pieces, &m->n_pieces);
         }
+        status = status ? status : koksma__dart_grid_look(&m->grid, n, m->c->run);
     }
     free(old);
     return status;
@@ -154,9 +156,7 @@ static koksma_status throw_darts(maximal *m, size_t n)
             m->points[m->grid.n] = point;
             koksma__dart_grid_add(&m->grid, x, q.unit);
         }
-        if (dart % LOOK_EVERY == LOOK_EVERY - 1 && !koksma__keep_going(m->c->run, (double)m->grid.n / (double)n)) {
-            return koksma__fail_interrupted();
-        }
+        KOKSMA__TRY(koksma__dart_grid_look(&m->grid, n, m->c->run));
     }
     return KOKSMA_OK;
 }
@@ -164,10 +164,10 @@ static koksma_status throw_darts(maximal *m, size_t n)
 /* Adds points until the set is maximal or has n points. */
 static koksma_status fill(maximal *m, size_t n)
 {
-    KOKSMA__TRY(begin(m));
+    KOKSMA__TRY(begin(m, n));
     while (m->n_pieces && m->grid.n < n) {
         KOKSMA__TRY(throw_darts(m, n));
-        KOKSMA__TRY(divide(m));
+        KOKSMA__TRY(divide(m, n));
         if (!koksma__keep_going(m->c->run, (double)m->grid.n / (double)n)) {
             return koksma__fail_interrupted();
         }

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/select.h"
 #include "core/status.h"
 
@@ -46,7 +47,7 @@ static void add_to_box(box *b, const double x[3])
     }
 }
 
-static void build(const koksma__nearest *s, size_t node, size_t first, size_t end)
+static koksma_status build(const koksma__nearest *s, size_t node, size_t first, size_t end, const koksma_run *run)
 {
     const box empty = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     box all = empty, centroids = empty;
@@ -60,7 +61,7 @@ static void build(const koksma__nearest *s, size_t node, size_t first, size_t en
     }
     s->boxes[node] = all;
     if (end - first <= LEAF) {
-        return;
+        return koksma__look(run, node, 0);
     }
     int axis = 0;
     for (int k = 1; k < 3; k++) {
@@ -68,11 +69,11 @@ static void build(const koksma__nearest *s, size_t node, size_t first, size_t en
     }
     const size_t middle = first + (end - first) / 2;
     koksma__select(s->order, first, end, middle, s->centroids, 3, (size_t)axis);
-    build(s, 2 * node + 1, first, middle);
-    build(s, 2 * node + 2, middle, end);
+    KOKSMA__TRY(build(s, 2 * node + 1, first, middle, run));
+    return build(s, 2 * node + 2, middle, end, run);
 }
 
-koksma_status koksma__nearest_open(const koksma__point_domain *domain, koksma__nearest **out)
+koksma_status koksma__nearest_open(const koksma__point_domain *domain, const koksma_run *run, koksma__nearest **out)
 {
     size_t n_boxes = 1;
     for (size_t largest = domain->n_parts; largest > LEAF; largest -= largest / 2) {
@@ -92,9 +93,8 @@ koksma_status koksma__nearest_open(const koksma__point_domain *domain, koksma__n
         domain->place(domain->data, &centre, s->centroids + 3 * i);
         corners_of(domain, (uint32_t)i, (double(*)[3])(s->corners + 9 * i));
     }
-    build(s, 0, 0, n);
-    *out = s;
-    return KOKSMA_OK;
+    *out = s; /* the caller closes it, also after an interruption */
+    return build(s, 0, 0, n, run);
 }
 
 void koksma__nearest_close(koksma__nearest *s)

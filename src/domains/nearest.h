@@ -7,8 +7,8 @@
 
 typedef struct koksma__nearest koksma__nearest;
 
-/* Prepares searches on the parts of a domain of triangles. Errors: MEMORY. */
-koksma_status koksma__nearest_open(const koksma__point_domain *domain, koksma__nearest **out);
+/* Prepares searches on the parts of a domain of triangles. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__nearest_open(const koksma__point_domain *domain, const koksma_run *run, koksma__nearest **out);
 void koksma__nearest_close(koksma__nearest *nearest);
 
 /* Writes the position nearest to x to *found, which on entry has any position of the domain: the closer to x, the

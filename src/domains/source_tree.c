@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 
@@ -74,7 +75,7 @@ static uint32_t key_of(const double *x, int dim)
 }
 
 /* Sorts the keys: the upper half of each has the interleaved bits, the lower half the number of the source. */
-static void sort_keys(koksma__source_tree *t)
+static koksma_status sort_keys(koksma__source_tree *t, const koksma_run *run)
 {
     for (int shift = 32; shift < 64; shift += 8) {
         size_t start[257] = {0};
@@ -85,12 +86,14 @@ static void sort_keys(koksma__source_tree *t)
             start[b + 1] += start[b];
         }
         for (size_t i = 0; i < t->n; i++) {
+            KOKSMA__TRY(koksma__look(run, i, 0));
             t->spare[start[t->keys[i] >> shift & 255]++] = t->keys[i];
         }
         uint64_t *swapped = t->keys;
         t->keys = t->spare;
         t->spare = swapped;
     }
+    return KOKSMA_OK;
 }
 
 static koksma_status add_boxes(koksma__source_tree *t, size_t n)
@@ -128,8 +131,9 @@ static void extend_by_sources(const koksma__source_tree *t, koksma__source_box *
 
 /* Divides box number b, at this depth of the tree, until its boxes have at most LEAF sources or the greatest
    depth. */
-static koksma_status divide(koksma__source_tree *t, size_t b, int depth)
+static koksma_status divide(koksma__source_tree *t, size_t b, int depth, const koksma_run *run)
 {
+    KOKSMA__TRY(koksma__look(run, b, 0));
     const int bits = t->dim == 2 ? DEEPEST : 10, ways = 1 << t->dim, shift = 32 + (bits - 1 - depth) * t->dim;
     koksma__source_box box = t->boxes[b];
     if (box.end - box.first <= LEAF || depth == bits) {
@@ -150,7 +154,7 @@ static koksma_status divide(koksma__source_tree *t, size_t b, int depth)
         at = end;
     }
     for (uint32_t i = 0; i < box.children; i++) {
-        KOKSMA__TRY(divide(t, box.child + i, depth + 1));
+        KOKSMA__TRY(divide(t, box.child + i, depth + 1, run));
         extend(&box, &t->boxes[box.child + i]);
     }
     t->boxes[b] = box;
@@ -174,14 +178,16 @@ static void add_groups(koksma__source_tree *t, const koksma__source_box *box)
 
 koksma_status koksma__source_tree_build(koksma__source_tree *t,
                                         koksma__field_node (*source)(const void *context, size_t i),
-                                        const void *context)
+                                        const void *context, const koksma_run *run)
 {
     for (size_t i = 0; i < t->n; i++) {
+        KOKSMA__TRY(koksma__look(run, i, 0));
         const koksma__field_node node = source(context, i);
         t->keys[i] = (uint64_t)key_of(node.x, t->dim) << 32 | i;
     }
-    sort_keys(t);
+    KOKSMA__TRY(sort_keys(t, run));
     for (size_t i = 0; i < t->n; i++) {
+        KOKSMA__TRY(koksma__look(run, i, 0));
         t->order[i] = (uint32_t)t->keys[i];
         const koksma__field_node node = source(context, t->order[i]);
         for (int k = 0; k < 3; k++) {
@@ -193,7 +199,7 @@ koksma_status koksma__source_tree_build(koksma__source_tree *t,
     t->n_boxes = 0;
     KOKSMA__TRY(add_boxes(t, 1));
     t->boxes[0] = empty_box(0, t->n);
-    KOKSMA__TRY(divide(t, 0, 0));
+    KOKSMA__TRY(divide(t, 0, 0, run));
     t->n_groups = 0;
     add_groups(t, &t->boxes[0]);
     t->groups[t->n_groups] = (uint32_t)t->n;

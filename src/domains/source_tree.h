@@ -30,10 +30,11 @@ enum { KOKSMA__SOURCE_GROUP = 32 };
 koksma_status koksma__source_tree_init(koksma__source_tree *tree, int dim, bool torus, size_t n);
 void koksma__source_tree_fini(koksma__source_tree *tree);
 
-/* Sorts the n sources that `source(context, i)` gives for i = 0, 1, ..., and builds the boxes. Errors: MEMORY. */
+/* Sorts the n sources that `source(context, i)` gives for i = 0, 1, ..., and builds the boxes. Errors: MEMORY,
+   INTERRUPTED. */
 koksma_status koksma__source_tree_build(koksma__source_tree *tree,
                                         koksma__field_node (*source)(const void *context, size_t i),
-                                        const void *context);
+                                        const void *context, const koksma_run *run);
 
 /* Computes the forces on those sources of a group whose number before sorting is at least `first`. force[i] belongs
    to source i of the group, at x with squared width s. It is the sum, over all sources at a distance d with d^2 < 12

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "domains/nearest.h"
 
@@ -23,6 +24,7 @@ typedef struct surface_field {
     const koksma__point_domain *domain;
     koksma__nearest *nearest;
     koksma__field *field;
+    const koksma_run *run; /* only while the field is opened */
     size_t capacity;
     double width, per_area; /* number of points per area */
 } surface_field;
@@ -114,6 +116,7 @@ static koksma_status add_triangle(surface_field *f, const double c[3][3], int de
         }
         return KOKSMA_OK;
     }
+    KOKSMA__TRY(koksma__look(f->run, f->field->n_nodes, 0));
     cross(e[0], e[1], normal);
     koksma__field_node node = {.mass = f->per_area * 0.5 * sqrt(dot(normal, normal)),
                                .square = f->width * f->width + squares / 36};
@@ -182,15 +185,16 @@ static void merge(surface_field *f)
 }
 
 koksma_status koksma__surface_field_open(const koksma__point_domain *domain, size_t n, double sigma,
-                                         koksma__field *field)
+                                         const koksma_run *run, koksma__field *field)
 {
     surface_field *f = malloc(sizeof *f);
     KOKSMA__REQUIRE_MEMORY(f, sizeof *f);
-    *f = (surface_field){.domain = domain, .field = field};
+    *f = (surface_field){.domain = domain, .field = field, .run = run};
     f->width = sigma * sqrt(domain->area / (double)n);
     f->per_area = (double)n / domain->area;
     *field = (koksma__field){.data = f, .width = width, .settle = settle, .along = along, .close = close_field};
-    KOKSMA__TRY(koksma__nearest_open(domain, &f->nearest)); /* the caller closes the field, also after an error */
+    KOKSMA__TRY(
+        koksma__nearest_open(domain, run, &f->nearest)); /* the caller closes the field, also after an error */
     for (size_t part = 0; part < domain->n_parts; part++) {
         double corners[3][3], normal[3];
         edges_of(domain, (uint32_t)part, corners, normal);

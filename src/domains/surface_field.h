@@ -6,6 +6,6 @@
 #include "domains/field.h"
 
 koksma_status koksma__surface_field_open(const koksma__point_domain *domain, size_t n, double sigma,
-                                         koksma__field *field);
+                                         const koksma_run *run, koksma__field *field);
 
 #endif

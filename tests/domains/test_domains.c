@@ -422,6 +422,46 @@ static void calls_can_be_stopped(void **state)
     koksma_image_fini(&map);
 }
 
+static bool count(void *context, double fraction)
+{
+    assert_true(fraction >= 0 && fraction <= 1);
+    ++*(int *)context;
+    return true;
+}
+
+/* The work between two questions whether to go on is bounded, also before the first point is chosen and where a
+   candidate is compared with all points. */
+static void calls_ask_often(void **state)
+{
+    (void)state;
+    const struct {
+        const char *pattern;
+        size_t n;
+        int least;
+    } rows[] = {{"random", 100000, 20},
+                {"sample-elimination", 20000, 80},
+                {"best-candidate:most=5", 3000, 4},
+                {"gaussian-blue-noise:steps=1", 20000, 40}};
+    const float values[4] = {1, 2, 3, 4};
+    koksma_image map = quarters(values);
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        const koksma_spec spec = spec_of(rows[r].pattern);
+        int questions = 0;
+        koksma_points p;
+        assert_ok(koksma_points_init(&p, rows[r].n, 2));
+        const koksma_run run = {.threads = 1, .keep_going = count, .context = &questions};
+        assert_ok(koksma_generate_density(&spec, 0, &map, &run, &p));
+        assert_in_range(questions, rows[r].least, 10000);
+        koksma_points_fini(&p);
+        questions = 0;
+        assert_ok(koksma_points_init(&p, rows[r].n, 3));
+        assert_ok(koksma_generate_on(&spec, 0, model, &run, &p));
+        assert_in_range(questions, rows[r].least, 10000);
+        koksma_points_fini(&p);
+    }
+    koksma_image_fini(&map);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -434,6 +474,7 @@ int main(void)
         cmocka_unit_test(points_on_models_keep_distances),
         cmocka_unit_test(wrong_inputs_are_refused),
         cmocka_unit_test(calls_can_be_stopped),
+        cmocka_unit_test(calls_ask_often),
     };
     return cmocka_run_group_tests(tests, write_model, remove_model);
 }

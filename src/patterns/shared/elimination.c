@@ -39,7 +39,7 @@
 #include "core/torus.h"
 #include "patterns/shared/fill.h"
 
-enum { GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22 };
+enum { GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22, SINK = 32 };
 
 #define BETA 0.65 /* beta of the paper; its other constant, the exponent gamma = 1.5, is applied by sqrt() */
 
@@ -65,7 +65,7 @@ typedef struct elimination {
     uint32_t *cell_count;   /* number of points left in each cell */
     uint32_t *members;      /* the points of all cells, cell by cell */
     uint32_t *member_place; /* index of a point in `members` */
-    size_t looks;           /* number of distances computed since the last check of `run` */
+    size_t looks;           /* number of cells visited and distances computed since the last check of `run` */
 } elimination;
 
 double koksma__elimination_radius(size_t n, int dim)
@@ -148,11 +148,13 @@ static size_t size_cells(elimination *e, bool scaled)
 }
 
 /* Renumbers the points cell by cell; within a cell they keep their order. */
-static void sort_into_cells(elimination *e, const double *points, const double *scale, size_t cells)
+static koksma_status sort_into_cells(elimination *e, const double *points, const double *scale, size_t cells,
+                                     const koksma_run *run)
 {
     const size_t dim = (size_t)e->dim;
     memset(e->cell_count, 0, cells * sizeof *e->cell_count);
     for (size_t i = 0; i < e->all; i++) {
+        KOKSMA__TRY(koksma__look(run, i, 0));
         e->cell_count[koksma__cell_index(points + i * dim, e->grid_dims, e->cells)]++;
     }
     for (size_t c = 0, start = 0; c < cells; c++) {
@@ -161,6 +163,7 @@ static void sort_into_cells(elimination *e, const double *points, const double *
         e->cell_count[c] = 0;
     }
     for (size_t i = 0; i < e->all; i++) {
+        KOKSMA__TRY(koksma__look(run, i, 0));
         const size_t c = koksma__cell_index(points + i * dim, e->grid_dims, e->cells);
         const uint32_t at = e->cell_start[c] + e->cell_count[c]++;
         memcpy(e->xs + at * dim, points + i * dim, dim * sizeof *points);
@@ -170,6 +173,7 @@ static void sort_into_cells(elimination *e, const double *points, const double *
         }
         e->members[at] = e->member_place[at] = at;
     }
+    return KOKSMA_OK;
 }
 
 static void leave_cell(elimination *e, uint32_t point)
@@ -219,7 +223,7 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
     const double *x = e->xs + point * dim, d_max2 = e->d_max * e->d_max;
     double across[MAX_IMAGE_DIMS];
     const uint32_t *member = e->members + e->cell_start[cell];
-    e->looks += e->cell_count[cell];
+    e->looks += 1 + e->cell_count[cell];
     for (uint32_t m = 0; m < e->cell_count[cell]; m++) {
         const double *y = e->xs + member[m] * dim;
         const double unit = e->scale ? fmin(e->scale[point], e->scale[member[m]]) : 1;
@@ -241,6 +245,7 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
             const size_t at = e->heap_place[member[m]];
             e->heap[at].weight -= weight;
             sink(e, at);
+            e->looks += SINK; /* most of it waits for memory */
         } else {
             e->heap[point].weight += weight;
         }
@@ -291,6 +296,7 @@ static koksma_status take_out(elimination *e, const koksma_run *run, uint32_t *o
     }
     e->count = e->all;
     for (size_t at = e->all / 2; at-- > 0;) {
+        KOKSMA__TRY(koksma__look(run, at, (double)e->all / (double)(2 * e->all - e->keep)));
         sink(e, at);
     }
     while (e->count > e->keep) {
@@ -349,8 +355,8 @@ koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *poin
     e.member_place = e.members + count;
     e.cell_start = e.member_place + count;
     e.cell_count = e.cell_start + cells;
-    sort_into_cells(&e, points, scale, cells);
-    const koksma_status status = take_out(&e, run, order);
+    koksma_status status = sort_into_cells(&e, points, scale, cells, run);
+    status = status ? status : take_out(&e, run, order);
     if (!status) {
         list_kept(&e, order);
     }
