@@ -60,7 +60,8 @@ int cli_write_figure(const cli_curves *c, const char *title, const koksma_cell *
                                   .dark = c->dark};
     unsigned char *bytes = NULL;
     size_t n_bytes = 0;
-    koksma_status status = koksma_plot_figure(&figure, c->format, &bytes, &n_bytes);
+    koksma_status status = koksma_plot_figure(&figure, c->format, &c->work.run, &bytes, &n_bytes);
+    cli_work_end();
     status = status ? status : koksma_plot_write(c->output, bytes, n_bytes);
     free(bytes);
     return status ? cli_fail(c->arguments, status) : CLI_YES;

@@ -141,10 +141,11 @@ typedef struct koksma_figure {
     bool dark; /* true: draw light lines on a dark background */
 } koksma_figure;
 
-/* Draws a figure. Errors: those of koksma_plot_scatter and koksma_plot_chart; also ARGUMENT for a figure without
-   cells and for a height in which the texts leave no space for the cells. */
+/* Draws a figure. run: asked after some thousand points of a panel whether to go on; may be NULL. Errors: those of
+   koksma_plot_scatter and koksma_plot_chart; also ARGUMENT for a figure without cells and for a height in which the
+   texts leave no space for the cells, and INTERRUPTED. */
 KOKSMA_API koksma_status koksma_plot_figure(const koksma_figure *figure, koksma_plot_format format,
-                                            unsigned char **bytes, size_t *n_bytes);
+                                            const koksma_run *run, unsigned char **bytes, size_t *n_bytes);
 
 /* A cell of a subdivided unit square, with its sample. */
 typedef struct koksma_stratum {

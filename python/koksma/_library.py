@@ -219,7 +219,7 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_char_p, "koksma_study_verdict_name", c_int)
     _declare(library, c_int, "koksma_study_table_row", c_void_p, c_char_p, c_size_t, POINTER(s.StudyRow), POINTER(c_bool))
     data, size = POINTER(POINTER(c_ubyte)), POINTER(c_size_t)
-    _declare(library, c_int, "koksma_plot_figure", POINTER(s.Figure), c_int, data, size)
+    _declare(library, c_int, "koksma_plot_figure", POINTER(s.Figure), c_int, POINTER(s.Run), data, size)
     _declare(library, c_int, "koksma_plot_colours", POINTER(c_char_p), c_size_t, POINTER(c_size_t))
     _declare(library, c_int, "koksma_plot_format_of", c_char_p, POINTER(c_int))
     _declare(library, c_int, "koksma_plot_write", c_char_p, c_char_p, c_size_t)

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, check, choice, core, first_seed, flag, lab, quoted, real, spec, text, texts, whole
+from ._library import ArgumentError, call, check, choice, core, first_seed, flag, lab, quoted, real, spec, text, texts, whole
 from ._points import as_points, find_warp, generate, view
 from ._series import Convergence, convergence
 from ._spectrum import spectrum
@@ -25,13 +25,13 @@ _free.argtypes = [c_void_p]
 class Picture:
     """A drawing. A notebook shows it; `save` writes it by the ending of a path; `svg` is its text."""
 
-    def __init__(self, draw: Callable[[int, Any, Any], int]) -> None:
+    def __init__(self, draw: Callable[[int, Any, Any], None]) -> None:
         self._draw = draw
 
     def bytes(self, format: str = "svg") -> bytes:
         """The file of a format: "svg", "pdf" or "png". Equal pictures have equal bytes."""
         data, size = POINTER(c_ubyte)(), c_size_t()
-        check(self._draw(choice("format", format, _FORMATS), byref(data), byref(size)))
+        self._draw(choice("format", format, _FORMATS), byref(data), byref(size))
         try:
             return ctypes.string_at(data, size.value)
         finally:
@@ -67,8 +67,8 @@ def _figure(rows: "Sequence[Sequence[Union[s.Panel, s.Chart]]]", title: Optional
     figure = s.Figure(text(title, "title") if title is not None else None, cells, len(flat), width, 0, True,
                       choice("theme", theme, ("light", "dark")) == 1)
 
-    def draw(format: int, data: Any, n: Any, _kept: Any = (cells, kept)) -> int:
-        return int(lab().koksma_plot_figure(byref(figure), format, data, n))
+    def draw(format: int, data: Any, n: Any, _kept: Any = (cells, kept)) -> None:
+        call(lab().koksma_plot_figure, byref(figure), format, data, n, run_at=2)
 
     return Picture(draw)
 

@@ -51,6 +51,7 @@ typedef struct koksma__canvas_functions {
     koksma_status (*pixels)(koksma__canvas *canvas, koksma__box box, int columns, int rows, const unsigned char *rgb);
     void (*text)(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
                  koksma__colour colour);
+    /* bytes: NULL drops the picture. */
     koksma_status (*close)(koksma__canvas *canvas, unsigned char **bytes, size_t *size);
     const char *(*library)(void);
 } koksma__canvas_functions;

@@ -142,7 +142,10 @@ static void put_text(koksma__canvas *canvas, double x, double y, double height, 
 static koksma_status close_canvas(koksma__canvas *canvas, unsigned char **bytes, size_t *size)
 {
     picture *p = (picture *)canvas;
-    if (p->format == KOKSMA_PLOT_PNG) {
+    if (!bytes) { /* forgets what PDF has recorded: to write it would take longer than to draw it */
+        cairo_set_operator(p->cairo, CAIRO_OPERATOR_CLEAR);
+        cairo_paint(p->cairo);
+    } else if (p->format == KOKSMA_PLOT_PNG) {
         cairo_surface_write_to_png_stream(p->surface, append, p);
     }
     cairo_surface_finish(p->surface);
@@ -150,13 +153,15 @@ static koksma_status close_canvas(koksma__canvas *canvas, unsigned char **bytes,
                         cairo_surface_status(p->surface) != CAIRO_STATUS_SUCCESS || p->size == 0;
     cairo_destroy(p->cairo);
     cairo_surface_destroy(p->surface);
-    *bytes = failed ? NULL : p->bytes;
-    *size = failed ? 0 : p->size;
-    if (failed) {
+    if (bytes) {
+        *bytes = failed ? NULL : p->bytes;
+        *size = failed ? 0 : p->size;
+    }
+    if (failed || !bytes) {
         free(p->bytes);
     }
     free(p);
-    return failed ? koksma__fail(KOKSMA_SYSTEM, "the picture could not be drawn") : KOKSMA_OK;
+    return failed && bytes ? koksma__fail(KOKSMA_SYSTEM, "the picture could not be drawn") : KOKSMA_OK;
 }
 
 static const char *library(void)

@@ -44,8 +44,8 @@ double koksma__line_height(double height);
 /* The height of the lines that koksma__canvas_lines writes. */
 double koksma__lines_height(const char *text, double width, double height);
 
-/* Returns the finished picture, which the caller frees. Releases the canvas, also if it fails and returns no
-   picture. */
+/* Returns the finished picture, which the caller frees; with bytes = NULL drops it. Releases the canvas, also if it
+   fails and returns no picture. */
 koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size);
 
 #endif

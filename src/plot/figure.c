@@ -28,6 +28,7 @@ typedef struct line {
 
 typedef struct layout {
     const koksma_figure *figure;
+    const koksma_run *run;
     double width, title, fixed, flexible, growing;
     size_t n;
     line *lines;
@@ -71,7 +72,7 @@ static void measure_line(const koksma_figure *f, line *l, double width)
 /* Computes all positions for a width; lines has capacity for one line for each cell. */
 static void lay_out(layout *a, const koksma_figure *f, double width)
 {
-    *a = (layout){.figure = f, .width = width, .lines = a->lines};
+    *a = (layout){.figure = f, .run = a->run, .width = width, .lines = a->lines};
     a->title = (double)koksma__canvas_lines(NULL, 0, 0, width - 2 * TOP, TITLE, 0, f->title, (koksma__colour){0}) *
                koksma__line_height(TITLE);
     a->fixed = a->title + (a->title > 0 ? TOP : 0);
@@ -109,8 +110,9 @@ static koksma_status draw_line(koksma__canvas *canvas, const koksma__theme *them
         const koksma_cell *c = &a->figure->cells[l->first + i];
         const double texts = c->chart ? koksma__chart_texts(c->chart, width) : l->texts;
         const koksma__box box = {(double)i * width, y, width, texts + l->flexible};
-        status = c->chart ? koksma__chart_draw(canvas, theme, c->chart, box)
-                          : koksma__panel_draw(canvas, theme, c->panel, box, l->title, fmin(width, l->flexible));
+        status = c->chart
+                     ? koksma__chart_draw(canvas, theme, c->chart, box)
+                     : koksma__panel_draw(canvas, theme, c->panel, box, l->title, fmin(width, l->flexible), a->run);
     }
     return status;
 }
@@ -133,13 +135,13 @@ static koksma_status draw(const layout *a, double height, koksma_plot_format for
         status = draw_line(canvas, theme, a, &a->lines[i], y);
         y += a->lines[i].texts + a->lines[i].flexible;
     }
-    const koksma_status closed = koksma__canvas_close(canvas, bytes, n);
-    if (status && !closed) { /* drawing failed: no file; NULL, because the caller may free *bytes */
-        free(*bytes);
-        *bytes = NULL;
-        *n = 0;
+    if (!status) {
+        return koksma__canvas_close(canvas, bytes, n);
     }
-    return status ? status : closed;
+    koksma__canvas_close(canvas, NULL, NULL);
+    *bytes = NULL; /* the caller may free it */
+    *n = 0;
+    return status;
 }
 
 koksma_status koksma__figure_size(koksma_plot_format format, double asked, double fallback, double *size)
@@ -175,10 +177,11 @@ static koksma_status check_cells(const koksma_figure *f, double *width)
     return status;
 }
 
-koksma_status koksma_plot_figure(const koksma_figure *figure, koksma_plot_format format, unsigned char **bytes,
-                                 size_t *n_bytes)
+koksma_status koksma_plot_figure(const koksma_figure *figure, koksma_plot_format format, const koksma_run *run,
+                                 unsigned char **bytes, size_t *n_bytes)
 {
     KOKSMA__REQUIRE(figure, bytes, n_bytes);
+    KOKSMA__REQUIRE_RUN(run);
     double width = 0, height = 0;
     koksma_status status = figure->n_cells
                                ? check_cells(figure, &width)
@@ -187,7 +190,7 @@ koksma_status koksma_plot_figure(const koksma_figure *figure, koksma_plot_format
     if (!status && figure->height != 0) {
         status = koksma__figure_size(format, figure->height, 0, &height);
     }
-    layout a = {.lines = status ? NULL : calloc(figure->n_cells, sizeof(line))};
+    layout a = {.run = run, .lines = status ? NULL : calloc(figure->n_cells, sizeof(line))};
     if (!status && !a.lines) {
         status = koksma__fail_memory(figure->n_cells * sizeof(line));
     }
@@ -223,7 +226,7 @@ koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double si
         cells[i].panel = &panels[i];
     }
     const koksma_figure figure = {.cells = cells, .n_cells = n, .width = side * (double)n};
-    status = status ? status : koksma_plot_figure(&figure, format, bytes, n_bytes);
+    status = status ? status : koksma_plot_figure(&figure, format, NULL, bytes, n_bytes);
     free(cells);
     return status;
 }
@@ -246,7 +249,7 @@ koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plot_format fo
     const koksma_status status = koksma__figure_size(format, chart->size, CHART, &width);
     const koksma_cell cell = {.chart = chart};
     const koksma_figure figure = {.cells = &cell, .n_cells = 1, .width = fmax(status ? 0 : width, LEAST_CHART)};
-    return status ? status : koksma_plot_figure(&figure, format, bytes, n_bytes);
+    return status ? status : koksma_plot_figure(&figure, format, NULL, bytes, n_bytes);
 }
 
 koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format)

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
 #include "measures/shared/spectrum.h"
@@ -22,6 +23,7 @@ enum { MARGIN = 6, TITLE = 12, TEXT = 11, LABEL = 10, SWATCH = 12, FAR = 100, CU
 typedef struct plot {
     koksma__canvas *canvas;
     const koksma__theme *theme;
+    const koksma_run *run;
     double left, top, side;
     int axes[2];
 } plot;
@@ -177,7 +179,7 @@ static koksma_status draw_local(const plot *p, const koksma_points *points, doub
     return status;
 }
 
-static void draw_points(const plot *p, const koksma_points *points, const koksma_scatter_options *options)
+static koksma_status draw_points(const plot *p, const koksma_points *points, const koksma_scatter_options *options)
 {
     draw_guides(p, options);
     if (options->witness) {
@@ -190,7 +192,9 @@ static void draw_points(const plot *p, const koksma_points *points, const koksma
         double at[2];
         position(p, options->warp, in, at);
         koksma__canvas_circle(p->canvas, at[0], at[1], radius, line_of(p->theme->ink, 0));
+        KOKSMA__TRY(koksma__look(p->run, i, 0));
     }
+    return KOKSMA_OK;
 }
 
 static int dimensions(const koksma_panel *panel)
@@ -201,7 +205,7 @@ static int dimensions(const koksma_panel *panel)
 
 /* Draws the lower triangle of the scatter matrix: in row i and column j < i, coordinate i against coordinate j; the
    coordinates are named at the left and below. */
-static void draw_matrix(const plot *p, const koksma_panel *panel)
+static koksma_status draw_matrix(const plot *p, const koksma_panel *panel)
 {
     const int n = dimensions(panel) - 1, gap = 4;
     const double pitch = (p->side - 2 * LABEL) / n;
@@ -216,12 +220,13 @@ static void draw_matrix(const plot *p, const koksma_panel *panel)
             q.axes[0] = j;
             q.axes[1] = i;
             q.left = p->left + 2 * LABEL + j * pitch;
-            draw_points(&q, panel->points, &panel->scatter);
+            KOKSMA__TRY(draw_points(&q, panel->points, &panel->scatter));
         }
         koksma__snprintf(name, sizeof name, "x%d", i);
         koksma__canvas_text(p->canvas, p->left + 2 * LABEL + (i - 0.5) * pitch, p->top + p->side - 6, LABEL, 0.5,
                             name, p->theme->ink);
     }
+    return KOKSMA_OK;
 }
 
 static koksma_status draw_spectrum(const plot *p, const koksma_spectrum *s, double white)
@@ -283,10 +288,11 @@ double koksma__panel_texts(const koksma_panel *panel, double width)
 }
 
 koksma_status koksma__panel_draw(koksma__canvas *canvas, const koksma__theme *theme, const koksma_panel *panel,
-                                 koksma__box box, double title, double side)
+                                 koksma__box box, double title, double side, const koksma_run *run)
 {
     const double inner = box.width - 2 * MARGIN, middle = box.x + box.width / 2;
-    const plot p = {canvas, theme, middle - side / 2 + MARGIN, box.y + title + MARGIN, side - 2 * MARGIN, {0, 1}};
+    const plot p = {canvas, theme, run, middle - side / 2 + MARGIN, box.y + title + MARGIN, side - 2 * MARGIN,
+                    {0, 1}};
     koksma_status status = KOKSMA_OK;
     double largest = 0, y = box.y + title - koksma__panel_title(panel, box.width) + TITLE;
     if (panel->title) {
@@ -302,10 +308,10 @@ koksma_status koksma__panel_draw(koksma__canvas *canvas, const koksma__theme *th
     if (!panel->points) {
         status = draw_spectrum(&p, panel->spectrum, panel->white > 0 ? panel->white : 2);
     } else if (dimensions(panel) > 2) {
-        draw_matrix(&p, panel);
+        status = draw_matrix(&p, panel);
     } else {
         status = panel->scatter.local_discrepancy ? draw_local(&p, panel->points, &largest) : KOKSMA_OK;
-        draw_points(&p, panel->points, &panel->scatter);
+        status = status ? status : draw_points(&p, panel->points, &panel->scatter);
     }
     char note[NOTE];
     y = box.y + title + side + TEXT;

@@ -16,8 +16,8 @@ double koksma__panel_title(const koksma_panel *panel, double width);
 double koksma__panel_texts(const koksma_panel *panel, double width);
 
 /* Draws a panel. title: the height reserved for the texts above the square, which is equal for all panels of a row;
-   side: the width of the square and its margins. Errors: MEMORY. */
+   side: the width of the square and its margins. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__panel_draw(koksma__canvas *canvas, const koksma__theme *theme, const koksma_panel *panel,
-                                 koksma__box box, double title, double side);
+                                 koksma__box box, double title, double side, const koksma_run *run);
 
 #endif

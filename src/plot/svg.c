@@ -219,13 +219,15 @@ static koksma_status close_svg(koksma__canvas *canvas, unsigned char **bytes, si
     begin_group(s, "");
     put(s, "</svg>\n");
     const bool failed = s->failed;
-    *bytes = failed ? NULL : (unsigned char *)s->text;
-    *size = failed ? 0 : s->size;
-    if (failed) {
+    if (bytes) {
+        *bytes = failed ? NULL : (unsigned char *)s->text;
+        *size = failed ? 0 : s->size;
+    }
+    if (failed || !bytes) {
         free(s->text);
     }
     free(s);
-    return failed ? koksma__fail_memory(2 * *size) : KOKSMA_OK;
+    return failed && bytes ? koksma__fail_memory(2 * *size) : KOKSMA_OK;
 }
 
 const koksma__canvas_functions koksma__svg_functions = {open_svg, path,     box,       circle,

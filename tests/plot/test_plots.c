@@ -222,6 +222,35 @@ static void the_palette_names_patterns(void **state)
     assert_int_equal(sizeof lists / sizeof *lists, COLOURS);
 }
 
+static bool stop(void *context, double fraction)
+{
+    (void)fraction;
+    return --*(int *)context > 0;
+}
+
+/* A figure asks whether to go on in every panel of many points, and leaves no bytes when it is stopped. */
+static void figures_can_be_stopped(void **state)
+{
+    (void)state;
+    koksma_points points = test_points("random", 20000, 3, 7);
+    const koksma_panel panel = {.points = &points};
+    const koksma_cell cells[] = {{.panel = &panel}, {.panel = &panel}};
+    const koksma_figure figure = {.cells = cells, .n_cells = 2};
+    for (int format = 0; format < (koksma_plot_library() ? 3 : 1); format++) {
+        for (int questions = 1; questions <= 16; questions += 15) {
+            unsigned char *bytes = NULL;
+            size_t size = 0;
+            int left = questions;
+            const koksma_run run = {.keep_going = stop, .context = &left};
+            assert_int_equal(koksma_plot_figure(&figure, (koksma_plot_format)format, &run, &bytes, &size),
+                             KOKSMA_INTERRUPTED);
+            assert_null(bytes);
+            assert_int_equal(left, 0);
+        }
+    }
+    koksma_points_fini(&points);
+}
+
 /* A figure of everything, in each format, twice in a process: the same bytes. */
 static void bytes_are_the_same_again(void **state)
 {
@@ -248,7 +277,7 @@ static void bytes_are_the_same_again(void **state)
         unsigned char *bytes[2];
         size_t sizes[2];
         for (int again = 0; again < 2; again++) {
-            assert_ok(koksma_plot_figure(&figure, (koksma_plot_format)(k / 2), &bytes[again], &sizes[again]));
+            assert_ok(koksma_plot_figure(&figure, (koksma_plot_format)(k / 2), NULL, &bytes[again], &sizes[again]));
         }
         assert_int_equal(sizes[0], sizes[1]);
         assert_memory_equal(bytes[0], bytes[1], sizes[0]);
@@ -267,7 +296,7 @@ int main(void)
         cmocka_unit_test(splits_are_marked),        cmocka_unit_test(charts_without_labels),
         cmocka_unit_test(thirty_two_curves_differ), cmocka_unit_test(isolated_points_are_marked),
         cmocka_unit_test(patterns_have_colours),    cmocka_unit_test(the_palette_names_patterns),
-        cmocka_unit_test(bytes_are_the_same_again),
+        cmocka_unit_test(bytes_are_the_same_again), cmocka_unit_test(figures_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -111,6 +111,7 @@ class Raised(Case):
         signal.signal(signal.SIGINT, signal.default_int_handler)
         many = [{"name": "long", "title": "Long", "discrepancies": [{"id": "d", "patterns": ["random"], "measures": ["star"],
                                                                      "n": [2048], "trials": 100000}]}]
+        picture = koksma.plot(koksma.generate("random", 1 << 21))
         with tempfile.TemporaryDirectory() as folder:
             study = koksma.Study(many, folder)
             calls = {"optimise": lambda: koksma.optimise("star", 64, time_limit=1e6),
@@ -119,6 +120,7 @@ class Raised(Case):
                      "integrate a callable": lambda: koksma.integrate(lambda x: x[:, 0], "sobol:scramble=owen", [1 << 20], trials=100000),
                      "rank": lambda: koksma.rank("balls", spp=1024, size=(640, 480), time_limit=None),
                      "datasheet": lambda: koksma.datasheet("sobol:scramble=owen"),
+                     "plot": lambda: picture.svg,
                      "study": study.run}
             for name, call in calls.items():
                 with self.subTest(call=name), self.assertRaises(KeyboardInterrupt):
