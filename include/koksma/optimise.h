@@ -107,7 +107,7 @@ KOKSMA_API const koksma_method *koksma_method_find(const char *name);
      measure  a measure whose answer is KOKSMA_ANSWER_EXACT, or NULL if options->power is set
      run      if the time limit passes during a step, the search ends after that step; at least one step is done
    Errors: ARGUMENT (a bad option or measure), N, DIM, MEMORY, INTERRUPTED (run->keep_going returned false; out then
-   has the best set so far). */
+   has the best set so far, or is zeroed if the first set had not been made and measured). */
 KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
                                          const koksma_run *run, koksma_optimum *out);
 

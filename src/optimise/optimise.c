@@ -229,7 +229,8 @@ koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_
         status = run_steps(&s, out);
     }
     free(s.found);
-    if (status && status != KOKSMA_INTERRUPTED) {
+    /* before the first set is measured there is no result to keep */
+    if (status && (status != KOKSMA_INTERRUPTED || !out->method)) {
         koksma_optimum_fini(out);
     }
     return status;

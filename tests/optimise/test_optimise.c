@@ -573,6 +573,9 @@ static void ends_when_asked(void **state)
     assert_int_equal(koksma_optimise(&star, &options, &run, &best), KOKSMA_INTERRUPTED);
     assert_true(best.points.n == 8 && best.steps == 0);
     koksma_optimum_fini(&best);
+    const koksma_optimise_options unmade = {.n = 64, .dim = 2, .power = (double[]){1}, .rings = 1};
+    assert_int_equal(koksma_optimise(NULL, &unmade, &run, &best), KOKSMA_INTERRUPTED);
+    assert_true(!best.points.xs && !best.method);
     options.n = 9;
     options.first = &(koksma_points){.n = 1, .dim = 1, .xs = (double[]){0.5}};
     assert_int_equal(koksma_optimise(&star, &options, NULL, &best), KOKSMA_N);
