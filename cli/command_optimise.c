@@ -307,8 +307,7 @@ static const cli_option options[] = {
     {0, "weights", "W,..", "weights of the projections in the root mean square of their values (default: 1)"},
     {0, "steps", "K", "number of steps, each of a fixed amount of work; equal --seed and --steps give equal sets"},
     {0, "time-limit", "SECONDS",
-     "time limit in seconds; the search ends after the step that exceeds it; 0: no limit (default: 60; with --steps: "
-     "0)"},
+     "time limit in seconds, which ends the search within a step; 0: no limit (default: 60; with --steps: 0)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
     {'o', "output", "FILE.txt|.csv|.npy",
      "the best set; a file is rewritten after each gain, -, a pipe or a device gets only the last set"},
@@ -339,8 +338,9 @@ const cli_command cli_command_optimise = {
     .details =
         "MEASURE is any measure with exact values, such as star or l2-disk:law=area; the search maximises distances "
         "and minimises all other measures. Equal arguments with --steps give equal sets, on any number of threads. "
-        "If a time limit ends the search, the printed row has the number of steps; --steps with this number gives "
-        "the same set. FILE\n"
+        "If a time limit or Ctrl-C ends the search, the step in progress is dropped. The printed row has the number "
+        "of "
+        "steps that were done; --steps with this number gives the same set. FILE\n"
         "always holds the best set: after Ctrl-C (exit code 130) or a kill, --from FILE continues the search. A "
         "stream (-, a pipe, a device) gets the best set once, at the end or after Ctrl-C. With -o - the table is not "
         "printed; comments above the points have the value, the seed and the steps.\n"

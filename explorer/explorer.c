@@ -477,7 +477,7 @@ static koksma_status optimise_briefly(const koksma_spec *spec, const koksma_opti
                 continue; /* the first steps gain much by few walks: the reader sees them one after the other */
             }
             memcpy(trial.xs, points.xs, points.n * (size_t)points.dim * sizeof(double));
-            status = method->search(spec, o, o->seed + ++walks, sign * best.value, &trial);
+            status = method->search(spec, o, o->seed + ++walks, sign * best.value, &one_thread, &trial);
             status = status ? status : koksma_evaluate(spec, &trial, &one_thread, &value);
             if (!status && sign * value.value < sign * best.value) {
                 memcpy(points.xs, trial.xs, points.n * (size_t)points.dim * sizeof(double));

@@ -94,9 +94,10 @@ typedef struct koksma_method {
     int (*serves)(const koksma_spec *measure, const koksma_optimise_options *options);
     /* Replaces `points`, the best set so far with the given value, by another candidate. The result depends only on
        the arguments (of the options: n, dim, keep and the projections); several threads call the function at
-       once. */
+       once. It asks run->keep_going often, on the thread that called it, and fails with INTERRUPTED if that returns
+       false; the points are then of no use. */
     koksma_status (*search)(const koksma_spec *measure, const koksma_optimise_options *options, uint64_t seed,
-                            double value, koksma_points *points);
+                            double value, const koksma_run *run, koksma_points *points);
 } koksma_method;
 
 /* Returns method i of the table, or the method with this name, or NULL if there is none. */
@@ -105,7 +106,9 @@ KOKSMA_API const koksma_method *koksma_method_find(const char *name);
 
 /* Searches for points with a small value of a measure (a large value if the measure is a distance). Allocates out.
      measure  a measure whose answer is KOKSMA_ANSWER_EXACT, or NULL if options->power is set
-     run      if the time limit passes during a step, the search ends after that step; at least one step is done
+     run      the time limit and keep_going end the search within a step, whose work is then lost: out is as after the
+              step before. The first set is made and measured without a time limit; if that takes longer, or the limit
+              passes in the first step, no step is done
    Errors: ARGUMENT (a bad option or measure), N, DIM, MEMORY, INTERRUPTED (run->keep_going returned false; out then
    has the best set so far, or is zeroed if the first set had not been made and measured). */
 KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,

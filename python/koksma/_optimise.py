@@ -146,7 +146,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     steps : int
         Of a fixed amount of work; equal steps and seed give equal sets. 0: until time_limit.
     time_limit : float, optional
-        In seconds.
+        In seconds. It ends the search within a step, whose work is lost; the first set is made and measured in any case.
     threads : int
         0: one for each processor.
     progress : callable, optional

@@ -29,6 +29,18 @@ KOKSMA__LAB bool koksma__keep_going(const koksma_run *run, double fraction_done)
    if the caller wants to stop. */
 KOKSMA__LAB koksma_status koksma__look(const koksma_run *run, size_t step, double fraction_done);
 
+/* Sets the error text for a call that run->keep_going stopped, and returns INTERRUPTED. */
+KOKSMA__LAB koksma_status koksma__fail_interrupted(void);
+
+/* The number of terms, of some nanoseconds each, after which work that cannot be cut into blocks asks again. */
+enum { KOKSMA__ASKED = 1 << 20 };
+
+/* Fails with INTERRUPTED if run->keep_going returns false. For work that does not know which fraction is done. */
+static inline koksma_status koksma__ask(const koksma_run *run)
+{
+    return koksma__keep_going(run, 0) ? KOKSMA_OK : koksma__fail_interrupted();
+}
+
 /* A phase of a call whose work has several: the fractions 0 to 1 that the phase reports to koksma__phase_run count as
    begin .. begin + share of the call, and never fall. The phases of a call take one after another the same struct, of
    zeros at first. share = 0: a phase that is short beside the others. */
@@ -54,8 +66,5 @@ typedef struct koksma__pacing {
 } koksma__pacing;
 
 KOKSMA__LAB bool koksma__paced(void *pacing, double fraction_done);
-
-/* Sets the error text for a call that run->keep_going stopped, and returns INTERRUPTED. */
-KOKSMA__LAB koksma_status koksma__fail_interrupted(void);
 
 #endif

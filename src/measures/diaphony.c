@@ -23,8 +23,7 @@ static koksma_status gradient(const koksma_points *points, const koksma_args *ar
 {
     static const double q = 2 * M_PI * M_PI;
     const koksma__l2_row row = {12, {24, 0, 0, 0}, {(1 + q / 6) / 2, 0, 0, 0}, -q, q, "diaphony"};
-    (void)args;
-    return koksma__l2_gradient(&row, points, square, out);
+    return koksma__l2_gradient(&row, points, args->run, square, out);
 }
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)

@@ -28,8 +28,7 @@
     static koksma_status gradient_##kind(const koksma_points *points, const koksma_args *args, double *square,       \
                                          double *gradient)                                                           \
     {                                                                                                                \
-        (void)args;                                                                                                  \
-        return koksma__l2_gradient(&koksma__l2_##kind, points, square, gradient);                                    \
+        return koksma__l2_gradient(&koksma__l2_##kind, points, args->run, square, gradient);                         \
     }                                                                                                                \
     const koksma_measure koksma__measure_l2_##kind = {                                                               \
         .name = "l2-" #kind,                                                                                         \

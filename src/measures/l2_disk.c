@@ -168,10 +168,12 @@ static koksma_status gradient(const koksma_points *points, const koksma_args *ar
     const size_t n = points->n, dim = (size_t)points->dim;
     const double r = koksma__disk_radius(law, args->params[0]), *xs = points->xs;
     koksma_value value;
-    const koksma_status status = eval(points, args, &value);
+    koksma_status status = eval(points, args, &value);
+    const size_t asked = KOKSMA__ASKED / points->n + 1; /* points between two questions */
     *square = value.square;
     for (size_t i = 0; i < n && !status; i++) {
         double sum[3] = {0};
+        status = i % asked ? KOKSMA_OK : koksma__ask(args->run);
         for (size_t c = 0; c < n << dim; c++) {
             const size_t j = c >> dim;
             double d[3] = {0};

@@ -122,10 +122,12 @@ static koksma_status gradient(const koksma_points *points, const koksma_args *ar
     const double n = (double)points->n, *xs = points->xs;
     const koksma__line_law law = (koksma__line_law)args->params[0];
     koksma_value value;
-    const koksma_status status = eval(points, args, &value);
+    koksma_status status = eval(points, args, &value);
+    const size_t asked = KOKSMA__ASKED / points->n + 1; /* points between two questions */
     *square = value.square;
     for (size_t i = 0; i < points->n && !status; i++) {
         double *own = out + i * dim, slope[3], sum[3] = {0};
+        status = i % asked ? KOKSMA_OK : koksma__ask(args->run);
         for (size_t j = 0; j < points->n; j++) {
             double d[3] = {0};
             for (size_t k = 0; k < dim; k++) {

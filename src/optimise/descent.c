@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "core/vector.h"
 
@@ -21,6 +22,7 @@ enum { HALVINGS = 20, STRETCH = 10, HOPE = 4 };
 
 static koksma_status value_at(koksma__descent *d, double *square)
 {
+    KOKSMA__TRY(koksma__ask(d->run));
     d->work += d->cost;
     if (!d->bounded) {
         for (size_t c = 0; c < d->count; c++) {
@@ -92,7 +94,7 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
 {
     double *step = d->steps - d->count;
     const size_t n = d->count;
-    double square, next = 0;
+    double square = 0, next = 0;
     koksma_status status = value_at(d, &square);
     double mark = square;
     d->kept = 0;

@@ -15,6 +15,7 @@ typedef struct koksma__descent {
     koksma_points points; /* x */
     koksma__function function;
     const void *context;
+    const koksma_run *run; /* asked before each call of the function */
     bool bounded;
     size_t count;                       /* number of coordinates of all points */
     double *low, *gradient, *direction; /* low: lower ends of the coordinates' intervals */
@@ -35,7 +36,7 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
 void koksma__descent_fini(koksma__descent *d);
 
 /* Sets the points from which a descent starts: a changed copy of the best set, or new points. Errors: those of the
-   function. */
+   function, INTERRUPTED. */
 koksma_status koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep,
                                     koksma__stream *random);
 
@@ -44,7 +45,7 @@ koksma_status koksma__descent_start(koksma__descent *d, const koksma_points *bes
 void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random);
 
 /* Descends from d->points in at most the given number of iterations. On return d->points has the best points found, and
-   *least their value. */
+   *least their value. Errors: those of the function, INTERRUPTED. */
 koksma_status koksma__descend(koksma__descent *d, int iterations, double *least);
 
 #endif

@@ -26,6 +26,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "measures/l2_boxes.h"
 #include "measures/shared/order.h"
@@ -34,7 +35,7 @@
 
 /* LEAST_N: for fewer points the method `descent` is used, which finds the best sets at once. In each of ROUNDS rounds
    there are SWAPS n proposals; searches from the best set leave out the first WARM rounds. The last COLD rounds
-   accept only swaps that reduce the value. */
+   accept only swaps that reduce the value. The run is asked after ASKED swaps. */
 enum {
     LEAST_N = 10,
     MOST_NUMBERS = 1 << 21,
@@ -47,7 +48,8 @@ enum {
     SETTLE = 30,
     NEAR = 4,
     TRIAL = 10,
-    STALE = 2
+    STALE = 2,
+    ASKED = 256
 };
 
 /* FIRST: the mean threshold in the first round, as a fraction of the squared discrepancy after a first descent. FALL:
@@ -184,10 +186,13 @@ static void swap(job *j, double *xs, size_t k, size_t p, size_t q)
 }
 
 /* Proposes SWAPS n swaps; each is accepted if the change is below a random threshold whose mean is `threshold`. */
-static void propose(job *j, double *xs, double threshold)
+static koksma_status propose(job *j, double *xs, double threshold, const koksma_run *run)
 {
     const size_t n = j->n;
     for (size_t m = 0; m < SWAPS * n; m++) {
+        if (m % ASKED == 0) {
+            KOKSMA__TRY(koksma__ask(run));
+        }
         const size_t k = koksma__next_below(&j->random, j->dim), p = koksma__next_below(&j->random, n);
         size_t q = koksma__next_below(&j->random, 2 * n);
         if (q >= n) {
@@ -200,6 +205,7 @@ static void propose(job *j, double *xs, double threshold)
             swap(j, xs, k, p, q);
         }
     }
+    return KOKSMA_OK;
 }
 
 /* Gives the points the coordinates (i + 1/2)/n along each axis, in random order. */
@@ -217,12 +223,13 @@ static void shuffle(job *j, double *xs)
 typedef struct measured {
     const koksma_spec *measure;
     const koksma_optimise_options *options;
+    const koksma_run *run;
 } measured;
 
 static koksma_status square_of(const void *context, const koksma_points *points, double *value, double *gradient)
 {
     const measured *m = context;
-    return koksma__search_square(m->measure, m->options, points, value, gradient);
+    return koksma__search_square(m->measure, m->options, points, m->run, value, gradient);
 }
 
 /* Tries random swaps, each followed by a descent, until STALE n^2 swaps in a row gain nothing or the work is used
@@ -238,6 +245,7 @@ static koksma_status improve(job *j, koksma__descent *d, double *square)
         const size_t k = koksma__next_below(&j->random, dim), p = koksma__next_below(&j->random, n),
                      q = koksma__next_below(&j->random, n);
         if (p == q || change(j, k, p, q) > reach) {
+            status = stale % ASKED ? KOKSMA_OK : koksma__ask(d->run);
             continue;
         }
         exchange(d->points.xs + p * dim + k, d->points.xs + q * dim + k);
@@ -258,9 +266,9 @@ static koksma_status improve(job *j, koksma__descent *d, double *square)
 }
 
 static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
-                            koksma_points *points)
+                            const koksma_run *run, koksma_points *points)
 {
-    const measured context = {measure, o};
+    const measured context = {measure, o, run};
     const size_t n = points->n;
     koksma__descent d;
     job j;
@@ -272,6 +280,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     }
     d.function = square_of;
     d.context = &context;
+    d.run = run;
     const bool again = koksma__next_below(&j.random, 2) == 0;
     double square;
     memcpy(d.points.xs, points->xs, d.count * sizeof(double));
@@ -286,8 +295,8 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
         }
         status = prepare(&j, d.points.xs);
         if (!status) {
-            propose(&j, d.points.xs, round < ROUNDS ? threshold : 0);
-            status = koksma__descend(&d, FIT, &square);
+            status = propose(&j, d.points.xs, round < ROUNDS ? threshold : 0, run);
+            status = status ? status : koksma__descend(&d, FIT, &square);
         }
     }
     status = status ? status : koksma__descend(&d, KOKSMA__ITERATIONS, &square);

@@ -9,18 +9,19 @@
 typedef struct job {
     const koksma_spec *measure;
     const koksma_optimise_options *options;
+    const koksma_run *run;
 } job;
 
 static koksma_status square_of(const void *context, const koksma_points *points, double *value, double *gradient)
 {
     const job *j = context;
-    return koksma__search_square(j->measure, j->options, points, value, gradient);
+    return koksma__search_square(j->measure, j->options, points, j->run, value, gradient);
 }
 
 static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
-                            koksma_points *points)
+                            const koksma_run *run, koksma_points *points)
 {
-    const job j = {measure, o};
+    const job j = {measure, o, run};
     koksma__stream random = {.seed = seed};
     koksma__descent d;
     const double n = (double)points->n, cost = o->power ? koksma__radial_power_cost(o) : n * n * points->dim + 1000;
@@ -29,6 +30,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     double best = value * value;
     d.function = square_of;
     d.context = &j;
+    d.run = run;
     while (!status && d.work < d.budget) {
         double square;
         status = koksma__descent_start(&d, points, o->keep, &random);

@@ -17,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "optimise/methods.h"
 #include "optimise/sequence.h"
@@ -74,7 +75,7 @@ static size_t move(koksma_points *points, unsigned m, koksma__stream *random)
 }
 
 static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
-                            koksma_points *points)
+                            const koksma_run *run, koksma_points *points)
 {
     koksma__stream random = {.seed = seed};
     const size_t bytes = points->n * (size_t)points->dim * sizeof(double);
@@ -91,11 +92,12 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     for (size_t i = 0; !status && anew && i < 8 * m * (size_t)points->dim; i++) {
         move(points, m, &random);
         current = INFINITY;
+        status = koksma__ask(run);
     }
     for (int i = 0; i < MOVES && !status; i++) {
         memcpy(next.xs, points->xs, bytes);
         move(&next, m, &random);
-        status = koksma__search_value(measure, o, &next, &after);
+        status = koksma__search_value(measure, o, &next, run, &after);
         after = sign * log(after);
         if (!status && after <= current + tolerance * (1 - (double)(i + 1) / MOVES)) {
             current = after;

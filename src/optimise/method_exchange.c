@@ -15,6 +15,8 @@
  */
 #include <math.h>
 
+#include "core/parallel.h"
+#include "core/status.h"
 #include "measures/l2_boxes.h"
 #include "optimise/methods.h"
 
@@ -61,7 +63,7 @@ static double change(const koksma__l2_row *row, const koksma_points *points, siz
 }
 
 static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
-                            koksma_points *points)
+                            const koksma_run *run, koksma_points *points)
 {
     (void)o;
     koksma__stream random = {.seed = seed};
@@ -70,6 +72,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     const double threshold = value * value * (double)(n * n) * 0.01 * koksma__next_unit(&random);
     const size_t swaps = (size_t)(WORK / ((double)n * (double)dim + 50));
     for (size_t m = 0; m < swaps; m++) {
+        KOKSMA__TRY(koksma__ask(run));
         const size_t k = koksma__next_below(&random, dim), p = koksma__next_below(&random, n),
                      q = koksma__next_below(&random, n);
         double *x = points->xs + p * dim + k, *y = points->xs + q * dim + k;

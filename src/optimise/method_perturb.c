@@ -49,7 +49,7 @@ static void move(koksma_points *points, koksma_keep keep, koksma__stream *random
 }
 
 static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
-                            koksma_points *points)
+                            const koksma_run *run, koksma_points *points)
 {
     koksma__stream random = {.seed = seed};
     const size_t dim = (size_t)points->dim, bytes = dim * sizeof(double);
@@ -63,7 +63,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
         memcpy(before, a, bytes);
         memcpy(before + dim, b, bytes);
         move(points, o->keep, &random, a, b);
-        status = koksma__search_value(measure, o, points, &after);
+        status = koksma__search_value(measure, o, points, run, &after);
         after *= sign;
         if (after <= current + tolerance * (1 - (double)(m + 1) / MOVES)) {
             current = after;

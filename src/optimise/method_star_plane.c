@@ -35,6 +35,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
@@ -101,14 +102,21 @@ typedef struct plane {
     edge *traced, *critical;  /* each has capacity for 2 * side edges */
     size_t n_traced, n_critical;
     double work, budget;
+    const koksma_run *run;
+    double asked; /* the work at which run was asked last */
+    bool stopped; /* run wants the search to end */
     koksma__stream random;
     void *memory;
 } plane;
 
-static koksma_status plane_init(plane *s, size_t n, uint64_t seed)
+static koksma_status plane_init(plane *s, size_t n, uint64_t seed, const koksma_run *run)
 {
-    *s = (plane){
-        .n = n, .side = n + 1, .stride = (n + 2 + 31) / 32 * 32, .random = {.seed = seed}, .budget = budget_of(n)};
+    *s = (plane){.n = n,
+                 .side = n + 1,
+                 .stride = (n + 2 + 31) / 32 * 32,
+                 .random = {.seed = seed},
+                 .budget = budget_of(n),
+                 .run = run};
     const size_t nodes = 2 * s->side, matrix = (n + 2) * s->stride;
     const size_t bytes = 2 * nodes * sizeof(double) + nodes * sizeof(float) +
                          (4 * nodes + 2 * (n + 1)) * sizeof(uint32_t) + 2 * nodes * sizeof(edge) +
@@ -343,8 +351,18 @@ static bool relax(plane *s, uint32_t node, double F)
     return true;
 }
 
+/* Returns whether the run, which is asked from time to time, wants the search to end. */
+static bool stopped(plane *s)
+{
+    if (s->work >= s->asked + KOKSMA__ASKED) {
+        s->asked = s->work;
+        s->stopped = s->stopped || !koksma__keep_going(s->run, 0);
+    }
+    return s->stopped;
+}
+
 /* Processes the queue until no constraint is violated. A violated cycle raises F; returns false if F rises above
-   `limit`. */
+   `limit`, or if the run wants the search to end. */
 static bool settle(plane *s, double *F, double limit)
 {
     const size_t nodes = 2 * s->side;
@@ -353,6 +371,9 @@ static bool settle(plane *s, double *F, double limit)
         s->first = (s->first + 1) % nodes;
         s->waiting--;
         s->queued[node] = 0;
+        if (stopped(s)) {
+            return false;
+        }
         if (!relax(s, node, *F)) {
             raise(s, F);
             if (*F > limit) {
@@ -561,7 +582,7 @@ static void walk(plane *s, double F, double *best, koksma_points *points)
     const double threshold = F * width_of(s->n).threshold * koksma__next_unit(&s->random), below = 1 - 1e-7;
     double target = F * below;
     find_conflicts(s, target);
-    for (size_t m = 0; m < PATIENCE && s->work < s->budget; m++) {
+    for (size_t m = 0; m < PATIENCE && s->work < s->budget && !stopped(s); m++) {
         const double limit = target / below + threshold;
         if (!move(s, target, limit)) {
             continue;
@@ -639,12 +660,12 @@ static void draw_start(plane *s, double *xs)
 }
 
 static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
-                            koksma_points *points)
+                            const koksma_run *run, koksma_points *points)
 {
     (void)measure, (void)o;
     const size_t n = points->n;
     plane s;
-    koksma_status status = plane_init(&s, n, seed);
+    koksma_status status = plane_init(&s, n, seed, run);
     double *xs = status ? NULL : malloc(2 * n * sizeof *xs + n * sizeof(uint32_t));
     uint32_t *order = (uint32_t *)(xs + (xs ? 2 * n : 0));
     if (!status && !xs) {
@@ -655,7 +676,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     const double accepted = 1.01 + wide.accepted * koksma__next_unit(&s.random) + 1 / (double)n;
     const bool again = koksma__next_unit(&s.random) < wide.again;
     double best = value * (double)n * (1 + 1e-9), F;
-    while (!status && s.work < s.budget) {
+    while (!status && s.work < s.budget && !stopped(&s)) {
         if (again) {
             memcpy(xs, points->xs, 2 * n * sizeof *xs);
         } else {
@@ -670,6 +691,9 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
             }
             walk(&s, F, &best, points);
         }
+    }
+    if (s.stopped) {
+        status = koksma__fail_interrupted();
     }
     free(xs);
     free(s.memory);

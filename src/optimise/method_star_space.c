@@ -23,6 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
@@ -136,12 +137,14 @@ static koksma_status list(job *j, koksma__descent *d, double limit, double *valu
 {
     const size_t n = j->n;
     const koksma_status status = sort(j, d->points.xs);
+    *value = 0;
     for (bool fits = false; !status && (!fits || j->listed == 0); limit *= fits ? 0.5 : 1.05) {
         memset(j->open, 0, 2 * (n + 2) * j->stride * sizeof(int16_t));
         j->listed = 0;
         *value = 0;
         fits = true;
         for (size_t i = 0; i <= n && fits; i++) {
+            KOKSMA__TRY(koksma__ask(d->run));
             if (i > 0) {
                 count(j, i - 1, j->open);
             }
@@ -354,7 +357,7 @@ static koksma_status wander(koksma_keep keep, koksma__descent *d, job *j, koksma
 }
 
 static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
-                            koksma_points *points)
+                            const koksma_run *run, koksma_points *points)
 {
     (void)measure;
     koksma__stream random = {.seed = seed};
@@ -371,6 +374,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
         if (!status) {
             d.function = excesses;
             d.context = &j;
+            d.run = run;
             d.budget = fmax(1.5e7 + 6e5 * (double)n, 5 * pow((double)n + 1, 3));
             status = wander(o->keep, &d, &j, &random, value, best, points);
             koksma__descent_fini(&d);

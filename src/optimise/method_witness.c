@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "optimise/methods.h"
 
 enum { MOVES = 200 };
@@ -94,21 +95,21 @@ static void move(koksma_points *points, const koksma_witness *w, koksma__stream 
 }
 
 static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
-                            koksma_points *points)
+                            const koksma_run *run, koksma_points *points)
 {
     (void)o;
-    static const koksma_run one_thread = {.threads = 1};
     koksma__stream random = {.seed = seed};
     const size_t bytes = points->n * (size_t)points->dim * sizeof(double);
     const double tolerance = 0.01 * koksma__next_unit(&random) * value;
     koksma_points next;
     koksma_value at, after;
     koksma_status status = koksma_points_init(&next, points->n, points->dim);
-    status = status ? status : koksma_evaluate(measure, points, &one_thread, &at);
+    status = status ? status : koksma_evaluate(measure, points, run, &at);
     for (int m = 0; m < MOVES && !status; m++) {
         memcpy(next.xs, points->xs, bytes);
         move(&next, &at.witness, &random);
-        status = koksma_evaluate(measure, &next, &one_thread, &after);
+        status = koksma__ask(run);
+        status = status ? status : koksma_evaluate(measure, &next, run, &after);
         if (!status && after.value <= at.value + tolerance * (1 - (double)(m + 1) / MOVES)) {
             at = after;
             memcpy(points->xs, next.xs, bytes);

@@ -5,10 +5,16 @@
  * ones) becomes the new best set if it is better. koksma_evaluate measures every result; values that a method
  * computes are not used. Several processes can share a run: process r of p makes the searches r, r + p, r + 2 p, ... of
  * each step. The processes exchange the results after each step, so that all continue from the same best set.
+ *
+ * The searches of a step, and the measures that they call, ask their run often. On the thread that called
+ * koksma_optimise it asks the caller and looks at the clock; other threads see the answer. A step that ends early is
+ * dropped as a whole: which of its searches were done depends on the threads.
  */
 #include <koksma/optimise.h>
 
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,6 +31,9 @@
 
 enum { SEARCHES = 8, MOST_PROCESSES = 1024 };
 
+/* Searches ask the caller and the clock at most once in so many seconds. */
+static const double PACE_S = 0.02;
+
 typedef struct step {
     const koksma_spec *measure;
     const koksma_optimise_options *options;
@@ -33,14 +42,18 @@ typedef struct step {
     double *found; /* results of SEARCHES searches */
     size_t piece;  /* number of doubles in the result of one search */
     const koksma_run *run;
-    double start_s;
+    double start_s, end_s;     /* end_s: when the step in progress is late; infinite before the first step */
+    pthread_t caller;          /* the thread that called koksma_optimise */
+    double fraction;           /* of the step in progress, as koksma__parallel has reported it */
+    koksma__pacing pacing;     /* of the caller's thread while it searches */
+    atomic_bool late, stopped; /* the time limit has passed; the caller wants to end the call */
 } step;
 
 /* Computes the value of a set, negated if larger values of the measure are better. */
 static koksma_status evaluate(const koksma_spec *measure, const koksma_optimise_options *o,
-                              const koksma_points *points, double *value)
+                              const koksma_points *points, const koksma_run *run, double *value)
 {
-    const koksma_status status = koksma__search_value(measure, o, points, value);
+    const koksma_status status = koksma__search_value(measure, o, points, run, value);
     *value = measure->measure->larger_is_better ? -*value : *value;
     return status;
 }
@@ -51,29 +64,45 @@ static double *piece(const step *s, size_t i)
     return s->found + i * s->piece;
 }
 
+/* Asks the caller, who is told the fraction of the run that is done, in steps or in time, and looks at the clock. */
+static bool keep_going(void *context, double fraction)
+{
+    step *s = context;
+    const uint64_t steps = s->options->steps;
+    const double limit_s = s->run->time_limit_s, now_s = koksma__now_s();
+    const double done = steps         ? ((double)s->best->steps + fraction) / (double)steps
+                        : limit_s > 0 ? (now_s - s->start_s) / limit_s
+                                      : 0;
+    s->fraction = fraction;
+    if (!koksma__keep_going(s->run, fmin(done, 1))) {
+        atomic_store(&s->stopped, true);
+    } else if (now_s >= s->end_s) {
+        atomic_store(&s->late, true);
+    }
+    return !s->stopped && !s->late;
+}
+
+/* The keep_going callback of searches and measures, on any thread. */
+static bool search_goes_on(void *context, double fraction)
+{
+    (void)fraction;
+    step *s = context;
+    return pthread_equal(pthread_self(), s->caller) ? koksma__paced(&s->pacing, s->fraction)
+                                                    : !atomic_load(&s->stopped) && !atomic_load(&s->late);
+}
+
 static koksma_status search(void *context, size_t block)
 {
     step *s = context;
+    const koksma_run run = {.threads = 1, .keep_going = search_goes_on, .context = s};
     const koksma_optimum *best = s->best;
     const koksma_processes *others = s->options->processes;
     const size_t i = others ? block * (size_t)others->size + (size_t)others->rank : block;
     const uint64_t seed = koksma__random_seed(s->options->seed, best->steps * SEARCHES + i, 1);
     koksma_points points = {best->points.n, best->points.dim, piece(s, i) + 1};
     memcpy(points.xs, best->points.xs, (s->piece - 1) * sizeof(double));
-    const koksma_status status = s->method->search(s->measure, s->options, seed, best->value, &points);
-    return status ? status : evaluate(s->measure, s->options, &points, piece(s, i));
-}
-
-/* Reports the fraction of the run that is done, in steps or in time. */
-static bool keep_going(void *context, double fraction)
-{
-    const step *s = context;
-    const uint64_t steps = s->options->steps;
-    const double limit_s = s->run->time_limit_s;
-    const double done = steps         ? ((double)s->best->steps + fraction) / (double)steps
-                        : limit_s > 0 ? (koksma__now_s() - s->start_s) / limit_s
-                                      : 0;
-    return koksma__keep_going(s->run, fmin(done, 1));
+    const koksma_status status = s->method->search(s->measure, s->options, seed, best->value, &run, &points);
+    return status ? status : evaluate(s->measure, s->options, &points, &run, piece(s, i));
 }
 
 static koksma_status exchange(const koksma_processes *others, void *pieces, size_t count, size_t bytes)
@@ -83,33 +112,7 @@ static koksma_status exchange(const koksma_processes *others, void *pieces, size
                             "koksma_processes.exchange");
 }
 
-/* Runs one step: the share of this process in the searches 0 to SEARCHES - 1. A better result replaces the best
-   set. */
-static koksma_status take_step(step *s, koksma_optimum *best)
-{
-    const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = keep_going, .context = s};
-    const koksma_processes *others = s->options->processes;
-    const size_t size = others ? (size_t)others->size : 1, rank = others ? (size_t)others->rank : 0;
-    koksma_status status = koksma__parallel(&run, (SEARCHES - rank + size - 1) / size, search, s);
-    if (!status && size > 1) {
-        status = exchange(others, s->found, SEARCHES, s->piece * sizeof(double));
-    }
-    if (status) {
-        return status;
-    }
-    const double sign = s->measure->measure->larger_is_better ? -1 : 1;
-    best->steps++;
-    for (size_t i = 0; i < SEARCHES; i++) {
-        if (*piece(s, i) < sign * best->value) {
-            best->value = sign * *piece(s, i);
-            best->last_gain = best->steps;
-            memcpy(best->points.xs, piece(s, i) + 1, (s->piece - 1) * sizeof(double));
-        }
-    }
-    return KOKSMA_OK;
-}
-
-/* Sets *going to false if any of the processes that share the run wants to end it. */
+/* Sets *going to false if it is false in any of the processes that share the run. */
 static koksma_status agree(const koksma_processes *others, bool *going)
 {
     double wishes[MOST_PROCESSES];
@@ -120,6 +123,35 @@ static koksma_status agree(const koksma_processes *others, bool *going)
     KOKSMA__TRY(exchange(others, wishes, (size_t)others->size, sizeof *wishes));
     for (int i = 0; i < others->size; i++) {
         *going = *going && wishes[i] > 0;
+    }
+    return KOKSMA_OK;
+}
+
+/* Runs one step: the share of this process in the searches 0 to SEARCHES - 1. A better result replaces the best
+   set. If the time limit passes in any of the processes, none of them does the step. */
+static koksma_status take_step(step *s, koksma_optimum *best)
+{
+    const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = keep_going, .context = s};
+    const koksma_processes *others = s->options->processes;
+    const size_t size = others ? (size_t)others->size : 1, rank = others ? (size_t)others->rank : 0;
+    koksma_status status = koksma__parallel(&run, (SEARCHES - rank + size - 1) / size, search, s);
+    bool done = !status;
+    status = status == KOKSMA_INTERRUPTED && !s->stopped ? KOKSMA_OK : status;
+    status = status ? status : agree(others, &done);
+    if (!status && done && size > 1) {
+        status = exchange(others, s->found, SEARCHES, s->piece * sizeof(double));
+    }
+    if (status || !done) {
+        return status;
+    }
+    const double sign = s->measure->measure->larger_is_better ? -1 : 1;
+    best->steps++;
+    for (size_t i = 0; i < SEARCHES; i++) {
+        if (*piece(s, i) < sign * best->value) {
+            best->value = sign * *piece(s, i);
+            best->last_gain = best->steps;
+            memcpy(best->points.xs, piece(s, i) + 1, (s->piece - 1) * sizeof(double));
+        }
     }
     return KOKSMA_OK;
 }
@@ -183,10 +215,12 @@ static koksma_status run_steps(step *s, koksma_optimum *best)
     koksma_status status = KOKSMA_OK;
     bool going = !o->progress || o->progress(o->context, best);
     status = agree(o->processes, &going);
+    s->end_s = s->run->time_limit_s > 0 ? s->start_s + s->run->time_limit_s : INFINITY;
     while (!status && going && (o->steps == 0 || best->steps < o->steps)) {
+        const uint64_t before = best->steps;
         status = take_step(s, best);
-        going = !status && (!o->progress || o->progress(o->context, best)) &&
-                !(s->run->time_limit_s > 0 && koksma__now_s() - s->start_s >= s->run->time_limit_s);
+        going = !status && best->steps > before && (!o->progress || o->progress(o->context, best)) &&
+                koksma__now_s() < s->end_s;
         status = status ? status : agree(o->processes, &going);
     }
     if (!status && o->processes && o->processes->done) {
@@ -209,7 +243,11 @@ koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_
               .best = out,
               .piece = options->n * (size_t)(options->dim > 0 ? options->dim : 0) + 1,
               .run = run ? run : &unlimited,
-              .start_s = koksma__now_s()};
+              .start_s = koksma__now_s(),
+              .end_s = INFINITY,
+              .caller = pthread_self(),
+              .pacing = {.keep_going = keep_going, .context = &s, .interval_s = PACE_S}};
+    const koksma_run first = {.threads = koksma__threads(s.run), .keep_going = search_goes_on, .context = &s};
     *out = (koksma_optimum){.lower = lower_bound(measure, options)};
     koksma_status status = check(measure, options, &s.method);
     status = status ? status : koksma_points_init(&out->points, options->n, options->dim);
@@ -222,7 +260,7 @@ koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_
     if (!status && options->keep == KOKSMA_KEEP_SEQUENCE) {
         status = koksma__sequence_check(&out->points);
     }
-    status = status ? status : evaluate(measure, options, &out->points, &out->value);
+    status = status ? status : evaluate(measure, options, &out->points, &first, &out->value);
     if (!status) {
         out->value = measure->measure->larger_is_better ? -out->value : out->value;
         out->method = s.method->name;

@@ -27,6 +27,7 @@
 #include <unistd.h>
 
 #include "core/c_locale.h"
+#include "core/parallel.h"
 #include "core/read_file.h"
 #include "core/status.h"
 
@@ -77,13 +78,26 @@ typedef struct job {
     double *means, *counts, *slopes;
     double *moves; /* the derivatives by x of all points, then by y */
     void *memory;
+    const koksma_run *run;
+    size_t terms; /* summed since run was asked last */
 } job;
 
-static koksma_status job_init(job *j, const koksma_points *points, size_t rings)
+/* Asks the run again if enough terms, of which so many come next, have been summed. */
+static koksma_status ask(job *j, size_t terms)
+{
+    j->terms += terms;
+    if (j->terms < KOKSMA__ASKED) {
+        return KOKSMA_OK;
+    }
+    j->terms = 0;
+    return koksma__ask(j->run);
+}
+
+static koksma_status job_init(job *j, const koksma_points *points, const koksma_run *run, size_t rings)
 {
     const size_t n = points->n, stride = (n + LANES - 1) / LANES * LANES, table = (rings + 1) * stride;
     const size_t bytes = (4 * table + 4 * stride + 4 * (rings + 1) * (rings + 1) + 3 * (rings + 1)) * sizeof(double);
-    *j = (job){.n = n, .stride = stride, .rings = rings, .memory = calloc(1, bytes)};
+    *j = (job){.n = n, .stride = stride, .rings = rings, .memory = calloc(1, bytes), .run = run};
     KOKSMA__REQUIRE_MEMORY(j->memory, bytes);
     double *at = j->memory;
     for (int t = 0; t < 4; t++, at += table) {
@@ -96,9 +110,16 @@ static koksma_status job_init(job *j, const koksma_points *points, size_t rings)
     j->counts = j->means + rings + 1;
     j->slopes = j->counts + rings + 1;
     j->sums = j->slopes + rings + 1;
+    return KOKSMA_OK;
+}
+
+static koksma_status find_tables(job *j, const koksma_points *points)
+{
+    const size_t n = j->n, stride = j->stride, rings = j->rings;
     for (int axis = 0; axis < 2; axis++) {
         double *c = j->tables[2 * axis], *s = j->tables[2 * axis + 1];
         for (size_t i = 0; i < n; i++) {
+            KOKSMA__TRY(ask(j, 8 * rings)); /* a sine and a cosine take as long as some terms */
             const double angle = 2 * M_PI * points->xs[2 * i + (size_t)axis];
             for (size_t k = 0; k <= rings; k++) {
                 c[k * stride + i] = cos((double)k * angle);
@@ -145,13 +166,14 @@ static double sum(const job *j, const double *xs)
 }
 
 /* Computes C and S of all frequencies, and the mean power of each ring. */
-static void find_powers(job *j)
+static koksma_status find_powers(job *j)
 {
     double *sums = j->sums;
     for (int ky = 0; ky <= (int)j->rings; ky++) {
         for (int kx = ky ? -(int)j->rings : 1; kx <= (int)j->rings; kx++) {
             const size_t ring = ring_of(j, kx, ky);
             if (ring) {
+                KOKSMA__TRY(ask(j, j->n));
                 waves(j, kx, ky);
                 sums[0] = sum(j, j->c);
                 sums[1] = sum(j, j->s);
@@ -164,17 +186,19 @@ static void find_powers(job *j)
     for (size_t r = 1; r <= j->rings; r++) {
         j->means[r] /= j->counts[r];
     }
+    return KOKSMA_OK;
 }
 
 /* Adds the derivatives of D^2 by the coordinates of all points to j->moves. j->slopes holds the derivatives of D^2 by
    the mean power of each ring. */
-static void find_gradient(job *j)
+static koksma_status find_gradient(job *j)
 {
     const double *sums = j->sums;
     for (int ky = 0; ky <= (int)j->rings; ky++) {
         for (int kx = ky ? -(int)j->rings : 1; kx <= (int)j->rings; kx++) {
             const size_t ring = ring_of(j, kx, ky);
             if (ring) {
+                KOKSMA__TRY(ask(j, j->n));
                 const double scale = j->slopes[ring] / j->counts[ring] * 4 * M_PI / (double)j->n;
                 const double c = scale * sums[0], s = scale * sums[1];
                 waves(j, kx, ky);
@@ -187,15 +211,17 @@ static void find_gradient(job *j)
             }
         }
     }
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__radial_power_square(const koksma_optimise_options *o, const koksma_points *points,
-                                          double *square, double *gradient)
+                                          const koksma_run *run, double *square, double *gradient)
 {
     job j;
     const double weights = o->rings * (o->rings + 1.0) / 2;
-    KOKSMA__TRY(job_init(&j, points, (size_t)o->rings));
-    find_powers(&j);
+    KOKSMA__TRY(job_init(&j, points, run, (size_t)o->rings));
+    koksma_status status = find_tables(&j, points);
+    status = status ? status : find_powers(&j);
     *square = 0;
     for (size_t r = 1; r <= j.rings; r++) {
         const double off = j.means[r] - o->power[r - 1];
@@ -203,14 +229,14 @@ koksma_status koksma__radial_power_square(const koksma_optimise_options *o, cons
         j.slopes[r] = 2 * (double)r / weights * off;
     }
     if (gradient) {
-        find_gradient(&j);
+        status = status ? status : find_gradient(&j);
         for (size_t i = 0; i < j.n; i++) {
             gradient[2 * i] = j.moves[i];
             gradient[2 * i + 1] = j.moves[j.stride + i];
         }
     }
     free(j.memory);
-    return KOKSMA_OK;
+    return status;
 }
 
 /* Reads a target from a file: each line has a frequency, in units of sqrt n and higher than the one before, and a

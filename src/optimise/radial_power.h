@@ -15,8 +15,8 @@ koksma_status koksma__radial_power_check(const koksma_optimise_options *options)
 double koksma__radial_power_cost(const koksma_optimise_options *options);
 
 /* Computes the square of the distance, and its derivatives with respect to the coordinates if `gradient` is not NULL.
-   Errors: MEMORY. */
+   Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__radial_power_square(const koksma_optimise_options *options, const koksma_points *points,
-                                          double *square, double *gradient);
+                                          const koksma_run *run, double *square, double *gradient);
 
 #endif

@@ -13,11 +13,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "optimise/radial_power.h"
-
-static const koksma_run one_thread = {.threads = 1};
 
 koksma_status koksma__search_check(const koksma_optimise_options *o)
 {
@@ -57,14 +56,15 @@ static void project(const koksma_points *points, uint64_t u, koksma_points *out)
 }
 
 /* Computes the mean of the logarithms of the measure over all prefixes. */
-static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_points *points, double *mean)
+static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_points *points, const koksma_run *run,
+                                      double *mean)
 {
     double count = 0;
     *mean = 0;
     for (size_t n = 2; n <= points->n; n *= 2, count++) {
         const koksma_points prefix = {.n = n, .dim = points->dim, .xs = points->xs};
         koksma_value value;
-        KOKSMA__TRY(koksma_evaluate(measure, &prefix, &one_thread, &value));
+        KOKSMA__TRY(koksma_evaluate(measure, &prefix, run, &value));
         KOKSMA__FAIL_IF(!(value.value > 0), KOKSMA_ARGUMENT,
                         "%s of the first %zu points is %g: the geometric mean over all prefixes needs values above 0",
                         measure->measure->name, n, value.value);
@@ -77,42 +77,43 @@ static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_p
 /* Computes the term that is averaged over projections: the square of the measure or, for a sequence, the mean of its
    logarithms over the prefixes. */
 static koksma_status term(const koksma_spec *measure, const koksma_optimise_options *o, const koksma_points *points,
-                          double *out)
+                          const koksma_run *run, double *out)
 {
     koksma_value value = {0};
     if (o->keep == KOKSMA_KEEP_SEQUENCE) {
-        return mean_of_prefixes(measure, points, out);
+        return mean_of_prefixes(measure, points, run, out);
     }
-    KOKSMA__TRY(koksma_evaluate(measure, points, &one_thread, &value));
+    KOKSMA__TRY(koksma_evaluate(measure, points, run, &value));
     *out = value.value * value.value;
     return KOKSMA_OK;
 }
 
 koksma_status koksma__search_value(const koksma_spec *measure, const koksma_optimise_options *o,
-                                   const koksma_points *points, double *value)
+                                   const koksma_points *points, const koksma_run *run, double *value)
 {
     double mean = 0, weights = 0;
     koksma_value whole = {.value = NAN};
     koksma_status status = KOKSMA_OK;
+    KOKSMA__TRY(koksma__ask(run));
     if (o->power) {
-        status = koksma__radial_power_square(o, points, &mean, NULL);
+        status = koksma__radial_power_square(o, points, run, &mean, NULL);
         *value = sqrt(mean);
         return status;
     }
     if (!o->n_projections && o->keep != KOKSMA_KEEP_SEQUENCE) {
-        status = koksma_evaluate(measure, points, &one_thread, &whole);
+        status = koksma_evaluate(measure, points, run, &whole);
         *value = whole.value;
         return status;
     }
     if (!o->n_projections) {
-        status = term(measure, o, points, &mean);
+        status = term(measure, o, points, run, &mean);
     } else {
         koksma_points projected;
         KOKSMA__TRY(koksma_points_init(&projected, points->n, points->dim));
         for (size_t p = 0; p < o->n_projections && !status; p++) {
             double one;
             project(points, o->projections[p], &projected);
-            status = term(measure, o, &projected, &one);
+            status = term(measure, o, &projected, run, &one);
             mean += status ? 0 : weight(o, p) * one;
             weights += weight(o, p);
         }
@@ -124,15 +125,16 @@ koksma_status koksma__search_value(const koksma_spec *measure, const koksma_opti
 }
 
 koksma_status koksma__search_square(const koksma_spec *measure, const koksma_optimise_options *o,
-                                    const koksma_points *points, double *square, double *gradient)
+                                    const koksma_points *points, const koksma_run *run, double *square,
+                                    double *gradient)
 {
-    const koksma_args args = koksma__spec_arguments(measure, &one_thread);
+    const koksma_args args = koksma__spec_arguments(measure, run);
     const size_t dim = (size_t)points->dim;
     koksma_points projected;
     koksma_status status = KOKSMA_OK;
     double weights = 0;
     if (o->power) {
-        return koksma__radial_power_square(o, points, square, gradient);
+        return koksma__radial_power_square(o, points, run, square, gradient);
     }
     if (!o->n_projections) {
         return measure->measure->gradient(points, &args, square, gradient);

@@ -13,11 +13,12 @@ koksma_status koksma__search_check(const koksma_optimise_options *options);
 /* Computes the value of these points that a search minimises and reports (koksma_optimum.value). Errors: those of
    koksma_evaluate, ARGUMENT (a value of 0 in a geometric mean). */
 koksma_status koksma__search_value(const koksma_spec *measure, const koksma_optimise_options *options,
-                                   const koksma_points *points, double *value);
+                                   const koksma_points *points, const koksma_run *run, double *value);
 
 /* Computes the square of the value and its derivatives with respect to the coordinates. Must not be called for
-   sequences or for measures without a gradient. Errors: MEMORY. */
+   sequences or for measures without a gradient. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__search_square(const koksma_spec *measure, const koksma_optimise_options *options,
-                                    const koksma_points *points, double *square, double *gradient);
+                                    const koksma_points *points, const koksma_run *run, double *square,
+                                    double *gradient);
 
 #endif

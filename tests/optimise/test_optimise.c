@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Searches: gradients against differences of the measure, sets that do not depend on threads, what is kept, optima that are
-   proven. All methods and all measures with a gradient are walked. */
+   proven. All methods and all measures with a gradient are walked. Long because all searches share one table. */
 #include <koksma/optimise.h>
 #include <koksma/spectrum.h>
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "core/spec.h"
 #include "optimise/radial_power.h"
@@ -74,7 +75,7 @@ static void expect_differences_of_projections(const koksma_spec *measure, int di
         .n = N, .dim = dim, .projections = projections, .weights = weights, .n_projections = 2};
     koksma_points points = test_points("random", N, dim, 6);
     double square, gradient[3 * N], ends[2];
-    assert_ok(koksma__search_square(measure, &o, &points, &square, gradient));
+    assert_ok(koksma__search_square(measure, &o, &points, NULL, &square, gradient));
     for (size_t c = 0; c < N * (size_t)dim; c++) {
         const double x = points.xs[c];
         for (int end = 0; end < 2; end++) {
@@ -146,7 +147,7 @@ static void gradients_of_powers_are_differences(void **state)
                 double power[RINGS], square, gradient[2 * MOST];
                 assert_ok(koksma_radial_power(targets[t], n, rings, NULL, power));
                 const koksma_optimise_options o = {.n = n, .dim = 2, .power = power, .rings = rings};
-                assert_ok(koksma__search_square(&to_power, &o, &points, &square, gradient));
+                assert_ok(koksma__search_square(&to_power, &o, &points, NULL, &square, gradient));
                 assert_near(square, power_square(power, rings, &points), 1e-11);
                 for (size_t c = 0; c < 2 * n; c++) {
                     const double x = points.xs[c];
@@ -585,6 +586,118 @@ static void ends_when_asked(void **state)
     assert_int_equal(koksma_optimise(&star, &options, NULL, &best), KOKSMA_ARGUMENT);
 }
 
+/* Returns false once a search has made `steps` steps, or, before the first set is measured, from the call `calls` on. */
+typedef struct asker {
+    uint64_t steps, made;
+    bool measured;
+    int calls;
+    clock_t asked; /* processor time when it first returned false */
+} asker;
+
+static bool count_steps(void *context, const koksma_optimum *best)
+{
+    asker *a = context;
+    a->made = best->steps;
+    a->measured = true;
+    return true;
+}
+
+static bool until_steps(void *context, double fraction)
+{
+    asker *a = context;
+    (void)fraction;
+    const bool going = a->measured ? a->made < a->steps || a->calls-- > 0 : true;
+    a->asked = going || a->asked ? a->asked : clock();
+    return going;
+}
+
+/* Every method, interrupted within a step, leaves the set of the steps before, as if these had been asked
+   for. */
+static void a_step_that_is_interrupted_is_dropped(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
+        asker asker = {.steps = 1, .calls = 3};
+        koksma_spec spec;
+        koksma_optimum cut;
+        koksma_optimise_options options = {.n = searches[i].n,
+                                           .dim = searches[i].dim,
+                                           .keep = searches[i].keep,
+                                           .seed = 4,
+                                           .processes = few_searches};
+        options.progress = count_steps;
+        options.context = &asker;
+        const koksma_run run = {.threads = 2, .keep_going = until_steps, .context = &asker};
+        assert_ok(koksma_measure_spec(searches[i].measure, &spec));
+        assert_int_equal(koksma_optimise(&spec, &options, &run, &cut), KOKSMA_INTERRUPTED);
+        assert_true(cut.steps > 0); /* the steps of fast methods are done while koksma_optimise asks 3 times */
+        options.progress = NULL;
+        options.steps = cut.steps;
+        koksma_optimum whole = optimised(searches[i].measure, options, 1);
+        assert_true(cut.value == whole.value && cut.last_gain == whole.last_gain);
+        assert_memory_equal(cut.points.xs, whole.points.xs,
+                            whole.points.n * (size_t)whole.points.dim * sizeof(double));
+        koksma_optimum_fini(&whole);
+        koksma_optimum_fini(&cut);
+    }
+}
+
+/* Searches whose steps take seconds to hours, or that have one value or gradient that does. */
+static const struct {
+    const char *measure;
+    size_t n;
+    int dim;
+    koksma_keep keep;
+} long_steps[] = {
+    {"l2-periodic", 3000, 2, KOKSMA_KEEP_NONE}, {"l2-star", 1000, 200, KOKSMA_KEEP_NONE},
+    {"l2-disk", 3000, 2, KOKSMA_KEEP_NONE},     {"l2-edge", 3000, 2, KOKSMA_KEEP_NONE},
+    {"star", 4000, 2, KOKSMA_KEEP_NONE},        {"star", 1000, 3, KOKSMA_KEEP_NONE},
+    {"disk", 100, 2, KOKSMA_KEEP_NONE},         {"star", 40, 4, KOKSMA_KEEP_NONE},
+    {"star", 1 << 14, 2, KOKSMA_KEEP_SEQUENCE}, {"l2-star", 1000, 2, KOKSMA_KEEP_NONE},
+    {NULL, 4000, 2, KOKSMA_KEEP_NONE},
+};
+
+/* One is ended by the caller, who is asked within the step, and one by the time limit, in the first step: both soon. */
+static void steps_end_when_asked(void **state)
+{
+    (void)state;
+    double power[100];
+    assert_ok(koksma_radial_power("step", 4000, 100, NULL, power));
+    for (size_t i = 0; i < sizeof long_steps / sizeof *long_steps; i++) {
+        koksma_points from =
+            test_points(long_steps[i].keep ? "sobol" : "random", long_steps[i].n, long_steps[i].dim, 1);
+        koksma_spec spec;
+        koksma_optimum best;
+        asker asker = {.calls = 3};
+        const bool to_power = !long_steps[i].measure;
+        const koksma_optimise_options options = {.n = from.n,
+                                                 .dim = from.dim,
+                                                 .first = &from,
+                                                 .keep = long_steps[i].keep,
+                                                 .progress = count_steps,
+                                                 .context = &asker,
+                                                 .power = to_power ? power : NULL,
+                                                 .rings = to_power ? 100 : 0};
+        koksma_run run = {.threads = 2, .keep_going = until_steps, .context = &asker};
+        assert_ok(to_power ? KOKSMA_OK : koksma_measure_spec(long_steps[i].measure, &spec));
+        for (int limited = 0; limited < 2; limited++) {
+            const koksma_status status = koksma_optimise(&spec, &options, &run, &best);
+            const double took_s = (double)(clock() - asker.asked) / CLOCKS_PER_SEC;
+            assert_int_equal(status, limited ? KOKSMA_OK : KOKSMA_INTERRUPTED);
+            if (took_s > 4) {
+                fail_msg("%s of %zu points: %g s of processor time to end a step",
+                         options.power ? "power" : spec.measure->name, from.n, took_s);
+            }
+            assert_true(best.steps == 0);
+            assert_memory_equal(best.points.xs, from.xs, from.n * (size_t)from.dim * sizeof(double));
+            koksma_optimum_fini(&best);
+            asker = (struct asker){.steps = 1, .asked = clock()};
+            run.time_limit_s = 1e-3;
+        }
+        koksma_points_fini(&from);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -598,6 +711,8 @@ int main(void)
         cmocka_unit_test(target_powers),
         cmocka_unit_test(profiles_of_targets),
         cmocka_unit_test(ends_when_asked),
+        cmocka_unit_test(a_step_that_is_interrupted_is_dropped),
+        cmocka_unit_test(steps_end_when_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

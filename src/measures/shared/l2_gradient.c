@@ -15,6 +15,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 
 /* Returns the derivative of koksma__l2_polynomial. */
@@ -82,8 +83,8 @@ static double add_product(const double f[4], const double *x, size_t dim, double
     return all;
 }
 
-koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points *points, double *square,
-                                  double *gradient)
+koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                  double *square, double *gradient)
 {
     const size_t n = points->n, dim = (size_t)points->dim, bytes = (4 * dim + 1) * n * sizeof(double);
     job p = {.row = row, .n = n, .dim = dim, .u = malloc(bytes)};
@@ -101,8 +102,11 @@ koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points
         p.u[i % dim * n + i / dim] = points->xs[i];
         p.g[i % dim * n + i / dim] = koksma__l2_polynomial(row->g, points->xs[i]);
     }
-    for (size_t i = 0; i < n; i++) {
+    const size_t asked = KOKSMA__ASKED / (n * dim) + 1; /* points between two questions */
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < n && !status; i++) {
         double *own = gradient + i * dim;
+        status = i % asked ? KOKSMA_OK : koksma__ask(run);
         for (size_t k = 0; k < dim; k++) {
             own[k] = 0;
         }
@@ -115,5 +119,5 @@ koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points
     }
     *square = pow(row->c12 / 12, (double)dim) - 2 * linear / count + all_pairs / (count * count);
     free(p.u);
-    return KOKSMA_OK;
+    return status;
 }

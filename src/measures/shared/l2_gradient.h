@@ -5,8 +5,8 @@
 #include "measures/shared/l2_pairs.h"
 
 /* Computes the square of an L2 discrepancy by sums over pairs, and its derivatives by all coordinates, in O(n^2 d).
-   Errors: MEMORY. */
-koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points *points, double *square,
-                                  double *gradient);
+   Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                  double *square, double *gradient);
 
 #endif
