@@ -304,7 +304,8 @@ static const cli_option options[] = {
      "a structure of the initial set that the search preserves (default: none)"},
     {0, "projections", "0+1,0+2,..|pairs",
      "groups of coordinates that are measured separately (default: one group of all coordinates)"},
-    {0, "weights", "W,..", "weights of the projections in the root mean square of their values (default: 1)"},
+    {0, "weights", "W,..",
+     "weights of the projections in the root mean square of their values, 1e-100 to 1e100 (default: 1)"},
     {0, "steps", "K", "number of steps, each of a fixed amount of work; equal --seed and --steps give equal sets"},
     {0, "time-limit", "SECONDS",
      "time limit in seconds, which ends the search within a step; 0: no limit (default: 60; with --steps: 0)"},
@@ -353,7 +354,7 @@ const cli_command cli_command_optimise = {
         "--power minimises the root mean square difference between the power spectrum and a target, over the plane "
         "of frequencies f. The target step is 0 for f below sqrt(n / pi) and 1 above, gaussian is 1 - exp(-pi f^2 / "
         "n), and PATTERN is the mean spectrum of 16 of its sets. Each line of FILE has a frequency, in units of "
-        "sqrt(n), and a power. The search starts from gaussian-blue-noise.\n"
+        "sqrt(n), and a power of 0 to 1e100. The search starts from gaussian-blue-noise.\n"
         "\n"
         "--scene SCENE renders. With --scene the candidates are sets of low L2 discrepancy and their shifts. The "
         "weights of the discrepancies in x, in y and in the plane are estimated from images of the scene. The "

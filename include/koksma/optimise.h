@@ -74,12 +74,12 @@ typedef struct koksma_optimise_options {
        projections, or with KOKSMA_KEEP_SEQUENCE the weighted geometric mean. NULL: measure the points in all
        coordinates */
     const uint64_t *projections;
-    const double *weights; /* n_projections weights above 0 (NULL: all weights are 1) */
+    const double *weights; /* n_projections weights from 1e-100 to 1e100 (NULL: all weights are 1) */
     size_t n_projections;
     const koksma_processes *processes; /* processes that share the search; NULL: this process does all of the
                                           work */
-    /* NULL, or a target spectrum for 2D points: power[r - 1] is the wanted mean power in ring r = 1 .. rings
-       (koksma_spectrum_rings). With a target the search ignores the measure. It minimises the root mean square
+    /* NULL, or a target spectrum for 2D points: power[r - 1], from 0 to 1e100, is the wanted mean power in ring r = 1
+       .. rings (koksma_spectrum_rings). With a target the search ignores the measure. It minimises the root mean square
        difference between the spectrum of the points and the target, with weight r for ring r. With KOKSMA_KEEP_NONE
        and no first set it starts from a set of gaussian-blue-noise */
     const double *power;
@@ -117,7 +117,7 @@ KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksm
 /* Computes a target for options->power: the mean power that n points should have in the rings of frequencies 1 ..
    rings.
      text   "step" (0 below the frequency sqrt(n / pi), else 1), "gaussian" (1 - exp(-pi f^2 / n)), a pattern (the
-            mean of 16 sets), or a file of lines with a frequency in units of sqrt(n) and a power
+            mean of 16 sets), or a file of lines with a frequency in units of sqrt(n) and a power up to 1e100
      rings  1 to KOKSMA_SPECTRUM_MAX_HALF
      power  receives rings numbers
    Errors: ARGUMENT, N, MISSING, MALFORMED, MEMORY, INTERRUPTED, and those of koksma_generate. */

@@ -59,8 +59,8 @@ koksma_status koksma__radial_power_check(const koksma_optimise_options *o)
     KOKSMA__FAIL_IF(o->power && (o->n_projections || o->keep == KOKSMA_KEEP_SEQUENCE), KOKSMA_ARGUMENT,
                     "a target power takes neither projections nor keep=sequence");
     for (int r = 0; o->power && r < o->rings; r++) {
-        KOKSMA__FAIL_IF(!(o->power[r] >= 0 && isfinite(o->power[r])), KOKSMA_ARGUMENT,
-                        "power[%d] = %g: powers are 0 or more", r, o->power[r]);
+        KOKSMA__FAIL_IF(!(o->power[r] >= 0 && o->power[r] <= KOKSMA__MOST_POWER), KOKSMA_ARGUMENT,
+                        "power[%d] = %g: powers are 0 to 1e100", r, o->power[r]);
     }
     return KOKSMA_OK;
 }
@@ -263,10 +263,10 @@ static koksma_status read_profile(const char *path, double root, int rings, doub
             second += strspn(second, " \t,");
             after = koksma__strtod(second, &last);
             if (second == rest || last == second || last[strspn(last, " \t\r")] || !(rows ? to > from : to >= 0) ||
-                !isfinite(to) || !(after >= 0 && isfinite(after))) {
+                !isfinite(to) || !(after >= 0 && after <= KOKSMA__MOST_POWER)) {
                 status = koksma__fail(KOKSMA_MALFORMED,
                                       "%s:%d: a line must have a frequency, in units of sqrt(n) and above the one "
-                                      "before, and a power of 0 or more",
+                                      "before, and a power of 0 to 1e100",
                                       path, line);
             }
             for (; !status && ring <= rings && ring / root <= to; ring++) {

@@ -8,6 +8,9 @@
 /* The measure that a search for a target power minimises, in place of one from the table of measures. */
 extern const koksma_measure koksma__measure_radial_power;
 
+/* The largest power of a target: its square and sums of such squares are in the range of doubles. */
+#define KOKSMA__MOST_POWER 1e100
+
 /* Fails unless the options of a search for a target power are valid. Errors: ARGUMENT, DIM. */
 koksma_status koksma__radial_power_check(const koksma_optimise_options *options);
 

@@ -30,8 +30,8 @@ koksma_status koksma__search_check(const koksma_optimise_options *o)
         const uint64_t u = o->projections[p];
         KOKSMA__FAIL_IF(!u || (o->dim < 64 && u >> o->dim), KOKSMA_ARGUMENT, "projection %zu has %s", p,
                         u ? "a coordinate that the points do not have" : "no coordinate");
-        KOKSMA__FAIL_IF(o->weights && !(o->weights[p] > 0 && isfinite(o->weights[p])), KOKSMA_ARGUMENT,
-                        "the weight of projection %zu is %g: weights are above 0", p, o->weights[p]);
+        KOKSMA__FAIL_IF(o->weights && !(o->weights[p] >= 1e-100 && o->weights[p] <= 1e100), KOKSMA_ARGUMENT,
+                        "the weight of projection %zu is %g: weights are 1e-100 to 1e100", p, o->weights[p]);
     }
     return KOKSMA_OK;
 }

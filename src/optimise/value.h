@@ -7,7 +7,7 @@
 #include <koksma/optimise.h>
 
 /* Checks the projections and weights. Errors: DIM (projections of more than 64 coordinates), ARGUMENT (a projection
-   without a coordinate or with a coordinate that the points do not have; a weight that is not above 0). */
+   without a coordinate or with a coordinate that the points do not have; a weight outside 1e-100 to 1e100). */
 koksma_status koksma__search_check(const koksma_optimise_options *options);
 
 /* Computes the value of these points that a search minimises and reports (koksma_optimum.value). Errors: those of

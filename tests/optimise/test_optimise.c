@@ -506,8 +506,8 @@ static void profiles_of_targets(void **state)
     for (int r = 0; r < RINGS; r++) {
         assert_near(power[r], joined[r], 1e-15);
     }
-    static const char *const wrong[] = {"0.5\n",    "1 1\n0.5 1\n", "a b\n",  "0.5 -1\n",
-                                        "# none\n", "1 2 3\n",      "0 inf\n"};
+    static const char *const wrong[] = {"0.5\n",    "1 1\n0.5 1\n", "a b\n",   "0.5 -1\n",
+                                        "# none\n", "0 1e308\n",    "1 2 3\n", "0 inf\n"};
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
         file = fopen(path, "w");
         assert_non_null(file);
