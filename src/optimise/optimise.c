@@ -215,7 +215,7 @@ static koksma_status run_steps(step *s, koksma_optimum *best)
     koksma_status status = KOKSMA_OK;
     bool going = !o->progress || o->progress(o->context, best);
     status = agree(o->processes, &going);
-    s->end_s = s->run->time_limit_s > 0 ? s->start_s + s->run->time_limit_s : INFINITY;
+    s->end_s = s->run->time_limit_s > 0 ? s->start_s + s->run->time_limit_s : (double)INFINITY;
     while (!status && going && (o->steps == 0 || best->steps < o->steps)) {
         const uint64_t before = best->steps;
         status = take_step(s, best);

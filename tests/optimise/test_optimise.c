@@ -617,7 +617,7 @@ static void a_step_that_is_interrupted_is_dropped(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
-        asker asker = {.steps = 1, .calls = 3};
+        asker caller = {.steps = 1, .calls = 3};
         koksma_spec spec;
         koksma_optimum cut;
         koksma_optimise_options options = {.n = searches[i].n,
@@ -626,8 +626,8 @@ static void a_step_that_is_interrupted_is_dropped(void **state)
                                            .seed = 4,
                                            .processes = few_searches};
         options.progress = count_steps;
-        options.context = &asker;
-        const koksma_run run = {.threads = 2, .keep_going = until_steps, .context = &asker};
+        options.context = &caller;
+        const koksma_run run = {.threads = 2, .keep_going = until_steps, .context = &caller};
         assert_ok(koksma_measure_spec(searches[i].measure, &spec));
         assert_int_equal(koksma_optimise(&spec, &options, &run, &cut), KOKSMA_INTERRUPTED);
         assert_true(cut.steps > 0); /* the steps of fast methods are done while koksma_optimise asks 3 times */
@@ -668,21 +668,21 @@ static void steps_end_when_asked(void **state)
             test_points(long_steps[i].keep ? "sobol" : "random", long_steps[i].n, long_steps[i].dim, 1);
         koksma_spec spec;
         koksma_optimum best;
-        asker asker = {.calls = 3};
+        asker caller = {.calls = 3};
         const bool to_power = !long_steps[i].measure;
         const koksma_optimise_options options = {.n = from.n,
                                                  .dim = from.dim,
                                                  .first = &from,
                                                  .keep = long_steps[i].keep,
                                                  .progress = count_steps,
-                                                 .context = &asker,
+                                                 .context = &caller,
                                                  .power = to_power ? power : NULL,
                                                  .rings = to_power ? 100 : 0};
-        koksma_run run = {.threads = 2, .keep_going = until_steps, .context = &asker};
+        koksma_run run = {.threads = 2, .keep_going = until_steps, .context = &caller};
         assert_ok(to_power ? KOKSMA_OK : koksma_measure_spec(long_steps[i].measure, &spec));
         for (int limited = 0; limited < 2; limited++) {
             const koksma_status status = koksma_optimise(&spec, &options, &run, &best);
-            const double took_s = (double)(clock() - asker.asked) / CLOCKS_PER_SEC;
+            const double took_s = (double)(clock() - caller.asked) / CLOCKS_PER_SEC;
             assert_int_equal(status, limited ? KOKSMA_OK : KOKSMA_INTERRUPTED);
             if (took_s > 30) { /* with sanitizers one gradient takes some */
                 fail_msg("%s of %zu points: %g s of processor time to end a step",
@@ -691,7 +691,7 @@ static void steps_end_when_asked(void **state)
             assert_true(best.steps == 0);
             assert_memory_equal(best.points.xs, from.xs, from.n * (size_t)from.dim * sizeof(double));
             koksma_optimum_fini(&best);
-            asker = (struct asker){.steps = 1, .asked = clock()};
+            caller = (struct asker){.steps = 1, .asked = clock()};
             run.time_limit_s = 1e-3;
         }
         koksma_points_fini(&from);
