@@ -62,6 +62,8 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
                                koksma_study_summary *summary, koksma__failures *failures)
 {
     koksma__tasks tasks;
+    char reason[KOKSMA__FAILURE_TEXT]; /* counting fails, too, if the store can't be written, with another reason */
+    snprintf(reason, sizeof reason, "%s", before ? koksma_error_text() : "");
     KOKSMA__TRY(koksma__tasks_open(study, images, &tasks));
     koksma__phase phase = {.tasks = &tasks, .control = control, .last = images || !study->plan.n_images};
     koksma_status status = study->sink ? study->sink->look_up(study->sink->context, &tasks)
@@ -83,7 +85,7 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
     const koksma_status added = koksma__failures_add(failures, &phase.failures, &tasks);
     koksma__failures_fini(&phase.failures);
     koksma__tasks_close(&tasks);
-    return before ? before : status ? status : added;
+    return before ? koksma__fail(before, "%s", reason) : status ? status : added;
 }
 
 double koksma__run_work(koksma_study *study, bool images)
