@@ -71,8 +71,10 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     koksma_status status = gridded ? koksma__torus_grid_init(&grid, out->n, out->xs) : KOKSMA_OK;
     for (size_t i = 0; i < out->n && !status; i++) {
         const double wanted = args->params[0] * (double)i + 1;
-        status = choose(seed, i, (size_t)fmin(wanted, args->params[1]), gridded && i > 16 ? &grid : NULL, args->run,
-                        &looks, out);
+        /* the grid's cells are for n points: among fewer than sqrt(n), a query visits more cells than there are points */
+        const bool by_grid = gridded && i > 16 && i > out->n / i;
+        status =
+            choose(seed, i, (size_t)fmin(wanted, args->params[1]), by_grid ? &grid : NULL, args->run, &looks, out);
         if (gridded) {
             koksma__torus_grid_add(&grid, (uint32_t)i);
         }
