@@ -61,6 +61,11 @@ koksma_status koksma__look(const koksma_run *run, size_t step, double fraction_d
                                                                                         : koksma__fail_interrupted();
 }
 
+koksma_status koksma__ask(const koksma_run *run)
+{
+    return koksma__keep_going(run, 0) ? KOKSMA_OK : koksma__fail_interrupted();
+}
+
 static bool keep_going_in_phase(void *context, double fraction)
 {
     koksma__phases *phases = context;

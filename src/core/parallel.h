@@ -36,10 +36,7 @@ KOKSMA__LAB koksma_status koksma__fail_interrupted(void);
 enum { KOKSMA__ASKED = 1 << 20 };
 
 /* Fails with INTERRUPTED if run->keep_going returns false. For work that does not know which fraction is done. */
-static inline koksma_status koksma__ask(const koksma_run *run)
-{
-    return koksma__keep_going(run, 0) ? KOKSMA_OK : koksma__fail_interrupted();
-}
+KOKSMA__LAB koksma_status koksma__ask(const koksma_run *run);
 
 /* A phase of a call whose work has several: the fractions 0 to 1 that the phase reports to koksma__phase_run count as
    begin .. begin + share of the call, and never fall. The phases of a call take one after another the same struct, of
