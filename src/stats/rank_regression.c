@@ -25,11 +25,6 @@ enum { PENALTIES = 9 };
 
 static const double penalties[PENALTIES] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10};
 
-static koksma_status go_on(const koksma_run *run)
-{
-    return koksma__keep_going(run, 0) ? KOKSMA_OK : koksma__fail_interrupted();
-}
-
 /* The matrices G (k x k) and c (k) of each scene and of sums over scenes, with memory for the computations. */
 typedef struct sums {
     size_t k, n_scenes, size; /* size: count of the numbers in G and c of a scene, k (k + 1) */
@@ -69,7 +64,7 @@ static koksma_status add_cases(sums *s, const koksma__rank_case *cases, size_t n
         const koksma__rank_case *at = &cases[i];
         double *g = s->of + at->scene * s->size, *c = g + k * k;
         for (size_t a = 0; a < k; a++) {
-            KOKSMA__TRY(go_on(run));
+            KOKSMA__TRY(koksma__ask(run));
             for (size_t b = 0; b < k; b++) {
                 g[a * k + b] += koksma__dot_of(at->n, at->ranks + a * at->n, at->ranks + b * at->n);
             }
@@ -138,7 +133,7 @@ static koksma_status choose_penalty(sums *s, size_t scene, size_t n_used, const 
         double error = 0;
         for (size_t other = 0; other < s->n_scenes; other++) {
             if (other != scene && s->cases[other]) {
-                KOKSMA__TRY(go_on(run));
+                KOKSMA__TRY(koksma__ask(run));
                 leave_out(s, scene, other);
                 fit_ridge(s, penalties[p], n_used - 2);
                 error += error_in(s, other);

@@ -18,7 +18,7 @@
 
 koksma_status koksma__report_goes_on(const koksma_study *study)
 {
-    return koksma__keep_going(study->report, 0) ? KOKSMA_OK : koksma__fail_interrupted();
+    return koksma__ask(study->report);
 }
 
 koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,

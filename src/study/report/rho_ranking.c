@@ -66,7 +66,7 @@ static koksma_status compare_pairs(const koksma_run *run, koksma__rho_ranking *r
     KOKSMA__REQUIRE_MEMORY(p, (n * n + 1) * sizeof *p);
     koksma_status status = KOKSMA_OK;
     for (size_t a = 0; !status && a < n; a++) {
-        status = koksma__keep_going(run, 0) ? KOKSMA_OK : koksma__fail_interrupted();
+        status = koksma__ask(run);
         for (size_t b = a; !status && b < n; b++) {
             const koksma__rho_standing *x = &r->at[a], *y = &r->at[b];
             const bool compared = a != b && x->cases == y->cases && !isnan(x->mean.low) && !isnan(y->mean.low);
@@ -111,8 +111,8 @@ static koksma_status fill(const koksma__rho_means *s, const koksma__rho_subset *
     for (size_t m = 0; !status && m < s->n; m++) {
         koksma__rho_standing *standing = &r->at[r->n];
         *standing = (koksma__rho_standing){.measure = m};
-        status =
-            koksma__keep_going(s->run, 0) ? stand(&s->of[m], of, draws[r->n], standing) : koksma__fail_interrupted();
+        status = koksma__ask(s->run);
+        status = status ? status : stand(&s->of[m], of, draws[r->n], standing);
         r->n += standing->cases > 0;
     }
     if (status) {

@@ -79,7 +79,7 @@ static void a_file_is_one_scene(void **state)
     koksma__scene_files_fini(&files);
 }
 
-/* What cannot be opened keeps its reason, also when the file is mended meanwhile. */
+/* What cannot be opened keeps its reason, also when the file is repaired meanwhile. */
 static void a_reason_is_kept(void **state)
 {
     (void)state;
