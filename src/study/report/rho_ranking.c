@@ -140,14 +140,23 @@ static koksma_status fill(const koksma__rho_means *s, const koksma__rho_subset *
 koksma_status koksma__rho_rank(const koksma__rho_means *s, const koksma__rho_subset *of, koksma__rho_ranking *r)
 {
     const size_t size = KOKSMA__RHO_SAMPLES * sizeof(double);
-    *r = (koksma__rho_ranking){.at = calloc(s->n + 1, sizeof *r->at), .p = calloc(s->n * s->n + 1, sizeof *r->p)};
+    *r = (koksma__rho_ranking){.at = calloc(s->n + 1, sizeof *r->at),
+                               .place = calloc(s->n + 1, sizeof *r->place),
+                               .p = calloc(s->n * s->n + 1, sizeof *r->p)};
     double **draws = calloc(s->n + 1, sizeof *draws);
-    koksma_status status = r->at && r->p && draws ? KOKSMA_OK : koksma__fail_memory(s->n * s->n * sizeof *r->p);
+    const bool complete = r->at && r->place && r->p && draws;
+    koksma_status status = complete ? KOKSMA_OK : koksma__fail_memory(s->n * s->n * sizeof *r->p);
     for (size_t m = 0; !status && m < s->n; m++) {
         draws[m] = malloc(size);
         status = draws[m] ? KOKSMA_OK : koksma__fail_memory(size);
     }
     status = status ? status : fill(s, of, r, draws);
+    for (size_t m = 0; !status && m < s->n; m++) {
+        r->place[m] = r->n;
+    }
+    for (size_t i = 0; !status && i < r->n; i++) {
+        r->place[r->at[i].measure] = i;
+    }
     for (size_t m = 0; draws && m < s->n; m++) {
         free(draws[m]);
     }
@@ -161,29 +170,20 @@ koksma_status koksma__rho_rank(const koksma__rho_means *s, const koksma__rho_sub
 void koksma__rho_ranking_fini(koksma__rho_ranking *r)
 {
     free(r->at);
+    free(r->place);
     free(r->p);
     *r = (koksma__rho_ranking){0};
 }
 
-/* The index of a measure in the ranking; n: it is not ranked. */
-static size_t place_of(const koksma__rho_ranking *r, size_t measure)
-{
-    size_t i = 0;
-    while (i < r->n && r->at[i].measure != measure) {
-        i++;
-    }
-    return i;
-}
-
 bool koksma__rho_is_better(const koksma__rho_ranking *r, size_t a, size_t b)
 {
-    const size_t i = place_of(r, a), j = place_of(r, b);
+    const size_t i = r->place[a], j = r->place[b];
     return i < j && j < r->n && r->p[i * r->n + j] <= LEVEL && r->at[i].mean.value > r->at[j].mean.value;
 }
 
 bool koksma__rho_predicts(const koksma__rho_ranking *r, size_t measure)
 {
-    const size_t i = place_of(r, measure);
+    const size_t i = r->place[measure];
     return i < r->n && r->at[i].p <= LEVEL && r->at[i].mean.value > 0;
 }
 
@@ -240,7 +240,7 @@ bool koksma__rho_always_first(const koksma__rho_jackknife *j, size_t measure)
 {
     bool always = j->n > 0;
     for (size_t i = 0; always && i < j->n; i++) {
-        always = place_of(&j->of[i], measure) == 0;
+        always = j->of[i].place[measure] == 0;
     }
     return always;
 }
@@ -249,7 +249,7 @@ bool koksma__rho_always_last(const koksma__rho_jackknife *j, size_t measure)
 {
     bool always = j->n > 0;
     for (size_t i = 0; always && i < j->n; i++) {
-        always = place_of(&j->of[i], measure) + 1 == j->of[i].n;
+        always = j->of[i].place[measure] + 1 == j->of[i].n;
     }
     return always;
 }
@@ -258,7 +258,7 @@ koksma__estimate koksma__rho_range(const koksma__rho_jackknife *j, size_t measur
 {
     koksma__estimate range = {NAN, NAN, NAN};
     for (size_t i = 0; i < j->n; i++) {
-        const size_t at = place_of(&j->of[i], measure);
+        const size_t at = j->of[i].place[measure];
         const double mean = at < j->of[i].n ? j->of[i].at[at].mean.value : (double)NAN;
         range.value = i == 0 ? mean : range.value;
         range.low = fmin(range.low, mean);

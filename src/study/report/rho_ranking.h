@@ -25,6 +25,7 @@ typedef struct koksma__rho_ranking {
     size_t n;                 /* number of measures that have cases in the subset */
     size_t n_pairs;           /* number of compared pairs: both measures have intervals and equally many cases */
     koksma__rho_standing *at; /* sorted by mean, the largest first */
+    size_t *place;            /* for each measure, its index in `at`; n: it has no cases in the subset */
     double *p;                /* n x n p-values of "the means are equal", by Holm over the pairs; NaN: not compared */
 } koksma__rho_ranking;
 
