@@ -124,6 +124,7 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     }
     cli_row_whole(rows, "needed_trials", (uint64_t)ranking->needed_trials);
     cli_row_number(rows, "needed_s", ranking->needed_s);
+    cli_row_flag(rows, "undecidable", ranking->undecidable);
     for (int i = 0; i < KOKSMA_RANK_CHECKS; i++) {
         const koksma_rank_check *check = &ranking->checks[i];
         cli_row_whole(rows, check_sizes[i][0], (uint64_t)check->width);
@@ -385,7 +386,10 @@ const cli_command cli_command_rank = {
         "little time the answer is 'undecided', with an estimate of the time needed.\n"
         "\n"
         "position: 1 + the number of patterns that are decided to be better. behind: relative difference to the\n"
-        "first row. All intervals and decisions of a ranking hold together with 95 % probability, and include the\n"
+        "first row, over the trials that both have; the errors are over all trials of each, so that their quotient "
+        "may "
+        "differ a little. All intervals and decisions of a ranking hold together with 95 % probability, and include "
+        "the\n"
         "error of the reference image. A pattern whose first 8 trials exceed its part of the time limit is postponed "
         "until the others are decided, and is not ranked if no time is left. The advice goes to stderr.\n"
         "\n"

@@ -437,10 +437,11 @@ typedef struct koksma_ranking {
     bool complete;    /* true: every pair of patterns is decided */
     bool cut_short;   /* true: the time limit ended the work */
     long long trials; /* largest number of trials of one pattern */
-    /* if not settled: approximate number of trials of each pattern that would decide which is the best; 0: unknown,
-       or the reference is too noisy for any number of trials to decide */
+    /* if not settled: approximate number of trials of each pattern that would decide which is the best; 0: unknown */
     long long needed_trials;
-    double needed_s; /* seconds that needed_trials would take; 0: unknown */
+    bool undecidable; /* true: not settled, and by the spread of 128 trials or more no number of trials would decide
+                         which is the best, because the reference is too noisy */
+    double needed_s;  /* seconds that needed_trials would take; 0: unknown */
     int width, height;
     double reference_error; /* expected mean absolute error of the reference (NaN: the reference was not finished) */
     koksma_rank_check checks[KOKSMA_RANK_CHECKS]; /* checks at half and at twice the image size */

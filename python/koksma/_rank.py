@@ -84,6 +84,7 @@ class Ranking:
     seconds: float
     advised: Optional[str]  #: decided to leave the least of those whose error is not coherent; None: undecided, or no such
     metric: str  #: what error is
+    undecidable: bool  #: by 128 trials or more no number would decide which is the best: the reference is too noisy
 
     @property
     def best(self) -> Optional[str]:
@@ -249,7 +250,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         needed_seconds=out.needed_s or None if undecided else None, size=(out.width, out.height),
         reference_error=out.reference_error, seconds=out.seconds,
         advised=names[rows[out.advised_row].pattern] if out.advised else None,
-        checks=tuple(_check(c, names) for c in out.checks), metric=metric)
+        checks=tuple(_check(c, names) for c in out.checks), metric=metric,
+        undecidable=out.undecidable)
 
 
 def _result(result: s.RankCheckResult, names: Sequence[str]) -> FirstPlace:

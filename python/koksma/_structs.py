@@ -360,8 +360,9 @@ class RankCheck(Structure):
 
 class Ranking(Structure):
     _fields_ = [("n", c_size_t), ("n_slow", c_size_t), ("settled", c_bool), ("complete", c_bool),
-                ("cut_short", c_bool), ("trials", c_longlong), ("needed_trials", c_longlong), ("needed_s", c_double),
-                ("width", c_int), ("height", c_int), ("reference_error", c_double),
+                ("cut_short", c_bool), ("trials", c_longlong), ("needed_trials", c_longlong),
+                ("undecidable", c_bool), ("needed_s", c_double), ("width", c_int), ("height", c_int),
+                ("reference_error", c_double),
                 ("checks", RankCheck * RANK_CHECKS), ("seconds", c_double), ("advised", c_bool),
                 ("advised_row", c_size_t), ("n_coherent", c_size_t)]
 

@@ -176,11 +176,13 @@ static double trial_s(const koksma__contest *c, size_t i)
     return 1e-9 * (double)atomic_load(&c->contestants[i].busy_ns) / (double)(n ? n : 1);
 }
 
-/* Estimated number of trials that would decide all pairs of the pattern with the smallest error; 0 if no number of
-   trials would decide them. */
-static size_t trials_to_lead(const koksma__rank_table *table)
+/* Estimated number of trials that would decide all pairs of the pattern with the smallest error; 0 if by the present
+   estimates no number would decide a pair. *undecidable: whether these estimates are sure enough to say so. */
+static size_t trials_to_lead(const koksma__rank_table *table, bool *undecidable)
 {
     size_t best = NOBODY, needed = 0;
+    bool decidable = true;
+    *undecidable = false;
     for (size_t i = 0; i < table->n; i++) {
         const koksma__rank_errors *e = koksma__rank_latest(table, i);
         if (e && !table->entrants[i].out && koksma__rank_position(table, i) == 1 &&
@@ -190,15 +192,15 @@ static size_t trials_to_lead(const koksma__rank_table *table)
     }
     for (size_t j = 0; best != NOBODY && j < table->n; j++) {
         const koksma__rank_errors *e = koksma__rank_latest(table, j);
-        if (e && j != best && !table->entrants[j].out && !table->pairs[best * table->n + j].verdict) {
+        const koksma__rank_pair *pair = &table->pairs[best * table->n + j];
+        if (e && j != best && !table->entrants[j].out && !pair->verdict) {
             const size_t n = koksma__rank_trials_needed(koksma__rank_latest(table, best), e, table->level);
-            if (!n) {
-                return 0;
-            }
             needed = n > needed ? n : needed;
+            decidable = decidable && n;
+            *undecidable = *undecidable || pair->hopeless;
         }
     }
-    return needed;
+    return decidable && !*undecidable ? needed : 0;
 }
 
 static void estimate_need(const ranking *r, koksma_ranking *out)
@@ -212,7 +214,7 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
         open += !e->out;
         waiting += !e->out && !e->n_rounds;
     }
-    const size_t needed = waiting ? KOKSMA__RANK_FIRST_ROUND : trials_to_lead(&c->table);
+    const size_t needed = waiting ? KOKSMA__RANK_FIRST_ROUND : trials_to_lead(&c->table, &out->undecidable);
     out->needed_trials = (long long)needed;
     if (!needed) {
         return;

@@ -640,6 +640,53 @@ static void sizes_are_part_of_the_question(void **state)
     assert_true(r.cut_short && r.n == 0 && r.n_slow == 3 && isnan(r.reference_error));
 }
 
+/* ---- Images with more error in the reference than between the patterns ----------------------------------- */
+
+/* Makes images of the value 10 with normal errors of deviation 1, of pattern "more" 1.03; those of the reference, which
+   have 16 times as many samples, have the deviation `context`. */
+static koksma_status render_noise(void *context, const koksma_rank_picture *picture, const koksma_run *run,
+                                  koksma_image *image)
+{
+    (void)run;
+    const double deviation = picture->spp > 1                        ? *(const double *)context
+                             : strcmp(picture->pattern, "more") == 0 ? 1.03
+                                                                     : 1;
+    const koksma_status status = koksma_image_init(image, picture->width, picture->height, 1);
+    for (int i = 0; !status && i < picture->width * picture->height; i++) {
+        image->pixels[i] = (float)(10 + deviation * normal(picture->seed, 7, (uint64_t)i));
+    }
+    return status;
+}
+
+static koksma_ranking rank_noise(double reference, long long trials)
+{
+    const char *patterns[] = {"less", "more"};
+    koksma_rank_row rows[2];
+    const koksma_rank_options options = {.scene = "invented",
+                                         .patterns = patterns,
+                                         .n_patterns = 2,
+                                         .spp = 1,
+                                         .width = 8,
+                                         .height = 6,
+                                         .max_trials = trials,
+                                         .one_size = true,
+                                         .render = render_noise,
+                                         .render_context = &reference};
+    return rank_small(&options, 1, rows);
+}
+
+/* That no number of trials would decide is said after 128 trials or more, and only where the reference is to blame. */
+static void undecidable_only_after_many_trials(void **state)
+{
+    (void)state;
+    const koksma_ranking few = rank_noise(16, 8), many = rank_noise(16, 1024), good = rank_noise(0.001, 128),
+                         more = rank_noise(0.001, 65536);
+    assert_true(!few.settled && !few.undecidable && few.trials == 8);
+    assert_true(!many.settled && many.undecidable && !many.needed_trials && many.trials >= 128 && many.trials < 1024);
+    assert_true(!good.settled && !good.undecidable && good.needed_trials > 128);
+    assert_true(more.settled && !more.undecidable && !more.needed_trials && more.trials >= good.needed_trials / 4);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -661,6 +708,7 @@ int main(void)
         cmocka_unit_test(slow_patterns_are_put_off),
         cmocka_unit_test(patterns_that_cannot_serve),
         cmocka_unit_test(sizes_are_part_of_the_question),
+        cmocka_unit_test(undecidable_only_after_many_trials),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
