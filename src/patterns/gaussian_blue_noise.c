@@ -158,7 +158,7 @@ static koksma_status descend(descent *d, int steps, const koksma_run *run)
     const bool plane = d->dim == 2;
     const size_t blocks = plane ? (d->copies + BLOCK - 1) / BLOCK : (d->n + BLOCK_IN_SPACE - 1) / BLOCK_IN_SPACE;
     const koksma__block_function move = plane ? move_block : move_block_in_space;
-    const koksma_run quiet = {.threads = koksma__threads(run)};
+    koksma__phases phases = {0};
     koksma_status status = KOKSMA_OK;
     for (int t = 0; t < steps && !status; t++) {
         d->momentum = t < STIFF_STEPS ? 0.9 : 0.98;
@@ -168,7 +168,8 @@ static koksma_status descend(descent *d, int steps, const koksma_run *run)
         } else {
             koksma__space_forces_sort(&d->forces, d->xs);
         }
-        status = blocks == 1 ? move(d, 0) : koksma__parallel(&quiet, blocks, move, d);
+        const koksma_run step = koksma__phase_run(&phases, run, 1.0 / steps);
+        status = blocks == 1 ? move(d, 0) : koksma__parallel(&step, blocks, move, d);
         if (!status && !koksma__keep_going(run, (double)t / steps)) {
             status = koksma__fail_interrupted();
         }

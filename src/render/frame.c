@@ -234,7 +234,7 @@ static koksma_status make_frame(koksma__frame *f, const koksma_scene *scene, con
     f->uses = koksma__frame_uses(f->scene, options);
     koksma_status status = options->scope == KOKSMA_SCOPE_IMAGE
                                ? koksma__image_samples(options, &f->uses, run, &f->sampler)
-                               : koksma__pixel_samples(options, &f->uses, &f->sampler);
+                               : koksma__pixel_samples(options, &f->uses, run, &f->sampler);
     status = status ? status : find_geometry(scene, &f->geometry);
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);

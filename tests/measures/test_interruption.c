@@ -82,6 +82,7 @@ static void questions_are_near(void **state)
     } cases[] = {{"t-value", 4096, 12},
                  {"extreme:grid=1024", 100, 2},
                  {"extreme", 128, 3},
+                 {"edge", 1024, 3},
                  {"star-lower:steps=1000000", 2000, 5}};
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
         const bool net = !strcmp(cases[c].measure, "t-value");
@@ -190,12 +191,64 @@ static void pictures_ask_within_a_set(void **state)
     koksma_scene_close(scene);
 }
 
+/* Sets that take seconds to minutes, in each dimension that a pattern has up to 8, told to stop at the 20th question. */
+static void every_pattern_asks_often(void **state)
+{
+    (void)state;
+    const koksma_pattern *pattern;
+    for (size_t i = 0; (pattern = koksma_pattern_at(i)); i++) {
+        const int last = pattern->max_dim < 8 ? pattern->max_dim : 8;
+        for (int dim = pattern->min_dim; dim <= last; dim++) {
+            koksma_points p;
+            koksma_spec spec;
+            watch w = {.asked = 0};
+            const koksma_run run = {.threads = 1, .keep_going = look, .context = &w};
+            if (koksma_pattern_spec(pattern->name, &spec)) { /* it needs a file or a program */
+                continue;
+            }
+            assert_ok(koksma_points_init(&p, (size_t)test_repeats(16384, 256), dim));
+            const clock_t start = clock();
+            const koksma_status status = koksma_generate(&spec, 0, &run, &p);
+            const double all_s = (double)(clock() - start) / CLOCKS_PER_SEC;
+            if (w.longest_s > 1 || (all_s > 2 && w.asked < 2)) {
+                fail_msg("%s in %d dimensions: status %d, asked %d times in %g s, longest %g s", pattern->name, dim,
+                         (int)status, w.asked, all_s, w.longest_s);
+            }
+            koksma_points_fini(&p);
+        }
+    }
+}
+
+/* The first set of each pattern, which is made to check it, is made under the caller's run too. */
+static void pictures_ask_within_the_first_set(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image = {0};
+    watch w = {.asked = 0};
+    const koksma_run run = {.threads = 2, .keep_going = look, .context = &w};
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options_init(&options, scene);
+    assert_ok(koksma_pattern_spec("best-candidate", &options.pattern));
+    options.width = options.height = 1;
+    options.spp = 65536;
+    assert_int_equal(koksma_render(scene, &options, &run, &image), KOKSMA_INTERRUPTED);
+    assert_true(w.asked == 20 && w.longest_s < 1);
+    koksma_image_fini(&image);
+    koksma_scene_close(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_measure_asks),        cmocka_unit_test(questions_are_near),
-        cmocka_unit_test(one_false_stops),           cmocka_unit_test(a_file_that_is_stopped_is_as_before),
+        cmocka_unit_test(every_measure_asks),
+        cmocka_unit_test(questions_are_near),
+        cmocka_unit_test(one_false_stops),
+        cmocka_unit_test(a_file_that_is_stopped_is_as_before),
         cmocka_unit_test(pictures_ask_within_a_set),
+        cmocka_unit_test(every_pattern_asks_often),
+        cmocka_unit_test(pictures_ask_within_the_first_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

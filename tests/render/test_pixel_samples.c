@@ -154,7 +154,7 @@ static void open_drawing(const koksma_spec *spec, size_t n, uint64_t seed, drawi
 {
     d->options = (koksma_render_options){.spp = (int)n, .width = 4, .height = 4, .seed = seed, .pattern = *spec};
     d->options.integrator = koksma_integrator_find("path");
-    assert_ok(koksma__pixel_samples(&d->options, &all_uses, &d->sampler));
+    assert_ok(koksma__pixel_samples(&d->options, &all_uses, NULL, &d->sampler));
     assert_ok(koksma__sample_scratch_init(&d->scratch, &d->sampler));
 }
 

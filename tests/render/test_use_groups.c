@@ -35,7 +35,7 @@ static void draw(const koksma__sampler *sampler, koksma__sample_scratch *room, u
 
 static void open(const koksma_render_options *options, koksma__sampler *sampler, koksma__sample_scratch *room)
 {
-    assert_ok(koksma__pixel_samples(options, &all_uses, sampler));
+    assert_ok(koksma__pixel_samples(options, &all_uses, NULL, sampler));
     assert_ok(koksma__sample_scratch_init(room, sampler));
 }
 

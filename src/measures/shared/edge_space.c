@@ -36,7 +36,9 @@
 #include "measures/shared/double_double.h"
 #include "measures/shared/planes.h"
 
-enum { MAX_N = 1024, ABOUT_LINE = 8, ABOUT_POINT = 64, STEPS = 72 };
+/* SECONDS: number of second points in a block. With 1024 points, a block then takes some ten milliseconds, after which
+   the caller is asked whether to go on. */
+enum { MAX_N = 1024, SECONDS = 16, ABOUT_LINE = 8, ABOUT_POINT = 64, STEPS = 72 };
 
 static const double on_plane = 2e-15;
 
@@ -49,7 +51,8 @@ typedef struct search {
     size_t n;
     const double *points;
     double *coordinates[3];
-    half_space *best; /* for each point, the best half-space among the planes that begin with it */
+    size_t parts;     /* number of blocks of each first point */
+    half_space *best; /* the best half-space of each block */
     double deadline_s;
     atomic_bool late;
 } search;
@@ -239,19 +242,27 @@ static void try_pair(const search *s, half_space *best, const double *p, const d
     }
 }
 
-/* Tries the planes through point i and up to two later points. */
-static koksma_status try_first(void *context, size_t i)
+/* Tries the planes through a first point, a second one of at most SECONDS later points, and a third one that is later
+   still. The block to which the first point itself belongs also tries the planes through this point alone. */
+static koksma_status try_block(void *context, size_t block)
 {
     search *s = context;
     half_space best = {.value = -1};
-    if (i > 0 && (atomic_load(&s->late) || koksma__now_s() > s->deadline_s)) {
+    const size_t i = block / s->parts, part = block % s->parts, from = part * SECONDS;
+    const size_t end = from + SECONDS < s->n ? from + SECONDS : s->n;
+    s->best[block] = best;
+    if (end <= i) {
+        return KOKSMA_OK;
+    }
+    if (block > 0 && (atomic_load(&s->late) || koksma__now_s() > s->deadline_s)) {
         atomic_store(&s->late, true);
-        s->best[i] = best;
         return KOKSMA_OK;
     }
     const double *p = s->points + 3 * i;
-    try_point(s, &best, p);
-    for (size_t j = i + 1; j < s->n; j++) {
+    if (from <= i) {
+        try_point(s, &best, p);
+    }
+    for (size_t j = from <= i ? i + 1 : from; j < end; j++) {
         const double *q = s->points + 3 * j;
         try_pair(s, &best, p, q);
         for (size_t k = j + 1; k < s->n; k++) {
@@ -260,15 +271,15 @@ static koksma_status try_first(void *context, size_t i)
             consider(s, &best, normal, p);
         }
     }
-    s->best[i] = best;
+    s->best[block] = best;
     return KOKSMA_OK;
 }
 
 static void finish(const search *s, koksma_value *out)
 {
     half_space best = {.value = -1};
-    for (size_t i = 0; i < s->n; i++) {
-        best = s->best[i].value > best.value ? s->best[i] : best;
+    for (size_t b = 0; b < s->n * s->parts; b++) {
+        best = s->best[b].value > best.value ? s->best[b] : best;
     }
     koksma_witness w = {.kind = KOKSMA_WITNESS_HALF_PLANE,
                         .dim = 3,
@@ -295,17 +306,20 @@ koksma_status koksma__edge_space(const koksma_points *points, const koksma_run *
     const size_t n = points->n;
     KOKSMA__FAIL_IF(n > MAX_N, KOKSMA_N, "edge: n = %zu: it takes up to %d points in 3D; l2-edge takes more", n,
                     MAX_N);
-    search s = {.n = n, .points = points->xs, .deadline_s = koksma__deadline_s(run, 0.95)};
-    const size_t bytes = n * (sizeof *s.best + 3 * sizeof(double));
+    search s = {.n = n,
+                .points = points->xs,
+                .parts = (n + SECONDS - 1) / SECONDS,
+                .deadline_s = koksma__deadline_s(run, 0.95)};
+    const size_t blocks = n * s.parts, bytes = blocks * sizeof *s.best + 3 * n * sizeof(double);
     s.best = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(s.best, bytes);
     for (size_t k = 0; k < 3; k++) {
-        s.coordinates[k] = (double *)(s.best + n) + k * n;
+        s.coordinates[k] = (double *)(s.best + blocks) + k * n;
         for (size_t i = 0; i < n; i++) {
             s.coordinates[k][i] = points->xs[3 * i + k];
         }
     }
-    const koksma_status status = koksma__parallel(run, n, try_first, &s);
+    const koksma_status status = koksma__parallel(run, blocks, try_block, &s);
     if (!status) {
         finish(&s, out);
     }

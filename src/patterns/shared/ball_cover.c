@@ -20,7 +20,7 @@
 #include "core/status.h"
 #include "core/torus.h"
 
-enum { LOOK_EVERY = 1 << 14, CHILDREN = 1 << KOKSMA__BALL_DIMS };
+enum { LOOK_EVERY = 1 << 10, CHILDREN = 1 << KOKSMA__BALL_DIMS };
 
 #define NONE UINT32_MAX
 

@@ -375,7 +375,7 @@ koksma_status koksma__irradiance_cache_open(koksma__frame *frame, const koksma_r
                                    .light_choice = frame->light_selection != KOKSMA_LIGHTS_ALL,
                                    .vertices = frame->depth + 1};
     koksma_status status = koksma_pattern_spec("sobol:scramble=owen", &c->options.pattern);
-    status = status ? status : koksma__pixel_samples(&c->options, &uses, &c->paths.sampler);
+    status = status ? status : koksma__pixel_samples(&c->options, &uses, run, &c->paths.sampler);
     const double *shutter = frame->scene->camera.shutter;
     const float time = (float)fmin(fmax(0.5 * (shutter[0] + shutter[1]), 0), 1);
     for (int step = COARSEST; !status && step >= FINEST; step /= 2) {

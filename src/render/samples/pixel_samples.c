@@ -54,8 +54,6 @@ static size_t count(const koksma__sampler *sampler, uint64_t pixel)
     return sampler->most;
 }
 
-static const koksma_run alone = {.threads = 1};
-
 static koksma_status generate(const koksma_spec *spec, uint64_t seed, size_t n, int dim, const koksma_run *run,
                               double *xs)
 {
@@ -306,7 +304,8 @@ static koksma_status keep_fixed(const double *set, size_t n, int dim, int first,
 }
 
 /* Reads all sets of n points of a family of files in advance, so that no pixel has to open a file. */
-static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, float **fixed, size_t *n_sets)
+static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, const koksma_run *run, float **fixed,
+                               size_t *n_sets)
 {
     static const float nowhere[2] = {0, 0};
     koksma__file_set *sets = NULL;
@@ -322,7 +321,7 @@ static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, floa
         if (sets[i].n && sets[i].n != n) {
             continue;
         }
-        status = generate(spec, sets[i].seed, n, dims, &alone, xs);
+        status = generate(spec, sets[i].seed, n, dims, run, xs);
         if (!status && dims == 1) {
             widen(xs, n);
         }
@@ -343,20 +342,20 @@ static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, floa
 }
 
 /* Draws one set in dims dimensions to check the pattern; stores it in *fixed if the pattern is deterministic. */
-static koksma_status try_set(const koksma_render_options *options, const koksma_spec *spec, int dims, float **fixed,
-                             size_t *n_sets)
+static koksma_status try_set(const koksma_render_options *options, const koksma_spec *spec, int dims,
+                             const koksma_run *run, float **fixed, size_t *n_sets)
 {
     const size_t n = (size_t)options->spp;
     *n_sets = 1;
     if (koksma__reads_points(spec->pattern) && !koksma__modifiers_are_random(spec->modifiers) &&
         koksma__file_has(spec->path, "{seed}")) {
-        return read_sets(spec, n, dims, fixed, n_sets);
+        return read_sets(spec, n, dims, run, fixed, n_sets);
     }
     double *xs = malloc(2 * n * sizeof *xs);
     *fixed = NULL;
     KOKSMA__REQUIRE_MEMORY(xs, 2 * n * sizeof *xs);
     koksma_status status = koksma__check_single_use(spec);
-    status = status ? status : generate(spec, options->seed, n, dims, &alone, xs);
+    status = status ? status : generate(spec, options->seed, n, dims, run, xs);
     if (!status && koksma_has_one_set(spec)) {
         status = keep_fixed(xs, n, dims, 0, dims == 2, fixed);
     }
@@ -364,7 +363,7 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
     return status;
 }
 
-static koksma_status try_uses(pixel_samples *samples)
+static koksma_status try_uses(pixel_samples *samples, const koksma_run *run)
 {
     const koksma_render_options *options = samples->options;
     bool tried[3] = {false};
@@ -385,9 +384,9 @@ static koksma_status try_uses(pixel_samples *samples)
             continue;
         }
         if (own) {
-            status = try_set(options, spec, dims, &samples->fixed[u], &samples->fixed_sets[u]);
+            status = try_set(options, spec, dims, run, &samples->fixed[u], &samples->fixed_sets[u]);
         } else if (!tried[dims]) {
-            status = try_set(options, spec, dims, &common[dims], &common_sets[dims]);
+            status = try_set(options, spec, dims, run, &common[dims], &common_sets[dims]);
             tried[dims] = true;
         }
         samples->fixed[u] = own ? samples->fixed[u] : common[dims];
@@ -408,7 +407,7 @@ static koksma_status check_kept(size_t n, int dim, const char *of)
 }
 
 /* Draws one set of a group to check its pattern; if the pattern is deterministic, stores the pairs of its uses. */
-static koksma_status try_group(pixel_samples *samples, int g)
+static koksma_status try_group(pixel_samples *samples, int g, const koksma_run *run)
 {
     const koksma_render_options *options = samples->options;
     const koksma_use_group *group = &options->groups[g];
@@ -416,7 +415,7 @@ static koksma_status try_group(pixel_samples *samples, int g)
     const int dim = samples->places[group->uses[0]].dim;
     double *xs = malloc(n * (size_t)dim * sizeof *xs);
     KOKSMA__REQUIRE_MEMORY(xs, n * (size_t)dim * sizeof *xs);
-    koksma_status status = generate(&group->pattern, options->seed, n, dim, &alone, xs);
+    koksma_status status = generate(&group->pattern, options->seed, n, dim, run, xs);
     for (int i = 0; !status && i < group->n_uses; i++) {
         const int u = group->uses[i];
         samples->shuffles[u] = options->pairing == KOKSMA_PAIRING_SHUFFLED &&
@@ -431,7 +430,7 @@ static koksma_status try_group(pixel_samples *samples, int g)
 }
 
 /* Checks each group that has a use which the image needs. */
-static koksma_status try_groups(koksma__sampler *sampler, pixel_samples *samples)
+static koksma_status try_groups(koksma__sampler *sampler, pixel_samples *samples, const koksma_run *run)
 {
     const koksma_use_group *groups = samples->options->groups;
     const size_t n = (size_t)samples->options->spp;
@@ -445,7 +444,7 @@ static koksma_status try_groups(koksma__sampler *sampler, pixel_samples *samples
             samples->kept_first[g] = (size_t)sampler->kept_dim;
             sampler->kept_dim += samples->places[groups[g].uses[0]].dim;
             status = check_kept(n, sampler->kept_dim, "a group of uses");
-            status = status ? status : try_group(samples, g);
+            status = status ? status : try_group(samples, g, run);
         }
     }
     sampler->kept_sets = KOKSMA_MAX_USE_GROUPS;
@@ -453,7 +452,7 @@ static koksma_status try_groups(koksma__sampler *sampler, pixel_samples *samples
     return status;
 }
 
-static koksma_status try_native(koksma__sampler *sampler, const pixel_samples *samples)
+static koksma_status try_native(koksma__sampler *sampler, const pixel_samples *samples, const koksma_run *run)
 {
     const koksma_render_options *options = samples->options;
     const int dim = koksma__use_dimension(&samples->uses, UINT32_MAX);
@@ -463,7 +462,7 @@ static koksma_status try_native(koksma__sampler *sampler, const pixel_samples *s
     if (!xs) {
         return status ? status : koksma__fail_memory(n * (size_t)dim * sizeof *xs);
     }
-    status = generate(&options->pattern, options->seed, n, dim, &alone, xs);
+    status = generate(&options->pattern, options->seed, n, dim, run, xs);
     free(xs);
     sampler->draw = draw_native;
     sampler->prepare = NULL;
@@ -474,8 +473,11 @@ static koksma_status try_native(koksma__sampler *sampler, const pixel_samples *s
 }
 
 koksma_status koksma__pixel_samples(const koksma_render_options *options, const koksma__use_list *uses,
-                                    koksma__sampler *out)
+                                    const koksma_run *run, koksma__sampler *out)
 {
+    koksma__phases phases = {0};
+    koksma_run first = koksma__phase_run(&phases, run, 0);
+    first.threads = 1;
     pixel_samples *samples = calloc(1, sizeof *samples);
     *out = (koksma__sampler){
         .most = (size_t)options->spp, .count = count, .prepare = prepare, .draw = draw, .release = release};
@@ -487,10 +489,10 @@ koksma_status koksma__pixel_samples(const koksma_render_options *options, const 
     }
     koksma_status status = KOKSMA_OK;
     if (options->pairing == KOKSMA_PAIRING_NATIVE) {
-        status = try_native(out, samples);
+        status = try_native(out, samples, &first);
     } else {
-        status = try_uses(samples);
-        status = status ? status : try_groups(out, samples);
+        status = try_uses(samples, &first);
+        status = status ? status : try_groups(out, samples, &first);
     }
     if (status) {
         release(out);

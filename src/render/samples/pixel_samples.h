@@ -5,9 +5,9 @@
 
 #include "render/samples/sampler.h"
 
-/* Opens a sampler. It draws one set of each pattern first, so that a pattern that cannot have spp points fails here.
-   Errors: the pattern's, ARGUMENT, MEMORY. */
+/* Opens a sampler. It draws one set of each pattern first, so that a pattern that cannot have spp points fails here;
+   only this calls run->keep_going. Errors: the pattern's, ARGUMENT, MEMORY, INTERRUPTED. */
 koksma_status koksma__pixel_samples(const koksma_render_options *options, const koksma__use_list *uses,
-                                    koksma__sampler *out);
+                                    const koksma_run *run, koksma__sampler *out);
 
 #endif
