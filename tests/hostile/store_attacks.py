@@ -249,6 +249,10 @@ def rows():
     change("r", f"DELETE FROM result WHERE id = {first}")
     refused("removed", "r", ("export", "report", "run"))
     found("removed", "r", "lost")
+    # The damaged plan is that of the store, not the file whose name it has.
+    copy("emptied")
+    change("emptied", "UPDATE meta SET value = '{}' WHERE key = 'plan-text-0'", sealed=True)
+    refused("an empty plan", "emptied", ("report",))
     # Rows of another revision are not wrong, and not compared; a run makes those of its own beside them.
     copy("r")
     change("r", "UPDATE series SET made_by = 'random 1' WHERE made_by = 'random 0'", "UPDATE result SET v0 = 0.0 WHERE id & 4294967295 IN "

@@ -81,7 +81,7 @@ def references():
     os.rename("mine.json", "elsewhere.json")
     told = audit("r", *of_row)
     says(told, 1, r"differs: reference r:jittered@4x2 of \./mine\.json, 8 x 6 can't be rendered again: .*mine\.json.*No such file.*",
-         r"differs: image \./mine\.json, .*, trial 1 can't be computed again: .*No such file.*",
+         r"differs: image \./mine\.json, .*: its 2 rows can't be computed again: .*No such file.*",
          "1 reference images rendered again, of which 1 agree; 1 can't be rendered again")
     os.rename("elsewhere.json", "mine.json")
     change("r", "UPDATE reference SET made_by = 'renderer 0, jittered 77' WHERE scene = 'checker'",

@@ -349,13 +349,17 @@ static koksma_status check(audit *a, koksma__audit_series *s)
         return status;
     }
     if (status) {
-        char name[KOKSMA__REFERENCE_NAME];
+        char name[KOKSMA__REFERENCE_NAME], count[32] = "row";
         if (s->is_reference) {
             koksma__audit_reference_name(&s->key, name, sizeof name);
+            differ(a, "%s can't be rendered again: %s", name, koksma_error_text());
         } else {
-            koksma__audit_name(&s->key, s->last, name, sizeof name);
+            koksma__audit_name(&s->key, -1, name, sizeof name);
+            if (s->rows > 1) {
+                koksma__snprintf(count, sizeof count, "%lld rows", s->rows);
+            }
+            differ(a, "%s: its %s can't be computed again: %s", name, count, koksma_error_text());
         }
-        differ(a, "%s can't be %s again: %s", name, s->is_reference ? "rendered" : "computed", koksma_error_text());
     }
     if (s->state == KOKSMA__AUDIT_OURS && s->strays) {
         char name[KOKSMA__REFERENCE_NAME];

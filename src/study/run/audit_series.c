@@ -184,15 +184,18 @@ void koksma__audit_list_fini(koksma__audit_list *list)
 
 void koksma__audit_name(const koksma__series *key, long long trial, char *text, size_t size)
 {
-    char place[64] = "";
+    char place[64] = "", number[32] = "";
+    if (trial >= 0) {
+        snprintf(number, sizeof number, ", trial %lld", trial);
+    }
     if (key->width || key->height) {
         snprintf(place, sizeof place, "%lld x %lld, ", key->width, key->height);
     } else {
         snprintf(place, sizeof place, "dim %lld, ", key->dim);
     }
-    snprintf(text, size, "%s %.100s%s%.100s%s%.200s, n = %lld, %s%.200s%s%.100s, trial %lld", key->kind, key->scene,
+    snprintf(text, size, "%s %.100s%s%.100s%s%.200s, n = %lld, %s%.200s%s%.100s%s", key->kind, key->scene,
              key->scene[0] ? ", " : "", key->options, key->options[0] ? ", " : "", key->pattern, key->n, place,
-             key->what, key->metric[0] ? ", " : "", key->metric, trial);
+             key->what, key->metric[0] ? ", " : "", key->metric, number);
 }
 
 void koksma__audit_reference_name(const koksma__series *key, char *text, size_t size)

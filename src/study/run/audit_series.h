@@ -60,7 +60,8 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
    reference. */
 koksma_status koksma__audit_plan(koksma_study *study, koksma__audit_list *list);
 
-/* Writes a readable name of a row, such as "image checker, jittered, n = 4, 8 x 6, a:regular@4x1, trial 2". */
+/* Writes a readable name of a row, such as "image checker, jittered, n = 4, 8 x 6, a:regular@4x1, trial 2", or of a
+   series (trial < 0), without the trial. */
 void koksma__audit_name(const koksma__series *key, long long trial, char *text, size_t size);
 
 /* Writes the name of a reference, such as "reference a:regular@4x1 of checker, 8 x 6". */

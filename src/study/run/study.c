@@ -201,6 +201,18 @@ static koksma_status append_plan(koksma_study *study, koksma__plan *plan)
     return koksma__plan_append(&study->plan, plan);
 }
 
+/* Names the store before the error of a plan in it: the file whose name the plan has may be intact. Returns status,
+   or MEMORY. */
+static koksma_status fail_stored(koksma_study *study, koksma_status status)
+{
+    koksma__study_fail_here(study, status);
+    char *reason = strdup(koksma_error_text());
+    KOKSMA__REQUIRE_MEMORY(reason, 1);
+    koksma__fail(status, "%s/results.sqlite: %s", study->folder, reason);
+    free(reason);
+    return status;
+}
+
 /* Reads the plan of a folder with results from its store. */
 static koksma_status recall_plan(koksma_study *study)
 {
@@ -227,7 +239,7 @@ static koksma_status recall_plan(koksma_study *study)
         if (!status) {
             status = koksma__plan_parse(name ? name : "results.sqlite", text ? text : "", text ? strlen(text) : 0,
                                         &trials, &plan);
-            status = status ? koksma__study_fail_here(study, status) : KOKSMA_OK;
+            status = status ? fail_stored(study, status) : KOKSMA_OK;
         }
         free(text);
         free(name);
