@@ -260,6 +260,28 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     return KOKSMA_OK;
 }
 
+/* Returns false, after an error, if an option is given that has no effect with, or without, --with. */
+static bool options_fit(const cli_arguments *arguments)
+{
+    static const char *const own[] = {"integrator", "filter", "unknown", "allow-exec"};
+    const bool with = cli_text(arguments, "with", NULL);
+    for (size_t i = 0; with && i < sizeof own / sizeof *own; i++) {
+        if (cli_flag(arguments, own[i])) {
+            cli_usage_error(arguments,
+                            "--%s has no effect with --with, because COMMAND reads the scene and makes the points "
+                            "and images",
+                            own[i]);
+            return false;
+        }
+    }
+    if (!with && cli_text(arguments, "reference", NULL)) {
+        cli_usage_error(arguments,
+                        "--reference needs --with, because Koksma's own references always use the pattern jittered");
+        return false;
+    }
+    return true;
+}
+
 static int run(const cli_arguments *arguments)
 {
     cli_work work;
@@ -275,9 +297,8 @@ static int run(const cli_arguments *arguments)
         command =
             "\"${KOKSMA_PYTHON:-python3}\" -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out}";
     }
-    if (!command && cli_text(arguments, "reference", NULL)) {
-        return cli_usage_error(
-            arguments, "--reference needs --with, because Koksma's own references always use the pattern jittered");
+    if (!options_fit(arguments)) {
+        return CLI_USAGE;
     }
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
@@ -421,7 +442,8 @@ const cli_command cli_command_rank = {
         "--size images have the default size of the renderer, and other sizes are not checked. The reference is the "
         "mean\n"
         "of 16 images of 16 times as many samples by the sampler --reference, which must be unbiased and depend on "
-        "the seed. Only this option runs commands. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of\n"
+        "the seed. Only this option runs commands. --integrator, --filter, --unknown and --allow-exec, which concern "
+        "Koksma's own renderer, are refused with it. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of\n"
         "Koksma in a scene of Mitsuba. It needs a Python interpreter in which koksma and mitsuba are installed\n"
         "(environment variable KOKSMA_PYTHON; default: python3). It starts Mitsuba for every image and takes\n"
         "seconds for each; koksma.mitsuba.rank in Python starts it once.\n"
