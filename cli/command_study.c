@@ -66,8 +66,8 @@ static const char *ending_of(const char *path)
 static int new_plan(const cli_arguments *arguments)
 {
     const char *path = cli_text(arguments, "output", arguments->n_operands > 1 ? arguments->operands[1] : "-");
-    if (arguments->n_operands > 2) {
-        return cli_usage_error(arguments, "new takes one file, as in new plan.json");
+    if (arguments->n_operands > 2 || (arguments->n_operands > 1 && cli_text(arguments, "output", NULL))) {
+        return cli_usage_error(arguments, "new takes one file, as in new plan.json or new -o plan.json");
     }
     if (*ending_of(path) && strcmp(ending_of(path), "json") != 0) {
         return cli_usage_error(arguments, "%s: a plan's name ends in .json", path);
