@@ -20,7 +20,7 @@ enum { MOST_TRIALS = 1000000, MOST_PAIRED_AXES = 16 };
 
 /* A pattern with its sizes, or a file. */
 typedef struct series {
-    const char *operands[KOKSMA_MAX_SIZES]; /* the operand of each size */
+    int first; /* the index of its first operand; all operands up to the next series are its own */
     cli_source source;
     char text[KOKSMA_MAX_SPEC]; /* the spec of a pattern without its size, or the name of a file */
     koksma_integration_options options;
@@ -43,6 +43,7 @@ typedef struct job {
     uint64_t seed, trials;
     series *series;
     size_t n_series;
+    size_t *sizes; /* the size of each operand that was opened */
     slope *slopes;
     size_t n_slopes;
     /* the number of deterministic patterns, which have one set and thus no trials */
@@ -319,32 +320,36 @@ static bool same_name(const char *a, const char *b)
     return length == strcspn(b, ":@") && !strncmp(a, b, length);
 }
 
-/* Adds the size of the source s of the same pattern to a series. A size that the series has under another name of the
-   pattern is the same set, whose row stands for both; one that was given twice is an error. Returns the exit code. */
-static int add_size(const job *j, series *to, const series *s)
+/* Adds the size of operand i, which is the same pattern, to a series. A size that the series has under another name of the
+   pattern is the same set, whose row stands for both; one that was given twice under one name is an error. Returns the
+   exit code. */
+static int add_size(const job *j, series *to, int i)
 {
-    const size_t n = s->options.sizes[0];
-    for (size_t i = 0; i < to->options.n_sizes; i++) {
-        if (to->options.sizes[i] == n) {
-            return same_name(to->operands[i], s->operands[0])
-                       ? cli_usage_error(j->arguments, "%s: n = %zu is given twice", s->text, n)
-                       : CLI_YES;
+    const size_t n = j->sizes[i];
+    bool has = false;
+    for (int k = to->first; k < i; k++) {
+        has |= j->sizes[k] == n;
+        if (j->sizes[k] == n && same_name(j->arguments->operands[k], j->arguments->operands[i])) {
+            return cli_usage_error(j->arguments, "%s: n = %zu is given twice", to->text, n);
         }
     }
-    if (to->options.n_sizes == KOKSMA_MAX_SIZES) {
-        return cli_usage_error(j->arguments, "%s: it takes up to %d sizes", s->text, KOKSMA_MAX_SIZES);
+    if (has) {
+        return CLI_YES;
     }
-    to->operands[to->options.n_sizes] = s->operands[0];
+    if (to->options.n_sizes == KOKSMA_MAX_SIZES) {
+        return cli_usage_error(j->arguments, "%s: it takes up to %d sizes", to->text, KOKSMA_MAX_SIZES);
+    }
     to->options.sizes[to->options.n_sizes++] = n;
     return CLI_YES;
 }
 
-/* Opens the source `operand`. A pattern that differs from the previous source only in its size is added to that
+/* Opens operand i, a source. A pattern that differs from the previous source only in its size is added to that
    series. */
-static int open_series(job *j, const char *operand)
+static int open_series(job *j, int i)
 {
+    const char *operand = j->arguments->operands[i];
     series *s = &j->series[j->n_series], *before = j->n_series ? s - 1 : NULL;
-    *s = (series){.operands = {operand}, .options = {.seed = j->seed, .trials = j->trials}};
+    *s = (series){.first = i, .options = {.seed = j->seed, .trials = j->trials}};
     int code = cli_source_open(j->arguments, operand, &s->source);
     if (code) {
         return code;
@@ -362,11 +367,11 @@ static int open_series(job *j, const char *operand)
         snprintf(s->text, sizeof s->text, "%s", operand);
     }
     s->dim = s->source.is_pattern ? s->source.dim : s->points.dim;
-    s->options.sizes[0] = s->source.is_pattern ? s->source.n : s->points.n;
+    s->options.sizes[0] = j->sizes[i] = s->source.is_pattern ? s->source.n : s->points.n;
     s->options.n_sizes = 1;
     if (before && s->source.is_pattern && before->source.is_pattern && before->dim == s->dim &&
         !strcmp(before->text, s->text)) {
-        return add_size(j, before, s);
+        return add_size(j, before, i);
     }
     j->n_series++;
     return code;
@@ -417,7 +422,7 @@ static int run_all(job *j)
         return CLI_USAGE;
     }
     for (int i = 1; i < arguments->n_operands && !code; i++) {
-        code = open_series(j, arguments->operands[i]);
+        code = open_series(j, i);
     }
     j->rows = code ? NULL : cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < j->n_series && !code; i++) {
@@ -466,7 +471,8 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     j.series = calloc((size_t)arguments->n_operands + 1, sizeof *j.series);
-    const int code = j.series ? run_all(&j) : cli_no_memory();
+    j.sizes = calloc((size_t)arguments->n_operands, sizeof *j.sizes);
+    const int code = j.series && j.sizes ? run_all(&j) : cli_no_memory();
     for (size_t i = 0; j.series && i < (size_t)arguments->n_operands; i++) {
         koksma_points_fini(&j.series[i].points);
     }
@@ -474,6 +480,7 @@ static int run(const cli_arguments *arguments)
         dlclose(j.libraries[i]);
     }
     free(j.series);
+    free(j.sizes);
     free(j.slopes);
     return code;
 }
