@@ -55,7 +55,8 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     CLI_SOURCE_OPTIONS,
-    CLI_CURVE_OPTIONS("curve", "2 sqrt(n); quality: 7 sqrt(n)"),
+    CLI_CURVE_OPTIONS("curve", "2 sqrt(n); quality: 7 sqrt(n)",
+                      "rings and pairs have standard errors, and quality is that of the mean spectrum"),
     {'o', "output", "FILE.npy|.csv|.txt|{images}",
      "{curve:output}: write all values to this file, as numbers or as a grey image"},
     CLI_ROW_OPTIONS,

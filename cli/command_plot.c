@@ -102,7 +102,7 @@ static const cli_option options[] = {
     {'m', "measure", "MEASURE", "convergence, compare: the measure to draw (default: l2-star)"},
     {0, "sizes", "N,..",
      "convergence, compare: draw these n, as in 16,64,256 (default: powers of 4 up to the n of the source)"},
-    CLI_CURVE_OPTIONS("chart", "2 sqrt(n)"),
+    CLI_CURVE_OPTIONS("chart", "2 sqrt(n)", "radial and pairs have error bars"),
     CLI_RUN_OPTIONS,
     {0},
 };

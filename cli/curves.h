@@ -89,12 +89,11 @@ const char *cli_curve_names(cli_curve_list list, const char *option, const char 
 
 /* Defines options of both `koksma curve` and `koksma plot`. list: "curve" or "chart", the first word of
    placeholders such as {curve:trials}, which cli/texts.c replaces by the names of the curves that take this option.
-   default_half: the default of --half in the help text. */
-#define CLI_CURVE_OPTIONS(list, default_half)                                                                        \
+   default_half: the default of --half in the help text; errors: what the means over sets come with. */
+#define CLI_CURVE_OPTIONS(list, default_half, errors)                                                                \
     {'s', "seed", "S", "seed of patterns (default: 0)"},                                                             \
         {'t', "trials", "T",                                                                                         \
-         "{" list                                                                                                    \
-         ":trials}: print the mean over T sets with seeds S, S+1, .. to 2^64 - 1 at most, with standard errors"},    \
+         "{" list ":trials}: mean over T sets with seeds S, S+1, .. to 2^64 - 1 at most; " errors},                  \
         {0, "half", "H",                                                                                             \
          "{" list ":half}: use frequencies up to H in each coordinate (default: " default_half "; at most 2047)"},   \
         {0, "exact", NULL, "{" list ":exact}: sum over all points at each frequency instead of the fast transform"}, \

@@ -86,7 +86,9 @@ static int draw(cli_curves *c)
 
 const cli_curve cli_curve_power = {
     .name = "power",
-    .meaning = "the power spectrum (1/n)|sum exp(-2 pi i k.x)|^2 at every frequency k; a picture leaves out k = 0",
+    .meaning =
+        "the power spectrum (1/n)|sum exp(-2 pi i k.x)|^2 at every frequency k. Rows have ky >= 0 only, because k "
+        "and -k have the same power; a file of koksma curve --output has all k. A picture leaves out k = 0",
     .cite = "ulichney1987",
     .compute = compute,
     .columns = {"kx", "ky", "value"},
