@@ -110,6 +110,12 @@ def main():
             file.write(f'#!/bin/sh\n[ "$1 $2" = "-m koksma.mitsuba" ] || exit 9\nshift 2\nexec {sys.executable} -S {script} "$@"\n')
         os.chmod(python, 0o755)
         before = rank(command.replace("out.pfm", "out"), "fine,coarse", "--size", "48x32", "--max-trials", "8", "--one-size")
+        help_text = " ".join(subprocess.run([PROGRAM, "rank", "--help"], capture_output=True, text=True).stdout.split())
+        check("the help has arithmetic on a quoted text", "a variable: s={seed}; echo $((s % 3))." in help_text, help_text)
+        counted = rank("s={seed}; " + command.replace("{seed}", "$((s + 0))"), "fine,coarse", "--size", "48x32", "--max-trials", "8",
+                       "--one-size")
+        check("a variable has a text's number", [{**row, "with": ""} for row in counted[1]] == [{**row, "with": ""} for row in before[1]]
+              and len(counted[1]) == 2, (before, counted))
         os.environ["KOKSMA_PYTHON"] = python
         by_name = rank("mitsuba", "fine,coarse", "--size", "48x32", "--max-trials", "8", "--one-size")
         check("--with mitsuba runs KOKSMA_PYTHON", [{**row, "with": ""} for row in before[1]] == [{**row, "with": ""} for row in by_name[1]]
