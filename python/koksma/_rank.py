@@ -41,7 +41,7 @@ class Ranked:
     coherence_noise: float  #: 97.5 % of white-noise errors have less
     coherence_p: float
     coherent: bool  #: the error has bands or another pattern
-    robust: float  #: the error without the 0.1 % of the pixels with the largest
+    robust: float  #: the error without the 0.1 % of the pixels with the largest, not corrected for the error of the reference
     top_share: float  #: the share of the error that these carry; from 0.5 on the order is that of few pixels
 
 
