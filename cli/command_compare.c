@@ -168,7 +168,8 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(
             arguments, "--output: it draws the errors of one image, but the command line has %d images", last);
     }
-    if (!cli_real(arguments, "max-mean", INFINITY, 0, 1e300, &most) || !cli_metrics_parse(arguments, &c.metrics)) {
+    if (!cli_real(arguments, "max-mean", INFINITY, 0, 1e300, &most) ||
+        !cli_metrics_parse(arguments, false, &c.metrics)) {
         return CLI_USAGE;
     }
     koksma_status status = read_numbers(arguments->operands[last], &c.reference);

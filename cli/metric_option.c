@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-static bool add(const cli_arguments *arguments, const char *text, cli_metrics *metrics)
+static bool add(const cli_arguments *arguments, const char *text, bool once, cli_metrics *metrics)
 {
     char name[KOKSMA_MAX_SPEC], other[KOKSMA_MAX_SPEC];
     koksma_metric_spec spec;
@@ -16,7 +16,10 @@ static bool add(const cli_arguments *arguments, const char *text, cli_metrics *m
     for (size_t i = 0; i < metrics->n; i++) {
         koksma_metric_text(&metrics->specs[i], other);
         if (!strcmp(name, other)) {
-            return true;
+            if (once) {
+                cli_usage_error(arguments, "--metric: '%s' is listed twice", name);
+            }
+            return !once;
         }
     }
     if (metrics->n == CLI_MAX_METRICS) {
@@ -27,27 +30,27 @@ static bool add(const cli_arguments *arguments, const char *text, cli_metrics *m
     return true;
 }
 
-bool cli_metrics_parse(const cli_arguments *arguments, cli_metrics *metrics)
+bool cli_metrics_parse(const cli_arguments *arguments, bool once, cli_metrics *metrics)
 {
     const char *list = cli_text(arguments, "metric", NULL);
     char item[KOKSMA_MAX_SPEC];
     bool good = true;
     if (list && !strcmp(list, "all")) {
         for (size_t i = 0; good && koksma_metric_at(i); i++) {
-            good = add(arguments, koksma_metric_at(i)->name, metrics);
+            good = add(arguments, koksma_metric_at(i)->name, once, metrics);
         }
         return good;
     }
     for (size_t i = 0; list && good && cli_list_item(list, i, item, sizeof item); i++) {
-        good = add(arguments, item, metrics);
+        good = add(arguments, item, once, metrics);
     }
     return good;
 }
 
 bool cli_one_metric(const cli_arguments *arguments, cli_metrics *metrics)
 {
-    const bool good = cli_metrics_parse(arguments, metrics);
-    if (metrics->n > 1) {
+    const bool good = cli_metrics_parse(arguments, true, metrics);
+    if (good && metrics->n > 1) {
         cli_usage_error(arguments, "--metric: it takes one metric; 'koksma compare -m' prints several");
     } else if (good && !metrics->n) {
         metrics->specs[metrics->n++].metric = koksma_metric_find("mae");

@@ -14,9 +14,9 @@ typedef struct cli_metrics {
     koksma_metric_spec specs[CLI_MAX_METRICS];
 } cli_metrics;
 
-/* Adds each metric of --metric, which is a list or `all`, once; without this option it adds none. Returns false after
-   an error. */
-bool cli_metrics_parse(const cli_arguments *arguments, cli_metrics *metrics);
+/* Adds each metric of --metric, which is a list or `all`; without this option it adds none. A metric that is listed twice
+   is an error if `once`, else it is added once. Returns false after an error. */
+bool cli_metrics_parse(const cli_arguments *arguments, bool once, cli_metrics *metrics);
 
 /* Reads --metric as one metric, by default mae. Returns false after an error. */
 bool cli_one_metric(const cli_arguments *arguments, cli_metrics *metrics);

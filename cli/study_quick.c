@@ -109,7 +109,7 @@ static void put_numbers(FILE *out, const char *key, const char *list)
 static bool put_metrics(FILE *out, const cli_arguments *arguments)
 {
     cli_metrics metrics = {.n = 0};
-    if (!cli_metrics_parse(arguments, &metrics)) {
+    if (!cli_metrics_parse(arguments, true, &metrics)) {
         return false;
     }
     for (size_t i = 0; i < metrics.n; i++) {
