@@ -44,6 +44,25 @@ static koksma_status put_table(koksma_study *study, const char *id, cli_rows *ro
     return KOKSMA_OK;
 }
 
+/* Checks that --table names a table of the plans, which are opened without a folder: a wrong command line makes none.
+   What else is wrong with the plans is reported when they are opened to run. Returns the exit code. */
+static int check_table(const cli_arguments *arguments, const koksma_study_options *options)
+{
+    koksma_study_options without = *options;
+    const char *table = cli_text(arguments, "table", "none");
+    koksma_study *study = NULL;
+    koksma_study_row row;
+    bool found;
+    int code = CLI_YES;
+    without.folder = NULL;
+    if (strcmp(table, "none") != 0 && strcmp(table, "all") != 0 && !koksma_study_open(&without, &study) &&
+        koksma_study_table_row(study, table, SIZE_MAX, &row, &found)) {
+        code = cli_usage_error(arguments, "%s", koksma_error_text());
+    }
+    koksma_study_close(study);
+    return code;
+}
+
 static koksma_status reproduce(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work,
                                cli_rows *rows, koksma_study_summary *summary, int *refused)
 {
@@ -54,14 +73,9 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     }
     const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
     const bool wanted = options->folder && table && strcmp(table, "none") != 0;
-    if (wanted && strcmp(table, "all") != 0) { /* an unknown table is reported before hours of work */
-        koksma_study_row row;
-        bool found;
-        status = koksma_study_table_row(study, table, SIZE_MAX, &row, &found);
-    }
     work->share = options->folder ? 0.95 : 1; /* fraction of the progress bar for the run; the rest is for the report
                                                  */
-    status = status ? status : koksma_study_run(study, &work->run, summary);
+    status = koksma_study_run(study, &work->run, summary);
     *refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
     status = *refused ? KOKSMA_OK : status;
     cli_study_left_out(arguments, study);
@@ -81,8 +95,8 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     return status;
 }
 
-/* Collects the plans of the operands and returns their number. If both papers are given, it also adds the plan
-   open-questions. */
+/* Collects the plans of the operands. If both papers are given, it also adds the plan open-questions, which --papers-only
+   leaves out. Returns the number of plans, or 0 after an error. */
 static size_t choose_plans(const cli_arguments *arguments, const char *plans[MAX_PLANS])
 {
     bool shirley = false, mitchell = false, open = false;
@@ -93,7 +107,13 @@ static size_t choose_plans(const cli_arguments *arguments, const char *plans[MAX
         mitchell |= !strcmp(arguments->operands[i], "mitchell1992");
         open |= !strcmp(arguments->operands[i], "open-questions");
     }
-    if (shirley && mitchell && !open && n < MAX_PLANS && !cli_flag(arguments, "papers-only")) {
+    const bool both = shirley && mitchell && !open, papers_only = cli_flag(arguments, "papers-only");
+    if (papers_only && !both) {
+        cli_usage_error(arguments, "--papers-only has an effect only with both papers, shirley1991 mitchell1992, and "
+                                   "without open-questions");
+        return 0;
+    }
+    if (both && !papers_only) {
         plans[n++] = "open-questions";
     }
     return n;
@@ -107,19 +127,23 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands < 1 || arguments->n_operands >= MAX_PLANS || !folder) {
         return cli_usage_error(arguments, "it takes a paper and a folder, as in shirley1991 -o DIR");
     }
-    if (!cli_whole(arguments, "trials", 0, 1, 100000000, &trials) ||
+    const char *plans[MAX_PLANS];
+    const size_t n_plans = choose_plans(arguments, plans);
+    if (!n_plans || !cli_whole(arguments, "trials", 0, 1, 100000000, &trials) ||
         !cli_work_begin(arguments, "reproducing", &work)) {
         return CLI_USAGE;
     }
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     koksma_study_summary summary;
-    const char *plans[MAX_PLANS];
     folder = koksma_study_mpi_rank() > 0 ? NULL : folder; /* under MPI only rank 0 keeps the results */
     const koksma_study_options options = {.plans = plans,
-                                          .n_plans = choose_plans(arguments, plans),
+                                          .n_plans = n_plans,
                                           .folder = folder,
                                           .trials = (long long)trials,
                                           .quick = cli_flag(arguments, "quick")};
+    if (check_table(arguments, &options)) {
+        return CLI_USAGE;
+    }
+    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     int refused = 0;
     const koksma_status status = reproduce(arguments, &options, &work, rows, &summary, &refused);
     cli_work_end();

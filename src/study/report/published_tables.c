@@ -195,7 +195,6 @@ koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t
     KOKSMA__REQUIRE(study, id, row, found);
     const koksma__table *table = NULL;
     *found = false;
-    KOKSMA__FAIL_IF(!study->store, KOKSMA_ARGUMENT, "a study without a folder has no results");
     for (size_t t = 0; !table && t < study->plan.n_tables; t++) {
         table = strcmp(study->plan.tables[t].id, id) ? NULL : &study->plan.tables[t];
     }
@@ -203,6 +202,7 @@ koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t
     if (i / table->n.n >= table->n_rows) {
         return KOKSMA_OK;
     }
+    KOKSMA__FAIL_IF(!study->store, KOKSMA_ARGUMENT, "a study without a folder has no results");
     const koksma__table_row *from = &table->rows[i / table->n.n];
     const size_t column = i % table->n.n;
     koksma__cell cell;
