@@ -210,6 +210,7 @@ static void list_records(cli_rows *rows)
     }
 }
 
+/* Adds the choices or the limits of a parameter. Limits have all their digits, because values beyond them are refused. */
 static void put_range(cli_rows *rows, const koksma_param *p)
 {
     char text[256] = "";
@@ -219,9 +220,8 @@ static void put_range(cli_rows *rows, const koksma_param *p)
             snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "", p->choices[i]);
         }
     } else {
-        char min[CLI_NUMBER], max[CLI_NUMBER];
-        snprintf(text, sizeof text, "%s%s to %s", p->fallback < p->min ? "0, " : "", cli_number(p->min, min),
-                 cli_number(p->max, max));
+        const int all = p->whole ? 17 : 15; /* the digits of 2^53; those that a fraction in a table is written with */
+        snprintf(text, sizeof text, "%s%.*g to %.*g", p->fallback < p->min ? "0, " : "", all, p->min, all, p->max);
     }
     cli_row_text(rows, "range", text);
 }
