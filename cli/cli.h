@@ -106,7 +106,7 @@ bool cli_size(const cli_arguments *arguments, int *width, int *height);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
 
 /* Writes "did you mean 'NAME'? " to `text` and returns it. NAME is the name in a table that is closest to `word`
-   (koksma_closest_name()); if no name is close, the text is empty. */
+   (koksma_closest_name()); if no name is close, or `word` is one, the text is empty. */
 const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96]);
 
 /* Like cli_meant, for a list of names as messages write it, such as "auto, always or never". */

@@ -59,6 +59,7 @@ static const struct {
     {"PLACES", NULL, NULL, true},
     {"IMAGE", NULL, NULL, true},
     {"REFERENCE", NULL, NULL, true},
+    {"RENDERER", NULL, NULL, true},
 };
 
 static void add_word(answer *a, const char *word, size_t length)
@@ -432,9 +433,9 @@ static int run(const cli_arguments *arguments)
         }
     }
     char meant[96] = "";
-    return cli_usage_error(arguments, "%sit takes one of bash, zsh, fish",
-                           arguments->n_operands ? cli_meant_of(arguments->operands[0], "bash, zsh, fish", meant)
-                                                 : "");
+    return cli_usage_error(
+        arguments, "%sit takes one of bash, zsh, fish, or spec WORD",
+        arguments->n_operands ? cli_meant_of(arguments->operands[0], "bash, zsh, fish, spec", meant) : "");
 }
 
 static const cli_option options[] = {{0}};

@@ -268,7 +268,7 @@ static bool options_fit(const cli_arguments *arguments)
     for (size_t i = 0; with && i < sizeof own / sizeof *own; i++) {
         if (cli_flag(arguments, own[i])) {
             cli_usage_error(arguments,
-                            "--%s has no effect with --with, because COMMAND reads the scene and makes the points "
+                            "--%s has no effect with --with, because RENDERER reads the scene and makes the points "
                             "and images",
                             own[i]);
             return false;
@@ -367,7 +367,7 @@ static const cli_option options[] = {
     {'n', "spp", "N,..", "numbers of samples per pixel; each gets its own ranking (default: 4,16,64)"},
     {'p', "patterns", "PATTERN,..|thesis|later|all", "patterns to rank, also SPEC@N (default: thesis)"},
     {0, "size", "WxH", "image size (default: that of the scene, halved until it has at most 19,200 pixels)"},
-    {0, "with", "COMMAND|mitsuba",
+    {0, "with", "RENDERER|mitsuba",
      "shell command of another renderer, with {scene}, {pattern}, {spp}, {seed}, {out}"},
     {0, "reference", "PATTERN", "with --with: the sampler of the reference (default: the first)"},
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
@@ -389,7 +389,7 @@ const cli_command cli_command_rank = {
     .summary = "rank patterns by the error that they leave in a scene",
     .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later|all] [--size WxH] [--one-size] "
                 "[--integrator INTEGRATOR] [--filter FILTER] [--metric METRIC] [--time-limit S] [--max-trials N] "
-                "[--with COMMAND "
+                "[--with RENDERER "
                 "[--reference PATTERN]] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
@@ -437,7 +437,7 @@ const cli_command cli_command_rank = {
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
         "thesis: the seven patterns of Shirley 1991. later: five of these and twelve newer ones.\n"
         "\n"
-        "--with ranks the samplers of another renderer: COMMAND is run by the shell for every image, with texts\n"
+        "--with ranks the samplers of another renderer: RENDERER is run by the shell for every image, with texts\n"
         "in place of {scene}, {pattern}, {spp}, {seed} (0 to 2^31 - 1), {width}, {height} and {out}, the EXR file\n"
         "to write; {out.pfm} and {out.png} ask for other formats. Each text stands in single "
         "quotes, so that the shell's arithmetic needs a variable: s={seed}; echo $((s % 3)). SCENE and PATTERN can "

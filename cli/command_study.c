@@ -454,15 +454,16 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'p', "patterns", "LIST", "quick: patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
-    {'m', "measures", "LIST",
+    {'p', "patterns", "PATTERN,..|all",
+     "quick: patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
+    {'m', "measures", "MEASURE,..|all",
      "quick: measures; all: every one that accepts the numbers of points (default: star,l2-star)"},
     {0, "integrands", "INTEGRAND,..|all",
      "quick: integrands whose integration errors are measured, too; all: every one (default: none)"},
-    {'n', "points", "LIST", "quick: the numbers of points (default: 16,64,256,1024)"},
-    {0, "scene", "LIST", "quick: scenes to render as well (default: none)"},
+    {'n', "points", "N,..", "quick: the numbers of points (default: 16,64,256,1024)"},
+    {0, "scene", "SCENE,..", "quick: scenes to render as well (default: none)"},
     CLI_UNKNOWN_OPTION,
-    {0, "spp", "LIST", "quick: samples a pixel in the scenes (default: 4,16,64)"},
+    {0, "spp", "N,..", "quick: samples a pixel in the scenes (default: 4,16,64)"},
     {'o', "output", "PATH", "run, quick, images: the folder; new, export: the file (default: -, standard output)"},
     {0, "trials", "T", "run, quick, estimate: number of trials, instead of the numbers in the plan"},
     {0, "quick", NULL, "run, quick, estimate: use the 'quick' number of trials of each block"},
@@ -485,14 +486,15 @@ static const cli_option options[] = {
 const cli_command cli_command_study = {
     .name = "study",
     .summary = "evaluate patterns with measures or scenes, as a plan says",
-    .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
-                "quick [-p LIST] [-m LIST] [-n LIST] [--scene LIST [--metric METRIC,..]] -o DIR\n"
-                "new [FILE]\n"
-                "estimate PLAN... [--json]\n"
-                "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
-                "report DIR\n"
-                "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
-                "images 'PLACES' --reference FILE [-o DIR] [--json]",
+    .synopsis =
+        "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
+        "quick [-p PATTERN,..|all] [-m MEASURE,..|all] [-n N,..] [--scene SCENE,.. [--metric METRIC,..]] -o DIR\n"
+        "new [FILE]\n"
+        "estimate PLAN... [--json]\n"
+        "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
+        "report DIR\n"
+        "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
+        "images 'PLACES' --reference FILE [-o DIR] [--json]",
     .details =
         "PLAN is the name of a plan in the library, a JSON file (./plan.json), or the plan itself, which begins with "
         "'{\"'. Paths in a plan are relative to\n"

@@ -77,6 +77,7 @@ void cli_print_help(const cli_command *command)
 const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96])
 {
     const char *closest = koksma_closest_name(word, name, table);
+    closest = closest && strcmp(closest, word) ? closest : NULL; /* then something else is wrong */
     snprintf(text, 96, closest ? "did you mean '%s'? " : "%.0s", closest ? closest : "");
     return text;
 }

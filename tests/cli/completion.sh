@@ -99,7 +99,16 @@ measure x -m star,l2-disk:^ $(koksma list parameters --json | sed -n 's/.*"of":"
 measure pattern:n-r^ n-rooks
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
+rank ball --with ^ mitsuba FILES
 study ^ run quick new estimate export report audit images
+study quick -p ^ all $(all patterns)
+study quick --patterns random,n-r^ n-rooks
+study quick -p random,sobol:scr^ scramble=
+study quick -m ^ all $(all measures)
+study quick --measures star,l2-st^ l2-star
+study quick --scene ^ $(all scenes) FILES
+study quick -n ^
+study quick --spp ^
 study run ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 study estimate ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 study export ^ FILES
@@ -144,4 +153,11 @@ for command in "" $(koksma --help | sed -n 's/^  \([a-z]*\)   *[a-z].*/\1/p'); d
     sed 's/\\-/-/g' "$work/page" | grep -qe "--$option" || complain "the page of $command lacks --$option"
   done
 done
+# A wrong command line is told all that completion takes, and nothing is meant by a word that is right.
+for words in "" spec "spec a b" "bash zsh" "bash spec a"; do
+  said=$(koksma completion $words 2>&1)
+  [ "$? $said" = "2 koksma completion: it takes one of bash, zsh, fish, or spec WORD" ] || complain "completion $words: $said"
+done
+said=$(koksma completion bsh 2>&1)
+[ "$said" = "koksma completion: did you mean 'bash'? it takes one of bash, zsh, fish, or spec WORD" ] || complain "completion bsh: $said"
 [ $failed -eq 0 ]
