@@ -352,7 +352,11 @@ static void put_image_rows(cli_rows *out, const koksma_metric_spec *metric, cons
     koksma_metric_text(metric, name);
     for (size_t i = 0; i < n; i++) {
         cli_row_text(out, "images", rows[i].group[0] ? rows[i].group : "-");
-        cli_row_whole(out, "spp", (uint64_t)rows[i].spp);
+        if (rows[i].spp) {
+            cli_row_whole(out, "spp", (uint64_t)rows[i].spp);
+        } else { /* the path has no {spp} */
+            cli_row_number(out, "spp", (double)NAN);
+        }
         cli_row_whole(out, "trials", rows[i].trials);
         cli_row_number(out, "mean", rows[i].mean);
         cli_row_number(out, "low", rows[i].low);
