@@ -82,7 +82,8 @@ static void put_tail(measuring *j, tail t)
     cli_row_end(j->rows);
 }
 
-static void put_tally(measuring *j, const koksma_tally *t, double n_exact)
+/* least: the least possible value, at which the interval begins at the least. */
+static void put_tally(measuring *j, const koksma_tally *t, double n_exact, double least)
 {
     cli_row_number(j->rows, "value", t->mean);
     cli_row_number(j->rows, "standard_error", koksma_tally_error(t));
@@ -90,8 +91,8 @@ static void put_tally(measuring *j, const koksma_tally *t, double n_exact)
     cli_row_number(j->rows, "sd", koksma_tally_sd(t));
     cli_row_number(j->rows, "min", t->min);
     cli_row_number(j->rows, "max", t->max);
-    const double half = koksma_tally_interval(t);
-    put_tail(j, (tail){n_exact, t->mean - half, t->mean + half, NAN, NAN, NAN});
+    const double half = koksma_tally_interval(t), low = t->mean - half;
+    put_tail(j, (tail){n_exact, low < least ? least : low, t->mean + half, NAN, NAN, NAN});
 }
 
 bool measuring_by_size(const measuring *j)
@@ -197,7 +198,8 @@ static void put_tallies(measuring *j, const char *source, int dim)
                 if (tallies[i * j->n_measures + m].count > 0) {
                     put_head(j, source, j->prefixes[i], dim, name, which == 1);
                     const size_t at = i * j->n_measures + m;
-                    put_tally(j, &tallies[at], n_exact_of(j, m, (which ? j->n_exact_pairs : j->n_exact)[at]));
+                    put_tally(j, &tallies[at], n_exact_of(j, m, (which ? j->n_exact_pairs : j->n_exact)[at]),
+                              which ? (double)-INFINITY : 0);
                 }
             }
         }

@@ -281,7 +281,8 @@ typedef struct koksma_images_row {
     char group[KOKSMA_IMAGES_GROUP]; /* the other names in braces with their texts: "pattern=halton scene=ball" */
     long long spp;                   /* the number at {spp}; 0 if the template has no {spp} */
     size_t trials;
-    double mean, low, high;   /* mean over the trials of the metric, and its 95 % interval (NaN with one trial) */
+    double mean, low, high;   /* mean over the trials of the metric, and its 95 % interval, which begins at 0 or above
+                                 (NaN with one trial) */
     double robust, top_share; /* means over the trials of these members of koksma_metric_value */
     double sd, max, rmse;     /* means over the trials of these members of koksma_image_error, whatever the metric
                                  is */

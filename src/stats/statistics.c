@@ -97,6 +97,13 @@ koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
     return koksma__paired(values, NULL, n, stride);
 }
 
+koksma__summary koksma__summarize_sizes(const double *values, size_t n, size_t stride)
+{
+    koksma__summary s = koksma__summarize(values, n, stride);
+    s.low = s.low < 0 ? 0 : s.low;
+    return s;
+}
+
 void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd)
 {
     koksma_tally largest = {0};

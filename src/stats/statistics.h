@@ -24,6 +24,10 @@ int koksma__compare(double a, double b);
    the index. An sd up to 1e-12 of the largest value is rounding noise and becomes 0. */
 koksma__summary koksma__summarize(const double *values, size_t n, size_t stride);
 
+/* Like koksma__summarize, for values that can't be negative, such as errors and measures: nor can their mean, and so the
+   interval begins at 0 where Student's t, whose intervals are symmetric, puts its low end below. */
+koksma__summary koksma__summarize_sizes(const double *values, size_t n, size_t stride);
+
 /* Makes the summary of a value without variance, such as the result of a deterministic pattern. */
 koksma__summary koksma__exactly(double value);
 

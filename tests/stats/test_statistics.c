@@ -139,6 +139,19 @@ static void slope_covers(void **state)
     assert_in_range(rates_of(8, 1, 0, 0.05).covered, 545, 592);
 }
 
+/* The mean of values that can't be negative is not negative; other intervals keep their low end, and nothing else moves. */
+static void intervals_of_sizes_begin_at_0(void **state)
+{
+    (void)state;
+    const double far[] = {0.1, 0.9}, near[] = {1, 1.1}, one[] = {0.5};
+    const koksma__summary signs = koksma__summarize(far, 2, 1), sizes = koksma__summarize_sizes(far, 2, 1);
+    assert_true(signs.low < 0 && sizes.low == 0);
+    assert_true(sizes.n == 2 && sizes.mean == signs.mean && sizes.sd == signs.sd && sizes.high == signs.high &&
+                sizes.max == signs.max);
+    assert_true(koksma__summarize_sizes(near, 2, 1).low == koksma__summarize(near, 2, 1).low);
+    assert_true(koksma__summarize(near, 2, 1).low > 0 && isnan(koksma__summarize_sizes(one, 1, 1).low));
+}
+
 /* Values that are equal but for rounding vary by nothing, are ties, and weigh what they should. */
 static void rounding_is_no_variation(void **state)
 {
@@ -375,6 +388,7 @@ int main(void)
         cmocka_unit_test(slope_of_two_points),
         cmocka_unit_test(slope_of_a_curve),
         cmocka_unit_test(slope_covers),
+        cmocka_unit_test(intervals_of_sizes_begin_at_0),
         cmocka_unit_test(rounding_is_no_variation),
         cmocka_unit_test(correlations_by_hand),
         cmocka_unit_test(correlations_over_all_orders),

@@ -140,18 +140,18 @@ static koksma_status add_slope(koksma_images_row *rows, size_t n)
 static void fill_row(const picture *first, size_t n, koksma_images_row *row)
 {
     const size_t stride = sizeof *first / sizeof(double);
-    const koksma__summary mean = koksma__summarize(&first->error.mean, n, stride);
+    const koksma__summary mean = koksma__summarize_sizes(&first->error.mean, n, stride);
     snprintf(row->group, sizeof row->group, "%s", first->name.group);
     row->spp = first->name.spp;
     row->trials = n;
     row->mean = mean.mean;
     row->low = mean.low;
     row->high = mean.high;
-    row->sd = koksma__summarize(&first->error.sd, n, stride).mean;
-    row->max = koksma__summarize(&first->error.max, n, stride).mean;
-    row->rmse = koksma__summarize(&first->error.rmse, n, stride).mean;
-    row->robust = koksma__summarize(&first->robust, n, stride).mean;
-    row->top_share = koksma__summarize(&first->top_share, n, stride).mean;
+    row->sd = koksma__summarize_sizes(&first->error.sd, n, stride).mean;
+    row->max = koksma__summarize_sizes(&first->error.max, n, stride).mean;
+    row->rmse = koksma__summarize_sizes(&first->error.rmse, n, stride).mean;
+    row->robust = koksma__summarize_sizes(&first->robust, n, stride).mean;
+    row->top_share = koksma__summarize_sizes(&first->top_share, n, stride).mean;
 }
 
 static koksma_status make_rows(const pictures *all, koksma_images_row **rows, size_t *n)

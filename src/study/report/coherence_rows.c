@@ -41,7 +41,7 @@ koksma_status koksma__image_coherence(koksma_study *study, const koksma__image_b
     size_t n;
     *out = (koksma__row_coherence){0};
     KOKSMA__TRY(koksma__series_results(study, &series, block->trials, &results, &n));
-    out->mean = koksma__summarize(results->values, n, STRIDE);
+    out->mean = koksma__summarize_sizes(results->values, n, STRIDE);
     for (size_t i = 0; i < n; i++) {
         out->coherent += results[i].values[1] < KOKSMA_COHERENT_P && results[i].values[0] >= KOKSMA_COHERENT_LEAST;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads every number of a report that comes from the store: looks a series up by its key, reads its trials below the
- * plan's number of trials, and sums them up as a mean with an interval (koksma__summarize). Nothing is cached between
+ * plan's number of trials, and sums them up as a mean with an interval (koksma__summarize_sizes). Nothing is cached between
  * calls, because SQLite caches the pages of the store.
  */
 #include "study/report/means.h"
@@ -37,8 +37,9 @@ koksma_status koksma__series_results(koksma_study *study, const koksma__series *
 
 koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n)
 {
-    return n == 1 && koksma__has_one_set(pattern) ? koksma__exactly(results->values[0])
-                                                  : koksma__summarize(results->values, n, KOKSMA__RESULT_STRIDE);
+    return n == 1 && koksma__has_one_set(pattern)
+               ? koksma__exactly(results->values[0])
+               : koksma__summarize_sizes(results->values, n, KOKSMA__RESULT_STRIDE);
 }
 
 /* sets: whether the results of the series are those of point sets. A deterministic pattern has one point set, whose
@@ -50,7 +51,7 @@ static koksma_status mean_of(koksma_study *study, const koksma__series *series, 
     size_t n;
     KOKSMA__TRY(koksma__series_results(study, series, trials, &found, &n));
     *mean = sets ? koksma__summarize_sets(series->pattern, found, n)
-                 : koksma__summarize(found->values, n, KOKSMA__RESULT_STRIDE);
+                 : koksma__summarize_sizes(found->values, n, KOKSMA__RESULT_STRIDE);
     if (results) {
         *results = found;
     } else {
@@ -111,8 +112,8 @@ koksma_status koksma__image_metric(koksma_study *study, const koksma__image_mean
     size_t n;
     const koksma__series series = series_of(study, of, "metric", metric, name);
     KOKSMA__TRY(koksma__series_results(study, &series, of->block->trials, &results, &n));
-    out->robust = koksma__summarize(&results->values[1], n, KOKSMA__RESULT_STRIDE);
-    out->top_share = koksma__summarize(&results->values[2], n, KOKSMA__RESULT_STRIDE);
+    out->robust = koksma__summarize_sizes(&results->values[1], n, KOKSMA__RESULT_STRIDE);
+    out->top_share = koksma__summarize_sizes(&results->values[2], n, KOKSMA__RESULT_STRIDE);
     free(results);
     return koksma__image_mean_by(study, of, metric, NULL, &out->value);
 }

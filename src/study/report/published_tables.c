@@ -90,9 +90,9 @@ koksma_status koksma__table_image(koksma_study *study, const koksma__table *tabl
     series.width = width;
     series.height = height;
     KOKSMA__TRY(koksma__series_results(study, &series, block->trials, &results, &n));
-    cell->mean = koksma__summarize(results->values, n, KOKSMA__RESULT_STRIDE);
-    cell->sd = koksma__summarize(results->values + 1, n, KOKSMA__RESULT_STRIDE).mean;
-    const koksma__summary max = koksma__summarize(results->values + 2, n, KOKSMA__RESULT_STRIDE);
+    cell->mean = koksma__summarize_sizes(results->values, n, KOKSMA__RESULT_STRIDE);
+    cell->sd = koksma__summarize_sizes(results->values + 1, n, KOKSMA__RESULT_STRIDE).mean;
+    const koksma__summary max = koksma__summarize_sizes(results->values + 2, n, KOKSMA__RESULT_STRIDE);
     cell->max = max.mean;
     cell->max_sd = max.sd;
     free(results);
