@@ -3,12 +3,12 @@
  * Measures the samplers at several sizes over several trials. A job is one trial of one sampler at one size, on
  * one thread. Each job stores its values in its own array elements; they are added up afterwards in the order of
  * trials, as in `koksma measure --sizes --trials`, so that the numbers equal those of that command to the last
- * bit. A set that is the same for every seed is measured once and counted for every trial of the means; its slope has
- * the error of the residuals, as has the slope of any single set.
+ * bit. A sampler whose set is the same for every seed has one trial. Its values are exact and have no interval; its slope
+ * has the error of the residuals, as has the slope of any single set.
  *
  * Samplers are compared by Welch's test (1947) on means over trials, each at a level of 5 % divided by the number
- * of tests (Bonferroni), so that all decisions of a sheet hold together with 95 %. Means of sets that never vary
- * are compared exactly.
+ * of tests (Bonferroni), so that all decisions of a sheet hold together with 95 %. An exact value has no error: beside it
+ * the test is that of Student for the other sampler's mean. Means of sets that never vary are compared exactly.
  */
 #include "study/sheet/sheet_measures.h"
 
@@ -41,7 +41,7 @@ static koksma_status evaluate_set(void *context, size_t job)
     const koksma__sheet_sampler *sampler = v->samplers[s];
     const koksma_run *alone = &e->control->job;
     koksma_points points = {0};
-    if (t >= v->trials[s] || (sampler->same && t > 0)) {
+    if (t >= v->trials[s]) {
         return KOKSMA_OK;
     }
     koksma_status status = koksma__sheet_points(sampler, v->sizes[i], v->dim, t, alone, &points);
@@ -82,14 +82,12 @@ static void add_up(const evaluation *e, size_t s, size_t m)
     for (size_t t = 0; t < v->trials[s]; t++) {
         double values[KOKSMA__SHEET_SIZES];
         for (size_t i = 0; i < v->n_sizes; i++) {
-            const size_t job = (s * v->n_sizes + i) * e->trials + (v->samplers[s]->same ? 0 : t);
+            const size_t job = (s * v->n_sizes + i) * e->trials + t;
             values[i] = e->found[job * v->n_measures + m];
             v->measures[m].n_bounds += e->status[job * v->n_measures + m] == 1;
             koksma_tally_add(&v->tallies[(s * v->n_measures + m) * v->n_sizes + i], values[i]);
         }
-        if (t == 0 || !v->samplers[s]->same) { /* slopes have one trial of the same set */
-            koksma_joint_add(&v->joints[s * v->n_measures + m], v->n_sizes, values);
-        }
+        koksma_joint_add(&v->joints[s * v->n_measures + m], v->n_sizes, values);
     }
 }
 
@@ -137,12 +135,23 @@ const koksma_tally *koksma__sheet_tally(const koksma__sheet_values *v, size_t s,
     return &v->tallies[(s * v->n_measures + m) * v->n_sizes + i];
 }
 
+/* The standard error of a mean: 0 of an exact value, NaN of the mean of a single random set. */
+static double error_of(const koksma__sheet_values *v, size_t s, size_t m, size_t i)
+{
+    return v->samplers[s]->same ? 0 : koksma_tally_error(koksma__sheet_tally(v, s, m, i));
+}
+
+bool koksma__sheet_equal(const koksma__sheet_values *v, size_t a, size_t b, size_t m, size_t i)
+{
+    return error_of(v, a, m, i) == 0 && error_of(v, b, m, i) == 0 &&
+           koksma__sheet_tally(v, a, m, i)->mean == koksma__sheet_tally(v, b, m, i)->mean;
+}
+
 int koksma__sheet_compare(const koksma__sheet_values *v, size_t a, size_t b, size_t m, size_t i, size_t tests)
 {
     const koksma_tally *x = koksma__sheet_tally(v, a, m, i), *y = koksma__sheet_tally(v, b, m, i);
     const int sign = koksma__compare(x->mean, y->mean) * (v->measures[m].spec.measure->larger_is_better ? 1 : -1);
-    const double ex = v->samplers[a]->same ? 0 : koksma_tally_error(x),
-                 ey = v->samplers[b]->same ? 0 : koksma_tally_error(y);
+    const double ex = error_of(v, a, m, i), ey = error_of(v, b, m, i);
     const double variance = ex * ex + ey * ey;
     /* the comparison is undecided if a random sampler has a single set, whose standard error is NaN */
     if (!(variance > 0)) {
@@ -344,8 +353,11 @@ void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
 {
     const koksma__sheet_values *v = &sheet->plane;
     koksma__doc_section(d, "measures", "Discrepancies and distances");
-    koksma__doc_paragraph(d, "Means over sets at n = %zu with 95 %% intervals, and slopes of log mean over log n.",
-                          v->sizes[v->n_sizes - 1]);
+    koksma__doc_paragraph(
+        d,
+        "Means over sets at n = %zu with 95 %% intervals, and slopes of log mean over log n. A "
+        "deterministic sampler has one set of each size; its values are exact and have no interval.",
+        v->sizes[v->n_sizes - 1]);
     put_summary(v, d);
     for (size_t m = 0; m < v->n_measures; m++) {
         if (!v->measures[m].left_out) {

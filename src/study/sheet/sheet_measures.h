@@ -14,6 +14,10 @@ const koksma_tally *koksma__sheet_tally(const koksma__sheet_values *values, size
 void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *values, const char *name,
                               koksma__document *d);
 
+/* Whether samplers a and b have equal values of measure m at size number i that do not vary between sets. Means of values
+   that vary are never called equal. */
+bool koksma__sheet_equal(const koksma__sheet_values *values, size_t a, size_t b, size_t m, size_t i);
+
 /* Compares samplers a and b by measure m at size number i. Returns 1 if a is better, -1 if b is better, and 0 if the
    test, whose level is 5 % divided by `tests`, does not decide. */
 int koksma__sheet_compare(const koksma__sheet_values *values, size_t a, size_t b, size_t m, size_t i, size_t tests);

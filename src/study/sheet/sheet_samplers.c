@@ -213,7 +213,7 @@ koksma_status koksma__sheet_points(const koksma__sheet_sampler *sampler, size_t 
 
 size_t koksma__sheet_trials(const koksma__sheet_sampler *sampler, size_t wanted)
 {
-    return sampler->sets < wanted ? sampler->sets : wanted;
+    return sampler->same ? 1 : sampler->sets < wanted ? sampler->sets : wanted;
 }
 
 size_t koksma__sheet_size(const koksma__sheet *sheet, size_t most)

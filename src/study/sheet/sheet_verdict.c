@@ -29,10 +29,8 @@ static outcome judge_measure(const koksma__sheet_values *v, size_t m, size_t tes
     bool lost = false;
     for (size_t s = 1; s < v->n_samplers; s++) {
         const int sign = koksma__sheet_compare(v, 0, s, m, last, tests);
-        const bool exact = v->samplers[0]->same && v->samplers[s]->same;
         won += sign > 0;
-        equal += sign == 0 &&
-                 (exact || koksma__sheet_tally(v, 0, m, last)->mean == koksma__sheet_tally(v, s, m, last)->mean);
+        equal += koksma__sheet_equal(v, 0, s, m, last);
         if (sign < 0) {
             const double sense = v->measures[m].spec.measure->larger_is_better ? -1 : 1;
             const bool better = !lost || sense * koksma__sheet_tally(v, s, m, last)->mean <
@@ -179,10 +177,19 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     put_measures(v, &s, OPEN, 0, "Not decided", d);
     put_scenes(sheet, d);
     koksma__doc_list_end(d);
-    koksma__doc_paragraph(
-        d,
-        "How sure: measures at n = %zu over %zu set%s of the sampler; all %zu comparisons hold together with 95 %% "
-        "(Welch, Bonferroni). Decisions of each scene hold together with 95 %%.",
-        v->sizes[v->n_sizes - 1], v->trials[0], v->trials[0] == 1 ? "" : "s", s.tests);
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(d,
+                    "How sure: measures at n = %zu over %zu set%s of the sampler; all %zu comparisons hold together "
+                    "with 95 %% (Welch, Bonferroni).",
+                    v->sizes[v->n_sizes - 1], v->trials[0], v->trials[0] == 1 ? "" : "s", s.tests);
+    bool exact = false;
+    for (size_t k = 0; k < v->n_samplers; k++) {
+        exact |= v->samplers[k]->same;
+    }
+    if (exact) {
+        koksma__doc_say(d, " Values of a deterministic sampler, which has one set, are exact.");
+    }
+    koksma__doc_say(d, " Decisions of each scene hold together with 95 %%.");
+    koksma__doc_paragraph_end(d);
     koksma__doc_end(d);
 }

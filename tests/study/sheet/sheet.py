@@ -97,6 +97,9 @@ def check_measure(command, rows, data):
             continue
         mine = (deep if row["dim"] > 2 else values)[sampler, row["measure"], row["n"]]
         expect(same(mine["mean"][0], row["value"]) and mine["sets"] == row["trials"], f"{command}: {mine} is {row}")
+        if row["trials"] == 1:
+            expect(mine["mean"][1:] == [None, None] and mine["SD"] is row["standard_error"] is None, f"{command}: {mine} is {row}")
+            continue
         half = student(row["trials"] - 1) * row["standard_error"]
         expect(math.isclose(mine["mean"][2] - mine["mean"][0], half, rel_tol=1e-3, abs_tol=1e-12), f"{command}: {mine}, {half}")
     return bool(rows)
@@ -256,11 +259,49 @@ def check_single_file():
     check_commands(data)
 
 
+def verdict_of(data):
+    """The numbers of measures of each outcome, and the paragraph on how sure they are."""
+    section = next(b for b in data["content"] if b.get("id") == "verdict")
+    items = [text_of(i).partition(": ") for b in section["content"] if b["kind"] == "list" for i in b["items"]]
+    count = {}
+    for head, _, names in items:
+        head = "Beaten" if head.startswith("Beaten by ") else head
+        count[head] = count.get(head, 0) + len(names.split(", "))
+    return count, text_of(section["content"][-1]["text"])
+
+
 def check_one_set():
-    """The values of a deterministic sampler are exact, but its slopes have the errors of their residuals."""
+    """The values of a deterministic sampler are exact, and it has one set of each size in every table; its slopes have the
+    errors of their residuals. Two such samplers are compared exactly; beside a random one, only that one's sets vary."""
     _, data = sheet("regular", "--beside", "none", "--scenes", "none", "--quick")
+    for name in ("values", "spectra", "integrals"):
+        expect(all(row["sets"] == 1 for row in tables(data)[name]), f"sets of regular in {name}: {tables(data)[name][0]}")
     for row in tables(data)["values"]:
-        expect(len(set(row["mean"])) == 1, f"the one set of regular: {row}")
+        expect(row["mean"][1:] == [None, None] and row["SD"] is None, f"the one set of regular: {row}")
+    for row in tables(data)["measures"]:
+        expect(row["mean"][1:] == [None, None], f"the one set of regular: {row}")
+    _, exact = sheet("regular", "--beside", "sobol", "--scenes", "none", "--quick")
+    count, sure = verdict_of(exact)
+    expect("Not decided" not in count and count["Best"] and count["Beaten"], f"two deterministic samplers: {count}")
+    expect("1 set of the sampler" in sure and "exact" in sure, sure)
+    check_verdict(exact)
+    run("generate", "sobol", "-n", "64", "-q", "-o", "sobol.txt")
+    _, same_points = sheet("sobol.txt", "--beside", "sobol", "--scenes", "none", "--quick")
+    expect(set(verdict_of(same_points)[0]) == {"Equal to the best"}, f"the same points twice: {verdict_of(same_points)}")
+    os.rename("sobol.txt", "one_64_0.txt")
+    _, one_of_many = sheet("one_{n}_{seed}.txt", "--beside", "sobol", "--scenes", "none", "--quick")
+    expect(set(verdict_of(one_of_many)[0]) == {"Not decided"}, f"one set of a random sampler: {verdict_of(one_of_many)}")
+    _, beside = sheet("regular", "--beside", "jittered", "--scenes", "none", "--quick")
+    of = {(r["sampler"], r["measure"]): r for r in tables(beside)["values"] if r["n"] == 256}
+    tests = len(of) // 2
+    for (sampler, measure), row in of.items():
+        if sampler == "jittered" and row["SD"]:
+            # Student's quantile at 1 - 0.025 / tests with 7 degrees of freedom lies between 5 and 6.5 for 15 to 20 tests.
+            distance = abs(row["mean"][0] - of["regular", measure]["mean"][0]) / (row["SD"] / math.sqrt(8))
+            said = next(text_of(i) for b in blocks(beside["content"]) if b["kind"] == "list" for i in b["items"] if measure in
+                        [w.split(" ")[0] for w in text_of(i).partition(": ")[2].split(", ")])
+            expect(15 <= tests <= 20 and (distance < 6.5 or not said.startswith("Not decided")) and
+                   (distance > 4.5 or said.startswith("Not decided")), f"{measure}: {distance} standard errors: {said}")
     slopes = [r["slope"] for r in tables(data)["slopes"] if None not in r["slope"]]
     expect(sum(s[1] < s[0] < s[2] for s in slopes) > 10, f"slopes of regular: {slopes}")  # some means are exactly n^-1/2
     check_commands(data)

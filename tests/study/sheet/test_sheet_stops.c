@@ -43,11 +43,11 @@ static void test_asks_within_sets(void **state)
 {
     (void)state;
     calls whole = {.n = 0};
-    assert_ok(sheet_of("regular", &whole));
+    assert_ok(sheet_of("jittered", &whole));
     assert_true(whole.fractions > 10 && whole.in_measures > 50 * whole.fractions);
     for (long last = 1; last <= whole.n; last = last * 2 + 1) {
         calls c = {.last = last};
-        assert_int_equal(sheet_of("regular", &c), KOKSMA_INTERRUPTED);
+        assert_int_equal(sheet_of("jittered", &c), KOKSMA_INTERRUPTED);
         assert_true(c.n < last + 8); /* each of the calls that end asks no more than once */
     }
 }
