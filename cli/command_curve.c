@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma curve`: prints the rows of a curve of the table curves.def, for each source. */
 #include "curves.h"
+#include "output.h"
 #include "source.h"
 
 /* A sink that prints the rows of a curve. */
@@ -44,7 +45,7 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     row_sink sink = {.sink = {.row = put_row}, .rows = cli_rows_open(cli_flag(arguments, "json")), .curve = curve};
-    int code = CLI_YES;
+    int code = cli_try_output(arguments, c.output);
     for (int i = 1; i < arguments->n_operands && !code; i++) {
         sink.source = arguments->operands[i];
         code = curve->compute(&c, sink.source, &sink.sink);

@@ -10,6 +10,7 @@
 #include <koksma/plot.h>
 
 #include "cli.h"
+#include "output.h"
 
 /* The items of an option that is a list: `texts` has copies of the items, and `at` has pointers to these. The list
    "none" has no items. */
@@ -112,6 +113,10 @@ static int run(const cli_arguments *arguments)
         .metric = cli_text(arguments, "metric", NULL),
         .quick = cli_flag(arguments, "quick"),
     };
+    const int code = cli_try_output(arguments, output);
+    if (code) {
+        return code;
+    }
     koksma_status status = koksma_datasheet(&options, &work.run, &json);
     cli_work_end();
     status = status ? status : write_sheet(output, is_page, json);

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "output.h"
 #include "source.h"
 #include "warps.h"
 
@@ -143,11 +144,14 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(arguments, "--first needs -n N and excludes --warp");
     }
     const char *density = cli_text(arguments, "density", NULL), *on = cli_text(arguments, "on", NULL);
+    if ((density || on) && (!source.n || first || warp || (density && on))) {
+        return cli_usage_error(arguments, "--density and --on need -n N, and exclude each other, --first and --warp");
+    }
+    code = cli_try_output(arguments, cli_text(arguments, "output", "-"));
+    if (code) {
+        return code;
+    }
     if (density || on) {
-        if (!source.n || first || warp || (density && on)) {
-            return cli_usage_error(arguments,
-                                   "--density and --on need -n N, and exclude each other, --first and --warp");
-        }
         code = generate_in(arguments, &source, density, on, seed, &work);
         cli_work_end();
         return code;

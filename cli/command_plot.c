@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "charts.h"
+#include "output.h"
 #include "source.h"
 #include "warps.h"
 
@@ -78,7 +79,8 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     const koksma_status status = koksma_plot_format_of(c.output, &c.format);
-    return status ? cli_fail(arguments, status) : curve->plot.draw(&c);
+    const int code = status ? cli_fail(arguments, status) : cli_try_output(arguments, c.output);
+    return code ? code : curve->plot.draw(&c);
 }
 
 static const cli_option options[] = {

@@ -12,6 +12,7 @@
 #include "adaptive_options.h"
 #include "cli.h"
 #include "id_colours.h"
+#include "output.h"
 #include "render_options.h"
 
 static int put_row(const cli_arguments *arguments, const koksma_render_options *options, const cli_adaptive *adaptive,
@@ -240,7 +241,9 @@ static int run(const cli_arguments *arguments)
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_idle_uses(arguments, arguments->operands[0], scene, &options);
         }
-        code = announce_size(arguments, scene, &options, &adaptive.options, &aovs)
+        code = cli_try_output(arguments, cli_text(arguments, "output", ""));
+        code = code ? code
+               : announce_size(arguments, scene, &options, &adaptive.options, &aovs)
                    ? render(arguments, scene, &options, &adaptive, &aovs)
                    : koksma_status_exit_code(KOKSMA_MEMORY);
     }

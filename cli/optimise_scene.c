@@ -182,8 +182,8 @@ int cli_optimise_scene(const cli_arguments *arguments)
     j->options.scene = cli_text(arguments, "scene", NULL);
     j->options.found = found;
     j->options.context = j;
-    int code = CLI_USAGE;
-    if (parse(j)) {
+    int code = parse(j) ? cli_try_output(arguments, cli_text(arguments, "output", "-")) : CLI_USAGE;
+    if (!code) {
         koksma_status status = koksma_optimise_scene(&j->options, &j->work.run, &j->best);
         cli_work_end();
         if (j->best.points.n && cli_is_stream(cli_text(arguments, "output", "-"))) {

@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/types.h>
@@ -68,6 +69,40 @@ bool cli_is_stdout(const char *path)
     return !strcmp(path, "-") ||
            (cli_is_stream(path) && strcmp(path, "/dev/stderr") != 0 && !stat(path, &info) &&
             !fstat(STDOUT_FILENO, &out) && info.st_dev == out.st_dev && info.st_ino == out.st_ino);
+}
+
+/* Returns why no file can be written at `path`, as errno; 0: it can, or there is a link to a new file, of which only the
+   writer finds out where it leads. */
+static int why_not(const char *path)
+{
+    struct stat info;
+    char *known = realpath(path, NULL);
+    if (!known && !lstat(path, &info) && S_ISLNK(info.st_mode)) {
+        return 0;
+    }
+    const char *at = known ? known : path, *slash = strrchr(at, '/');
+    char *folder = slash ? strndup(at, slash == at ? 1 : (size_t)(slash - at)) : strdup(".");
+    const int why = !folder                                                 ? ENOMEM
+                    : known && !stat(known, &info) && S_ISDIR(info.st_mode) ? EISDIR
+                    : stat(folder, &info)                                   ? errno
+                    : !S_ISDIR(info.st_mode)                                ? ENOTDIR
+                    : slash && !slash[1]                                    ? ENOENT
+                    : access(folder, W_OK | X_OK)                           ? errno
+                                                                            : 0;
+    free(folder);
+    free(known);
+    return why;
+}
+
+int cli_try_output(const cli_arguments *arguments, const char *path)
+{
+    const int why = !path || cli_is_stream(path) ? 0 : why_not(path);
+    if (why) {
+        cli_usage_error(arguments, "%s: can't be written: %s", path,
+                        why == EISDIR ? "it is a directory" : strerror(why));
+        return koksma_status_exit_code(KOKSMA_IO);
+    }
+    return CLI_YES;
 }
 
 bool cli_check_output(const cli_arguments *arguments, const char *path)

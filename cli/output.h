@@ -21,6 +21,10 @@ bool cli_is_stream(const char *path);
 /* Returns whether `path` is standard output: "-", /dev/stdout, or another name of the stream behind it. */
 bool cli_is_stdout(const char *path);
 
+/* Tries, before work that takes long, whether the file `path` can be written: its folder is there and allows new files.
+   Makes nothing; NULL and streams are not tried. Returns the exit code, which is not 0 after an error. */
+int cli_try_output(const cli_arguments *arguments, const char *path);
+
 /* Returns false, after an error, if --json is given and the result is written to standard output, which has no place for
    rows then. */
 bool cli_check_output(const cli_arguments *arguments, const char *path);
