@@ -114,6 +114,10 @@ static koksma_status check_options(const koksma_datasheet_options *o)
     }
     for (size_t i = 0; o->scenes && i < o->n_scenes; i++) {
         KOKSMA__FAIL_IF(!o->scenes[i], KOKSMA_ARGUMENT, "scenes[%zu] is NULL", i);
+        for (size_t k = 0; k < i; k++) {
+            KOKSMA__FAIL_IF(!strcmp(o->scenes[k], o->scenes[i]), KOKSMA_ARGUMENT, "scene '%s' is given twice",
+                            o->scenes[i]);
+        }
     }
     return KOKSMA_OK;
 }
