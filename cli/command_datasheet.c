@@ -85,11 +85,11 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(arguments, "--output is missing: it takes a file such as sheet.html");
     }
     const bool is_page = ends_with(output, ".html");
-    if (!is_page && !ends_with(output, ".json") && !(to_stdout && !strcmp(output, "-"))) {
-        return cli_usage_error(arguments, "--output %s: a datasheet is written as .html or .json", output);
+    if (to_stdout && strcmp(output, "-") != 0) {
+        return cli_usage_error(arguments, "--json: it prints the data, and excludes --output %s", output);
     }
-    if (is_page && to_stdout) {
-        return cli_usage_error(arguments, "--json: it excludes an --output that does not end in .json");
+    if (!is_page && !ends_with(output, ".json") && !to_stdout) {
+        return cli_usage_error(arguments, "--output %s: a datasheet is written as .html or .json", output);
     }
     if (!read_list(arguments, "beside", KOKSMA_MAX_BESIDE, &beside) ||
         !read_list(arguments, "scenes", KOKSMA_MAX_SHEET_SCENES, &scenes) ||
@@ -132,7 +132,7 @@ static const cli_option options[] = {
     CLI_UNKNOWN_OPTION,
     {'m', "metric", "METRIC", "metric of the errors in scenes: mae (default), relmse, ldr-flip, ..."},
     {0, "quick", NULL, "use fewer sets, numbers of points and images; takes less than a minute"},
-    {0, "json", NULL, "print the data on stdout instead of writing a page"},
+    {0, "json", NULL, "print the data on stdout instead of writing a file"},
     CLI_RUN_OPTIONS,
     {0},
 };
