@@ -57,7 +57,10 @@ void koksma__sheet_note_error(koksma__sheet *sheet, const char *what)
         koksma__doc_list_begin(&sheet->notes, "left-out", false);
     }
     koksma__doc_item(&sheet->notes);
-    koksma__doc_say(&sheet->notes, "`%s`: %s", what, koksma_error_text());
+    const char *text = koksma_error_text();
+    const size_t length = strlen(what);
+    const bool named = !strncmp(text, what, length) && !strncmp(text + length, ": ", 2);
+    koksma__doc_say(&sheet->notes, "`%s`: %s", what, text + (named ? length + 2 : 0));
 }
 
 static bool is_plain(char c)

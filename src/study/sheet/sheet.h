@@ -98,7 +98,7 @@ koksma_run koksma__sheet_part(koksma__sheet *sheet, double share, double pass_sh
    as no progress. */
 koksma_run koksma__sheet_one_set(koksma__sheet *sheet);
 
-/* Appends a note: `what`, then the text of this thread's last error. */
+/* Appends a note: `what`, then the text of this thread's last error, which may begin with `what` itself. */
 void koksma__sheet_note_error(koksma__sheet *sheet, const char *what);
 
 /* Writes the operand that names sets of a sampler in a command, quoted for a shell if necessary: pattern:SPEC@n,

@@ -243,7 +243,7 @@ def check_family():
                 expect(same(r["mean"][0], row["value"]), f"{r} is {row}")
     expect(SANITIZED or {r["samples a pixel"] for r in tables(data)["scene-checker"]} == {16}, "samples a pixel")
     left = [text_of(i) for b in blocks(data["content"]) if b.get("id") == "left-out" for i in b["items"]]
-    expect(any(i.startswith("t-value: ") for i in left), f"100 points are no net: {left}")
+    expect(any(i.startswith("t-value: n = ") for i in left), f"100 points are no net: {left}")
     expect("t-value" not in {r["measure"] for r in values}, "t-value of 100 points")
     check_commands(data)
     check_verdict(data)
