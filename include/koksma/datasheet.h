@@ -39,7 +39,8 @@ typedef struct koksma_datasheet_options {
    the numbers of points that the files have, a pattern with 16, 64, 256, ... points. Equal options and files give
    equal texts, except for the member "seconds" on the second-last line.
      json  receives a text that the caller frees with free()
-   Errors: those of koksma_generate for the sampler (the message of MISSING names the files that were looked for),
+   Errors: those of koksma_generate for the sampler (the message of MISSING names the files that were looked for;
+   MALFORMED also: its file has points of 1 dimension),
    those of koksma_rank_patterns for a scene, ARGUMENT (too many samplers or scenes, or one given twice), MEMORY,
    INTERRUPTED. A compared sampler or a measure that does not accept one of the numbers of points is no error: the
    datasheet leaves it out and gives the reason. */

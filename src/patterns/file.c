@@ -29,7 +29,8 @@ static koksma_status read_set(size_t n, uint64_t seed, const koksma_args *args, 
         status = koksma__fail(KOKSMA_MISSING, "file:%s: there is no file %s", args->path, path);
     }
     if (!status && out->dim < dim) {
-        status = koksma__fail(KOKSMA_DIM, "file:%s: its points have %d dimensions, not %d", path, out->dim, dim);
+        status = koksma__fail(KOKSMA_DIM, "file:%s: its points have %d dimension%s, not %d", path, out->dim,
+                              out->dim == 1 ? "" : "s", dim);
     }
     if (!status && n && out->n != n && koksma__file_has(args->path, "{n}")) {
         status = koksma__fail(KOKSMA_MALFORMED, "file:%s: %s has %zu points, but its name says %zu", args->path, path,

@@ -77,7 +77,7 @@ static void glob_of(const char *path, bool escape, char *out, size_t size)
     out[used] = '\0';
 }
 
-/* Reads n and seed from a path that glob found. Returns false if the path has another form. */
+/* Reads n and seed from a path that glob found. Returns false if the path has another form; no set has 0 points. */
 static bool read_numbers(const char *path, const char *found, koksma__file_set *set)
 {
     char again[KOKSMA_MAX_SPEC];
@@ -105,7 +105,8 @@ static bool read_numbers(const char *path, const char *found, koksma__file_set *
         text = end;
         at += length;
     }
-    return !koksma__file_name(path, set->n, set->seed, again) && !strcmp(again, found);
+    return (set->n || !koksma__file_has(path, place_n)) && !koksma__file_name(path, set->n, set->seed, again) &&
+           !strcmp(again, found);
 }
 
 static int compare_sets(const void *a, const void *b)

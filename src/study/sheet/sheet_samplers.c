@@ -257,6 +257,11 @@ static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by
     }
     status = koksma__reads_points(sampler->spec.pattern) ? look_at_files(sheet, sampler) : KOKSMA_OK;
     status = status ? status : try_sizes(sheet, sampler);
+    if (first && status == KOKSMA_DIM && koksma__reads_points(sampler->spec.pattern)) {
+        char reason[1024]; /* a sheet takes no such file */
+        snprintf(reason, sizeof reason, "%s", koksma_error_text());
+        return koksma__fail(KOKSMA_MALFORMED, "%s", reason);
+    }
     if (status && !first && status != KOKSMA_MISSING && status != KOKSMA_MALFORMED && status != KOKSMA_MEMORY &&
         status != KOKSMA_INTERRUPTED) {
         koksma__sheet_note_error(sheet, sampler->text);
