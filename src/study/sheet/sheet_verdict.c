@@ -189,7 +189,9 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     if (exact) {
         koksma__doc_say(d, " Values of a deterministic sampler, which has one set, are exact.");
     }
-    koksma__doc_say(d, " Decisions of each scene hold together with 95 %%.");
+    if (of_scenes) {
+        koksma__doc_say(d, " Decisions of each scene hold together with 95 %%.");
+    }
     koksma__doc_paragraph_end(d);
     koksma__doc_end(d);
 }
