@@ -68,15 +68,10 @@ static bool is_plain(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || strchr("@%+=:,./-_", c);
 }
 
-void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int dim, char *out, size_t size)
+void koksma__sheet_word(const char *text, char *out, size_t size)
 {
-    char text[2 * KOKSMA_MAX_SPEC], deep[16] = "";
-    bool plain = true;
+    bool plain = *text;
     size_t used = 0;
-    if (dim != 2) {
-        snprintf(deep, sizeof deep, "@%d", dim);
-    }
-    snprintf(text, sizeof text, "pattern:%s@%zu%s", sampler->text, n, deep);
     for (const char *at = text; *at; at++) {
         plain &= is_plain(*at);
     }
@@ -89,6 +84,16 @@ void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int di
         used += (size_t)snprintf(out + used, size - used, *at == '\'' ? "'\\''" : "%c", *at);
     }
     snprintf(out + used, size - used, "'");
+}
+
+void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int dim, char *out, size_t size)
+{
+    char text[2 * KOKSMA_MAX_SPEC], deep[16] = "";
+    if (dim != 2) {
+        snprintf(deep, sizeof deep, "@%d", dim);
+    }
+    snprintf(text, sizeof text, "pattern:%s@%zu%s", sampler->text, n, deep);
+    koksma__sheet_word(text, out, size);
 }
 
 void koksma__sheet_command(koksma__sheet *sheet, const char *format, ...)

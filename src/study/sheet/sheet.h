@@ -18,7 +18,7 @@ enum {
     KOKSMA__SHEET_SIZES = 6,
     KOKSMA__SHEET_MEASURES = 64,
     KOKSMA__SHEET_SPP = 3,
-    KOKSMA__SHEET_COMMAND = 2048,
+    KOKSMA__SHEET_COMMAND = 8192, /* bytes of a list of samplers or sizes with the longest names */
     KOKSMA__SHEET_COMMANDS = 64
 };
 
@@ -101,8 +101,11 @@ koksma_run koksma__sheet_one_set(koksma__sheet *sheet);
 /* Appends a note: `what`, then the text of this thread's last error, which may begin with `what` itself. */
 void koksma__sheet_note_error(koksma__sheet *sheet, const char *what);
 
-/* Writes the operand that names sets of a sampler in a command, quoted for a shell if necessary: pattern:SPEC@n,
-   followed by @dim unless dim is 2. */
+/* Writes a text as one word of a command, quoted for a shell if necessary. */
+void koksma__sheet_word(const char *text, char *out, size_t size);
+
+/* Writes the operand that names sets of a sampler in a command, as one word: pattern:SPEC@n, followed by @dim unless
+   dim is 2. */
 void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int dim, char *out, size_t size);
 
 /* Collect command lines for a section, without the word "koksma"; koksma__sheet_put_commands writes and empties

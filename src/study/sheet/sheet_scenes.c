@@ -179,24 +179,31 @@ static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document
     koksma__doc_end(d);
 }
 
+/* Writes the command that gives a scene's numbers. No list of patterns can have a path with a comma. */
 static void put_command(koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
     const koksma_ranking *ranking = &sheet->rankings[scene * sheet->n_spp].ranking;
-    char patterns[KOKSMA__SHEET_COMMAND] = "", spp[64] = "";
-    bool quoted = false;
+    char patterns[KOKSMA__SHEET_COMMAND] = "", word[KOKSMA__SHEET_COMMAND], name[KOKSMA__SHEET_COMMAND], spp[64] = "";
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         const size_t used = strlen(patterns);
         snprintf(patterns + used, sizeof patterns - used, "%s%s", used ? "," : "", sheet->samplers[s]->text);
-        quoted |= sheet->samplers[s]->text[strcspn(sheet->samplers[s]->text, " {}[]*?$&;|<>()\"\\`!#~")] != '\0';
+        if (strchr(sheet->samplers[s]->spec.path, ',')) {
+            koksma__doc_paragraph(d,
+                                  "No command is given for these numbers: `koksma rank` takes patterns with commas "
+                                  "between them, and the name of %s has one.",
+                                  sheet->samplers[s]->text);
+            return;
+        }
     }
+    koksma__sheet_word(patterns, word, sizeof word);
+    koksma__sheet_word(sheet->scenes[scene], name, sizeof name);
     for (size_t k = 0; k < sheet->n_spp; k++) {
         const size_t used = strlen(spp);
         snprintf(spp + used, sizeof spp - used, "%s%d", used ? "," : "", sheet->spp[k]);
     }
     koksma__sheet_command(
-        sheet, "rank %s --spp %s --size %dx%d -p %s%s%s%s%s --max-trials %zu --one-size --time-limit 1000000000",
-        sheet->scenes[scene], spp, ranking->width, ranking->height, quoted ? "'" : "", patterns, quoted ? "'" : "",
-        strcmp(sheet->metric_text, "mae") ? " --metric " : "",
+        sheet, "rank %s --spp %s --size %dx%d -p %s%s%s --max-trials %zu --one-size --time-limit 1000000000", name,
+        spp, ranking->width, ranking->height, word, strcmp(sheet->metric_text, "mae") ? " --metric " : "",
         strcmp(sheet->metric_text, "mae") ? sheet->metric_text : "", sheet->max_trials);
     koksma__sheet_put_commands(sheet, d);
 }

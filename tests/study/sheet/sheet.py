@@ -275,6 +275,21 @@ def verdict_of(data):
     return count, text_of(section["content"][-1]["text"])
 
 
+def check_names():
+    """Names of files that a shell or a list would read otherwise: every command that is printed serves, and where no command
+    can have the name, the page says so."""
+    where = Path("it's here; {a} & " + "long" * 40)
+    where.mkdir()
+    Path("a scene.json").write_bytes((ROOT / "scenes/ball.json").read_bytes())
+    for name in ("a.txt", "a,b.txt"):
+        run("generate", "jittered", "-n", "64", "-q", "-o", str(where / name))
+        _, data = sheet(str(where / name), "--beside", "random", "--scenes", "./a scene.json", "--quick")
+        done = check_commands(data)
+        expect(SANITIZED or done == {"plot": 1, "measure": 2, "integrate": 2, "curve": 6, "verify": 2} | ({"rank": 1} if name == "a.txt" else {}), done)
+        said = [text_of(b["text"]) for b in blocks(data["content"]) if b["kind"] == "paragraph"]
+        expect(any("No command is given" in s for s in said) == ("," in name), said)
+
+
 def check_one_set():
     """The values of a deterministic sampler are exact, and it has one set of each size in every table; its slopes have the
     errors of their residuals. Two such samplers are compared exactly; beside a random one, only that one's sets vary."""
@@ -319,6 +334,7 @@ def main():
         check_family()
         check_single_file()
         check_one_set()
+        check_names()
     print(f"{problems} problems")
     return problems > 0
 
