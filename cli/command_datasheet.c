@@ -20,7 +20,10 @@ typedef struct list {
     size_t n;
 } list;
 
-/* Reads the list of an option, with at most `most` items. Returns false after an error. */
+static const char file_prefix[] = "file:";
+
+/* Reads the list of an option, with at most `most` items. Returns false after an error, also where two items are the halves
+   of the name of a file. */
 static bool read_list(const cli_arguments *arguments, const char *option, size_t most, list *out)
 {
     const char *text = cli_text(arguments, option, NULL);
@@ -34,6 +37,17 @@ static bool read_list(const cli_arguments *arguments, const char *option, size_t
         snprintf(out->texts[out->n], sizeof *out->texts, "%s", item);
         out->at[out->n] = out->texts[out->n];
         out->n++;
+    }
+    for (size_t i = 1; i < out->n; i++) {
+        char joined[2 * KOKSMA_MAX_SPEC];
+        snprintf(joined, sizeof joined, "%s,%s", out->texts[i - 1], out->texts[i]);
+        const char *path =
+            joined + (strncmp(joined, file_prefix, sizeof file_prefix - 1) ? 0 : sizeof file_prefix - 1);
+        if (!access(path, F_OK)) {
+            cli_usage_error(arguments, "--%s: a comma in the name of a file, '%s', ends the item; rename the file",
+                            option, path);
+            return false;
+        }
     }
     return true;
 }
