@@ -52,19 +52,25 @@ static bool read_list(const cli_arguments *arguments, const char *option, size_t
     return true;
 }
 
-/* Takes pattern:SPEC as SPEC, as all commands do. Returns false, after an error, for SPEC@N, because a datasheet
-   chooses the n. */
-static bool take_sampler(const cli_arguments *arguments, const char **text)
+/* Takes pattern:SPEC as SPEC, as all commands do. Refuses SPEC@N, because a datasheet chooses the n, and points from a
+   pipe, because they are read several times and commands on the page name them. Returns the exit code. */
+static int take_sampler(const cli_arguments *arguments, const char **text)
 {
     static const char prefix[] = "pattern:";
     *text += strncmp(*text, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
     const char *at = strchr(*text, '@');
     if (at && at[1] && !at[1 + strspn(at + 1, "0123456789@")] && access(*text, F_OK)) {
-        cli_usage_error(arguments, "%s: a datasheet chooses the numbers of points; it takes %.*s", *text,
-                        (int)(at - *text), *text);
-        return false;
+        return cli_usage_error(arguments, "%s: a datasheet chooses the numbers of points; it takes %.*s", *text,
+                               (int)(at - *text), *text);
     }
-    return true;
+    if (cli_is_stream(*text)) {
+        cli_usage_error(arguments,
+                        "%s: points are read several times, so they must be in a file, not a pipe; write "
+                        "them to a file first",
+                        *text);
+        return koksma_status_exit_code(KOKSMA_MALFORMED);
+    }
+    return CLI_YES;
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -111,12 +117,12 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     const char *sampler = arguments->operands[0];
-    bool good = take_sampler(arguments, &sampler);
-    for (size_t i = 0; good && i < beside.n; i++) {
-        good = take_sampler(arguments, &beside.at[i]);
+    int code = take_sampler(arguments, &sampler);
+    for (size_t i = 0; !code && i < beside.n; i++) {
+        code = take_sampler(arguments, &beside.at[i]);
     }
-    if (!good) {
-        return CLI_USAGE;
+    if (code) {
+        return code;
     }
     const koksma_datasheet_options options = {
         .sampler = sampler,
@@ -127,7 +133,7 @@ static int run(const cli_arguments *arguments)
         .metric = cli_text(arguments, "metric", NULL),
         .quick = cli_flag(arguments, "quick"),
     };
-    const int code = cli_try_output(arguments, output);
+    code = cli_try_output(arguments, output);
     if (code) {
         return code;
     }
@@ -170,7 +176,8 @@ const cli_command cli_command_datasheet = {
         "have "
         "less than half as many files as another. It renders scenes "
         "with as many samples per pixel as a file has points, such as 16; each pixel and use then takes one of the "
-        "files of that size at random. --beside accepts such names, too. FILE is a single set of points.\n"
+        "files of that size at random. --beside accepts such names, too. FILE is a single set of points. "
+        "All are plain files, not pipes or -, because they are read several times.\n"
         "\n"
         "The numbers of sets and images are fixed, so that equal sets give equal results. There are 16 sets of each "
         "size from 16 to 4,096 points, and up to 64 images of each sampler in each scene; with --quick 8 sets of up "
