@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma datasheet`: compares one sampler with others in all respects, and writes an HTML page, or the JSON that the
    page shows. */
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,6 +74,47 @@ static int take_sampler(const cli_arguments *arguments, const char **text)
     return CLI_YES;
 }
 
+/* Whether the files of a sampler include `output`. */
+static bool sampler_reads(const char *sampler, const char *output)
+{
+    koksma_spec spec;
+    const char *path = koksma_pattern_spec(sampler, &spec) || !*spec.path ? sampler : spec.path;
+    char names[2 * KOKSMA_MAX_SPEC];
+    glob_t found = {0};
+    size_t used = 0;
+    while (*path && used + 8 < sizeof names) {
+        const size_t length = !strncmp(path, "{n}", 3) ? 3 : !strncmp(path, "{seed}", 6) ? 6 : 0;
+        used += (size_t)(length                   ? snprintf(names + used, 8, "[0-9]*")
+                         : strchr("*?[\\", *path) ? snprintf(names + used, 8, "\\%c", *path)
+                                                  : snprintf(names + used, 8, "%c", *path));
+        path += length ? length : 1;
+    }
+    bool same = false;
+    if (used && !glob(names, GLOB_NOSORT, NULL, &found)) {
+        for (size_t i = 0; i < found.gl_pathc; i++) {
+            same |= cli_is_same_file(found.gl_pathv[i], output);
+        }
+    }
+    globfree(&found);
+    return same;
+}
+
+/* Refuses an output that is a file of a sampler or a scene. Returns the exit code. */
+static int check_inputs(const cli_arguments *arguments, const koksma_datasheet_options *o, const char *output)
+{
+    const char *input = sampler_reads(o->sampler, output) ? o->sampler : NULL;
+    for (size_t i = 0; i < o->n_beside; i++) {
+        input = sampler_reads(o->beside[i], output) ? o->beside[i] : input;
+    }
+    for (size_t i = 0; i < o->n_scenes; i++) {
+        input = cli_is_same_file(o->scenes[i], output) ? o->scenes[i] : input;
+    }
+    return input ? cli_usage_error(arguments,
+                                   "--output %s: it would replace what the datasheet reads, %s; choose another file",
+                                   output, input)
+                 : CLI_YES;
+}
+
 static bool ends_with(const char *text, const char *end)
 {
     const size_t length = strlen(text), n = strlen(end);
@@ -133,7 +175,8 @@ static int run(const cli_arguments *arguments)
         .metric = cli_text(arguments, "metric", NULL),
         .quick = cli_flag(arguments, "quick"),
     };
-    code = cli_try_output(arguments, output);
+    code = check_inputs(arguments, &options, output);
+    code = code ? code : cli_try_output(arguments, output);
     if (code) {
         return code;
     }

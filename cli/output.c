@@ -71,6 +71,12 @@ bool cli_is_stdout(const char *path)
             !fstat(STDOUT_FILENO, &out) && info.st_dev == out.st_dev && info.st_ino == out.st_ino);
 }
 
+bool cli_is_same_file(const char *a, const char *b)
+{
+    struct stat info, other;
+    return !stat(a, &info) && !stat(b, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
+}
+
 /* Returns why no file can be written at `path`, as errno; 0: it can, or there is a link to a new file, of which only the
    writer finds out where it leads. */
 static int why_not(const char *path)

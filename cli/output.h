@@ -21,6 +21,9 @@ bool cli_is_stream(const char *path);
 /* Returns whether `path` is standard output: "-", /dev/stdout, or another name of the stream behind it. */
 bool cli_is_stdout(const char *path);
 
+/* Returns whether two paths lead to the same file, which is there. */
+bool cli_is_same_file(const char *a, const char *b);
+
 /* Tries, before work that takes long, whether the file `path` can be written: its folder is there and allows new files.
    Makes nothing; NULL and streams are not tried. Returns the exit code, which is not 0 after an error. */
 int cli_try_output(const cli_arguments *arguments, const char *path);
