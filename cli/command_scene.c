@@ -90,7 +90,8 @@ const cli_command cli_command_scene = {
                "(exit code 3). A warning reports something odd that can still be rendered (exit code 1). stdout "
                "lists what the\n"
                "scene contains: the bounding box of each part, and the largest region of the image that the part can "
-               "cover.\n",
+               "cover,\n"
+               "both while the shutter is open: with every motion, and through the whole lens.\n",
     .examples = "koksma scene check ball\n",
     .options = options,
     .run = run,

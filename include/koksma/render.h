@@ -92,12 +92,14 @@ typedef struct koksma_scene_counts {
 /* Counts the objects of a scene. */
 KOKSMA_API koksma_scene_counts koksma_scene_count(const koksma_scene *scene);
 
-/* The position of a shape or placed mesh in a scene and in the image. */
+/* The position of a shape or placed mesh in a scene and in the image, with all places that it has while the shutter is
+   open. */
 typedef struct koksma_scene_part {
     char name[80];          /* the kind of a shape, or "mesh" and the name of a placed mesh */
-    double low[3], high[3]; /* bounding box of the part at time 0; infinite for a plane */
+    double low[3], high[3]; /* bounding box of all these places; infinite for a plane */
     bool in_frame;          /* false: the camera sees at most reflections and shadows of the part */
-    double frame[4];        /* rectangle of the image outside which the box is not seen: left, right, top, bottom,
+    double frame[4];        /* rectangle of the image, in the scene's size, outside which no camera ray meets the box,
+                               wherever the camera and through whatever point of the lens: left, right, top, bottom,
                                from 0 to 1 */
 } koksma_scene_part;
 

@@ -38,7 +38,8 @@ def scenes() -> List[str]:
 @dataclass(frozen=True)
 class ScenePart:
     """A shape of a scene, or a placed mesh. low and high are the corners of its bounding box, infinite for a plane; frame is the
-    part of the image that the box covers at most (left, right, top, bottom, from 0 to 1), or None where the camera does not see it."""
+    part of the image that the box covers at most (left, right, top, bottom, from 0 to 1), or None where the camera does not see it.
+    Both are for the whole time while the shutter is open, and for the whole lens."""
 
     name: str
     low: Tuple[float, float, float]
