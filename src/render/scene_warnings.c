@@ -124,6 +124,34 @@ static bool of_hidden_lights(const koksma_scene *scene, asked *a)
     return true;
 }
 
+/* Warns about an environment whose image is black or has negative numbers. This check is the last one, because it reads
+   the whole image. */
+static bool of_environment(const koksma_scene *scene, asked *a)
+{
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        const koksma_image *image = scene->lights[i].image;
+        const size_t pixels = image ? (size_t)image->width * (size_t)image->height : 0;
+        size_t negative = 0, lit = 0;
+        for (size_t p = 0; p < pixels; p++) {
+            const float *rgb = image->pixels + p * (size_t)image->channels;
+            const bool colour = image->channels == 3;
+            negative += rgb[0] < 0 || (colour && (rgb[1] < 0 || rgb[2] < 0));
+            lit += rgb[0] > 0 || (colour && (rgb[1] > 0 || rgb[2] > 0));
+        }
+        if (pixels && (negative || !lit) && !is_dark(scene->lights[i].radiance) && here(a)) {
+            if (lit) {
+                snprintf(a->text, a->size,
+                         "the image of light %zu has negative numbers in %zu of %zu pixels; they count as 0", i,
+                         negative, pixels);
+            } else {
+                snprintf(a->text, a->size, "light %zu emits no light: no number in its image is above 0", i);
+            }
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool of_materials(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_materials; i++) {
@@ -240,7 +268,7 @@ bool koksma__scene_warning(const koksma_scene *scene, const koksma__integrator_f
     const bool by_paths = lit && (!flags || flags->followed & KOKSMA__LOBE_DIFFUSE);
     const bool found = of_materials(scene, &a) || of_all(scene, &a) || of_meshes(scene, &a) ||
                        of_placements(scene, &a) || (lit && of_lights(scene, &a)) ||
-                       (by_paths && of_hidden_lights(scene, &a));
+                       (by_paths && of_hidden_lights(scene, &a)) || (lit && of_environment(scene, &a));
     if (found && size) {
         koksma_text_escape(text, size);
     }
