@@ -69,7 +69,7 @@ static double upper_fraction(double k, double x)
 
 static double upper_gamma(double k, double x)
 {
-    return x <= 0 ? 1 : x < k + 1 ? -expm1(log_series(k, x)) : upper_fraction(k, x);
+    return x <= 0 ? 1 : x < k + 1 ? 0 - expm1(log_series(k, x)) : upper_fraction(k, x);
 }
 
 /* Returns the probability that the power at one frequency with a mirror image exceeds x. */
@@ -116,7 +116,7 @@ double koksma__coherence_tail(const koksma__coherence_law *law, double x)
     if (law->real) {
         log_below += (double)law->real * log1p(-fmin(real_tail(law, x), 1));
     }
-    return -expm1(log_below);
+    return 0 - expm1(log_below); /* not -0 */
 }
 
 double koksma__coherence_quantile(const koksma__coherence_law *law, double tail)

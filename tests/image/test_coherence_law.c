@@ -16,6 +16,8 @@ static void tails_are_the_known_ones(void **state)
      */
     const koksma__coherence_law one = {5, 1, 0, 0}, same = {5, 1, 0, 1};
     assert_near(koksma__coherence_quantile(&one, 0.05), 18.307038 / 10, 1e-6);
+    /* All power at one frequency is the most that there can be: it has the probability 0, and not -0. */
+    assert_true(koksma__coherence_tail(&five, 5) == 0 && !signbit(koksma__coherence_tail(&five, 5)));
     /* All in common: exponential. */
     assert_near(koksma__coherence_tail(&same, 3), exp(-3), 1e-12);
     /* A frequency that is its own mirror image: chi-squared of 1 degree, 3.841459 at 5 %; of T images of T degrees.
