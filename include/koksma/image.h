@@ -162,7 +162,7 @@ typedef struct koksma_metric_value {
     double value;
     double robust;    /* the value without the `top` pixels that have the largest error */
     double top_share; /* fraction, 0 .. 1, of the summed error of all pixels that comes from the `top` pixels */
-    size_t top;       /* number of pixels that `robust` leaves out: 0.1 % of all, rounded down */
+    size_t top;       /* number of pixels that `robust` leaves out: 0.1 % of all, rounded down; 0 below 1000 */
 } koksma_metric_value;
 
 /* If top_share is at least this number, a few pixels carry most of the error. */

@@ -5,7 +5,7 @@
  * the value:
  *
  *     top_share  the share of the sum of all errors that comes from the 0.1 % of the pixels with the largest
- *                errors; 0 for fewer than 1000 pixels
+ *                errors, rounded down: 0 for fewer than 1000 pixels
  *     robust     the value without these pixels, which is a one-sided trimmed mean
  *
  * Where top_share is large, the value says more about a few pixels (fireflies) than about the image, and ranking
