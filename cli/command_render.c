@@ -71,6 +71,8 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
     }
 }
 
+enum { PATH = 4096 };
+
 /* Writes the name that an AOV has in files, with '-' instead of ':'. */
 static void name_layer(const char *aov, char out[16])
 {
@@ -80,16 +82,62 @@ static void name_layer(const char *aov, char out[16])
     }
 }
 
+/* Writes the path of an AOV's own file, beside an image whose format has no layers. Returns false if it is too long. */
+static bool layer_path(const char *output, const char *aov, char path[PATH])
+{
+    const char *dot = strrchr(output, '.');
+    char name[16];
+    name_layer(aov, name);
+    return snprintf(path, PATH, "%.*s.%s%s", (int)(dot - output), output, name, dot) < PATH;
+}
+
+/* Finds file i of those that the command writes: `option` is its part of the command line; the path is empty if the option
+   isn't given. Returns false past the last one. */
+static bool file_at(const cli_arguments *arguments, const cli_adaptive *adaptive, const koksma_aovs *aovs, int i,
+                    char option[64], char path[PATH])
+{
+    const char *output = cli_text(arguments, "output", ""), *strata = adaptive->strata_path;
+    const struct {
+        const char *name, *path;
+    } own[] = {{"-o", output}, {"--counts", cli_text(arguments, "counts", "")}, {"--strata", strata ? strata : ""}};
+    const int n = sizeof own / sizeof *own, layers = koksma_image_has_layers(output) ? 0 : aovs->n;
+    if (i < n) {
+        snprintf(option, 64, "%s", own[i].name);
+        snprintf(path, PATH, "%s", own[i].path);
+    } else if (i < n + layers) {
+        snprintf(option, 64, "--aov %s", aovs->names[i - n]);
+        *path = layer_path(output, aovs->names[i - n], path) ? *path : '\0';
+    }
+    return i < n + layers;
+}
+
+/* Returns false, after an error, if two options write one file. */
+static bool check_files(const cli_arguments *arguments, const cli_adaptive *adaptive, const koksma_aovs *aovs)
+{
+    static char path[PATH], other[PATH];
+    char option[64], with[64];
+    for (int i = 0; file_at(arguments, adaptive, aovs, i, option, path); i++) {
+        for (int k = 0; k < i && *path; k++) {
+            file_at(arguments, adaptive, aovs, k, with, other);
+            if (*other && cli_is_same_output(path, other)) {
+                cli_usage_error(arguments, "%s and %s would both write %s", with, option, other);
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 static koksma_status write_image(const cli_arguments *arguments, const koksma_scene *scene,
                                  const koksma_render_options *options, const koksma_adaptive_options *adaptive,
                                  koksma_layers *layers, koksma_aovs *aovs)
 {
-    static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC], path[4096], names[KOKSMA_MAX_AOVS][16];
+    static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC], path[PATH], names[KOKSMA_MAX_AOVS][16];
     const koksma_layer own[] = {{"", &layers->image},          {"albedo", &layers->albedo},
                                 {"normal", &layers->normal},   {"Z", &layers->depth},
                                 {"samples", &layers->samples}, {"variance", &layers->variance}};
     koksma_layer all[sizeof own / sizeof *own + KOKSMA_MAX_AOVS];
-    const char *output = cli_text(arguments, "output", ""), *dot = strrchr(output, '.');
+    const char *output = cli_text(arguments, "output", "");
     const bool layered = koksma_image_has_layers(output);
     size_t n = layered || (layers->albedo.pixels && !aovs->n) ? sizeof own / sizeof *own : 1;
     koksma_status status = KOKSMA_OK;
@@ -99,8 +147,7 @@ static koksma_status write_image(const cli_arguments *arguments, const koksma_sc
         name_layer(aovs->names[i], names[i]);
         if (layered) {
             all[n++] = (koksma_layer){names[i], &aovs->images[i]};
-        } else if (snprintf(path, sizeof path, "%.*s.%s%s", (int)(dot - output), output, names[i], dot) <
-                   (int)sizeof path) {
+        } else if (layer_path(output, aovs->names[i], path)) {
             status = (strcmp(aovs->names[i], "id") != 0 ? koksma_image_write : cli_write_ids)(path, &aovs->images[i],
                                                                                               metadata);
         }
@@ -236,7 +283,7 @@ static int run(const cli_arguments *arguments)
         cli_size(arguments, &options.width, &options.height) && cli_sampling_options(arguments, &options) &&
         cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code) &&
         cli_adaptive_options(arguments, &adaptive, &code) &&
-        parse_aovs(arguments, &options, &adaptive, &aovs, &code)) {
+        parse_aovs(arguments, &options, &adaptive, &aovs, &code) && check_files(arguments, &adaptive, &aovs)) {
         if (!cli_flag(arguments, "quiet")) {
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_idle_uses(arguments, arguments->operands[0], scene, &options);
@@ -299,7 +346,7 @@ const cli_command cli_command_render = {
         "'koksma scene check' lists them, from 1; 0: none); a .png or .jpg shows each number in its own colour and 0 "
         "in "
         "black. half gives two layers, half-even and half-odd: the means "
-        "of the samples with even and with odd index.\n",
+        "of the samples with even and with odd index. Two options can't write one file.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
                 "koksma render cornell --integrator path --aov direct,indirect -o parts.exr\n"

@@ -7,6 +7,7 @@
 #include "output.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -118,4 +119,26 @@ bool cli_check_output(const cli_arguments *arguments, const char *path)
         return false;
     }
     return true;
+}
+
+/* Writes where a file at `path` is or will be made. Returns false if its folder isn't there either. */
+static bool place_of(const char *path, char out[PATH_MAX])
+{
+    struct stat info;
+    char folder[PATH_MAX];
+    const char *slash = strrchr(path, '/');
+    const int length = slash ? (int)(slash - path) + 1 : 0;
+    if (realpath(path, out)) {
+        return true;
+    }
+    /* glibc leaves the first name that isn't there in `out`: the file itself if its folder is there */
+    return errno == ENOENT && snprintf(folder, sizeof folder, "%.*s.", length, path) < PATH_MAX &&
+           !stat(folder, &info);
+}
+
+bool cli_is_same_output(const char *a, const char *b)
+{
+    char one[PATH_MAX], other[PATH_MAX];
+    return !cli_is_stream(a) && !cli_is_stream(b) &&
+           (!strcmp(a, b) || (place_of(a, one) && place_of(b, other) && !strcmp(one, other)));
 }

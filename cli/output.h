@@ -28,6 +28,10 @@ bool cli_is_same_file(const char *a, const char *b);
    Makes nothing; NULL and streams are not tried. Returns the exit code, which is not 0 after an error. */
 int cli_try_output(const cli_arguments *arguments, const char *path);
 
+/* Returns whether the paths name one file that is written, also by another spelling or a link. Streams are none: what is
+   written to them follows what was written before. */
+bool cli_is_same_output(const char *a, const char *b);
+
 /* Returns false, after an error, if --json is given and the result is written to standard output, which has no place for
    rows then. */
 bool cli_check_output(const cli_arguments *arguments, const char *path);
