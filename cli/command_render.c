@@ -243,7 +243,8 @@ static bool set_sky(const cli_arguments *arguments, koksma_scene *scene, int *co
     return !status;
 }
 
-/* Reads --aov; refuses it together with --splat, because the layers are not splatted. Returns false after an error. */
+/* Reads --aov; refuses it together with --splat, because the layers are not splatted, and the odd half of one sample.
+   Returns false after an error. */
 static bool parse_aovs(const cli_arguments *arguments, const koksma_render_options *options, cli_adaptive *adaptive,
                        koksma_aovs *out, int *code)
 {
@@ -255,6 +256,13 @@ static bool parse_aovs(const cli_arguments *arguments, const koksma_render_optio
         cli_usage_error(arguments, "--aov excludes --splat: each pixel of a layer has only its own samples");
         *code = CLI_USAGE;
         return false;
+    }
+    for (int i = 0; text && !status && options->spp < 2 && i < out->n; i++) {
+        if (!strcmp(out->names[i], "half:odd")) {
+            *code =
+                cli_usage_error(arguments, "--aov half needs -n 2 or more: of one sample the second half is empty");
+            return false;
+        }
     }
     adaptive->options.aovs = text ? out : NULL;
     return !status;
@@ -346,7 +354,7 @@ const cli_command cli_command_render = {
         "'koksma scene check' lists them, from 1; 0: none); a .png or .jpg shows each number in its own colour and 0 "
         "in "
         "black. half gives two layers, half-even and half-odd: the means "
-        "of the samples with even and with odd index. Two options can't write one file.\n",
+        "of the samples with even and with odd index (-n 2 or more). Two options can't write one file.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
                 "koksma render cornell --integrator path --aov direct,indirect -o parts.exr\n"
