@@ -354,7 +354,10 @@ const cli_command cli_command_render = {
         "'koksma scene check' lists them, from 1; 0: none); a .png or .jpg shows each number in its own colour and 0 "
         "in "
         "black. half gives two layers, half-even and half-odd: the means "
-        "of the samples with even and with odd index (-n 2 or more). Two options can't write one file.\n",
+        "of the samples with even and with odd index (-n 2 or more). Two options can't write one file.\n"
+        "\n"
+        "A render that is interrupted (Ctrl-C) writes the pixels that are done, with 0 in the others, "
+        "also over an older image, and ends with exit code 130.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
                 "koksma render cornell --integrator path --aov direct,indirect -o parts.exr\n"
