@@ -246,10 +246,7 @@ static koksma_status do_round(koksma__contest *c, int round, const size_t *activ
             e->rounds[e->n_rounds++] = summary(p);
         }
     }
-    if (!status) {
-        koksma__rank_decide(&c->table);
-    }
-    return status;
+    return status ? status : koksma__rank_decide(&c->table, &c->control->job);
 }
 
 /* Whether contestant i needs another round to reach the goal. */

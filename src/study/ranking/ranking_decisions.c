@@ -33,6 +33,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "stats/quantiles.h"
 
@@ -42,6 +43,9 @@
 /* A pair is declared hopeless only from 128 trials on: with fewer trials, much of the estimated variance v of the
    reference (see above) is noise of the trials. */
 enum { SURE_ROUND = 4 };
+
+/* The run is asked after so many pairs, each of which takes some tens of microseconds. */
+enum { ASKED = 1024 };
 
 double koksma__rank_level(double alpha, size_t n_patterns)
 {
@@ -294,10 +298,13 @@ static size_t find_leader(const koksma__rank_table *table, koksma__rank_goal goa
     return leader;
 }
 
-void koksma__rank_decide(koksma__rank_table *table)
+koksma_status koksma__rank_decide(koksma__rank_table *table, const koksma_run *run)
 {
-    for (size_t i = 0; i < table->n; i++) {
-        for (size_t j = i + 1; j < table->n; j++) {
+    for (size_t i = 0, pair = 0; i < table->n; i++) {
+        for (size_t j = i + 1; j < table->n; j++, pair++) {
+            if (pair % ASKED == ASKED - 1) {
+                KOKSMA__TRY(koksma__ask(run));
+            }
             if (!table->entrants[i].out && !table->entrants[j].out) {
                 judge_pair(table, i, j);
             }
@@ -309,6 +316,7 @@ void koksma__rank_decide(koksma__rank_table *table)
     if (table->advised == KOKSMA__RANK_NOBODY) {
         table->advised = find_leader(table, KOKSMA__RANK_FIND_ADVISED);
     }
+    return KOKSMA_OK;
 }
 
 /* Whether pattern i may still be the best: no other pattern that counts for the goal is decided to have a smaller

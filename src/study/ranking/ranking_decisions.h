@@ -103,8 +103,9 @@ koksma_status koksma__rank_table_init(koksma__rank_table *table, size_t n, doubl
 void koksma__rank_table_fini(koksma__rank_table *table);
 
 /* Takes the decisions that the complete rounds allow. Each decision depends only on the pair and its round. So the
-   order in which rounds were completed has no effect, and later rounds revoke no decision. */
-void koksma__rank_decide(koksma__rank_table *table);
+   order in which rounds were completed has no effect, and later rounds revoke no decision. A call that `run` (may be
+   NULL) ends has taken some of them. Errors: INTERRUPTED. */
+koksma_status koksma__rank_decide(koksma__rank_table *table, const koksma_run *run);
 
 /* The quotient of the errors of i and j after the last round that both completed, clamped to the interval of the
    round that decided the pair. i and j must each have completed a round. */

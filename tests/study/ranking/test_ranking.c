@@ -88,7 +88,7 @@ static outcome rank_world(const world *w, int rounds, double alpha)
             koksma__rank_entrant *e = &table.entrants[p];
             e->rounds[e->n_rounds++] = errors_of(w, p, (size_t)KOKSMA__RANK_FIRST_ROUND << round);
         }
-        koksma__rank_decide(&table);
+        assert_ok(koksma__rank_decide(&table, NULL));
     }
     for (size_t i = 0; i < w->n; i++) {
         for (size_t j = i + 1; j < w->n; j++) {
@@ -246,7 +246,7 @@ static void decide(koksma__rank_table *table, const double *means, unsigned cohe
         table->entrants[i].coherent = coherent >> i & 1;
         table->entrants[i].rounds[table->entrants[i].n_rounds++] = exact(means[i], 0, 8);
     }
-    koksma__rank_decide(table);
+    assert_ok(koksma__rank_decide(table, NULL));
 }
 
 /* For every set of coherent errors, what is advised has the smallest mean of all others, and the leader is the same
@@ -285,7 +285,7 @@ static void pairs_that_matter_for_advice(void **state)
         table.entrants[i].coherent = i == 0;
         table.entrants[i].rounds[table.entrants[i].n_rounds++] = exact(i == 3 ? 9 : 1 + 0.03 * (double)i, 0.1, 8);
     }
-    koksma__rank_decide(&table);
+    assert_ok(koksma__rank_decide(&table, NULL));
     assert_true(koksma__rank_matters(&table, 0, 1, KOKSMA__RANK_FIND_LEADER));
     assert_true(!koksma__rank_matters(&table, 0, 1, KOKSMA__RANK_FIND_ADVISED));
     assert_true(koksma__rank_matters(&table, 1, 2, KOKSMA__RANK_FIND_ADVISED));
@@ -302,13 +302,42 @@ static koksma_rank_check_state check_first(const double means[3], double sd, siz
     for (size_t i = 0; i < 3; i++) {
         table.entrants[i].rounds[table.entrants[i].n_rounds++] = exact(means[i], sd, 8);
     }
-    koksma__rank_decide(&table);
+    assert_ok(koksma__rank_decide(&table, NULL));
     *best = table.leader;
     const koksma_rank_check_state state = koksma__rank_check_best(&table, first, table.leader);
     table.entrants[first].out = true; /* it cannot render that size */
     assert_int_equal(koksma__rank_check_best(&table, first, table.leader), KOKSMA_RANK_UNSETTLED);
     koksma__rank_table_fini(&table);
     return state;
+}
+
+static bool ends_at_once(void *context, double fraction)
+{
+    (void)fraction;
+    ++*(size_t *)context;
+    return false;
+}
+
+/* The pairs of hundreds of patterns take seconds: an end of the run is seen among them, and no leader is named. */
+static void decisions_end_with_the_run(void **state)
+{
+    (void)state;
+    enum { N = 100 };
+    size_t asked = 0;
+    const koksma_run run = {.keep_going = ends_at_once, .context = &asked};
+    koksma__rank_table table;
+    assert_ok(koksma__rank_table_init(&table, N, 0.04));
+    for (size_t i = 0; i < N; i++) {
+        table.entrants[i].rounds[table.entrants[i].n_rounds++] = exact(pow(1.1, (double)i), 0, 8);
+    }
+    assert_int_equal(koksma__rank_decide(&table, &run), KOKSMA_INTERRUPTED);
+    assert_int_equal(asked, 1);
+    assert_int_equal(table.leader, KOKSMA__RANK_NOBODY);
+    assert_int_equal(table.pairs[(N - 2) * N + N - 1].verdict, KOKSMA__RANK_OPEN);
+    assert_ok(koksma__rank_decide(&table, NULL)); /* what is left */
+    assert_int_equal(table.leader, 0);
+    assert_int_equal(table.pairs[(N - 2) * N + N - 1].verdict, KOKSMA__RANK_LESS);
+    koksma__rank_table_fini(&table);
 }
 
 /* Pattern 0 is the first at the size asked for. Another size overturns that where another pattern is decided to be
@@ -699,6 +728,7 @@ int main(void)
         cmocka_unit_test(trials_are_foretold),
         cmocka_unit_test(the_best_without_bands_is_advised),
         cmocka_unit_test(pairs_that_matter_for_advice),
+        cmocka_unit_test(decisions_end_with_the_run),
         cmocka_unit_test(first_places_at_other_sizes),
         cmocka_unit_test(bands_are_found),
         cmocka_unit_test(coherence_is_that_of_the_pictures),
