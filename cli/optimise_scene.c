@@ -78,29 +78,55 @@ static void put_gain(const scene_job *j, cli_rows *rows, const koksma_scene_gain
     cli_row_end(rows);
 }
 
-static bool parse_lists(scene_job *j)
+/* Adds the patterns of --against; "all" leaves out those that do not make the points. */
+static bool parse_against(scene_job *j)
 {
-    const char *patterns = cli_text(j->arguments, "against", NULL);
-    const char *held_out = cli_text(j->arguments, "held-out", NULL);
+    const char *list = cli_text(j->arguments, "against", NULL);
+    const bool all = list && !strcmp(list, "all");
     koksma_scene_search *o = &j->options;
-    o->against = patterns ? j->against_texts : NULL;
-    while (patterns && o->n_against < KOKSMA_MAX_AGAINST &&
-           cli_pattern_item(patterns, o->n_against, j->against[o->n_against])) {
+    char item[KOKSMA_MAX_SPEC], left_out[1024] = "";
+    o->against = list ? j->against_texts : NULL;
+    for (size_t at = 0; list && cli_pattern_item(list, at, item); at++) {
         koksma_render_options parsed = {0};
-        if (koksma_render_patterns(j->against[o->n_against], &parsed)) {
+        if (all && koksma_plan_try(item, (size_t)o->spp, 2)) {
+            const size_t used = strlen(left_out);
+            snprintf(left_out + used, sizeof left_out - used, "%s%s", used ? ", " : "", item);
+            continue;
+        }
+        if (koksma_render_patterns(item, &parsed)) {
             cli_usage_error(j->arguments, "%s", koksma_error_text());
             return false;
         }
+        if (o->n_against == KOKSMA_MAX_AGAINST) {
+            cli_usage_error(j->arguments, "--against: more than %d patterns", KOKSMA_MAX_AGAINST);
+            return false;
+        }
+        memcpy(j->against[o->n_against], item, sizeof item);
         j->against_texts[o->n_against] = j->against[o->n_against];
         o->n_against++;
     }
+    if (*left_out && !cli_flag(j->arguments, "quiet")) {
+        cli_say("optimise", "--against all leaves out patterns without such a set: %s", left_out);
+    }
+    return true;
+}
+
+static bool parse_held_out(scene_job *j)
+{
+    const char *held_out = cli_text(j->arguments, "held-out", NULL);
+    koksma_scene_search *o = &j->options;
+    char item[KOKSMA_MAX_SPEC];
     o->held_out = held_out ? j->held_out_texts : NULL;
-    while (held_out && o->n_held_out < KOKSMA_MAX_HELD_OUT &&
-           cli_list_item(held_out, o->n_held_out, j->held_out[o->n_held_out], KOKSMA_MAX_SPEC)) {
-        if (!strcmp(j->held_out[o->n_held_out], o->scene)) {
+    while (held_out && cli_list_item(held_out, o->n_held_out, item, sizeof item)) {
+        if (!strcmp(item, o->scene)) {
             cli_usage_error(j->arguments, "--held-out: '%s' is the scene that the set is optimised for", o->scene);
             return false;
         }
+        if (o->n_held_out == KOKSMA_MAX_HELD_OUT) {
+            cli_usage_error(j->arguments, "--held-out: more than %d scenes", KOKSMA_MAX_HELD_OUT);
+            return false;
+        }
+        memcpy(j->held_out[o->n_held_out], item, sizeof item);
         j->held_out_texts[o->n_held_out] = j->held_out[o->n_held_out];
         o->n_held_out++;
     }
@@ -134,17 +160,15 @@ static bool parse(scene_job *j)
         !cli_whole(arguments, "candidates", 8, 1, 1000, &candidates) ||
         !cli_whole(arguments, "phases", 4, 1, 1000, &phases) ||
         !cli_whole(arguments, "max-trials", 32, 8, KOKSMA_MAX_RANK_TRIALS, &max_trials) ||
-        !cli_size(arguments, &o->width, &o->height) || !parse_lists(j)) {
-        return false;
-    }
-    if (!cli_check_output(arguments, cli_text(arguments, "output", "-"))) {
+        !cli_size(arguments, &o->width, &o->height) ||
+        !cli_check_output(arguments, cli_text(arguments, "output", "-"))) {
         return false;
     }
     o->spp = (int)spp;
     o->candidates = candidates;
     o->phases = phases;
     o->max_trials = (long long)max_trials;
-    return cli_work_begin(arguments, "optimising for a scene", &j->work);
+    return parse_against(j) && parse_held_out(j) && cli_work_begin(arguments, "optimising for a scene", &j->work);
 }
 
 /* Prints the rows, unless the set is on standard output, and the message. Returns the exit code. */

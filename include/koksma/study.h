@@ -520,7 +520,8 @@ typedef struct koksma_scene_search {
     const char *const *held_out; /* other scenes, in which the set is tested (NULL: six of the library) */
     size_t n_held_out;           /* at most KOKSMA_MAX_HELD_OUT */
     const char *const
-        *against;     /* patterns to compare the set with, as koksma_render_patterns takes them (NULL: 17) */
+        *against;     /* patterns to compare the set with, as koksma_render_patterns takes them (NULL: those of 17
+                         that make spp points) */
     size_t n_against; /* 1 to KOKSMA_MAX_AGAINST */
     /* Called on the calling thread with the first candidate and with the chosen one. May be NULL; an error ends the
        search. */
@@ -532,9 +533,10 @@ typedef struct koksma_scene_search {
    with other patterns, in that scene and in scenes that took no part in the search. The candidates are sets of low L2
    discrepancy and their shifts; the weights of the discrepancies in x, in y and in the plane are estimated from
    images of the scene. Equal options give equal results on any number of threads. A time limit of run has no effect.
+   All scenes are opened, and all patterns tried, before the search.
      out  receives the result, which koksma_scene_optimum_fini frees, also after INTERRUPTED
-   Errors: ARGUMENT, UNKNOWN, MISSING, MALFORMED, MEMORY, INTERRUPTED (out then has what was found), and those of
-   options->found. */
+   Errors: ARGUMENT, UNKNOWN, MISSING, MALFORMED, MEMORY, those of making points by the patterns, INTERRUPTED (out then
+   has what was found), and those of options->found. */
 KOKSMA_API koksma_status koksma_optimise_scene(const koksma_scene_search *options, const koksma_run *run,
                                                koksma_scene_optimum *out);
 

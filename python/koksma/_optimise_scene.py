@@ -90,7 +90,7 @@ def optimise_scene(scene: Union[str, "os.PathLike[str]"], spp: SupportsIndex, *,
     held_out : sequence of str, optional
         Other scenes, at most 16, in which the set is tested; six that ship when left out, none if empty.
     against : sequence of str, optional
-        Patterns, at most 64, to compare the set with; 17 when left out.
+        Patterns, at most 64, to compare the set with; those of 17 that make `spp` points when left out.
     candidates, phases : int
         Candidate sets, and shifts of each on the torus, at most 1000.
     size : (width, height), optional

@@ -35,6 +35,7 @@
 #include "core/points.h"
 #include "core/status.h"
 #include "image/image.h"
+#include "study/plan/image_patterns.h"
 
 enum { SIDE = 8, MOST_PIXELS = 40 * 30, NAME = 32, MOST_SETS = 1000, MOST_SPP = 4096, SALT_CHOICE = 1, SALT_JUDGE };
 
@@ -62,14 +63,15 @@ typedef struct search {
     const koksma_scene_search *options;
     size_t n_sets, phases;
     long long max_trials;
-    const char *held_out[KOKSMA_MAX_HELD_OUT];
-    const char *const *against;
+    const char *scenes[1 + KOKSMA_MAX_HELD_OUT];   /* the scene, and the held-out scenes */
+    koksma_scene *opened[1 + KOKSMA_MAX_HELD_OUT]; /* NULL once the set is judged in it */
+    const char *against[KOKSMA_MAX_AGAINST];
     size_t n_held_out, n_against;
     const koksma_run *caller;
     double begin, share; /* of the current step: the fraction of all work before it, and its own */
     double done;         /* the largest fraction reported so far, because a ranking reports 0 again at every round */
     koksma_run run;      /* reports the progress of a step to `caller` */
-    koksma_scene *open;  /* the scene that is being rendered */
+    koksma_scene *open;  /* the one of `opened` that is being rendered */
     uint64_t salt;
     koksma_points *sets; /* candidates: n_sets times phases */
     size_t n;            /* number of candidates made */
@@ -394,6 +396,9 @@ static koksma_status judge(search *s, koksma_scene_gain *g)
     s->salt = SALT_JUDGE;
     choose_size(s, &g->width, &g->height);
     KOKSMA__TRY(rank(s, patterns, s->n_against + 1, rows, &ranking, g->scene));
+    for (size_t i = 0; i <= s->n_against; i++) { /* a set that only some seeds have */
+        KOKSMA__FAIL_IF(rows[i].state == KOKSMA_RANK_REFUSED, KOKSMA_IMPOSSIBLE, "%s", rows[i].reason);
+    }
     size_t own = 0;
     while (rows[own].pattern != 0) {
         own++;
@@ -417,14 +422,12 @@ static koksma_status judge_all(search *s)
     koksma_scene_optimum *out = s->out;
     for (size_t i = 0; i <= s->n_held_out; i++) {
         koksma_scene_gain *g = &out->gains[i];
-        *g = (koksma_scene_gain){.scene = i ? s->held_out[i - 1] : s->options->scene};
+        *g = (koksma_scene_gain){.scene = s->scenes[i]};
         begin_part(s, 3 * (s->n_held_out + 1) + i, 4 * (s->n_held_out + 1));
-        if (i) {
-            koksma_scene_close(s->open);
-            s->open = NULL;
-            KOKSMA__TRY(koksma_scene_open(g->scene, &s->open));
-        }
+        s->open = s->opened[i];
         KOKSMA__TRY(judge(s, g));
+        koksma_scene_close(s->opened[i]);
+        s->opened[i] = NULL;
         out->n_gains++;
     }
     const double n = (double)s->n_held_out;
@@ -439,19 +442,23 @@ static koksma_status judge_all(search *s)
 
 /* ---- The search -------------------------------------------------------------------------------------------- */
 
-/* Stores the patterns to compare with: those of the options, or, by default, the table `listed`. */
+/* Stores the patterns to compare with: those of the options, each of which must make the points, or, by default, those
+   of the table `listed` that do. */
 static koksma_status take_against(search *s)
 {
     const koksma_scene_search *o = s->options;
-    s->against = o->against ? o->against : listed;
-    s->n_against = o->against ? o->n_against : N_LISTED;
-    KOKSMA__FAIL_IF(s->n_against < 1 || s->n_against > KOKSMA_MAX_AGAINST, KOKSMA_ARGUMENT,
-                    "n_against = %zu: the patterns to compare with must be 1 to %d", s->n_against,
-                    KOKSMA_MAX_AGAINST);
-    for (size_t i = 0; i < s->n_against; i++) {
-        koksma_render_options parsed = {0};
-        KOKSMA__FAIL_IF(!s->against[i], KOKSMA_ARGUMENT, "against: text %zu is NULL", i);
-        KOKSMA__TRY(koksma_render_patterns(s->against[i], &parsed));
+    const char *const *texts = o->against ? o->against : listed;
+    const size_t n = o->against ? o->n_against : N_LISTED;
+    KOKSMA__FAIL_IF(n < 1 || n > KOKSMA_MAX_AGAINST, KOKSMA_ARGUMENT,
+                    "n_against = %zu: the patterns to compare with must be 1 to %d", n, KOKSMA_MAX_AGAINST);
+    for (size_t i = 0; i < n; i++) {
+        KOKSMA__FAIL_IF(!texts[i], KOKSMA_ARGUMENT, "against: text %zu is NULL", i);
+        const koksma_status status = koksma__image_pattern_try(texts[i], (size_t)o->spp, &s->run);
+        if (!o->against && (status == KOKSMA_N || status == KOKSMA_IMPOSSIBLE)) {
+            continue;
+        }
+        KOKSMA__TRY(status);
+        s->against[s->n_against++] = texts[i];
     }
     return KOKSMA_OK;
 }
@@ -463,17 +470,28 @@ static koksma_status take_held_out(search *s)
     const koksma_scene_search *o = s->options;
     KOKSMA__FAIL_IF(o->held_out && o->n_held_out > KOKSMA_MAX_HELD_OUT, KOKSMA_ARGUMENT,
                     "n_held_out = %zu: the held-out scenes must be at most %d", o->n_held_out, KOKSMA_MAX_HELD_OUT);
+    s->scenes[0] = o->scene;
     for (size_t i = 0; o->held_out && i < o->n_held_out; i++) {
         KOKSMA__FAIL_IF(!o->held_out[i], KOKSMA_ARGUMENT, "held_out: text %zu is NULL", i);
         KOKSMA__FAIL_IF(!strcmp(o->held_out[i], o->scene), KOKSMA_ARGUMENT,
                         "held_out: '%s' is the scene that the set is optimised for", o->scene);
-        s->held_out[s->n_held_out++] = o->held_out[i];
+        s->scenes[++s->n_held_out] = o->held_out[i];
     }
     for (size_t i = 0; !o->held_out && i < N_SCENES && s->n_held_out < N_HELD_OUT; i++) {
         if (strcmp(scenes[i], o->scene) != 0) {
-            s->held_out[s->n_held_out++] = scenes[i];
+            s->scenes[++s->n_held_out] = scenes[i];
         }
     }
+    return KOKSMA_OK;
+}
+
+/* Opens all scenes before the search, which takes long, and of which a scene that is missing would cost the result. */
+static koksma_status open_scenes(search *s)
+{
+    for (size_t i = 0; i <= s->n_held_out; i++) {
+        KOKSMA__TRY(koksma_scene_open(s->scenes[i], &s->opened[i]));
+    }
+    s->open = s->opened[0];
     return KOKSMA_OK;
 }
 
@@ -498,13 +516,13 @@ static koksma_status take_options(search *s)
     s->max_trials = o->max_trials ? o->max_trials : 32;
     KOKSMA__FAIL_IF(s->max_trials < 8 || s->max_trials > KOKSMA_MAX_RANK_TRIALS, KOKSMA_ARGUMENT,
                     "max_trials = %lld: it must be 8 to %d", s->max_trials, KOKSMA_MAX_RANK_TRIALS);
-    KOKSMA__TRY(take_against(s));
     return take_held_out(s);
 }
 
 static koksma_status run_search(search *s)
 {
-    KOKSMA__TRY(koksma_scene_open(s->options->scene, &s->open));
+    KOKSMA__TRY(open_scenes(s));
+    KOKSMA__TRY(take_against(s));
     KOKSMA__TRY(find_shares(s));
     KOKSMA__TRY(make_candidates(s));
     KOKSMA__TRY(show_chosen(s)); /* the first candidate, in case of an interruption before one is chosen */
@@ -527,7 +545,9 @@ koksma_status koksma_optimise_scene(const koksma_scene_search *options, const ko
     if (status && status != KOKSMA_INTERRUPTED) {
         koksma_scene_optimum_fini(out);
     }
-    koksma_scene_close(s.open);
+    for (size_t i = 0; i <= s.n_held_out; i++) {
+        koksma_scene_close(s.opened[i]);
+    }
     for (size_t i = 0; i < s.n; i++) {
         koksma_points_fini(&s.sets[i]);
     }
