@@ -244,6 +244,26 @@ static const struct {
     {"digital", "l2-star", 8, 3, KOKSMA_KEEP_SEQUENCE},   {"digital", "min-distance", 16, 2, KOKSMA_KEEP_SEQUENCE},
 };
 
+/* A grid hides the lower bound of all boxes: 16 points, one in each cell, have no discrepancy on it. */
+static void lower_bounds_hold(void **state)
+{
+    (void)state;
+    static const char *const measures[] = {"extreme", "extreme:grid=4", "star"};
+    for (int m = 0; m < 3; m++) {
+        koksma_points from = test_points("jittered", 16, 2, 0);
+        koksma_spec measure;
+        koksma_optimum best;
+        const koksma_optimise_options options = {
+            .n = 16, .dim = 2, .first = &from, .steps = 1, .processes = few_searches};
+        assert_ok(koksma_measure_spec(measures[m], &measure));
+        assert_ok(koksma_optimise(&measure, &options, NULL, &best));
+        assert_true(m == 1 ? best.lower != best.lower && best.value == 0
+                           : best.lower > 0 && best.lower <= best.value);
+        koksma_optimum_fini(&best);
+        koksma_points_fini(&from);
+    }
+}
+
 static int by_value(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -706,6 +726,7 @@ int main(void)
         cmocka_unit_test(torus_is_where_it_is_said),
         cmocka_unit_test(methods_gain_and_keep),
         cmocka_unit_test(optima_of_the_star_discrepancy),
+        cmocka_unit_test(lower_bounds_hold),
         cmocka_unit_test(sequences_of_projections),
         cmocka_unit_test(values_of_projections),
         cmocka_unit_test(target_powers),
