@@ -107,6 +107,9 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
             find_direction(d);
             slope = koksma__dot_of(n, d->gradient, d->direction);
         }
+        if (!(slope < 0)) { /* the gradient is 0 */
+            break;
+        }
         memcpy(d->before, d->points.xs, n * sizeof(double));
         memcpy(d->gradient_before, d->gradient, n * sizeof(double));
         /* The first step is a tenth of the mean spacing. */

@@ -6,6 +6,9 @@
 #include "optimise/radial_power.h"
 #include "optimise/value.h"
 
+/* What a call costs beside its terms: with few points, most of its time. */
+static const double CALL = 1000;
+
 typedef struct job {
     const koksma_spec *measure;
     const koksma_optimise_options *options;
@@ -24,7 +27,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     const job j = {measure, o, run};
     koksma__stream random = {.seed = seed};
     koksma__descent d;
-    const double n = (double)points->n, cost = o->power ? koksma__radial_power_cost(o) : n * n * points->dim + 1000;
+    const double n = (double)points->n, cost = CALL + (o->power ? koksma__radial_power_cost(o) : n * n * points->dim);
     koksma_status status =
         koksma__descent_init(&d, points, o->keep, o->keep == KOKSMA_KEEP_NET || !measure->measure->on_torus, cost);
     double best = value * value;

@@ -264,6 +264,32 @@ static void lower_bounds_hold(void **state)
     }
 }
 
+static bool count_calls(void *context, double fraction)
+{
+    (void)fraction;
+    ++*(size_t *)context;
+    return true;
+}
+
+/* A step is a fixed amount of work also with few points, whose gradients are short: a single point's is 0. */
+static void steps_of_few_points_are_short(void **state)
+{
+    (void)state;
+    static const koksma_spec to_power = {.measure = &koksma__measure_radial_power};
+    for (size_t n = 1; n <= 4; n++) {
+        enum { RINGS = 4 };
+        double power[RINGS], xs[8] = {0.1, 0.2, 0.4, 0.3, 0.8, 0.5, 0.2, 0.9};
+        size_t calls = 0;
+        koksma_points points = {n, 2, xs};
+        const koksma_run run = {.threads = 1, .keep_going = count_calls, .context = &calls};
+        const int rings = (int)ceil(2 * sqrt((double)n));
+        assert_ok(koksma_radial_power("step", n, rings, NULL, power));
+        const koksma_optimise_options options = {.n = n, .dim = 2, .power = power, .rings = rings};
+        assert_ok(koksma_method_find("descent")->search(&to_power, &options, 0, 1e9, &run, &points));
+        assert_true(calls > 0 && calls < 20000);
+    }
+}
+
 static int by_value(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -727,6 +753,7 @@ int main(void)
         cmocka_unit_test(methods_gain_and_keep),
         cmocka_unit_test(optima_of_the_star_discrepancy),
         cmocka_unit_test(lower_bounds_hold),
+        cmocka_unit_test(steps_of_few_points_are_short),
         cmocka_unit_test(sequences_of_projections),
         cmocka_unit_test(values_of_projections),
         cmocka_unit_test(target_powers),
