@@ -228,6 +228,19 @@ static int target(job *j)
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
+/* Returns false, after an error, if the name of the file promises a format that generator matrices do not have. */
+static bool check_format(const cli_arguments *arguments, const char *output)
+{
+    const char *end = strrchr(output, '.');
+    if (!strcmp(cli_text(arguments, "keep", "none"), "sequence") && end &&
+        (!strcmp(end, ".npy") || !strcmp(end, ".csv"))) {
+        cli_usage_error(arguments,
+                        "-o %s: --keep sequence writes generator matrices, for net-file:FILE, as .txt only", output);
+        return false;
+    }
+    return true;
+}
+
 static int run(const cli_arguments *arguments)
 {
     koksma_spec measure;
@@ -251,7 +264,7 @@ static int run(const cli_arguments *arguments)
     if (!output) {
         return cli_usage_error(arguments, "-o FILE, the file for the best set, is missing");
     }
-    if (!cli_check_output(arguments, output)) {
+    if (!cli_check_output(arguments, output) || !check_format(arguments, output)) {
         return CLI_USAGE;
     }
     j.stream = cli_is_stream(output);
@@ -348,8 +361,9 @@ const cli_command cli_command_optimise = {
         "\n"
         "--keep latin permutes the coordinates on each axis; --keep net moves each coordinate only within its "
         "interval of length 1/n. --keep sequence changes the generator matrices of a digital sequence in base 2;\n"
-        "the value is then the geometric mean of the measure over the first 2, 4, .., n points, and net-file:FILE\n"
-        "reads FILE. Under mpirun the ranks share the work.\n"
+        "the value is then the geometric mean of the measure over the first 2, 4, .., n points, and FILE.txt has "
+        "the\n"
+        "matrices, which net-file:FILE.txt reads. Under mpirun the ranks share the work.\n"
         "\n"
         "--power minimises the root mean square difference between the power spectrum and a target, over the plane "
         "of frequencies f. The target step is 0 for f below sqrt(n / pi) and 1 above, gaussian is 1 - exp(-pi f^2 / "
