@@ -62,7 +62,8 @@ static bool progress(void *context, const koksma_optimum *best)
     }
     snprintf(j->line, sizeof j->line, "%s %.10g%s, last gain %.0f s ago, step %llu,", j->name, best->value, bound,
              now_s - j->gained_s, (unsigned long long)best->steps);
-    return !j->written;
+    const char *steps = cli_text(j->arguments, "steps", NULL);
+    return !j->written && (!steps || best->steps < j->options.steps);
 }
 
 static int report(job *j, const koksma_optimum *best)
@@ -194,7 +195,7 @@ static bool parse(job *j)
     if (!cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
         !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
         !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j->options.seed) ||
-        !cli_whole(arguments, "steps", 0, 1, UINT64_MAX, &j->options.steps) ||
+        !cli_whole(arguments, "steps", 0, 0, UINT64_MAX, &j->options.steps) ||
         !cli_work_begin(arguments, "optimising", &j->work)) {
         return false;
     }
@@ -202,7 +203,8 @@ static bool parse(job *j)
     j->options.dim = (int)dim;
     j->options.keep = (koksma_keep)k;
     return parse_projections(j) && parse_weights(j) &&
-           cli_real(arguments, "time-limit", j->options.steps ? 0 : 60, 0, 1e9, &j->work.run.time_limit_s);
+           cli_real(arguments, "time-limit", cli_text(arguments, "steps", NULL) ? 0 : 60, 0, 1e9,
+                    &j->work.run.time_limit_s);
 }
 
 /* Reads --power, whose frequencies end at --band times the root of the number of points. Returns the exit code. */
@@ -319,7 +321,8 @@ static const cli_option options[] = {
      "groups of coordinates that are measured separately (default: one group of all coordinates)"},
     {0, "weights", "W,..",
      "weights of the projections in the root mean square of their values, 1e-100 to 1e100 (default: 1)"},
-    {0, "steps", "K", "number of steps, each of a fixed amount of work; equal --seed and --steps give equal sets"},
+    {0, "steps", "K",
+     "number of steps, of eight searches each; equal --seed and --steps give equal sets; 0: the initial set"},
     {0, "time-limit", "SECONDS",
      "time limit in seconds, which ends the search within a step; 0: no limit (default: 60; with --steps: 0)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
@@ -353,6 +356,8 @@ const cli_command cli_command_optimise = {
     .details =
         "MEASURE is any measure with exact values, such as star or l2-disk:law=area; the search maximises distances "
         "and minimises all other measures. Equal arguments with --steps give equal sets, on any number of threads. "
+        "In a step eight searches start from the best set, and the best of their results is taken. Each is a fixed "
+        "amount of work, which grows with n and DIM: on one thread a step takes from a second to many minutes. "
         "If a time limit or Ctrl-C ends the search, the step in progress is dropped. The printed row has the number "
         "of steps that were done; --steps with this number gives the same set. FILE\n"
         "always holds the best set: after Ctrl-C (exit code 130) or a kill, --from FILE continues the search. A "
