@@ -86,6 +86,49 @@ static int report(job *j, const koksma_optimum *best)
     return cli_rows_close(rows);
 }
 
+/* Whether a file has generator matrices, as --keep sequence writes them: it then is a pattern. `source` has the number
+   of its points, or 0 where the file does not give it as a power of 2, and of its dimensions. */
+static bool is_net(const char *path, cli_source *source)
+{
+    char line[256] = "";
+    int numbers[3], n = 0;
+    FILE *file = cli_is_stream(path) || strlen(path) >= sizeof source->spec.path ? NULL : fopen(path, "r");
+    if (!file) {
+        return false;
+    }
+    const bool is = fgets(line, sizeof line, file) && !strncmp(line, "# dnet", 6) && strchr("\r\n ", line[6]);
+    while (is && n < 3 && fgets(line, sizeof line, file)) { /* the base, the dimensions, the columns */
+        n += line[0] != '#' && sscanf(line, "%d", &numbers[n]) == 1;
+    }
+    fclose(file);
+    *source = (cli_source){.is_pattern = true, .spec = {.pattern = koksma_pattern_find("net-file")}};
+    memcpy(source->spec.path, path, strlen(path) + 1);
+    if (n == 3) {
+        source->n = numbers[0] == 2 && numbers[2] > 0 && numbers[2] < 63 ? (size_t)1 << numbers[2] : 0;
+        source->dim = numbers[1];
+    }
+    return is;
+}
+
+/* Makes the initial set by a pattern, which may give the number of points and dimensions. Returns the exit code. */
+static int generate_first(job *j, const cli_source *source, bool counted, koksma_points *from)
+{
+    const char *text = cli_text(j->arguments, "from", NULL);
+    const bool dim_given = cli_text(j->arguments, "dim", NULL) != NULL;
+    if (!source->n && !counted) {
+        return cli_usage_error(j->arguments, "-n N, the number of points, is missing");
+    }
+    if (source->n && ((counted && source->n != j->options.n) || (dim_given && source->dim != j->options.dim))) {
+        return cli_usage_error(j->arguments, "--from %s: its number of points or dimensions differs from -n or -d",
+                               text);
+    }
+    j->options.n = source->n ? source->n : j->options.n;
+    j->options.dim = source->n ? source->dim : j->options.dim;
+    koksma_status status = koksma_points_init(from, j->options.n, j->options.dim);
+    status = status ? status : koksma_generate(&source->spec, j->options.seed, &j->work.run, from);
+    return status ? cli_fail(j->arguments, status) : CLI_YES;
+}
+
 /* Reads --from: a file, or a pattern, which may give the number of points as @N. counted: whether -n gives
    that number. Returns the exit code. */
 static int first_set(job *j, bool counted, koksma_points *from)
@@ -95,31 +138,26 @@ static int first_set(job *j, bool counted, koksma_points *from)
     if (!text) {
         return CLI_YES;
     }
-    koksma_status status;
-    if (cli_source_is_pattern(text) || cli_names_pattern(text)) {
-        cli_source source;
-        const int code = cli_pattern_open(j->arguments, text, &source);
-        if (code) {
-            return code;
-        }
-        if (!source.n && !counted) {
-            return cli_usage_error(j->arguments, "-n N, the number of points, is missing");
-        }
-        if (source.n && ((counted && source.n != j->options.n) || (dim_given && source.dim != j->options.dim))) {
-            return cli_usage_error(j->arguments,
-                                   "--from %s: its number of points or dimensions differs from -n or -d", text);
-        }
-        j->options.n = source.n ? source.n : j->options.n;
-        j->options.dim = source.n ? source.dim : j->options.dim;
-        status = koksma_points_init(from, j->options.n, j->options.dim);
-        status = status ? status : koksma_generate(&source.spec, j->options.seed, &j->work.run, from);
-    } else {
-        status = koksma_points_read(text, from);
-        j->options.n = counted || status ? j->options.n : from->n;
-        j->options.dim = dim_given || status ? j->options.dim : from->dim;
-    }
     j->options.first = from;
-    return status ? cli_fail(j->arguments, status) : CLI_YES;
+    const bool is_pattern = cli_source_is_pattern(text) || cli_names_pattern(text);
+    cli_source source;
+    if (is_pattern) {
+        const int code = cli_pattern_open(j->arguments, text, &source);
+        return code ? code : generate_first(j, &source, counted, from);
+    }
+    if (is_net(text, &source)) { /* its first N points in its first DIM dimensions */
+        j->options.dim = dim_given || source.dim < 1 ? j->options.dim : source.dim;
+        source.dim = j->options.dim;
+        source.n = counted ? j->options.n : source.n;
+        return generate_first(j, &source, counted, from);
+    }
+    const koksma_status status = koksma_points_read(text, from);
+    if (status) {
+        return cli_fail(j->arguments, status);
+    }
+    j->options.n = counted ? j->options.n : from->n;
+    j->options.dim = dim_given ? j->options.dim : from->dim;
+    return CLI_YES;
 }
 
 /* Reads --weights W,..: one weight for each projection. Returns false after an error. */
@@ -368,7 +406,8 @@ const cli_command cli_command_optimise = {
         "interval of length 1/n. --keep sequence changes the generator matrices of a digital sequence in base 2;\n"
         "the value is then the geometric mean of the measure over the first 2, 4, .., n points, and FILE.txt has "
         "the\n"
-        "matrices, which net-file:FILE.txt reads. Under mpirun the ranks share the work.\n"
+        "matrices, which --from FILE.txt and the pattern net-file:FILE.txt read. Under mpirun the ranks share the "
+        "work.\n"
         "\n"
         "--power minimises the root mean square difference between the power spectrum and a target, over the plane "
         "of frequencies f. The target step is 0 for f below sqrt(n / pi) and 1 above, gaussian is 1 - exp(-pi f^2 / "
