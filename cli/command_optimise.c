@@ -183,6 +183,20 @@ static bool parse_weights(job *j)
     return true;
 }
 
+/* Returns false, after an error, if two projections are equal: one that counts twice has the weight 2. */
+static bool check_different(const job *j, const char *text)
+{
+    for (size_t p = 1; p < j->options.n_projections; p++) {
+        for (size_t q = 0; q < p; q++) {
+            if (j->projections[p] == j->projections[q]) {
+                cli_usage_error(j->arguments, "--projections %s: groups %zu and %zu are equal", text, q + 1, p + 1);
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 /* Reads --projections, such as 0+1,2, as sets of coordinates; bit k of a set is coordinate k. Returns false after an
    error. */
 static bool parse_projections(job *j)
@@ -191,6 +205,10 @@ static bool parse_projections(job *j)
     koksma_optimise_options *o = &j->options;
     o->projections = j->projections;
     if (text && !strcmp(text, "pairs")) {
+        if (o->dim < 2) {
+            cli_usage_error(j->arguments, "--projections pairs: it needs 2 or more dimensions, not %d", o->dim);
+            return false;
+        }
         for (int k = 0; k < o->dim && k < 64; k++) {
             for (int l = 0; l < k; l++) {
                 j->projections[o->n_projections++] = UINT64_C(1) << k | UINT64_C(1) << l;
@@ -207,11 +225,15 @@ static bool parse_projections(job *j)
                             "--projections %s: it takes pairs, or coordinates from 0 on, such as 0+1,0+2", text);
             return false;
         }
+        if (j->projections[o->n_projections] >> k & 1) {
+            cli_usage_error(j->arguments, "--projections %s: a group has coordinate %lu twice", text, k);
+            return false;
+        }
         j->projections[o->n_projections] |= UINT64_C(1) << k;
         o->n_projections += *end != '+';
         at = *end ? end + 1 : end;
     }
-    return true;
+    return check_different(j, text);
 }
 
 static bool parse(job *j)
@@ -240,8 +262,7 @@ static bool parse(job *j)
     j->options.n = n;
     j->options.dim = (int)dim;
     j->options.keep = (koksma_keep)k;
-    return parse_projections(j) && parse_weights(j) &&
-           cli_real(arguments, "time-limit", cli_text(arguments, "steps", NULL) ? 0 : 60, 0, 1e9,
+    return cli_real(arguments, "time-limit", cli_text(arguments, "steps", NULL) ? 0 : 60, 0, 1e9,
                     &j->work.run.time_limit_s);
 }
 
@@ -287,7 +308,8 @@ static int run(const cli_arguments *arguments)
     koksma_points from = {0};
     koksma_optimum best = {0};
     job j = {.arguments = arguments, .measure = &measure, .options = {.progress = progress, .context = &j}};
-    static const char *const of_scenes[] = {"against", "held-out", "candidates", "phases", "size", "max-trials"};
+    static const char *const of_scenes[] = {"against", "held-out",   "candidates", "phases",
+                                            "size",    "max-trials", "unknown"};
     if (cli_text(arguments, "scene", NULL)) {
         return cli_optimise_scene(arguments);
     }
@@ -325,6 +347,7 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     int code = first_set(&j, counted, &from);
+    code = code || (parse_projections(&j) && parse_weights(&j)) ? code : CLI_USAGE;
     code = code ? code : target(&j);
     if (!code) {
         j.work.what = j.line;
