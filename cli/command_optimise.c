@@ -155,8 +155,12 @@ static int first_set(job *j, bool counted, koksma_points *from)
     if (status) {
         return cli_fail(j->arguments, status);
     }
-    j->options.n = counted ? j->options.n : from->n;
-    j->options.dim = dim_given ? j->options.dim : from->dim;
+    if ((counted && from->n != j->options.n) || (dim_given && from->dim != j->options.dim)) {
+        return cli_usage_error(j->arguments, "--from %s: it has %zu points of dim = %d, which differs from -n or -d",
+                               text, from->n, from->dim);
+    }
+    j->options.n = from->n;
+    j->options.dim = from->dim;
     return CLI_YES;
 }
 
@@ -173,6 +177,10 @@ static bool parse_weights(job *j)
             cli_usage_error(j->arguments, "--weights %s: it takes numbers above 0, such as 1,1,4", text);
             return false;
         }
+    }
+    if (text && !j->options.n_projections) {
+        cli_usage_error(j->arguments, "--weights has an effect only with --projections");
+        return false;
     }
     if (text && n != j->options.n_projections) {
         cli_usage_error(j->arguments, "--weights %s: it takes one weight for each of the %zu --projections", text,

@@ -187,9 +187,9 @@ static int report(const scene_job *j)
             const double home = best->gains[0].gain;
             cli_say("optimise",
                     "%zu of %zu candidates eliminated; gain over the best listed pattern: %.1f %% in %s, %.1f %% on "
-                    "average in %zu held-out scenes, which is %.1f percentage points less",
+                    "average in %zu held-out scenes, which is %.1f percentage points %s",
                     best->eliminated, best->candidates, 100 * home, j->options.scene, 100 * best->gain, held_out,
-                    100 * (home - best->gain));
+                    100 * fabs(home - best->gain), home < best->gain ? "more" : "less");
         }
     }
     const int code = cli_rows_close(rows);
