@@ -78,6 +78,20 @@ static void put_gain(const scene_job *j, cli_rows *rows, const koksma_scene_gain
     cli_row_end(rows);
 }
 
+/* Replaces an alias by the name of its pattern, and returns whether that is listed already. */
+static bool is_listed(const scene_job *j, char item[KOKSMA_MAX_SPEC])
+{
+    koksma_spec spec;
+    if (!koksma_pattern_spec(item, &spec)) {
+        koksma_spec_text(&spec, item);
+    }
+    size_t i = 0;
+    while (i < j->options.n_against && strcmp(j->against[i], item) != 0) {
+        i++;
+    }
+    return i < j->options.n_against;
+}
+
 /* Adds the patterns of --against; "all" leaves out those that do not make the points. */
 static bool parse_against(scene_job *j)
 {
@@ -100,6 +114,9 @@ static bool parse_against(scene_job *j)
         if (o->n_against == KOKSMA_MAX_AGAINST) {
             cli_usage_error(j->arguments, "--against: more than %d patterns", KOKSMA_MAX_AGAINST);
             return false;
+        }
+        if (all && is_listed(j, item)) {
+            continue;
         }
         memcpy(j->against[o->n_against], item, sizeof item);
         j->against_texts[o->n_against] = j->against[o->n_against];

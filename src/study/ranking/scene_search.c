@@ -442,6 +442,28 @@ static koksma_status judge_all(search *s)
 
 /* ---- The search -------------------------------------------------------------------------------------------- */
 
+/* The canonical text of a listed pattern, which texts of equal meaning share. */
+static koksma_status text_of(const char *pattern, char text[KOKSMA_MAX_PATTERNS_TEXT])
+{
+    koksma_render_options o = {0};
+    KOKSMA__TRY(koksma__image_pattern_set(pattern, &o));
+    koksma_render_patterns_text(&o, text);
+    return KOKSMA_OK;
+}
+
+/* Fails if a pattern is listed already: one that counts twice widens the intervals of all. */
+static koksma_status check_new_pattern(const search *s, const char *pattern)
+{
+    char text[KOKSMA_MAX_PATTERNS_TEXT], other[KOKSMA_MAX_PATTERNS_TEXT];
+    KOKSMA__TRY(text_of(pattern, text));
+    for (size_t i = 0; i < s->n_against; i++) {
+        KOKSMA__TRY(text_of(s->against[i], other));
+        KOKSMA__FAIL_IF(!strcmp(text, other), KOKSMA_ARGUMENT,
+                        "%s: it is listed twice among the patterns to compare with", text);
+    }
+    return KOKSMA_OK;
+}
+
 /* Stores the patterns to compare with: those of the options, each of which must make the points, or, by default, those
    of the table `listed` that do. */
 static koksma_status take_against(search *s)
@@ -458,6 +480,7 @@ static koksma_status take_against(search *s)
             continue;
         }
         KOKSMA__TRY(status);
+        KOKSMA__TRY(check_new_pattern(s, texts[i]));
         s->against[s->n_against++] = texts[i];
     }
     return KOKSMA_OK;
@@ -485,11 +508,19 @@ static koksma_status take_held_out(search *s)
     return KOKSMA_OK;
 }
 
-/* Opens all scenes before the search, which takes long, and of which a scene that is missing would cost the result. */
+/* Opens all scenes before the search, which takes long, and of which a scene that is missing would cost the result.
+   The scenes must differ: the scene itself would show the gain that it was searched for, and another one that counts
+   twice would weigh twice in the mean. */
 static koksma_status open_scenes(search *s)
 {
     for (size_t i = 0; i <= s->n_held_out; i++) {
         KOKSMA__TRY(koksma_scene_open(s->scenes[i], &s->opened[i]));
+        for (size_t j = 0; j < i; j++) {
+            KOKSMA__FAIL_IF(koksma_scene_hash(s->opened[j]) == koksma_scene_hash(s->opened[i]), KOKSMA_ARGUMENT,
+                            j ? "%s: as a held-out scene it is listed twice"
+                              : "%s: the held-out scene is the one that the set is optimised for",
+                            s->scenes[i]);
+        }
     }
     s->open = s->opened[0];
     return KOKSMA_OK;
