@@ -13,6 +13,7 @@
 #include <koksma/study.h>
 
 #include "output.h"
+#include "render_options.h"
 #include "source.h"
 
 typedef struct scene_job {
@@ -150,6 +151,19 @@ static bool parse_held_out(scene_job *j)
     return true;
 }
 
+/* Prints the warnings about a scene. The library opens it again and reports what keeps it from being opened. */
+static void say_warnings(const scene_job *j, const char *name)
+{
+    koksma_scene *scene;
+    koksma_render_options options;
+    if (cli_flag(j->arguments, "quiet") || cli_is_stream(name) || koksma_scene_open(name, &scene)) {
+        return;
+    }
+    koksma_render_options_init(&options, scene);
+    cli_scene_warnings(j->arguments, name, scene, &options, 3);
+    koksma_scene_close(scene);
+}
+
 static bool parse(scene_job *j)
 {
     static const char *const unused[] = {"dim",  "from",    "keep",  "projections", "power",
@@ -225,6 +239,10 @@ int cli_optimise_scene(const cli_arguments *arguments)
     j->options.context = j;
     int code = parse(j) ? cli_try_output(arguments, cli_text(arguments, "output", "-")) : CLI_USAGE;
     if (!code) {
+        say_warnings(j, j->options.scene);
+        for (size_t i = 0; i < j->options.n_held_out; i++) {
+            say_warnings(j, j->held_out[i]);
+        }
         koksma_status status = koksma_optimise_scene(&j->options, &j->work.run, &j->best);
         cli_work_end();
         if (j->best.points.n && cli_is_stream(cli_text(arguments, "output", "-"))) {

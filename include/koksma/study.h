@@ -517,7 +517,7 @@ typedef struct koksma_scene_search {
     size_t candidates;    /* number of candidate sets, at most 1000; 0: 8 */
     size_t phases;        /* number of shifts of each candidate on the torus, at most 1000; 0: 4 */
     long long max_trials; /* images of each candidate and pattern, 8 to KOKSMA_MAX_RANK_TRIALS; 0: 32 */
-    const char *const *held_out; /* other scenes, in which the set is tested (NULL: six of the library) */
+    const char *const *held_out; /* other scenes in which the set is tested (NULL: six of the library) */
     size_t n_held_out;           /* at most KOKSMA_MAX_HELD_OUT */
     const char *const
         *against;     /* patterns to compare the set with, as koksma_render_patterns takes them (NULL: those of 17

@@ -163,6 +163,29 @@ static void choose_size(const search *s, int *width, int *height)
     }
 }
 
+/* Fails if images of the open scene with different random samples are equal, which leaves no errors to compare. */
+static koksma_status check_image(search *s, const char *scene)
+{
+    koksma_rank_picture picture = {.scene = scene, .pattern = "random", .spp = SIDE * SIDE};
+    koksma_image one, other;
+    choose_size(s, &picture.width, &picture.height);
+    KOKSMA__TRY(render(s, &picture, &s->run, &one));
+    picture.seed = 1;
+    koksma_status status = render(s, &picture, &s->run, &other);
+    if (!status) {
+        const size_t bytes = (size_t)one.width * (size_t)one.height * (size_t)one.channels * sizeof *one.pixels;
+        status = memcmp(one.pixels, other.pixels, bytes)
+                     ? KOKSMA_OK
+                     : koksma__fail(KOKSMA_IMPOSSIBLE,
+                                    "%s: its image is the same for every seed, as that of a scene without light is: "
+                                    "patterns have no error in it",
+                                    scene);
+        koksma_image_fini(&other);
+    }
+    koksma_image_fini(&one);
+    return status;
+}
+
 static koksma_status rank(search *s, const char *const *patterns, size_t n, koksma_rank_row *rows,
                           koksma_ranking *ranking, const char *scene)
 {
@@ -521,6 +544,10 @@ static koksma_status open_scenes(search *s)
                               : "%s: the held-out scene is the one that the set is optimised for",
                             s->scenes[i]);
         }
+    }
+    for (size_t i = 0; i <= s->n_held_out; i++) {
+        s->open = s->opened[i];
+        KOKSMA__TRY(check_image(s, s->scenes[i]));
     }
     s->open = s->opened[0];
     return KOKSMA_OK;
