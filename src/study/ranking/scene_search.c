@@ -22,6 +22,8 @@
  *
  * The renderer reads the candidates through `set_pattern`, a pattern outside the library's table whose path is the
  * address of a set, so that several searches may run at once.
+ *
+ * Long because the four steps, and the checks before them, share the candidates and the open scenes.
  */
 #include <math.h>
 #include <stdio.h>
@@ -341,24 +343,6 @@ static koksma_status shift(const koksma_points *from, size_t p, koksma_points *o
     return KOKSMA_OK;
 }
 
-static koksma_status make_candidates(search *s)
-{
-    koksma_status status = KOKSMA_OK;
-    s->sets = calloc(s->n_sets * s->phases, sizeof *s->sets);
-    KOKSMA__REQUIRE_MEMORY(s->sets, s->n_sets * s->phases * sizeof *s->sets);
-    for (size_t c = 0; c < s->n_sets && !status; c++) {
-        begin_part(s, c, 2 * s->n_sets);
-        status = make_set(s, c, &s->sets[s->n]);
-        s->n += !status;
-        for (size_t p = 1; p < s->phases && !status; p++) {
-            status = shift(&s->sets[s->n - p], p, &s->sets[s->n]);
-            s->n += !status;
-        }
-    }
-    s->out->candidates = s->n;
-    return status;
-}
-
 /* Copies the chosen candidate to the result, and shows it to the caller. */
 static koksma_status show_chosen(search *s)
 {
@@ -375,6 +359,27 @@ static koksma_status show_chosen(search *s)
     }
     const char kept = koksma__call_begin();
     return koksma__call_end(kept, s->options->found(s->options->context, out), "koksma_scene_search.found");
+}
+
+static koksma_status make_candidates(search *s)
+{
+    koksma_status status = KOKSMA_OK;
+    s->sets = calloc(s->n_sets * s->phases, sizeof *s->sets);
+    KOKSMA__REQUIRE_MEMORY(s->sets, s->n_sets * s->phases * sizeof *s->sets);
+    for (size_t c = 0; c < s->n_sets && !status; c++) {
+        begin_part(s, c, 2 * s->n_sets);
+        status = make_set(s, c, &s->sets[s->n]);
+        s->n += !status;
+        if (!status && c == 0) {
+            status = show_chosen(s); /* in case of an interruption before one is chosen */
+        }
+        for (size_t p = 1; p < s->phases && !status; p++) {
+            status = shift(&s->sets[s->n - p], p, &s->sets[s->n]);
+            s->n += !status;
+        }
+    }
+    s->out->candidates = s->n;
+    return status;
 }
 
 /* Ranks the candidates. Counts the eliminated candidates, and chooses the one with the least error. */
@@ -583,7 +588,6 @@ static koksma_status run_search(search *s)
     KOKSMA__TRY(take_against(s));
     KOKSMA__TRY(find_shares(s));
     KOKSMA__TRY(make_candidates(s));
-    KOKSMA__TRY(show_chosen(s)); /* the first candidate, in case of an interruption before one is chosen */
     KOKSMA__TRY(choose(s));
     KOKSMA__TRY(show_chosen(s));
     return judge_all(s);
