@@ -310,31 +310,41 @@ static bool check_format(const cli_arguments *arguments, const char *output)
     return true;
 }
 
+/* Checks what the command line of a search without --scene has. Returns false after an error. */
+static bool check_arguments(const cli_arguments *arguments)
+{
+    static const char *const of_scenes[] = {"against", "held-out",   "candidates", "phases",
+                                            "size",    "max-trials", "unknown"};
+    const char *power = cli_text(arguments, "power", NULL), *output = cli_text(arguments, "output", NULL);
+    for (size_t i = 0; i < sizeof of_scenes / sizeof *of_scenes; i++) {
+        if (cli_text(arguments, of_scenes[i], NULL)) {
+            cli_usage_error(arguments, "--%s has an effect only with --scene", of_scenes[i]);
+            return false;
+        }
+    }
+    if (arguments->n_operands != !power) {
+        cli_usage_error(arguments, power ? "it takes a measure or --power, not both"
+                                         : "it takes one measure, such as star or l2-disk:r=0.25");
+        return false;
+    }
+    if (!output) {
+        cli_usage_error(arguments, "-o FILE, the file for the best set, is missing");
+        return false;
+    }
+    return cli_check_output(arguments, output) && check_format(arguments, output);
+}
+
 static int run(const cli_arguments *arguments)
 {
     koksma_spec measure;
     koksma_points from = {0};
     koksma_optimum best = {0};
     job j = {.arguments = arguments, .measure = &measure, .options = {.progress = progress, .context = &j}};
-    static const char *const of_scenes[] = {"against", "held-out",   "candidates", "phases",
-                                            "size",    "max-trials", "unknown"};
     if (cli_text(arguments, "scene", NULL)) {
         return cli_optimise_scene(arguments);
     }
-    for (size_t i = 0; i < sizeof of_scenes / sizeof *of_scenes; i++) {
-        if (cli_text(arguments, of_scenes[i], NULL)) {
-            return cli_usage_error(arguments, "--%s has an effect only with --scene", of_scenes[i]);
-        }
-    }
     const char *power = cli_text(arguments, "power", NULL), *output = cli_text(arguments, "output", NULL);
-    if (arguments->n_operands != !power) {
-        return cli_usage_error(arguments, power ? "it takes a measure or --power, not both"
-                                                : "it takes one measure, such as star or l2-disk:r=0.25");
-    }
-    if (!output) {
-        return cli_usage_error(arguments, "-o FILE, the file for the best set, is missing");
-    }
-    if (!cli_check_output(arguments, output) || !check_format(arguments, output)) {
+    if (!check_arguments(arguments)) {
         return CLI_USAGE;
     }
     j.stream = cli_is_stream(output);
@@ -426,9 +436,9 @@ const cli_command cli_command_optimise = {
         "MEASURE is any measure with exact values, such as star or l2-disk:law=area; the search maximises distances "
         "and minimises all other measures. Equal arguments with --steps give equal sets, on any number of threads. "
         "In a step eight searches start from the best set, and the best of their results is taken. Each is a fixed "
-        "amount of work, which grows with n and DIM: on one thread a step takes from a second to many minutes. "
-        "If a time limit or Ctrl-C ends the search, the step in progress is dropped. The printed row has the number "
-        "of steps that were done; --steps with this number gives the same set. FILE\n"
+        "amount of work, which grows with n and DIM: on one thread a step takes from tenths of a second to many "
+        "minutes. If a time limit or Ctrl-C ends the search, the step in progress is dropped. The printed row has "
+        "the number of steps that were done; --steps with this number gives the same set. FILE\n"
         "holds the best set of this search from when the initial set is measured: after Ctrl-C (exit code 130) or a "
         "kill, --from FILE continues it. A search without --from FILE begins anew, and its first set replaces FILE.\n"
         "A stream (-, a pipe, a device) gets the best set once, at the end or after Ctrl-C. With -o - the table is "
