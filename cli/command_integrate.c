@@ -505,9 +505,8 @@ const cli_command cli_command_integrate = {
     .details =
         "rmse is the root mean square, over the trials, of the estimate minus the integral, with its 95 % interval. "
         "With a single set, which is all that deterministic patterns have, it is the absolute error. gain is the "
-        "variance with random "
-        "points divided by the mean squared error: how many times as many random points would be needed for the same "
-        "error. Three\n"
+        "variance with random points divided by the mean squared error: how many times as many random points would "
+        "be needed for the same error. Three\n"
         "sizes or more give the slope of log rmse against log n with its interval.\n"
         "\n"
         "INTEGRAND is a name of 'koksma list integrands' with its parameters, or ./LIBRARY.so[:NAME], which is a "

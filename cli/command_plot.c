@@ -115,10 +115,10 @@ const cli_command cli_command_plot = {
     .synopsis = "FILE|-|SPEC@N... [-p PATTERN,..|all -n N,..] -o OUT.svg|.pdf|.png [--curve KIND|--compare] "
                 "[--trials T]",
     .details =
-        "{chart-meanings}"
-        "\nPoints and power spectra of several sources are drawn side by side, curves in one chart. Points of 3 "
-        "dimensions and more are drawn as projections on all pairs of the first 8 axes. A pattern has the colour "
-        "of its family in all pictures.",
+        "{chart-meanings}\n"
+        "Points and power spectra of several sources are drawn side by side, curves in one chart. Points of 3 "
+        "dimensions and more are drawn as projections on all pairs of the first 8 axes. A pattern has the colour of "
+        "its family in all pictures.",
     .examples = "koksma plot pattern:n-rooks@16 -o points.svg --witness star\n"
                 "koksma plot --compare pattern:random@256 pattern:jittered@256 -o figure.svg\n"
                 "koksma plot pattern:sobol@64@4 -o projections.svg --title 'Sobol points'\n"

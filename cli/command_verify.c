@@ -230,8 +230,7 @@ const cli_command cli_command_verify = {
     .summary = "check which properties points have",
     .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..|--record [-m MEASURE]] [--json]",
     .details = "Each property is desirable; 'yes' means that the points have it, and the detail explains the value.\n"
-               "{property-meanings}"
-               "\n"
+               "{property-meanings}\n"
                "Exit codes: 0 for any findings without --expect; 1 when a property of --expect fails or was not "
                "tested, or when points of --record are no record or no value is known to compare with; 2 for a wrong "
                "command line, such as an unknown property; 3 for points that are missing or malformed.",
