@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * koksma_optimise_scene: searches for a point set that gives the image of one scene a small error if every pixel uses
- * it as file:FILE.
+ * it as file:FILE. Long because the four steps, and the checks before them, share the candidates and the open scenes.
  *
  * 1. Weights. In every pixel the radiance is sampled once at 8 x 8 positions and analysed as a two-way layout
  *    (analysis of variance). This gives the variance along x, along y, and of the interaction of both (which includes
@@ -22,8 +22,6 @@
  *
  * The renderer reads the candidates through `set_pattern`, a pattern outside the library's table whose path is the
  * address of a set, so that several searches may run at once.
- *
- * Long because the four steps, and the checks before them, share the candidates and the open scenes.
  */
 #include <math.h>
 #include <stdio.h>
