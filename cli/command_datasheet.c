@@ -5,10 +5,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <koksma/datasheet.h>
 #include <koksma/plot.h>
+#include <koksma/render.h>
 
 #include "cli.h"
 #include "output.h"
@@ -21,7 +23,18 @@ typedef struct list {
     size_t n;
 } list;
 
-static const char file_prefix[] = "file:";
+static const char file_prefix[] = "file:", pattern_prefix[] = "pattern:";
+
+/* Whether an item of a list is a pattern, a scene or a file. */
+static bool is_known(const char *item)
+{
+    koksma_spec spec;
+    bool known = !koksma_pattern_spec(item, &spec) || !access(item, F_OK);
+    for (size_t i = 0; !known && koksma_scene_name_at(i); i++) {
+        known = !strcmp(koksma_scene_name_at(i), item);
+    }
+    return known;
+}
 
 /* Reads the list of an option, with at most `most` items. Returns false after an error, also where two items are the halves
    of the name of a file. */
@@ -42,9 +55,10 @@ static bool read_list(const cli_arguments *arguments, const char *option, size_t
     for (size_t i = 1; i < out->n; i++) {
         char joined[2 * KOKSMA_MAX_SPEC];
         snprintf(joined, sizeof joined, "%s,%s", out->texts[i - 1], out->texts[i]);
-        const char *path =
-            joined + (strncmp(joined, file_prefix, sizeof file_prefix - 1) ? 0 : sizeof file_prefix - 1);
-        if (!access(path, F_OK)) {
+        const char *path = joined;
+        path += strncmp(path, pattern_prefix, sizeof pattern_prefix - 1) ? 0 : sizeof pattern_prefix - 1;
+        path += strncmp(path, file_prefix, sizeof file_prefix - 1) ? 0 : sizeof file_prefix - 1;
+        if (!access(path, F_OK) && !(is_known(out->texts[i - 1]) && is_known(out->texts[i]))) {
             cli_usage_error(arguments, "--%s: a comma in the name of a file, '%s', ends the item; rename the file",
                             option, path);
             return false;
@@ -57,14 +71,14 @@ static bool read_list(const cli_arguments *arguments, const char *option, size_t
    pipe, because they are read several times and commands on the page name them. Returns the exit code. */
 static int take_sampler(const cli_arguments *arguments, const char **text)
 {
-    static const char prefix[] = "pattern:";
-    *text += strncmp(*text, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+    struct stat info;
+    *text += strncmp(*text, pattern_prefix, sizeof pattern_prefix - 1) ? 0 : sizeof pattern_prefix - 1;
     const char *at = strchr(*text, '@');
     if (at && at[1] && !at[1 + strspn(at + 1, "0123456789@")] && access(*text, F_OK)) {
         return cli_usage_error(arguments, "%s: a datasheet chooses the numbers of points; it takes %.*s", *text,
                                (int)(at - *text), *text);
     }
-    if (cli_is_stream(*text)) {
+    if (!strcmp(*text, "-") || (!stat(*text, &info) && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))) {
         cli_usage_error(arguments,
                         "%s: points are read several times, so they must be in a file, not a pipe; write "
                         "them to a file first",
@@ -74,16 +88,37 @@ static int take_sampler(const cli_arguments *arguments, const char **text)
     return CLI_YES;
 }
 
+/* The length of the placeholder {n} or {seed} at the start of a text; 0: there is none. */
+static size_t placeholder(const char *text)
+{
+    return !strncmp(text, "{n}", 3) ? 3 : !strncmp(text, "{seed}", 6) ? 6 : 0;
+}
+
+/* Whether a path is that of a family of files, whose name has digits in place of each placeholder. */
+static bool is_of(const char *family, const char *path)
+{
+    while (*family && !placeholder(family)) {
+        if (*family++ != *path++) {
+            return false;
+        }
+    }
+    bool is = !*family && !*path;
+    for (size_t digits = *family ? strspn(path, "0123456789") : 0; !is && digits > 0; digits--) {
+        is = is_of(family + placeholder(family), path + digits);
+    }
+    return is;
+}
+
 /* Whether the files of a sampler include `output`. */
 static bool sampler_reads(const char *sampler, const char *output)
 {
     koksma_spec spec;
-    const char *path = koksma_pattern_spec(sampler, &spec) || !*spec.path ? sampler : spec.path;
+    const char *path = koksma_pattern_spec(sampler, &spec) || !*spec.path ? sampler : spec.path, *family = path;
     char names[2 * KOKSMA_MAX_SPEC];
     glob_t found = {0};
     size_t used = 0;
     while (*path && used + 8 < sizeof names) {
-        const size_t length = !strncmp(path, "{n}", 3) ? 3 : !strncmp(path, "{seed}", 6) ? 6 : 0;
+        const size_t length = placeholder(path);
         used += (size_t)(length                   ? snprintf(names + used, 8, "[0-9]*")
                          : strchr("*?[\\", *path) ? snprintf(names + used, 8, "\\%c", *path)
                                                   : snprintf(names + used, 8, "%c", *path));
@@ -92,7 +127,7 @@ static bool sampler_reads(const char *sampler, const char *output)
     bool same = false;
     if (used && !glob(names, GLOB_NOSORT, NULL, &found)) {
         for (size_t i = 0; i < found.gl_pathc; i++) {
-            same |= cli_is_same_file(found.gl_pathv[i], output);
+            same |= is_of(family, found.gl_pathv[i]) && cli_is_same_file(found.gl_pathv[i], output);
         }
     }
     globfree(&found);

@@ -106,6 +106,7 @@ static bool is_net(const char *path, cli_source *source)
     if (n == 3) {
         source->n = numbers[0] == 2 && numbers[2] > 0 && numbers[2] < 63 ? (size_t)1 << numbers[2] : 0;
         source->dim = numbers[1];
+        source->n = source->dim > 0 && source->n > KOKSMA_MAX_COORDINATES / (size_t)source->dim ? 0 : source->n;
     }
     return is;
 }

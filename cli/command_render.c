@@ -128,6 +128,18 @@ static bool check_files(const cli_arguments *arguments, const cli_adaptive *adap
     return true;
 }
 
+/* Tries whether all files can be written, before the work. Returns the exit code. */
+static int try_files(const cli_arguments *arguments, const cli_adaptive *adaptive, const koksma_aovs *aovs)
+{
+    static char path[PATH];
+    char option[64];
+    int code = CLI_YES;
+    for (int i = 0; !code && file_at(arguments, adaptive, aovs, i, option, path); i++) {
+        code = *path ? cli_try_output(arguments, path) : CLI_YES;
+    }
+    return code;
+}
+
 static koksma_status write_image(const cli_arguments *arguments, const koksma_scene *scene,
                                  const koksma_render_options *options, const koksma_adaptive_options *adaptive,
                                  koksma_layers *layers, koksma_aovs *aovs)
@@ -243,8 +255,8 @@ static bool set_sky(const cli_arguments *arguments, koksma_scene *scene, int *co
     return !status;
 }
 
-/* Reads --aov; refuses it together with --splat, because the layers are not splatted, and the odd half of one sample.
-   Returns false after an error. */
+/* Reads --aov; refuses it together with --splat, because the layers are not splatted, and the odd half of one sample,
+   unless --adaptive draws more. Returns false after an error. */
 static bool parse_aovs(const cli_arguments *arguments, const koksma_render_options *options, cli_adaptive *adaptive,
                        koksma_aovs *out, int *code)
 {
@@ -257,7 +269,7 @@ static bool parse_aovs(const cli_arguments *arguments, const koksma_render_optio
         *code = CLI_USAGE;
         return false;
     }
-    for (int i = 0; text && !status && options->spp < 2 && i < out->n; i++) {
+    for (int i = 0; text && !status && options->spp < 2 && !adaptive->options.method && i < out->n; i++) {
         if (!strcmp(out->names[i], "half:odd")) {
             *code =
                 cli_usage_error(arguments, "--aov half needs -n 2 or more: of one sample the second half is empty");
@@ -296,7 +308,7 @@ static int run(const cli_arguments *arguments)
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_idle_uses(arguments, arguments->operands[0], scene, &options);
         }
-        code = cli_try_output(arguments, cli_text(arguments, "output", ""));
+        code = try_files(arguments, &adaptive, &aovs);
         code = code ? code
                : announce_size(arguments, scene, &options, &adaptive.options, &aovs)
                    ? render(arguments, scene, &options, &adaptive, &aovs)
@@ -352,7 +364,7 @@ const cli_command cli_command_render = {
         "in a pixel (as\n"
         "'koksma scene check' lists them, from 1; 0: none); a .png or .jpg shows each number in its own colour and 0 "
         "in black. half gives two layers, half-even and half-odd: the means of the samples with even and with odd "
-        "index (-n 2 or more). Two options can't write one file.\n"
+        "index (-n 2 or more, or --adaptive). Two options can't write one file.\n"
         "\n"
         "A render that is interrupted (Ctrl-C) writes the pixels that are done, with 0 in the others, also over an "
         "older image, and ends with exit code 130.\n",

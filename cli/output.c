@@ -7,6 +7,7 @@
 #include "output.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -78,26 +79,46 @@ bool cli_is_same_file(const char *a, const char *b)
     return !stat(a, &info) && !stat(b, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
 }
 
-/* Returns why no file can be written at `path`, as errno; 0: it can, or there is a link to a new file, of which only the
-   writer finds out where it leads. */
+enum { MOST_LINKS = 40 }; /* as many as the system follows */
+
+/* Follows links, of which the last may lead to a file that isn't there yet. Returns the place where they end, to be freed,
+   or NULL and sets errno. */
+static char *follow(const char *path)
+{
+    char *at = strdup(path), target[PATH_MAX], joined[2 * PATH_MAX];
+    struct stat info;
+    for (int i = 0; at && !lstat(at, &info) && S_ISLNK(info.st_mode); i++) {
+        const ssize_t length = readlink(at, target, sizeof target - 1);
+        const char *slash = strrchr(at, '/');
+        const int why = length < 0 ? errno : i == MOST_LINKS ? ELOOP : 0;
+        target[why ? 0 : length] = '\0';
+        snprintf(joined, sizeof joined, "%.*s%s", slash && *target != '/' ? (int)(slash - at) + 1 : 0, at, target);
+        free(at);
+        at = why ? NULL : strdup(joined);
+        errno = why ? why : errno;
+    }
+    return at;
+}
+
+/* Returns why no file can be written at `path`, as errno; 0: it can. */
 static int why_not(const char *path)
 {
     struct stat info;
-    char *known = realpath(path, NULL);
-    if (!known && !lstat(path, &info) && S_ISLNK(info.st_mode)) {
-        return 0;
+    char *at = follow(path);
+    if (!at) {
+        return errno;
     }
-    const char *at = known ? known : path, *slash = strrchr(at, '/');
+    const char *slash = strrchr(at, '/');
     char *folder = slash ? strndup(at, slash == at ? 1 : (size_t)(slash - at)) : strdup(".");
-    const int why = !folder                                                 ? ENOMEM
-                    : known && !stat(known, &info) && S_ISDIR(info.st_mode) ? EISDIR
-                    : stat(folder, &info)                                   ? errno
-                    : !S_ISDIR(info.st_mode)                                ? ENOTDIR
-                    : slash && !slash[1]                                    ? ENOENT
-                    : access(folder, W_OK | X_OK)                           ? errno
-                                                                            : 0;
+    const int why = !folder                                                ? ENOMEM
+                    : !stat(at, &info) && S_ISDIR(info.st_mode)            ? EISDIR
+                    : stat(folder, &info)                                  ? errno
+                    : !S_ISDIR(info.st_mode)                               ? ENOTDIR
+                    : slash && !slash[1]                                   ? ENOENT
+                    : faccessat(AT_FDCWD, folder, W_OK | X_OK, AT_EACCESS) ? errno
+                                                                           : 0;
     free(folder);
-    free(known);
+    free(at);
     return why;
 }
 
@@ -124,16 +145,12 @@ bool cli_check_output(const cli_arguments *arguments, const char *path)
 /* Writes where a file at `path` is or will be made. Returns false if its folder isn't there either. */
 static bool place_of(const char *path, char out[PATH_MAX])
 {
-    struct stat info;
-    char folder[PATH_MAX];
-    const char *slash = strrchr(path, '/');
-    const int length = slash ? (int)(slash - path) + 1 : 0;
-    if (realpath(path, out)) {
-        return true;
-    }
-    /* glibc leaves the first name that isn't there in `out`: the file itself if its folder is there */
-    return errno == ENOENT && snprintf(folder, sizeof folder, "%.*s.", length, path) < PATH_MAX &&
-           !stat(folder, &info);
+    char folder[PATH_MAX], *at = follow(path);
+    const char *slash = at ? strrchr(at, '/') : NULL, *name = slash ? slash + 1 : at;
+    const bool known = at && snprintf(out, PATH_MAX, "%.*s.", slash ? (int)(slash - at) + 1 : 0, at) < PATH_MAX &&
+                       realpath(out, folder) && snprintf(out, PATH_MAX, "%s/%s", folder, name) < PATH_MAX;
+    free(at);
+    return known;
 }
 
 bool cli_is_same_output(const char *a, const char *b)

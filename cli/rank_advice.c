@@ -214,11 +214,12 @@ static void advise_undecided(const koksma_rank_options *options, const koksma_ra
                 name_of(options, rows[ranking->advised_row].pattern));
     }
     if (!ranking->needed_trials) {
-        fprintf(stderr, "; %s",
-                ranking->undecidable
-                    ? "by these trials no number of them would decide it, because the reference's own "
-                      "error is too large"
-                    : "these trials are too few to tell how many would decide it");
+        fprintf(
+            stderr, "; %s",
+            ranking->undecidable
+                ? "by these trials not even the largest number of them would decide it, because the reference's own "
+                  "error is too large or the difference too small"
+                : "these trials are too few to tell how many would decide it");
         return;
     }
     fprintf(stderr, "; about %lld trials of a pattern", ranking->needed_trials);

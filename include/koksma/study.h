@@ -440,8 +440,8 @@ typedef struct koksma_ranking {
     long long trials; /* largest number of trials of one pattern */
     /* if not settled: approximate number of trials of each pattern that would decide which is the best; 0: unknown */
     long long needed_trials;
-    bool undecidable; /* true: not settled, and by the spread of 128 trials or more no number of trials would decide
-                         which is the best, because the reference is too noisy */
+    bool undecidable; /* true: not settled, and by the spread of 128 trials or more not even KOKSMA_MAX_RANK_TRIALS
+                         would decide which is the best: the reference is too noisy, or the difference too small */
     double needed_s;  /* seconds that needed_trials would take; 0: unknown */
     int width, height;
     double reference_error; /* expected mean absolute error of the reference (NaN: the reference was not finished) */
@@ -535,8 +535,9 @@ typedef struct koksma_scene_search {
    images of the scene. Equal options give equal results on any number of threads. A time limit of run has no effect.
    All scenes are opened, and all patterns tried, before the search.
      out  receives the result, which koksma_scene_optimum_fini frees, also after INTERRUPTED
-   Errors: ARGUMENT, UNKNOWN, MISSING, MALFORMED, MEMORY, those of making points by the patterns, INTERRUPTED (out then
-   has what was found), and those of options->found. */
+   Errors: ARGUMENT, UNKNOWN, MISSING, MALFORMED, IMPOSSIBLE (the image of a scene is the same for every seed, or a listed
+   pattern lacks the points of some seed), MEMORY, those of making points by the patterns, INTERRUPTED (out then has what
+   was found), and those of options->found. */
 KOKSMA_API koksma_status koksma_optimise_scene(const koksma_scene_search *options, const koksma_run *run,
                                                koksma_scene_optimum *out);
 

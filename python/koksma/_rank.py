@@ -84,7 +84,7 @@ class Ranking:
     seconds: float
     advised: Optional[str]  #: decided to leave the least of those whose error is not coherent; None: undecided, or no such
     metric: str  #: what error is
-    undecidable: bool  #: by 128 trials or more no number would decide which is the best: the reference is too noisy
+    undecidable: bool  #: by 128 trials or more, 65,536 would not decide either: a noisy reference, or a small difference
 
     @property
     def best(self) -> Optional[str]:

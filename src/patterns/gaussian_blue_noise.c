@@ -170,7 +170,7 @@ static koksma_status descend(descent *d, int steps, const koksma_run *run)
         }
         const koksma_run step = koksma__phase_run(&phases, run, 1.0 / steps);
         status = blocks == 1 ? move(d, 0) : koksma__parallel(&step, blocks, move, d);
-        if (!status && !koksma__keep_going(run, (double)t / steps)) {
+        if (!status && !koksma__keep_going(&step, 1)) {
             status = koksma__fail_interrupted();
         }
         if (d->squares && !status && converged(d) && t >= LEAST_STEPS) {

@@ -45,8 +45,8 @@ static double product(double part, double half)
     return part > 0 ? part * half : 0;
 }
 
-/* The extent of a flat shape from its centre along an axis, of which its sides have the parts u and v; a disk has no
-   second side. */
+/* The extent of a flat shape from its centre along an axis, of which its sides have the parts u and v. A disk of a
+   scene file has no second side; one of another format has that of the square around it. */
 static double flat_reach(const koksma__shape *shape, double u, double v)
 {
     return shape->half[1] ? product(fabs(u), shape->half[0]) + product(fabs(v), shape->half[1])

@@ -177,7 +177,7 @@ static double trial_s(const koksma__contest *c, size_t i)
 }
 
 /* Estimated number of trials that would decide all pairs of the pattern with the smallest error; 0 if by the present
-   estimates no number would decide a pair. *undecidable: whether these estimates are sure enough to say so. */
+   estimates no possible number would decide a pair. *undecidable: whether these estimates are sure enough to say so. */
 static size_t trials_to_lead(const koksma__rank_table *table, bool *undecidable)
 {
     size_t best = NOBODY, needed = 0;

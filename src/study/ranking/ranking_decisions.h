@@ -59,7 +59,8 @@ koksma__estimate koksma__rank_both(koksma__estimate first, koksma__estimate seco
 koksma__rank_verdict koksma__rank_judge(const koksma__rank_errors *a, const koksma__rank_errors *b, double level);
 
 /* The smallest number of trials among 8, 16, 32, ... that would decide the pair if its means and variances remained
-   unchanged; 0 if none would, because the reference is too noisy. */
+   unchanged; 0 if none up to KOKSMA_MAX_RANK_TRIALS would, because the reference is too noisy or the difference too
+   small. */
 size_t koksma__rank_trials_needed(const koksma__rank_errors *a, const koksma__rank_errors *b, double level);
 
 /* ---- A whole ranking ------------------------------------------------------------------------------------ */
@@ -68,7 +69,7 @@ size_t koksma__rank_trials_needed(const koksma__rank_errors *a, const koksma__ra
 typedef struct koksma__rank_pair {
     koksma__rank_verdict verdict;
     int round, judged; /* judged: number of rounds so far after which the pair was judged */
-    bool hopeless;     /* the pair is open, and no number of trials would decide it: the reference is too noisy */
+    bool hopeless;     /* the pair is open, and no possible number of trials would decide it */
 } koksma__rank_pair;
 
 typedef struct koksma__rank_entrant {

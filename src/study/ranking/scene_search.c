@@ -71,6 +71,7 @@ typedef struct search {
     double begin, share; /* of the current step: the fraction of all work before it, and its own */
     double done;         /* the largest fraction reported so far, because a ranking reports 0 again at every round */
     koksma_run run;      /* reports the progress of a step to `caller` */
+    bool stopped;        /* whether `caller` has returned false */
     koksma_scene *open;  /* the one of `opened` that is being rendered */
     uint64_t salt;
     koksma_points *sets; /* candidates: n_sets times phases */
@@ -85,7 +86,8 @@ static bool keep_going(void *context, double fraction)
 {
     search *s = context;
     s->done = fmax(s->done, s->begin + s->share * fraction);
-    return koksma__keep_going(s->caller, s->done);
+    s->stopped = s->stopped || !koksma__keep_going(s->caller, s->done);
+    return !s->stopped;
 }
 
 /* Begins part i of the work, which has n equal parts. */
@@ -468,7 +470,7 @@ static koksma_status judge_all(search *s)
 
 /* ---- The search -------------------------------------------------------------------------------------------- */
 
-/* The canonical text of a listed pattern, which texts of equal meaning share. */
+/* The canonical text of a listed pattern, which all spellings of its name and parameters share. */
 static koksma_status text_of(const char *pattern, char text[KOKSMA_MAX_PATTERNS_TEXT])
 {
     koksma_render_options o = {0};
@@ -512,41 +514,44 @@ static koksma_status take_against(search *s)
     return KOKSMA_OK;
 }
 
-/* Stores the held-out scenes: those of the options, or, by default, the first N_HELD_OUT in the table `scenes` that
-   are not the scene itself. */
-static koksma_status take_held_out(search *s)
+static koksma_status check_held_out(const koksma_scene_search *o)
 {
-    const koksma_scene_search *o = s->options;
     KOKSMA__FAIL_IF(o->held_out && o->n_held_out > KOKSMA_MAX_HELD_OUT, KOKSMA_ARGUMENT,
                     "n_held_out = %zu: the held-out scenes must be at most %d", o->n_held_out, KOKSMA_MAX_HELD_OUT);
-    s->scenes[0] = o->scene;
     for (size_t i = 0; o->held_out && i < o->n_held_out; i++) {
         KOKSMA__FAIL_IF(!o->held_out[i], KOKSMA_ARGUMENT, "held_out: text %zu is NULL", i);
-        KOKSMA__FAIL_IF(!strcmp(o->held_out[i], o->scene), KOKSMA_ARGUMENT,
-                        "held_out: '%s' is the scene that the set is optimised for", o->scene);
-        s->scenes[++s->n_held_out] = o->held_out[i];
-    }
-    for (size_t i = 0; !o->held_out && i < N_SCENES && s->n_held_out < N_HELD_OUT; i++) {
-        if (strcmp(scenes[i], o->scene) != 0) {
-            s->scenes[++s->n_held_out] = scenes[i];
-        }
     }
     return KOKSMA_OK;
 }
 
-/* Opens all scenes before the search, which takes long, and of which a scene that is missing would cost the result.
-   The scenes must differ: the scene itself would show the gain that it was searched for, and another one that counts
-   twice would weigh twice in the mean. */
+/* Opens all scenes before the search, which takes long, and of which a scene that is missing would cost the result. The
+   held-out scenes are those of the options, or, by default, the first N_HELD_OUT in the table `scenes` that are not the
+   scene itself. The scenes must differ: the scene itself would show the gain that it was searched for, and another one
+   that counts twice would weigh twice in the mean. */
 static koksma_status open_scenes(search *s)
 {
-    for (size_t i = 0; i <= s->n_held_out; i++) {
-        KOKSMA__TRY(koksma_scene_open(s->scenes[i], &s->opened[i]));
-        for (size_t j = 0; j < i; j++) {
-            KOKSMA__FAIL_IF(koksma_scene_hash(s->opened[j]) == koksma_scene_hash(s->opened[i]), KOKSMA_ARGUMENT,
-                            j ? "%s: as a held-out scene it is listed twice"
-                              : "%s: the held-out scene is the one that the set is optimised for",
-                            s->scenes[i]);
+    const koksma_scene_search *o = s->options;
+    const char *const *texts = o->held_out ? o->held_out : scenes;
+    const size_t n = o->held_out ? o->n_held_out : N_SCENES, most = o->held_out ? n : N_HELD_OUT;
+    s->scenes[0] = o->scene;
+    KOKSMA__TRY(koksma_scene_open(o->scene, &s->opened[0]));
+    for (size_t i = 0; i < n && s->n_held_out < most; i++) {
+        koksma_scene *scene;
+        size_t same = 0;
+        KOKSMA__TRY(koksma_scene_open(texts[i], &scene));
+        while (same <= s->n_held_out && koksma_scene_hash(s->opened[same]) != koksma_scene_hash(scene)) {
+            same++;
         }
+        if (same > s->n_held_out) {
+            s->scenes[++s->n_held_out] = texts[i];
+            s->opened[s->n_held_out] = scene;
+            continue;
+        }
+        koksma_scene_close(scene);
+        KOKSMA__FAIL_IF(o->held_out, KOKSMA_ARGUMENT,
+                        same ? "%s: as a held-out scene it is listed twice"
+                             : "%s: the held-out scene is the one that the set is optimised for",
+                        texts[i]);
     }
     for (size_t i = 0; i <= s->n_held_out; i++) {
         s->open = s->opened[i];
@@ -577,7 +582,7 @@ static koksma_status take_options(search *s)
     s->max_trials = o->max_trials ? o->max_trials : 32;
     KOKSMA__FAIL_IF(s->max_trials < 8 || s->max_trials > KOKSMA_MAX_RANK_TRIALS, KOKSMA_ARGUMENT,
                     "max_trials = %lld: it must be 8 to %d", s->max_trials, KOKSMA_MAX_RANK_TRIALS);
-    return take_held_out(s);
+    return check_held_out(o);
 }
 
 static koksma_status run_search(search *s)

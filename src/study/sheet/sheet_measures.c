@@ -144,7 +144,7 @@ static double error_of(const koksma__sheet_values *v, size_t s, size_t m, size_t
 bool koksma__sheet_equal(const koksma__sheet_values *v, size_t a, size_t b, size_t m, size_t i)
 {
     return error_of(v, a, m, i) == 0 && error_of(v, b, m, i) == 0 &&
-           koksma__sheet_tally(v, a, m, i)->mean == koksma__sheet_tally(v, b, m, i)->mean;
+           !koksma__compare(koksma__sheet_tally(v, a, m, i)->mean, koksma__sheet_tally(v, b, m, i)->mean);
 }
 
 int koksma__sheet_compare(const koksma__sheet_values *v, size_t a, size_t b, size_t m, size_t i, size_t tests)
@@ -189,10 +189,11 @@ koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet)
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
 
+/* A mean and its interval, which begins at 0 or above, because no measure is negative. */
 static koksma__estimate mean_of(const koksma_tally *t)
 {
-    const double half = koksma_tally_interval(t);
-    return (koksma__estimate){t->mean, t->mean - half, t->mean + half};
+    const double half = koksma_tally_interval(t), low = t->mean - half;
+    return (koksma__estimate){t->mean, low < 0 ? 0 : low, t->mean + half};
 }
 
 static koksma__estimate slope_of(const koksma__sheet_values *v, size_t s, size_t m)
