@@ -122,7 +122,7 @@ class Scenes(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "o.npy")
             done = subprocess.run([os.environ["KOKSMA"], "optimise", "--scene", "ball", "-n", "16", "--candidates", "2", "--phases", "2",
-                                   "--size", "12x9", "--held-out", "checker", "--against", "jittered,fibonacci", "--max-trials", "8",
+                                   "--size", "12x9", "--held-out", "checker", "--against", "jittered,sobol", "--max-trials", "8",
                                    "-s", "5", "-o", path, "-q", "--json"], capture_output=True, text=True)
             self.assertIn(done.returncode, (0, 1))
             rows = [json.loads(line) for line in done.stdout.splitlines()]

@@ -520,6 +520,8 @@ static koksma_status check_held_out(const koksma_scene_search *o)
                     "n_held_out = %zu: the held-out scenes must be at most %d", o->n_held_out, KOKSMA_MAX_HELD_OUT);
     for (size_t i = 0; o->held_out && i < o->n_held_out; i++) {
         KOKSMA__FAIL_IF(!o->held_out[i], KOKSMA_ARGUMENT, "held_out: text %zu is NULL", i);
+        KOKSMA__FAIL_IF(!strcmp(o->held_out[i], o->scene), KOKSMA_ARGUMENT,
+                        "held_out: '%s' is the scene that the set is optimised for", o->scene);
     }
     return KOKSMA_OK;
 }
