@@ -14,6 +14,7 @@
 
 #include "cli.h"
 #include "output.h"
+#include "source.h"
 
 /* The items of an option that is a list: `texts` has copies of the items, and `at` has pointers to these. The list
    "none" has no items. */
@@ -23,7 +24,7 @@ typedef struct list {
     size_t n;
 } list;
 
-static const char file_prefix[] = "file:", pattern_prefix[] = "pattern:";
+static const char file_prefix[] = "file:";
 
 /* Whether an item of a list is a pattern, a scene or a file. */
 static bool is_known(const char *item)
@@ -55,8 +56,7 @@ static bool read_list(const cli_arguments *arguments, const char *option, size_t
     for (size_t i = 1; i < out->n; i++) {
         char joined[2 * KOKSMA_MAX_SPEC];
         snprintf(joined, sizeof joined, "%s,%s", out->texts[i - 1], out->texts[i]);
-        const char *path = joined;
-        path += strncmp(path, pattern_prefix, sizeof pattern_prefix - 1) ? 0 : sizeof pattern_prefix - 1;
+        const char *path = cli_spec_in(joined);
         path += strncmp(path, file_prefix, sizeof file_prefix - 1) ? 0 : sizeof file_prefix - 1;
         if (!access(path, F_OK) && !(is_known(out->texts[i - 1]) && is_known(out->texts[i]))) {
             cli_usage_error(arguments, "--%s: a comma in the name of a file, '%s', ends the item; rename the file",
@@ -72,7 +72,7 @@ static bool read_list(const cli_arguments *arguments, const char *option, size_t
 static int take_sampler(const cli_arguments *arguments, const char **text)
 {
     struct stat info;
-    *text += strncmp(*text, pattern_prefix, sizeof pattern_prefix - 1) ? 0 : sizeof pattern_prefix - 1;
+    *text = cli_spec_in(*text);
     const char *at = strchr(*text, '@');
     if (at && at[1] && !at[1 + strspn(at + 1, "0123456789@")] && access(*text, F_OK)) {
         return cli_usage_error(arguments, "%s: a datasheet chooses the numbers of points; it takes %.*s", *text,

@@ -313,9 +313,8 @@ static int put_variance(job *j, const koksma_integral *integral, uint64_t sample
 /* Whether two operands write the same name of a pattern. */
 static bool same_name(const char *a, const char *b)
 {
-    static const char prefix[] = "pattern:";
-    a += strncmp(a, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
-    b += strncmp(b, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+    a = cli_spec_in(a);
+    b = cli_spec_in(b);
     const size_t length = strcspn(a, ":@");
     return length == strcspn(b, ":@") && !strncmp(a, b, length);
 }

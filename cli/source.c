@@ -16,6 +16,11 @@
 
 static const char prefix[] = "pattern:";
 
+const char *cli_spec_in(const char *text)
+{
+    return text + (strncmp(text, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1);
+}
+
 /* Splits "SPEC@N" or "SPEC@N@DIM" at its last one or two '@'. *dim is 0 if DIM is out of range. Returns false if the
    text has another form. */
 static bool split(char *text, size_t *n, int *dim)
@@ -60,7 +65,7 @@ static bool is_counted(const char *text)
 
 bool cli_source_is_pattern(const char *text)
 {
-    return !strncmp(text, prefix, sizeof prefix - 1) ||
+    return cli_spec_in(text) != text ||
            (is_counted(text) && (cli_names_pattern(text) || (!strchr(text, '/') && access(text, F_OK))));
 }
 
@@ -71,7 +76,7 @@ static bool is_miscounted(const char *text)
     char copy[KOKSMA_MAX_SPEC], name[64];
     size_t n = 0;
     int dim;
-    text += strncmp(text, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+    text = cli_spec_in(text);
     snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ":@"), text);
     snprintf(copy, sizeof copy, "%s", text);
     const koksma_pattern *pattern = koksma_pattern_find(name);
@@ -91,7 +96,7 @@ static int fail_miscounted(const cli_arguments *arguments, const char *text)
 int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_source *source)
 {
     char copy[KOKSMA_MAX_SPEC], spec[KOKSMA_MAX_SPEC];
-    text += strncmp(text, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+    text = cli_spec_in(text);
     *source = (cli_source){.is_pattern = true};
     snprintf(copy, sizeof copy, "%s", text);
     snprintf(spec, sizeof spec, "%s", text);
@@ -111,7 +116,7 @@ int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_sourc
 int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source)
 {
     *source = (cli_source){.is_pattern = cli_source_is_pattern(text)};
-    if (source->is_pattern && strncmp(text, prefix, sizeof prefix - 1) != 0 && !access(text, F_OK)) {
+    if (source->is_pattern && cli_spec_in(text) == text && !access(text, F_OK)) {
         return cli_usage_error(arguments,
                                "%s is both a file and a pattern; write ./%s for the file, %s%s for the points", text,
                                text, prefix, text);
@@ -223,7 +228,7 @@ typedef struct sizes {
 static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
 {
     char item[32], operand[KOKSMA_MAX_SPEC + 64];
-    const char *spec = strncmp(text, prefix, sizeof prefix - 1) ? text : text + sizeof prefix - 1;
+    const char *spec = cli_spec_in(text);
     const bool bare = (cli_names_pattern(spec) || spec != text) && !is_counted(text);
     of->any_bare |= bare;
     of->other = bare || of->other ? of->other : text;
@@ -251,7 +256,7 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
    number of points. Returns the exit code. */
 static int check_item(const cli_arguments *arguments, const char *item, bool counted)
 {
-    const char *spec = strncmp(item, prefix, sizeof prefix - 1) ? item : item + sizeof prefix - 1;
+    const char *spec = cli_spec_in(item);
     koksma_spec known;
     if (is_counted(item) || is_miscounted(item) || !strcmp(arguments->command->name, "generate") ||
         (spec == item && !access(item, F_OK))) {
@@ -353,7 +358,7 @@ bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n)
             return false;
         }
         *n = count ? count : *n;
-        const size_t skip = strncmp(spec, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+        const size_t skip = (size_t)(cli_spec_in(spec) - spec);
         const size_t length = (size_t)((count ? at - 1 : end) - spec) - skip;
         memmove(spec, spec + skip, length);
         memmove(spec + length, end, strlen(end) + 1);

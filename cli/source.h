@@ -19,6 +19,9 @@
 int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
                       koksma_points *points);
 
+/* Returns the text behind "pattern:", or the text itself if it does not begin so. */
+const char *cli_spec_in(const char *text);
+
 /* Returns whether an operand has the form "[pattern:]SPEC@N[@DIM]" and is no file. */
 bool cli_source_is_pattern(const char *text);
 

@@ -170,25 +170,31 @@ static bool stop_at_hundredth(void *context, double fraction)
     return ++*(int *)context < 100;
 }
 
+/* Renders the scene ball with side x side pixels until the run stops it. */
+static void render_until_stopped(const char *pattern, int side, int spp, const koksma_run *run)
+{
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image = {0};
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options_init(&options, scene);
+    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
+    options.width = options.height = side;
+    options.spp = spp;
+    assert_int_equal(koksma_render(scene, &options, run, &image), KOKSMA_INTERRUPTED);
+    koksma_image_fini(&image);
+    koksma_scene_close(scene);
+}
+
 /* Patterns take seconds for a set of one pixel: they ask while they make it, on any thread but through the caller's.
    A picture of four pixels is one task, and asked a few times before. */
 static void pictures_ask_within_a_set(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    koksma_render_options options;
-    koksma_image image = {0};
     int asked = 0;
     const koksma_run run = {.threads = 2, .keep_going = stop_at_hundredth, .context = &asked};
-    assert_ok(koksma_scene_open("ball", &scene));
-    koksma_render_options_init(&options, scene);
-    assert_ok(koksma_pattern_spec("gaussian-blue-noise:steps=1000", &options.pattern));
-    options.width = options.height = 2;
-    options.spp = 16;
-    assert_int_equal(koksma_render(scene, &options, &run, &image), KOKSMA_INTERRUPTED);
+    render_until_stopped("gaussian-blue-noise:steps=1000", 2, 16, &run);
     assert_true(asked >= 100 && asked < 200);
-    koksma_image_fini(&image);
-    koksma_scene_close(scene);
 }
 
 /* Sets that take seconds to minutes, in each dimension that a pattern has up to 8, told to stop at the 20th question. */
@@ -223,20 +229,10 @@ static void every_pattern_asks_often(void **state)
 static void pictures_ask_within_the_first_set(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    koksma_render_options options;
-    koksma_image image = {0};
     watch w = {.asked = 0};
     const koksma_run run = {.threads = 2, .keep_going = look, .context = &w};
-    assert_ok(koksma_scene_open("ball", &scene));
-    koksma_render_options_init(&options, scene);
-    assert_ok(koksma_pattern_spec("best-candidate", &options.pattern));
-    options.width = options.height = 1;
-    options.spp = 65536;
-    assert_int_equal(koksma_render(scene, &options, &run, &image), KOKSMA_INTERRUPTED);
+    render_until_stopped("best-candidate", 1, 65536, &run);
     assert_true(w.asked == 20 && w.longest_s < 1);
-    koksma_image_fini(&image);
-    koksma_scene_close(scene);
 }
 
 int main(void)
