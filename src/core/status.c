@@ -9,7 +9,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-enum { TEXT_SIZE = 1024 };
+enum { TEXT_SIZE = 1024, FULL_SIZE = 8 * TEXT_SIZE };
 
 static _Thread_local char error_text[TEXT_SIZE];
 static _Thread_local bool refused;
@@ -114,15 +114,37 @@ void koksma_text_escape(char *text, size_t size)
     }
 }
 
+/* Copies a line of UTF-8 to error_text. Of one that is too long the first and the last characters are kept, because the
+   reason stands behind the name, and "..." is between them. */
+static void keep(const char *text)
+{
+    static const char gap[] = "...";
+    const size_t length = strlen(text), half = (TEXT_SIZE - sizeof gap) / 2;
+    if (length < TEXT_SIZE) {
+        memcpy(error_text, text, length + 1);
+        return;
+    }
+    size_t head = half, tail = length - half;
+    while (((unsigned char)text[head] & 0xc0) == 0x80) {
+        head--;
+    }
+    while (((unsigned char)text[tail] & 0xc0) == 0x80) {
+        tail++;
+    }
+    memcpy(error_text, text, head);
+    memcpy(error_text + head, gap, sizeof gap - 1);
+    memcpy(error_text + head + sizeof gap - 1, text + tail, length + 1 - tail);
+}
+
 koksma_status koksma__fail(koksma_status status, const char *format, ...)
 {
-    char text[TEXT_SIZE]; /* a separate buffer, because arguments may point into error_text */
+    char text[FULL_SIZE]; /* not error_text itself, because arguments may point into that */
     va_list arguments;
     va_start(arguments, format);
     koksma__vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     koksma_text_escape(text, sizeof text);
-    memcpy(error_text, text, sizeof text);
+    keep(text);
     refused = false;
     return status;
 }

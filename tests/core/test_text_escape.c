@@ -112,9 +112,33 @@ static void test_any_bytes(void **state)
     }
 }
 
+/* An error names the object and the reason (koksma.h), also where the name alone is longer than the text: one character of
+   three bytes more or less moves every byte of what is kept. */
+static void test_long_names(void **state)
+{
+    static const char end[] = ".txt: can't be read: File name too long";
+    (void)state;
+    for (size_t n = 300; n < 1300; n++) {
+        char path[4096] = "";
+        for (size_t i = 0; i < n; i++) {
+            memcpy(path + 3 * i, "\xe2\x82\xac", 3);
+        }
+        strcpy(path + 3 * n, &"xx.txt"[n % 3]);
+        koksma_points points;
+        assert_int_not_equal(koksma_points_read(path, &points), KOKSMA_OK);
+        const char *const text = koksma_error_text();
+        const size_t length = strlen(text);
+        assert_true(is_line_of_utf8(text));
+        assert_memory_equal(text, path, 450);
+        assert_string_equal(text + length - strlen(end), end);
+        const size_t whole = strlen(path) + strlen(end) - strlen(".txt");
+        assert_true(whole < 1024 ? length == whole : length > 1000 && length < 1024 && strstr(text, "..."));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_space),
-                                       cmocka_unit_test(test_any_bytes)};
+                                       cmocka_unit_test(test_any_bytes), cmocka_unit_test(test_long_names)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
