@@ -71,7 +71,7 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
     }
 }
 
-enum { PATH = 4096 };
+enum { PATH = 8192 }; /* a path that is cut here is one that no system opens, and is refused as such */
 
 /* Writes the name that an AOV has in files, with '-' instead of ':'. */
 static void name_layer(const char *aov, char out[16])
@@ -82,13 +82,13 @@ static void name_layer(const char *aov, char out[16])
     }
 }
 
-/* Writes the path of an AOV's own file, beside an image whose format has no layers. Returns false if it is too long. */
-static bool layer_path(const char *output, const char *aov, char path[PATH])
+/* Writes the path of an AOV's own file, beside an image whose format has no layers. */
+static void layer_path(const char *output, const char *aov, char path[PATH])
 {
     const char *dot = strrchr(output, '.');
     char name[16];
     name_layer(aov, name);
-    return snprintf(path, PATH, "%.*s.%s%s", (int)(dot - output), output, name, dot) < PATH;
+    snprintf(path, PATH, "%.*s.%s%s", (int)(dot - output), output, name, dot);
 }
 
 /* Finds file i of those that the command writes: `option` is its part of the command line; the path is empty if the option
@@ -106,7 +106,7 @@ static bool file_at(const cli_arguments *arguments, const cli_adaptive *adaptive
         snprintf(path, PATH, "%s", own[i].path);
     } else if (i < n + layers) {
         snprintf(option, 64, "--aov %s", aovs->names[i - n]);
-        *path = layer_path(output, aovs->names[i - n], path) ? *path : '\0';
+        layer_path(output, aovs->names[i - n], path);
     }
     return i < n + layers;
 }
@@ -159,7 +159,8 @@ static koksma_status write_image(const cli_arguments *arguments, const koksma_sc
         name_layer(aovs->names[i], names[i]);
         if (layered) {
             all[n++] = (koksma_layer){names[i], &aovs->images[i]};
-        } else if (layer_path(output, aovs->names[i], path)) {
+        } else {
+            layer_path(output, aovs->names[i], path);
             status = (strcmp(aovs->names[i], "id") != 0 ? koksma_image_write : cli_write_ids)(path, &aovs->images[i],
                                                                                               metadata);
         }

@@ -318,6 +318,28 @@ def check_stores(checks, program, folder):
             subprocess.run(["umount", disk], check=True)
 
 
+def check_long_names(checks, program, folder):
+    """Layers beside an image whose path is nearly the longest that there is: all are written, or none and nothing else."""
+    deep = os.path.realpath(folder)
+    while len(deep) + 202 < 3850:
+        deep = os.path.join(deep, "d" * 200)
+    deep = os.path.join(deep, "d" * (4079 - len(deep)))
+    os.makedirs(deep)
+    within = os.open(deep, os.O_DIRECTORY)
+    for name in ("a", "n" * 20, "n" * 247, "n" * 300):
+        path = os.path.join(deep, name + ".png")
+        done = files.run(program, "render", "ball", "-n", "1", "--size", "4x4", "-q", "--aov", "direct,indirect", "-o", path, cwd=folder)
+        names = {f"{name}.png", f"{name}.direct.png", f"{name}.indirect.png"}
+        found = set(os.listdir(deep))
+        if len(name) > 200:
+            checks.refused(f"a name of {len(name)}", done, 4, "File name too long")
+            names = set()
+        checks.check(found == names, f"a name of {len(name)}: {[len(f) for f in found]}")
+        for made in found:
+            os.remove(made, dir_fd=within)
+    os.close(within)
+
+
 def check_streams(checks, program, folder):
     """Standard output that is full or closed, for rows of all kinds, short and long."""
     good(checks, "points", files.run(program, *POINTS, "-n", "4", "-o", "r.txt", cwd=folder))
@@ -337,7 +359,7 @@ def main():
              (check_quick_at_once, [program]), (check_user_names, [program]),
              (check_equal_numbers, [program]), (check_leftovers, [program, faults]), (check_others, [program]),
              (check_living, [program]), (check_full, [program, faults]), (check_stores, [program]),
-             (check_streams, [program])]
+             (check_long_names, [program]), (check_streams, [program])]
     for case, programs in cases:
         with tempfile.TemporaryDirectory() as folder:
             case(checks, *programs, folder)
