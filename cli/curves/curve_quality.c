@@ -16,11 +16,18 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
     if (s.sets > 0) {
         koksma_spectrum_quality_values q;
         koksma_spectrum_quality(&s, &q);
-        if (isnan(q.oscillation) && !cli_flag(c->arguments, "quiet")) {
+        const char *larger = s.half < KOKSMA_SPECTRUM_MAX_HALF ? "; try a larger --half" : "";
+        const bool quiet = cli_flag(c->arguments, "quiet");
+        if (isnan(q.effective_nyquist) && !quiet) {
+            cli_say("curve",
+                    "%s: the effective Nyquist frequency is not computed, because up to the largest frequency, %d, "
+                    "the mean power does not reach half of that of random points%s",
+                    source, s.half, larger);
+        } else if (isnan(q.oscillation) && !quiet) {
             cli_say("curve",
                     "%s: the oscillation is not computed, because the largest frequency, %d, is less than 5 sqrt(n) "
                     "above the frequency where the power first reaches about 1%s",
-                    source, s.half, s.half < KOKSMA_SPECTRUM_MAX_HALF ? "; try a larger --half" : "");
+                    source, s.half, larger);
         }
         sink->points = s.points;
         sink->row(sink, (double[]){q.effective_nyquist, q.relative_nyquist, q.oscillation});

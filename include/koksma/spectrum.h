@@ -82,7 +82,8 @@ KOKSMA_API koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, 
 typedef struct koksma_spectrum_quality_values {
     /* Effective Nyquist frequency: signals up to it alias little. It is half of the largest f at which the mean of
        p over the disk of frequencies up to f is at most 1/10; the search for f ends at the first f >= sqrt(n)/2
-       where this mean exceeds 1/2. */
+       where this mean exceeds 1/2. It is NaN if the spectrum ends before the search does; half >= 1.5 sqrt(n) is
+       enough for blue noise and lattices. */
     double effective_nyquist;
     /* effective_nyquist divided by sqrt(n)/2, the limit for square lattices. As f is a whole number,
        relative_nyquist is a multiple of 1/sqrt(n): 3/4 for the square lattice of 16 points, 31/32 for the square

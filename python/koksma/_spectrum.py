@@ -15,15 +15,15 @@ from ._matplotlib import curve
 from ._points import as_points, shown, view
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Spectrum:
-    """The mean power spectrum of one or more sets; 1 everywhere in the mean for random points.
+    """The mean power spectrum of one or more sets; for random points 1 in the mean, except at frequency 0, where it is n.
 
     power[half + ky, half + kx] is the power at (kx, ky). Ring i has the frequencies of length i + 1/2 to i + 3/2:
     its mean, the standard error over the sets (NaN for one), and the anisotropy in dB: NaN for a ring without power,
     -inf for one of equal powers. After Heck, Schlömer and Deussen (2013), effective_nyquist (also over sqrt(n)/2, that
-    of a large square lattice, in steps of 1/sqrt(n)) and oscillation sum the rings up; oscillation is NaN when the
-    spectrum ends too early for it.
+    of a large square lattice, in steps of 1/sqrt(n)) and oscillation sum the rings up. Each is NaN when the spectrum ends
+    too early for it: a half of 7 sqrt(n) is enough for both, of 1.5 sqrt(n) for effective_nyquist.
     """
 
     power: npt.NDArray[np.float64]

@@ -165,6 +165,32 @@ static void equal_sets_have_no_error(void **state)
     koksma_points_fini(&p);
 }
 
+/* A spectrum that ends early has the same effective Nyquist frequency as a large one, or none. That of the square
+   lattice is half of the last frequency before its first peak, which is at sqrt(n). */
+static void nyquist_is_that_of_large_spectra(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {"regular", "random", "jittered", "poisson-disk-maximal"};
+    for (int i = 0; i < 4; i++) {
+        double expected = i ? 0 : 15 / 2.0;
+        koksma_points p = test_points(patterns[i], 256, 2, 7);
+        for (int half = 60; half > 0; half--) {
+            koksma_spectrum_quality_values quality;
+            koksma_spectrum s;
+            assert_ok(koksma_spectrum_init(&s, half));
+            assert_ok(koksma_spectrum_add(&s, &p, KOKSMA_SPECTRUM_EXACT, NULL));
+            koksma_spectrum_quality(&s, &quality);
+            koksma_spectrum_fini(&s);
+            expected = i && half == 60 ? quality.effective_nyquist : expected;
+            assert_true(quality.effective_nyquist == expected || (half < 24 && isnan(quality.effective_nyquist)));
+            assert_true(half >= 8 || isnan(quality.effective_nyquist)); /* the search goes on at least to sqrt(n)/2 */
+            assert_true(isnan(quality.effective_nyquist) ? isnan(quality.relative_nyquist)
+                                                         : quality.relative_nyquist == quality.effective_nyquist / 8);
+        }
+        koksma_points_fini(&p);
+    }
+}
+
 /* The size of a spectrum that is large enough changes no quality; smaller ones give none. Random points have no
    oscillation but noise, which more sets make smaller. */
 static void quality_does_not_depend_on_half(void **state)
@@ -379,6 +405,7 @@ int main(void)
         cmocka_unit_test(kernels_equal_reference),
         cmocka_unit_test(rings_equal_the_definition),
         cmocka_unit_test(equal_sets_have_no_error),
+        cmocka_unit_test(nyquist_is_that_of_large_spectra),
         cmocka_unit_test(quality_does_not_depend_on_half),
         cmocka_unit_test(diaphony_equals_all_pairs),
     };

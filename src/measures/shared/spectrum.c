@@ -209,14 +209,13 @@ void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_spectrum_qu
     const double lattice = sqrt(spectrum->points) / 2;
     double energy = 0, area = 0;
     int last = 0;
-    for (int ring = 1; ring <= spectrum->half; ring++) {
+    bool ended = false;
+    for (int ring = 1; ring <= spectrum->half && !ended; ring++) {
         energy += ring * spectrum->rings[ring].mean;
         area += ring;
-        if (energy <= NYQUIST_SHARE * area) {
-            last = ring;
-        } else if (ring >= lattice && energy > SIGNAL_SHARE * area) {
-            break;
-        }
+        last = energy <= NYQUIST_SHARE * area ? ring : last;
+        ended = ring >= lattice && energy > SIGNAL_SHARE * area;
     }
-    *out = (koksma_spectrum_quality_values){last / 2.0, last / 2.0 / lattice, oscillation(spectrum)};
+    const double effective = ended ? last / 2.0 : (double)NAN;
+    *out = (koksma_spectrum_quality_values){effective, effective / lattice, oscillation(spectrum)};
 }
