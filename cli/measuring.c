@@ -103,11 +103,10 @@ bool measuring_by_size(const measuring *j)
 /* Returns whether the first k points are a set of the pattern for all k, so that a slope describes the pattern and
    theory applies to it. Sequences, and independent points without cells, have this property. The first k points of
    other patterns are only a part of a set, such as a strip of cells. */
-static bool prefixes_are_sets(const koksma_pattern *pattern)
+static bool prefixes_are_sets(const koksma_spec *spec)
 {
-    const bool independent =
-        pattern->claims & KOKSMA_CLAIM_INDEPENDENT && !(pattern->claims & KOKSMA_CLAIM_STRATIFIED);
-    return pattern->claims & KOKSMA_CLAIM_SEQUENCE || independent;
+    const unsigned claims = spec->pattern->claims;
+    return koksma_is_sequence(spec) || (claims & KOKSMA_CLAIM_INDEPENDENT && !(claims & KOKSMA_CLAIM_STRATIFIED));
 }
 
 /* Returns whether all trials of a source have the same points. */
@@ -133,7 +132,7 @@ bool measuring_check_prefixes(const measuring *j)
         if (cli_source_open(j->arguments, j->arguments->operands[i], &parts)) {
             return false;
         }
-        if (parts.is_pattern && !prefixes_are_sets(parts.spec.pattern)) {
+        if (parts.is_pattern && !prefixes_are_sets(&parts.spec)) {
             cli_usage_error(j->arguments,
                             "--prefixes: %s is no sequence, so its first points are no set of the pattern; use "
                             "--sizes 16,64,256 to measure a set of each n",

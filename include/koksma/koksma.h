@@ -296,6 +296,10 @@ KOKSMA_API double koksma_allow_exec(double seconds);
    mean over the seeds of such a pattern is the value of one set. False for the spec of a measure. */
 KOKSMA_API bool koksma_has_one_set(const koksma_spec *spec);
 
+/* Returns whether, for every k <= n, the first k of n points of a pattern are its set of k points: it claims SEQUENCE,
+   and has no {n} in the path of a file, which names another file for each n. False for the spec of a measure. */
+KOKSMA_API bool koksma_is_sequence(const koksma_spec *spec);
+
 /* Returns whether koksma_generate_range supports a pattern with these parameters. */
 KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
 
@@ -365,7 +369,7 @@ typedef struct koksma_witness {
 typedef struct koksma_value {
     double value;          /* the measure; for an L2 measure the root of the mean square */
     double square;         /* square of value, if it is known to more digits than value; otherwise NaN */
-    double lower, upper;   /* proven lower and upper bounds; both equal `value` if exact is true */
+    double lower, upper;   /* proven bounds, both equal to `value` if exact is true; NaN for a sampled measure */
     double standard_error; /* standard error of a sampled measure, NaN with one sample; 0 for other measures */
     bool exact;            /* true: value is exact up to rounding */
     koksma_witness witness;

@@ -116,6 +116,7 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_generate", spec, c_uint64, run, points)
     _declare(library, c_bool, "koksma_has_ranges", spec)
     _declare(library, c_bool, "koksma_has_one_set", spec)
+    _declare(library, c_bool, "koksma_is_sequence", spec)
     _declare(library, c_double, "koksma_allow_exec", c_double)
     _declare(library, c_int, "koksma_generate_range", spec, c_uint64, c_uint64, c_uint64, run, points)
     _declare(library, c_int, "koksma_generate_whole", spec, c_uint64, run, c_int, points)
@@ -321,11 +322,12 @@ def _paced() -> Any:
 
 def call(function: Callable[..., int], *arguments: object, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
          run_at: int, progress: Optional[Callable[[float], object]] = None, short: bool = False,
-         same: Optional[Hashable] = None) -> None:
+         same: Optional[Hashable] = None, raised: Optional[List[BaseException]] = None) -> None:
     """Calls a library function that takes a koksma_run as argument `run_at`. What a signal's handler or `progress` raises
     stops it, and comes out: KeyboardInterrupt after Ctrl-C. A short call is over before anybody could want to stop it, and
     does without what that costs: Python runs handlers when it has returned. same: calls with equal ones take about the same
-    time, so that one is short if another was."""
+    time, so that one is short if another was. raised: where a callback of the library's keeps what it raises, which likewise
+    stops the call and comes out."""
     time_limit = seconds_of("time_limit", time_limit)
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be callable, not {quoted(progress)}")
@@ -334,6 +336,7 @@ def call(function: Callable[..., int], *arguments: object, threads: SupportsInde
         check(function(*arguments[:run_at], byref(s.Run(threads)), *arguments[run_at:]))
         return _remember(same)
     signals = Signals()
+    signals.raised = signals.raised if raised is None else raised
 
     def keep_going(_context: object, fraction_done: float) -> bool:
         if progress is not None and not signals.raised:

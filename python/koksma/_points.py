@@ -18,13 +18,13 @@ from ._library import (ArgumentError, MalformedError, allow_exec as allowing_exe
                        lab, quick, quoted, spec, text, texts, whole)
 
 PointArray = npt.NDArray[np.float64]
-SEQUENCE, STRATIFIED, LATIN = 1 << 1, 1 << 3, 1 << 4  # KOKSMA_CLAIM_SEQUENCE and so on
+STRATIFIED, LATIN = 1 << 3, 1 << 4  # KOKSMA_CLAIM_STRATIFIED and so on
 _SHORT_RANGE, _SHORT_SET = 1 << 18, 64  # coordinates made in 30 ms at most, and made or measured in 1 ms
 _XS, _DOUBLE, _c_void_p = s.Points.xs.offset, np.dtype(np.float64), ctypes.c_void_p
 _DATA = -(-20 // ctypes.sizeof(_c_void_p) - 2) * ctypes.sizeof(_c_void_p)  # in PyArrayInterface: 20 bytes, aligned, then shape, strides, data
 _capsule_pointer = ctypes.pythonapi.PyCapsule_GetPointer
 _capsule_pointer.argtypes, _capsule_pointer.restype = [ctypes.py_object, ctypes.c_char_p], _c_void_p
-_NO_REAL_NUMBERS = (type(None), complex, np.complexfloating, str, bytes)
+_NO_REAL_NUMBERS = (type(None), complex, np.complexfloating, np.datetime64, np.timedelta64, str, bytes)
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
@@ -74,11 +74,13 @@ class Witness:
     hi: Tuple[float, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Value:
     """What a measure says. float(value) is the number; lower and upper are certified and equal it when exact.
 
-    standard_error is that of a sampled measure, NaN for one sample; of the others it is 0.
+    square is that of value where it is known to more digits than value, as for the L2 family, else NaN. standard_error is that
+    of a sampled measure, NaN for one sample, and lower and upper are NaN then; of the others it is 0. Values are equal if all
+    members are, NaN and NaN among them.
     """
 
     value: float
@@ -107,6 +109,16 @@ class Value:
 
     def __float__(self) -> float:
         return self.value
+
+    def _members(self) -> Tuple[Any, ...]:
+        members = (self.value, self.square, self.lower, self.upper, self.standard_error, self.exact, self.witness)
+        return tuple(None if m != m else m for m in members)
+
+    def __eq__(self, other: object) -> bool:
+        return self._members() == other._members() if isinstance(other, Value) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._members())
 
     def __repr__(self) -> str:
         parts = [f"{self.value:.6g}"]
@@ -271,11 +283,14 @@ def as_points(points: npt.ArrayLike) -> PointArray:
     try:
         given = np.asanyarray(points)
         kind, masked = given.dtype.kind, isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given)
-        array = np.ascontiguousarray(given, dtype=np.float64) if kind in "buifO" else given
+        refused = kind == "O" and any(isinstance(value, _NO_REAL_NUMBERS) for value in given.flat)
+        array = np.ascontiguousarray(given, dtype=np.float64) if kind in "buifO" and not refused else given
     except (TypeError, ValueError):
         raise ArgumentError(f"points must be an array of real numbers, not {quoted(points)}") from None
     if kind not in "buifO":
         raise ArgumentError(f"points must be real numbers, not {given.dtype}")
+    if refused:
+        raise ArgumentError(f"points must be real numbers, not {quoted(points)}")
     if masked:
         raise ArgumentError("points must not have masked coordinates")
     array = array if array.flags.aligned else array.copy()
@@ -376,6 +391,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         A density is negative, 0 everywhere or not finite, or a file is malformed.
     ForbiddenError
         The pattern runs a program or shared library, which needs allow_exec=True.
+    UnsupportedError
+        The pattern has no density and no surface.
 
     Notes
     -----
@@ -400,7 +417,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         if quickly is not None:
             return quickly
     if flag("allow_exec", allow_exec):
-        with allowing_exec():
+        core().koksma_allow_exec(before := core().koksma_allow_exec(0))
+        with allowing_exec(before if before > 0 else 60):  # the time of a block of allow_exec() remains
             return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, density=density, on=on, warp=warp)
     if warp is not None:
         if out is not None or density is not None or on is not None:
@@ -517,7 +535,7 @@ def local_discrepancy(points: npt.ArrayLike, corner: npt.ArrayLike) -> float:
     ----------
     points : array_like of shape (n, dim)
     corner : array_like of shape (dim,)
-        In [0,1]. Points on its faces are not counted.
+        In [0,1]. The box is half-open: a point with a coordinate of the corner is not counted.
 
     Returns
     -------
@@ -684,7 +702,7 @@ def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding
 
 
 def read(path: Union[str, "os.PathLike[str]"]) -> PointArray:
-    """Reads points.
+    """Reads points of [0,1]^dim, as measures take them.
 
     Parameters
     ----------
@@ -709,7 +727,7 @@ def read(path: Union[str, "os.PathLike[str]"]) -> PointArray:
 
 
 def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: Optional[str] = None) -> None:
-    """Writes points, whole or not at all.
+    """Writes points of [0,1]^dim, which `read` reads, whole or not at all. For those of a warp there is numpy.savetxt.
 
     Parameters
     ----------
@@ -732,7 +750,7 @@ def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: 
 
 def is_sequence(pattern: str) -> bool:
     """Whether the first k of n points are the set of k points."""
-    return bool(spec("pattern", pattern).pattern.contents.claims & SEQUENCE)
+    return bool(core().koksma_is_sequence(byref(spec("pattern", pattern))))
 
 
 def has_ranges(pattern: str) -> bool:

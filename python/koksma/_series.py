@@ -25,8 +25,8 @@ class Trials:
     pattern, measure : str
     n, dim, seed : int
     values : ndarray of shape (trials,)
-    exact : int
-        How many of them are exact; the others are bounds of a search that was cut short.
+    are_exact : ndarray of bool, of shape (trials,)
+        Whether each is exact. The others are bounds of a search that was cut short, or the estimates of a sampled measure.
     """
 
     pattern: str
@@ -35,7 +35,12 @@ class Trials:
     dim: int
     seed: int
     values: npt.NDArray[np.float64]
-    exact: int
+    are_exact: npt.NDArray[np.bool_]
+
+    @property
+    def exact(self) -> int:
+        """How many values are exact; of differences, both that they are of."""
+        return int(self.are_exact.sum())
 
     @property
     def mean(self) -> float:
@@ -69,7 +74,8 @@ class Trials:
         if ours != theirs:
             raise ArgumentError(f"differences of {ours} and {theirs}: both must have the same measure, first seed and number of sets")
         pattern = self.pattern if self.pattern == other.pattern else f"{self.pattern} - {other.pattern}"
-        return Trials(pattern, self.measure, self.n, self.dim, self.seed, self.values - other.values, min(self.exact, other.exact))
+        return Trials(pattern, self.measure, self.n, self.dim, self.seed, self.values - other.values,
+                      self.are_exact & other.are_exact)
 
     def __repr__(self) -> str:
         return (f"Trials({self.pattern!r}, n={self.n}, {self.measure!r}: {self.mean:.6g} +- {self.standard_error:.2g}, "
@@ -184,7 +190,7 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
     found = [value_of(generate(pattern, n, dim, seed + t, threads=threads), measure, warp=warp, threads=threads,
                       time_limit=time_limit) for t in range(count)]
     return Trials(canonical(pattern), canonical_measure(measure), whole("n", n, 1, s.MAX_COORDINATES),
-                  whole("dim", dim, 1, s.MAX_DIM), seed, np.array([v.value for v in found]), sum(v.exact for v in found))
+                  whole("dim", dim, 1, s.MAX_DIM), seed, np.array([v.value for v in found]), np.array([v.exact for v in found], dtype=bool))
 
 
 def canonical_measure(measure: str) -> str:

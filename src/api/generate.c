@@ -52,6 +52,14 @@ bool koksma_has_one_set(const koksma_spec *spec)
     return deterministic;
 }
 
+bool koksma_is_sequence(const koksma_spec *spec)
+{
+    KOKSMA__REQUIRE_OR(false, spec);
+    const koksma_pattern *p = pattern_of(spec);
+    return p && p->claims & KOKSMA_CLAIM_SEQUENCE &&
+           !(koksma__reads_points(p) && koksma__file_has(spec->path, "{n}"));
+}
+
 /* Fails if the pattern runs external code without permission. A call whose keep_going returns false at once, because
    the caller only wants to check the arguments, needs no permission: it fails with INTERRUPTED. */
 static koksma_status check_permission(const koksma_spec *spec, const koksma_pattern *p, const koksma_run *run)

@@ -11,6 +11,7 @@ import json
 import math
 import os
 import pathlib
+import pickle
 import pkgutil
 import re
 import sqlite3
@@ -82,6 +83,52 @@ class Series(unittest.TestCase):
         with self.assertRaisesRegex(koksma.ArgumentError, "no sequence"):
             koksma.convergence("n-rooks", "star", prefixes=True)
 
+    def test_files_of_each_size_are_no_sequence(self):
+        """file:NAME_{n}.npy has another file for each n; without {n} the first points of one file are the sets."""
+        with tempfile.TemporaryDirectory() as folder:
+            for n in (4, 8, 16):
+                np.save(os.path.join(folder, f"f_{n}_0.npy"), koksma.generate("n-rooks", n, seed=n))
+            for name, nested in (("f_{n}_{seed}.npy", False), ("f_16_{seed}.npy", True)):
+                pattern = "file:" + os.path.join(folder, name)
+                ours = koksma.convergence(pattern, "l2-star", [4, 8, 16])
+                sets = [koksma.generate("n-rooks", 16 if nested else n, seed=16 if nested else n)[:n] for n in (4, 8, 16)]
+                np.testing.assert_array_equal(ours.values[0], [koksma.measure(points, "l2-star").value for points in sets])
+                done = subprocess.run([os.environ["KOKSMA"], "measure", "--prefixes", "4,8,16", f"pattern:{pattern}@16", "-m", "l2-star"],
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0 if nested else 2, done.stderr)
+            engine = koksma.Engine("file:" + os.path.join(folder, "f_{n}_{seed}.npy"), seed=0)
+            np.testing.assert_array_equal(engine.random(4), koksma.generate("n-rooks", 4, seed=4))
+
+    def test_how_many_are_exact(self):
+        sampled = koksma.trials("random", 16, "disk-sampled", trials=3)
+        self.assertEqual((sampled.exact, sampled.are_exact.tolist()), (0, [False] * 3))
+        exact = koksma.trials("random", 16, "star", trials=3)
+        self.assertEqual((exact.exact, (exact - exact).exact), (3, 3))
+        half = koksma.Trials(exact.pattern, exact.measure, 16, 2, 0, exact.values, np.array([True, False, True]))
+        other = koksma.Trials(exact.pattern, exact.measure, 16, 2, 0, exact.values, np.array([False, True, True]))
+        self.assertEqual((half.exact, (half - other).exact), (2, 1))
+
+    def test_values_are_equal_to_themselves(self):
+        points = koksma.generate("random", 16)
+        for measure in koksma.measures():
+            try:
+                value, again = koksma.measure(points, measure.name), koksma.measure(points, measure.name)
+            except koksma.Error:
+                continue
+            self.assertEqual(value, again)
+            self.assertEqual(value, pickle.loads(pickle.dumps(again)))
+            self.assertEqual(hash(value), hash(again))
+        self.assertNotEqual(koksma.measure(points), koksma.measure(points, "extreme"))
+        self.assertNotEqual(koksma.measure(points), koksma.measure(points).value)
+
+    def test_early_ends_of_spectra(self):
+        """The effective Nyquist frequency of the square lattice of m x m points is (m - 1) / 2, or none of a short spectrum."""
+        lattice = koksma.generate("regular", 16384)
+        self.assertTrue(np.isnan(koksma.spectrum(lattice).effective_nyquist))
+        long = koksma.spectrum(lattice, 192)
+        self.assertEqual((long.effective_nyquist, long.relative_nyquist), (63.5, 63.5 / 64))
+        self.assertEqual(long, long)
+
     def test_rates(self):
         self.assertEqual(koksma.convergence("random", "star", [4, 16, 64]).proven, -0.5)
         self.assertEqual(koksma.convergence("jittered", "star", [4, 16, 64]).proven, -0.75)
@@ -133,6 +180,13 @@ class Pictures(unittest.TestCase):
         before = koksma.plot(points).svg
         points[0] = 0.5
         self.assertNotEqual(before, koksma.plot(points).svg)
+
+    def test_points_that_change_later_leave_a_picture_alone(self):
+        points = koksma.generate("n-rooks", 16)
+        picture = koksma.plot(points, witness="star")
+        before = picture.svg
+        points[:] = koksma.generate("n-rooks", 16, seed=1)
+        self.assertEqual(before, picture.svg)
 
     def test_titles_and_themes(self):
         sets = [koksma.generate("sobol", 16, dim=d) for d in (2, 4)]

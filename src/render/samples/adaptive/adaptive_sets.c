@@ -30,9 +30,8 @@ static bool continues(const koksma__adaptive *run, int u)
 {
     const koksma_render_options *options = run->frame->options;
     const koksma_spec *spec = options->patterns[u].pattern ? &options->patterns[u] : &options->pattern;
-    return !run->method->fresh && koksma__place_of_use_at(options, u).group < 0 &&
-           spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE && spec->pattern->max_dim >= 2 &&
-           options->pairing != KOKSMA_PAIRING_NATIVE;
+    return !run->method->fresh && koksma__place_of_use_at(options, u).group < 0 && koksma_is_sequence(spec) &&
+           spec->pattern->max_dim >= 2 && options->pairing != KOKSMA_PAIRING_NATIVE;
 }
 
 /* Finds out whether two seeds give the same points, by generating both sets: the claims of a pattern cannot decide
