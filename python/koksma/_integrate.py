@@ -18,6 +18,7 @@ from ._points import Member, PointArray, as_points, canonical, generate, numbers
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
 
+_MOST_AXES = 8  # KOKSMA_MAX_ANOVA_AXES
 _MOST_PAIRED_AXES = 16  # of functions of more coordinates the analysis of variance has no pairs, as the program's
 
 
@@ -97,7 +98,7 @@ class Integration:
     integrand, pattern : str
         pattern is "points" for points that were given.
     dim, trials : int
-        trials is 1 for a deterministic pattern and for points.
+        trials is 1 for points, and for a pattern that gave the same points for all seeds.
     sizes : ndarray of shape (k,)
     rmse, low, high : ndarray of shape (k,)
         Root mean square of estimate minus integral, and its 95 % interval. With one trial the absolute error. Where the
@@ -182,7 +183,7 @@ def _opened(function: Function, dim: int, raised: List[BaseException]) -> Iterat
     else:
         def at(x: Any, _dim: int, _context: object) -> float:
             try:
-                return float(_values(function, np.array(x[:dim])[None, :]).reshape(-1)[0])
+                return math.nan if raised else _mean(function, np.array(x[:dim])[None, :])
             except BaseException as error:  # noqa: BLE001
                 raised.append(error)
                 return math.nan
@@ -244,7 +245,12 @@ def _mean(function: Callable[[PointArray], npt.ArrayLike], points: PointArray) -
     if values.shape != (n,):
         raise ArgumentError(f"{_name_of(function)}: for points of shape ({n}, {dim}) it returned the shape {values.shape}, "
                             f"not ({n},)")
-    return math.fsum(values) / int(n)
+    try:
+        return math.fsum(values) / int(n)
+    except OverflowError:  # of the sum, not of the mean
+        return math.fsum(values / n)
+    except ValueError:  # infinite values of both signs
+        return math.nan
 
 
 def _known(name: str, value: float, least: float) -> float:
@@ -266,9 +272,10 @@ def _estimates(function: Callable[[PointArray], npt.ArrayLike], source: Union[st
     def made(n: int, trial: int) -> PointArray:
         return generate(pattern, n, dim, seed + trial, threads=threads)
 
-    if trials > 1 and np.array_equal(made(sizes[0], 0), made(sizes[0], 1)):
-        trials = 1
-    return np.array([[_mean(function, made(n, t)) for n in sizes] for t in range(trials)])
+    found = np.array([[_mean(function, made(n, t)) for n in sizes] for t in range(trials)])
+    if (found == found[0]).all() and all(np.array_equal(made(sizes[0], 0), made(sizes[0], t)) for t in range(1, trials)):
+        return found[:1]
+    return found
 
 
 def _summary(integral: float, variance: float, options: s.IntegrationOptions, estimates: npt.NDArray[np.float64]) -> s.Integration:
@@ -418,13 +425,11 @@ def _pattern(pattern: Any) -> str:
 def _sensitivity(handle: c_void_p, function: Function, axes: Tuple[int, ...], samples: int, seed: int, threads: SupportsIndex,
                  raised: List[BaseException]) -> Sensitivity:
     """What a callable raised, which no C function can pass on, is raised here."""
+    if not 1 <= len(axes) <= _MOST_AXES:
+        raise ArgumentError(f"axes must be 1 to {_MOST_AXES} coordinates, not {len(axes)}")
     result = s.Sensitivity()
-    try:
-        call(core().koksma_integral_sensitivity, handle, (c_int * max(1, len(axes)))(*axes), len(axes), samples, seed, byref(result),
-             threads=threads if isinstance(function, str) else 1, run_at=5)
-    finally:
-        if raised:
-            raise raised[0]
+    call(core().koksma_integral_sensitivity, handle, (c_int * len(axes))(*axes), len(axes), samples, seed, byref(result),
+         threads=threads if isinstance(function, str) else 1, run_at=5, raised=raised)
     component, closed, total = (Share(x.value, x.low, x.high) for x in (result.component, result.closed, result.total))
     return Sensitivity(component, closed, total, result.variance, result.exact)
 

@@ -18,7 +18,7 @@ from ._points import PointArray, as_points, numbers, shown, view
 _KEEP = ("none", "latin", "net", "sequence")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Optimum:
     """The best set of a search. Equal seed and steps give it again; last_gain is the step that found it. lower: no set
     has a smaller value; NaN where no bound is known."""
@@ -30,10 +30,10 @@ class Optimum:
     last_gain: int
     method: str
 
-    def _repr_svg_(self) -> str:
+    def _repr_svg_(self) -> Optional[str]:
         from ._plot import plot
 
-        return plot(self.points).svg
+        return plot(self.points).svg if self.points.shape[1] > 1 else None
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Record:
 
 
 def records() -> List[Record]:
-    """The best known sets, sorted by measure and n.
+    """The best known sets, sorted by measure, dim and n.
 
     Returns
     -------
@@ -115,7 +115,7 @@ def radial_power(target: str, n: SupportsIndex, rings: Optional[SupportsIndex] =
     return power
 
 
-def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: SupportsIndex = 2, *,
+def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Optional[SupportsIndex] = None, *,
              start: Optional[npt.ArrayLike] = None, keep: str = "none",
              projections: Union[str, Sequence[Sequence[SupportsIndex]]] = (),
              weights: Optional[Sequence[float]] = None, power: Union[str, npt.ArrayLike, None] = None,
@@ -128,6 +128,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     measure : str or None
         A spec of a measure with exact values, such as "star" or "l2-centered".
     n, dim : int
+        dim is 2 where it is left out.
     start : array_like of shape (n, dim), optional
         The first set; n and dim may then be left out. None: the library's own.
     keep : {"none", "latin", "net", "sequence"}
@@ -174,7 +175,9 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
         n = int(first.shape[0])
     else:
         raise ArgumentError("n, the number of points, is missing")
-    dim = whole("dim", dim, 1, s.MAX_DIM) if first is None else first.shape[1]
+    dim = (2 if first is None else first.shape[1]) if dim is None else whole("dim", dim, 1, s.MAX_DIM)
+    if first is not None and dim != first.shape[1]:
+        raise ArgumentError(f"dim = {dim}, but the points of start have {first.shape[1]}")
     steps = whole("steps", steps, 0, s.MAX_SEED)
     if not steps and time_limit is None and progress is None:
         raise ArgumentError("the search would never end: give steps, time_limit or progress")
@@ -198,7 +201,8 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
 
     def tell(_context: object, best: Any) -> bool:
         try:
-            return progress is None or progress(_optimum(best.contents)) is not False
+            going = progress is None or progress(_optimum(best.contents))
+            return bool(going) or not isinstance(going, (bool, np.bool_))
         except BaseException as error:  # comes out of optimise()
             raised.append(error)
             return False
@@ -213,9 +217,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
                                 0 if target is None else target.size)
     try:
         call(core().koksma_optimise, parsed, byref(options), byref(best), threads=threads,
-             time_limit=time_limit, run_at=2)
-        if raised:
-            raise raised[0]
+             time_limit=time_limit, run_at=2, raised=raised)
         return _optimum(best)
     finally:
         core().koksma_optimum_fini(byref(best))

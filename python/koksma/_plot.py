@@ -115,7 +115,7 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
         if lines is not None and len(texts(name, lines)) != len(sets):
             raise ArgumentError(f"{len(lines)} {name} for {len(sets)} sets: give one for each")
     mapped = None if warp is None else find_warp(warp)
-    arrays = [as_points(points) for points in sets]
+    arrays = [as_points(points).copy() for points in sets]  # the caller may change its own before the picture is drawn
     panels = [s.Panel() for _ in arrays]
     kept: List[Any] = []
     for i, (array, panel) in enumerate(zip(arrays, panels)):
@@ -129,7 +129,7 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
         if witness is not None:
             text(witness, "witness")
             value, parsed = s.Value(), spec("measure", witness)
-            check(core().koksma_evaluate(byref(parsed), byref(c_points), None, byref(value)))
+            call(core().koksma_evaluate, byref(parsed), byref(c_points), byref(value), run_at=2)
             if not value.witness.kind:
                 raise ArgumentError(f"{witness} has no witness, a region where it reaches its supremum; star, extreme, edge and disk have one")
             panel.scatter.witness = ctypes.pointer(value.witness)

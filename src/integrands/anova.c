@@ -78,6 +78,7 @@ typedef struct job {
     size_t n_axes, samples;
     uint64_t seed;
     koksma_spec pattern;
+    koksma_run run; /* within a set */
     parts sets[SETS];
 } job;
 
@@ -92,8 +93,7 @@ static koksma_status values_of(const job *j, const koksma_points *both, bool fro
             mixed->xs[i * d + k] = both->xs[i * 2 * d + k + (held[k] == from_b ? d : 0)];
         }
     }
-    const koksma_run one = {.threads = 1};
-    return koksma_integral_values(j->f, mixed, &one, values);
+    return koksma_integral_values(j->f, mixed, &j->run, values);
 }
 
 /* Subtracts the mean over A and B from the values at A; returns the variance. */
@@ -148,14 +148,13 @@ static koksma_status estimate(const job *j, const koksma_points *both, koksma_po
 static koksma_status estimate_set(void *context, size_t set)
 {
     job *j = context;
-    const koksma_run one = {.threads = 1};
     koksma_points both = {0}, mixed = {0};
     double *room = malloc(3 * j->samples * sizeof *room);
     bool *held = malloc((size_t)j->f->dim * sizeof *held);
     koksma_status status = room && held ? KOKSMA_OK : koksma__fail_memory(3 * j->samples * sizeof *room);
     status = status ? status : koksma_points_init(&both, j->samples, 2 * j->f->dim);
     status = status ? status : koksma_points_init(&mixed, j->samples, j->f->dim);
-    status = status ? status : koksma_generate(&j->pattern, j->seed * SETS + set, &one, &both);
+    status = status ? status : koksma_generate(&j->pattern, j->seed * SETS + set, &j->run, &both);
     status = status ? status : estimate(j, &both, &mixed, room, held, &j->sets[set]);
     koksma_points_fini(&both);
     koksma_points_fini(&mixed);
@@ -174,6 +173,22 @@ static koksma_share share_of(const parts *sets, size_t offset)
     return (koksma_share){tally.mean, tally.mean - half, tally.mean + half};
 }
 
+/* Small sets are computed at the same time. A large one takes seconds, so that its own blocks are, and ask the caller. */
+static koksma_status estimate_sets(job *j, const koksma_run *run)
+{
+    koksma__phases phases = {0};
+    koksma_status status = KOKSMA_OK;
+    j->run = (koksma_run){.threads = 1};
+    if (j->samples <= SAMPLES) {
+        return koksma__parallel(run, SETS, estimate_set, j);
+    }
+    for (size_t set = 0; set < SETS && !status; set++) {
+        j->run = koksma__phase_run(&phases, run, 1.0 / SETS);
+        status = estimate_set(j, set);
+    }
+    return status;
+}
+
 static koksma_status estimates(job *j, const koksma_run *run, koksma_sensitivity *out)
 {
     const koksma_pattern *sobol = koksma_pattern_find("sobol");
@@ -181,7 +196,7 @@ static koksma_status estimates(job *j, const koksma_run *run, koksma_sensitivity
     KOKSMA__FAIL_IF(dim > KOKSMA_MAX_DIM, KOKSMA_DIM, "pick-freeze estimates: they take up to %d dimensions, not %d",
                     KOKSMA_MAX_DIM / 2, j->f->dim);
     KOKSMA__TRY(koksma_pattern_spec(sobol && dim <= sobol->max_dim ? "sobol:scramble=owen" : "random", &j->pattern));
-    KOKSMA__TRY(koksma__parallel(run, SETS, estimate_set, j));
+    KOKSMA__TRY(estimate_sets(j, run));
     const koksma_share variance = share_of(j->sets, offsetof(parts, variance));
     KOKSMA__FAIL_IF(!(variance.value > 0) || isinf(variance.value), KOKSMA_ARGUMENT,
                     "pick-freeze estimates: the function has no finite variance above 0");

@@ -165,20 +165,23 @@ static bool estimates_are_equal(const koksma_integration_options *o, const doubl
     return equal;
 }
 
-/* Returns whether the pattern gives the same set for two seeds; some patterns have this property without claiming it.
-   */
+/* Returns whether the pattern gives the same set for all seeds; some patterns have this property without claiming it.
+   Two seeds may have the same set by chance: mirror=1 gives four sets in two dimensions. */
 static koksma_status has_one_set(const job *j, bool *one)
 {
-    koksma_points sets[2] = {{0}, {0}};
-    koksma_status status = KOKSMA_OK;
-    for (size_t s = 0; s < 2 && !status; s++) {
-        status = koksma_points_init(&sets[s], j->options->sizes[0], j->f->dim);
-        status = status ? status : koksma_generate(j->pattern, j->options->seed + s, NULL, &sets[s]);
+    const koksma_integration_options *o = j->options;
+    const size_t bytes = o->sizes[0] * (size_t)j->f->dim * sizeof(double);
+    koksma_points first, other;
+    *one = true;
+    KOKSMA__TRY(koksma_points_init(&first, o->sizes[0], j->f->dim));
+    koksma_status status = koksma_points_init(&other, o->sizes[0], j->f->dim);
+    status = status ? status : koksma_generate(j->pattern, o->seed, j->run, &first);
+    for (uint64_t t = 1; t < o->trials && !status && *one; t++) {
+        status = koksma_generate(j->pattern, o->seed + t, j->run, &other);
+        *one = !status && !memcmp(first.xs, other.xs, bytes);
     }
-    const size_t bytes = sets[0].n * (size_t)sets[0].dim * sizeof *sets[0].xs;
-    *one = !status && !memcmp(sets[0].xs, sets[1].xs, bytes);
-    koksma_points_fini(&sets[0]);
-    koksma_points_fini(&sets[1]);
+    koksma_points_fini(&first);
+    koksma_points_fini(&other);
     return status;
 }
 
@@ -216,6 +219,7 @@ koksma_status koksma_integration_errors(const koksma_integral *integral, const k
     koksma_status status = koksma__parallel(&outer, jobs, integrate_set, &j);
     bool one_set = false;
     if (!status && o.trials > 1 && estimates_are_equal(&o, j.estimates)) {
+        j.run = &all;
         status = has_one_set(&j, &one_set);
         o.trials = one_set ? 1 : o.trials;
     }

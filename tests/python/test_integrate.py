@@ -46,6 +46,21 @@ class Integrate(unittest.TestCase):
         self.assertTrue(math.isnan(unknown.integral))
         self.assertEqual(koksma.integrate(lambda x: x[:, 0], "hammersley", 16, integral=0.5).trials, 1)
 
+    def test_sets_that_are_equal_by_chance(self):
+        """mirror=1 gives two seeds of four the same points, or one of two: the others still count."""
+        for pattern in ("halton:mirror=1", "hammersley:mirror=1", "hammersley:axes=1", "latin-hypercube"):
+            for n in (21, [16, 64, 256]):
+                ours = koksma.integrate(lambda x: x[:, 0] * x[:, 1] ** 2, pattern, n, trials=8, integral=1 / 6)
+                sizes = [n] if isinstance(n, int) else n
+                by_hand = [np.sqrt(np.mean([(np.mean(p[:, 0] * p[:, 1] ** 2) - 1 / 6) ** 2 for p in
+                                            (koksma.generate(pattern, k, seed=t) for t in range(8))])) for k in sizes]
+                self.assertEqual(ours.trials, 8)
+                np.testing.assert_allclose(ours.rmse, by_hand, rtol=1e-9)
+        self.assertEqual(koksma.integrate("genz-corner-peak", "hammersley:axes=1", 64, trials=16).trials, 16)
+        for pattern in ("hammersley", "regular", "void-and-cluster"):
+            one = all((koksma.generate(pattern, 16, seed=t) == koksma.generate(pattern, 16)).all() for t in range(8))
+            self.assertEqual(koksma.integrate(lambda x: x[:, 0], pattern, 16, trials=8).trials, 1 if one else 8)
+
     def test_points(self):
         """One set: the mean of the program over a file, and of a callable."""
         points = koksma.generate(SCRAMBLED, 32, 3, seed=4)
@@ -133,8 +148,18 @@ class Integrate(unittest.TestCase):
             koksma.integrate("disk", "random", 4, samples=64)
         with self.assertRaises(ZeroDivisionError):
             koksma.integrate(lambda x: 1 // 0, "random", 4)
-        with self.assertRaises(ZeroDivisionError):
-            koksma.sensitivity(lambda x: 1 // 0, 0, samples=16)
+        calls = []
+        with self.assertRaises(ZeroDivisionError):  # at once: 262,144 calls of the function would follow
+            koksma.sensitivity(lambda x: calls.append(1) or 1 // 0, 0)
+        self.assertEqual(len(calls), 1)
+        with self.assertRaisesRegex(koksma.ArgumentError, "axes must be 1 to 8 coordinates, not 0"):
+            koksma.sensitivity("disk", [])
+        with self.assertRaisesRegex(koksma.ArgumentError, "returned the shape"):
+            koksma.sensitivity(lambda x: np.ones((1, 3)), 0, samples=16)
+        huge = koksma.integrate(lambda x: np.full(len(x), 1e308), "random", 16, trials=2)
+        np.testing.assert_allclose(huge.mean, 1e308)
+        both = koksma.integrate(lambda x: np.where(x[:, 0] < 0.5, np.inf, -np.inf), "jittered", 16, trials=2)
+        self.assertTrue(math.isnan(both.rmse[0]))
         self.assertEqual([m.name for m in koksma.integrands()][:2], ["x", "x2"])
 
     def test_values_that_are_no_real_numbers(self):

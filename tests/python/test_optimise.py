@@ -29,7 +29,13 @@ class Optimise(unittest.TestCase):
         best = koksma.optimise("star", 6, progress=lambda o: seen.append(o.value) or o.steps < 2)
         self.assertEqual((best.steps, len(seen)), (2, 3))
         self.assertEqual(seen, sorted(seen, reverse=True))
+        del seen[:]
+        koksma.optimise("star", 6, steps=3, progress=lambda o: seen.append(o.value) or np.float64(o.value) < 0)
+        self.assertEqual(len(seen), 1)
         again = koksma.optimise("star", start=best.points, steps=1, seed=1)
+        self.assertNotEqual(again, best)  # which is no question of arrays
+        with self.assertRaisesRegex(koksma.ArgumentError, "dim = 3, but the points of start have 2"):
+            koksma.optimise("star", dim=3, start=best.points, steps=1)
         self.assertLessEqual(again.value, best.value)
         self.assertEqual(again.value, float(koksma.measure(again.points, "star")))
 
