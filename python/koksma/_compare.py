@@ -153,7 +153,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     >>> round(koksma.compare(image, np.ones((8, 8)), metrics=["smape"]).metrics["smape"].value, 6)
     0.199203
     """
-    specs = dict((name, spec) for spec, name in map(_metric, ("rmse", *texts("metrics", metrics))))
+    specs = {name: _metric(name)[0] for name in ("rmse", *texts("metrics", metrics))}
     several: Any = images
     if hasattr(images, "__array__"):
         several = [images] if np.ndim(several) < 4 else several

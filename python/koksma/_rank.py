@@ -217,8 +217,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     options = s.RankOptions(scene=text(_scene_name(scene), "scene"), patterns=array, n_patterns=len(names), one_size=flag("one_size", one_size),
                             time_limit_s=time_limit or 0.0, spp=whole("spp", spp, 1, s.MAX_SPP),
                             max_trials=whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS),
-                            integrator=_found("integrator", integrator or "distribution"),
-                            filter=_found("filter", filter or "box"), metric=pointer(spec))
+                            integrator=_found("integrator", "distribution" if integrator is None else integrator),
+                            filter=_found("filter", "box" if filter is None else filter), metric=pointer(spec))
     if size is not None:
         width, height = pair("size", size)
         options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)

@@ -197,7 +197,7 @@ class Layers:
     rounds, splits, needless : int
         Of adaptive sampling: rounds after the first, strata that were split, and splits that `probes` found not needed.
     aovs : dict of ndarray
-        By name what `aov` asked for.
+        By name what `aov` asked for; "half" is the two images "half:even" and "half:odd".
     """
 
     image: npt.NDArray[np.float32]

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, MalformedError, call, check, flag, lab, several, text, whole
+from ._library import ArgumentError, MalformedError, call, check, flag, lab, one_line, several, text, whole
 
 Plan = Union[str, "os.PathLike[str]", Dict[str, Any]]
 
@@ -93,6 +93,13 @@ class Audit:
         return not self.differences
 
 
+def _json_of(plan: Dict[str, Any]) -> bytes:
+    try:
+        return json.dumps(plan, indent=1, allow_nan=False).encode()
+    except ValueError as error:  # NaN, infinite numbers, and a plan that contains itself
+        raise MalformedError(f"plan: {one_line(str(error))}") from None
+
+
 class Study:
     """A study that is open; also a context manager.
 
@@ -136,14 +143,14 @@ class Study:
     def __init__(self, plan: Union[Plan, Sequence[Plan]] = (), folder: Union[str, "os.PathLike[str]", None] = None, *,
                  trials: Optional[SupportsIndex] = None, quick: bool = False) -> None:
         self._handle = c_void_p()
-        self.folder: Optional[Path] = None if folder is None else Path(os.fsdecode(text(folder, "folder")))
+        self.folder: Optional[Path] = None if folder is None else Path(os.fsdecode(text(folder, "folder"))).absolute()
         plans = [plan] if isinstance(plan, (str, os.PathLike, dict)) else several("plan", plan)
         names = []
         for one in plans:
             if isinstance(one, (str, bytes)) and not one:
                 raise ArgumentError("plan must be a name, a path or a dict, or () for the plan that the folder has, not ''")
             if isinstance(one, dict):
-                names.append(json.dumps(one, indent=1, allow_nan=False).encode())
+                names.append(_json_of(one))
             else:  # a path is a file, a text may be a name
                 names.append(text(os.path.join(os.curdir, one) if isinstance(one, os.PathLike) else one, "plan"))
         options = s.StudyOptions((c_char_p * len(names))(*names), len(names),

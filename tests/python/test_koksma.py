@@ -463,6 +463,7 @@ class Compare(unittest.TestCase):
         with self.assertWarnsRegex(RuntimeWarning, "0.1 % of the pixels carry 100 % .* without them rmse is 0.25$"):
             seen = koksma.compare(image, np.ones((40, 50)), metrics=["smape"])
         self.assertTrue(seen.metrics["rmse"].value > 20 and seen.metrics["smape"].top_share < 0.01)
+        self.assertEqual(list(koksma.compare(image, image, metrics=["smape:epsilon=0.010"]).metrics), ["rmse", "smape:epsilon=0.010"])
         for wrong in ("smape", ["smap"], ["smape:epsilon=x"], [3]):
             with self.subTest(metrics=wrong), self.assertRaises((ValueError, TypeError)):
                 koksma.compare(image, image, metrics=wrong)
