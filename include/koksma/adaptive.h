@@ -7,9 +7,9 @@
  *         koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL);
  *     }
  *
- * In the first round every pixel gets options->spp samples. After each round the method decides from the values so
- * far which pixels get more samples and how many. Rendering ends when no pixel needs more samples or the budget is
- * spent.
+ * In the first round every pixel gets options->spp samples, or `first` times as many where the method has a parameter
+ * of this name. After each round the method decides from the values so far which pixels get more samples and how many.
+ * Rendering ends when no pixel needs more samples or the budget is spent.
  */
 #ifndef KOKSMA_ADAPTIVE_H
 #define KOKSMA_ADAPTIVE_H
@@ -95,7 +95,8 @@ typedef struct koksma_adaptive_report {
 } koksma_adaptive_report;
 
 /* Renders a scene with adaptive sampling; allocates out, which koksma_layers_fini frees.
-     options  as for koksma_render_layers; spp is the number of samples of the first round
+     options  as for koksma_render_layers; spp, times the method's parameter `first` if there is one, is the number of
+              samples of the first round
      out      `samples` has the number of samples of each pixel; `variance` estimates the variance of the pixel's
               luminance as if its samples were independent; albedo, normal, depth and the AOV "id" come from the
               first round. The AOVs of parts of the light ("direct", "bounce:1" and so on) use the sample weights of
@@ -104,7 +105,8 @@ typedef struct koksma_adaptive_report {
               different rounding may change a decision of the method
      report   may be NULL
    Errors: those of koksma_render_layers; also ARGUMENT for splatting, for scope image, for a pattern that gives the
-   same set for every seed, and for options with which the method would never stop. */
+   same set for every seed (but sequences are taken, whose successive blocks differ, by methods without fresh sets), and
+   for options with which the method would never stop. */
 KOKSMA_API koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_render_options *options,
                                                 const koksma_adaptive_options *adaptive, const koksma_run *run,
                                                 koksma_layers *out, koksma_adaptive_report *report);

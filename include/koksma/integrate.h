@@ -151,8 +151,8 @@ KOKSMA_API koksma_status koksma_integration_summary(double value, double varianc
 
 /* ---- Analysis of variance ----------------------------------------------------------------------------- */
 
-/* A fraction of the variance, 0 to 1, and its 95 % interval; if the value is exact, low and high are equal to
-   it. */
+/* A fraction of the variance, 0 to 1, and its 95 % interval; if the value is exact, low and high are equal to it. An
+   estimate of a fraction near 0 or 1 may lie a little outside. */
 typedef struct koksma_share {
     double value, low, high;
 } koksma_share;

@@ -21,7 +21,9 @@
  *              ARGUMENT. After an error koksma_error_text() returns one line that names the object and the reason. If
  *              a function of the caller fails, its status is returned; the text is the one that it left by a call of
  *              the library, or else names it. A number that is no status becomes ARGUMENT. After an error each result
- *              is unchanged or zero, unless the function's comment says otherwise.
+ *              is unchanged or zero, unless the function's comment says otherwise; but arrays of the caller's that a
+ *              function fills (the coordinates of points that it generates, ranks of masks, values) may be partly
+ *              overwritten.
  *   Results    go through out-pointers, which are the last parameters.
  *   Pointers   must not be NULL unless the comment says "may be NULL". For a NULL pointer a function returns
  *              ARGUMENT. A function without a status then returns NULL, NaN, 0 or false, or does nothing, and also
@@ -33,10 +35,11 @@
  *   Threads    Any function may be called from several threads at once, on different objects. Read-only arguments
  *              may be shared. A function that takes a koksma_run uses up to koksma_run.threads threads; other
  *              functions use one.
- *   Bits       Equal arguments give equal bits for any number of threads, any instruction set and any locale; numbers
- *              in texts have a decimal point.
+ *   Bits       Equal arguments give equal bits for any number of threads, any instruction set of the processor
+ *              (koksma_instruction_set) and any locale; numbers in texts have a decimal point.
  *   State      No function prints, exits or keeps state between calls, except that each thread keeps its
- *              koksma_error_text() and koksma_allow_exec().
+ *              koksma_error_text() and koksma_allow_exec(), and the process its instruction set and its plugins
+ *              (koksma/plugin.h).
  */
 #ifndef KOKSMA_KOKSMA_H
 #define KOKSMA_KOKSMA_H
@@ -95,8 +98,8 @@ KOKSMA_API void koksma_text_escape(char *text, size_t size);
 
 /* Returns the instruction set that the inner loops of this process use: "avx512", "avx2", "baseline" or "ref"
    (plain C, for tests). The library uses the first one that the processor supports, unless the environment variable
-   KOKSMA_KERNELS names another; the first call that computes reads this variable. "avx512", "avx2" and "baseline"
-   give the same bits; "ref" may differ in the last digits of a few measures. */
+   KOKSMA_KERNELS names another; the first call that computes reads this variable, and ignores unknown names. "avx512",
+   "avx2" and "baseline" give the same bits; "ref" may differ in the last digits of the L2 measures and diaphony. */
 KOKSMA_API const char *koksma_instruction_set(void);
 
 /* Returns the version of the library at run time, such as "0.1.0". KOKSMA_VERSION is the version of the header. */
@@ -108,8 +111,9 @@ KOKSMA_API const char *koksma_version(void);
    then uses all processors and has no time limit and no callback. */
 typedef struct koksma_run {
     int threads;         /* largest number of threads to use; 0: one for each processor */
-    double time_limit_s; /* time limit in seconds; 0: none. A measure that runs out of time returns bounds
-                            (koksma_value.exact is false) */
+    double time_limit_s; /* time limit in seconds; 0: none. The measures star-lower, extreme, edge, disk and, from 3
+                            dimensions on, star then return bounds (koksma_value.exact is false). Other measures and
+                            functions ignore it, unless their comments say what it does */
     bool (*keep_going)(void *context, double fraction_done); /* callback that is called from time to time, on the
                                                                 calling thread only; if it returns false, the call
                                                                 ends with INTERRUPTED. May be NULL */
@@ -220,8 +224,9 @@ KOKSMA_API void koksma_spec_text(const koksma_spec *spec, char *text);
 
 /* ---- Patterns ----------------------------------------------------------------------------------------- */
 
-/* Properties that a pattern claims, KOKSMA_CLAIM_DETERMINISTIC and so on: <koksma/claims.def> has their meanings.
-   The test of a claim runs for every pattern that makes the claim. */
+/* Properties that a pattern claims, KOKSMA_CLAIM_DETERMINISTIC and so on: <koksma/claims.def> has their meanings. They
+   hold for the default values of the pattern's own parameters; other values may break them, as columns=2 breaks
+   STRATIFIED. The test of a claim runs for every pattern that makes the claim. */
 enum {
 #define KOKSMA_CLAIM(id, bit, name, meaning) KOKSMA_CLAIM_##id = 1u << (bit),
 #include <koksma/claims.def>
@@ -311,8 +316,8 @@ KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
    points.
      spec   a pattern that has ranges (koksma_has_ranges). A sequence (KOKSMA_CLAIM_SEQUENCE) accepts indices up to
             KOKSMA_MAX_INDEX. In many dimensions halton and faure end earlier: at the largest power of their largest
-            base that is at most 2^53, because a double has no more digits. Sequences in base 2 have coordinates of 32
-            binary digits up to point 2^32 - 1, and of 53 from point 2^32 on
+            base that is at most 2^53, because a double has no more digits. Without modifiers, sobol and pmj02 have
+            coordinates of 32 binary digits up to point 2^32 - 1, and of 53 from point 2^32 on
      n      number of points of the whole set, whose last index is n - 1. Unused for a sequence
      first  index of the first point to generate, from 0
      out    points initialised by koksma_points_init with the number of points to generate
@@ -367,7 +372,7 @@ typedef struct koksma_witness {
 
 /* The result of a measure. */
 typedef struct koksma_value {
-    double value;          /* the measure; for an L2 measure the root of the mean square */
+    double value;          /* the measure; for an L2 measure a root: koksma_measure.title says of what */
     double square;         /* square of value, if it is known to more digits than value; otherwise NaN */
     double lower, upper;   /* proven bounds, both equal to `value` if exact is true; NaN for a sampled measure */
     double standard_error; /* standard error of a sampled measure, NaN with one sample; 0 for other measures */
@@ -431,7 +436,8 @@ KOKSMA_API koksma_status koksma_local_discrepancy_grid(const koksma_points *poin
      points  at least 1 point in the closed unit cube, in min_dim to max_dim dimensions
    koksma_measure.cost has the cost, and `koksma list measures` prints it.
    Errors: ARGUMENT (no measure, a bad parameter, no points, a coordinate outside [0,1]), N (too many points for the
-   method), DIM, MEMORY, INTERRUPTED. A time limit is not an error: see koksma_run. */
+   method, or a number that the measure does not take, as 1 for distances), DIM, MEMORY, INTERRUPTED. A time limit is
+   not an error: see koksma_run. */
 KOKSMA_API koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points, const koksma_run *run,
                                          koksma_value *out);
 

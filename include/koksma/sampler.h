@@ -54,6 +54,9 @@
  *     koksma_r_2d        r-sequence:shuffle=1,shift=1
  *     koksma_z_rank      z-sampler (the order of the pixels)
  *
+ * Options that let a compiler change floating-point arithmetic, such as -ffast-math, change the last bits of
+ * koksma_cmj_2d and may round a coordinate up to 1.
+ *
  * These functions do not check their arguments: pointers must not be NULL, and arguments must be in the ranges that
  * the comments give. To check the ranges define KOKSMA_ASSERT(condition) as assert(condition) before you include
  * the header.
@@ -911,9 +914,10 @@ KOKSMA_INLINE uint32_t koksma_permute4(uint32_t j, uint32_t word)
 /* Returns the rank of pixel (x, y) of a square image of 2^levels pixels a side, levels <= 16, along a Z-curve whose
    quadrants are in random order at each node. Give a pixel the samples rank * spp .. rank * spp + spp - 1 of one
    sequence for the whole image, such as koksma_sobol_2d with the image's domain: the samples of neighbouring pixels
-   are then evenly distributed together. The orders of two domains are similar, because both follow a Z-curve: the
-   pixels of a quadrant have consecutive ranks in both. The two ranks of one pixel are independent of each other,
-   and so are the samples that they index. */
+   are then evenly distributed together. The image may have 2^32 samples, 4^levels * spp, because indices have 32 bits:
+   of more, pixels far apart would have the same samples. The orders of two domains are similar, because both follow a
+   Z-curve: the pixels of a quadrant have consecutive ranks in both. The two ranks of one pixel are independent of each
+   other, and so are the samples that they index. */
 KOKSMA_INLINE uint32_t koksma_z_rank(koksma_domain domain, uint32_t x, uint32_t y, int levels)
 {
     uint32_t rank = 0, path = 1;

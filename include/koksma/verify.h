@@ -50,7 +50,8 @@ KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
 
 /* Computes the smallest distance between any two points of a set.
      torus  true: distances on the unit torus; false: distances in the cube
-   O(n log n) for few dimensions. Errors: ARGUMENT (no points, a coordinate outside
+   O(n log n) for few dimensions. A distance below 1e-154, whose square is no normal number, has fewer digits or is 0.
+   Errors: ARGUMENT (no points, a coordinate outside
    [0,1]), N (one point, which has no distance), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
                                                   double *distance);

@@ -575,8 +575,8 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
     threads : int
         0: one for each processor. The value does not depend on it.
     time_limit : float, optional
-        In seconds, for each measure; one that is cut short gives bounds, and `exact` is False. "disk" is so without a limit,
-        too, after 2^28 point tests.
+        In seconds, for each of star-lower, extreme, edge, disk and, from 3 dimensions on, star: one that is cut short gives
+        bounds, and `exact` is False. Other measures ignore it. "disk" is so without a limit, too, after 2^28 point tests.
 
     Returns
     -------
