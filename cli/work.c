@@ -13,18 +13,42 @@
 #include "aligned.h"
 #include "cli.h"
 
-static volatile sig_atomic_t interrupted;
+static volatile sig_atomic_t interrupted, asked; /* asked: the work knows that it is interrupted */
+static volatile double busy_s;                   /* processor time when on_alarm last looked */
+
+static double processor_seconds(void)
+{
+    struct timespec t = {0};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Work asks every few milliseconds whether to go on, but a command that waits for a pipe or a terminal does not. So each
+   second after a signal the program is ended if it has not asked and computes nothing. */
+static void on_alarm(int number)
+{
+    const double now = processor_seconds();
+    (void)number;
+    if (!asked && now - busy_s < 0.01) {
+        _exit(koksma_status_exit_code(KOKSMA_INTERRUPTED));
+    }
+    busy_s = now;
+    alarm(asked ? 0 : 1);
+}
 
 static void on_signal(int number)
 {
     (void)number;
     interrupted = 1;
+    busy_s = processor_seconds();
+    alarm(1);
     signal(SIGINT, SIG_DFL); /* a second SIGINT or SIGTERM ends the program at once */
     signal(SIGTERM, SIG_DFL);
 }
 
 bool cli_interrupted(void)
 {
+    asked = interrupted;
     return interrupted != 0;
 }
 
@@ -130,14 +154,14 @@ static void show(cli_work *work, double fraction)
 static bool keep_going(void *context, double fraction)
 {
     show(context, fraction);
-    return !interrupted;
+    return !cli_interrupted();
 }
 
 static bool keep_going_silently(void *context, double fraction)
 {
     (void)context;
     (void)fraction;
-    return !interrupted;
+    return !cli_interrupted();
 }
 
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work)
@@ -161,6 +185,7 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
         .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
     /* with SIGXFSZ ignored, a write beyond the limit on file sizes fails instead of killing the program */
     signal(SIGXFSZ, SIG_IGN);
+    signal(SIGALRM, on_alarm);
     signal(SIGINT, on_signal);
     signal(SIGTERM, on_signal);
     return true;

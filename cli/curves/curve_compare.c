@@ -5,6 +5,7 @@
  * a measure.
  */
 #include <string.h>
+#include <sys/stat.h>
 
 #include "../source.h"
 #include "curve_convergence.h"
@@ -26,10 +27,12 @@ static int open_panels(cli_curves *c, comparison *m)
     cli_colours(c, colours);
     for (int i = 0; i < c->arguments->n_operands && !code; i++) {
         const char *source = c->arguments->operands[i];
-        if (!strcmp(source, "-")) {
-            return cli_usage_error(c->arguments,
-                                   "-: %s reads its sources more than once, so it needs files instead of stdin",
-                                   c->curve->name);
+        struct stat info;
+        const bool in_file = !cli_source_is_pattern(source) && !stat(source, &info);
+        if (!strcmp(source, "-") || (in_file && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))) {
+            return cli_usage_error(
+                c->arguments, "%s: %s reads its sources more than once, so it needs files instead of stdin and pipes",
+                source, c->curve->name);
         }
         cli_title(source, m->titles[i]);
         m->panels[0][i] = (koksma_panel){.points = &m->points[i], .title = m->titles[i], .swatch = 1 + colours[i]};

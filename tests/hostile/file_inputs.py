@@ -5,19 +5,22 @@
 Each place that names a file is pointed at devices, fifos without a writer, sockets, folders, links to them, sparse files
 beyond the limit of the kind (src/core/file_kinds.def), and sparse files within it whose first bytes are wrong. Whatever
 it is, the program must end, in the memory of an ordinary run, with exit code 3 and one line that names the file and says
-why. What the user names may be a pipe, which must give what the file gives, and is read up to the limit.
+why. What the user names may be a pipe, which must give what the file gives, and is read up to the limit; the first signal
+ends the wait for it.
 """
 import ctypes
 import json
 import os
 import re
 import resource
+import signal
 import socket
 import struct
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 
 import files
 
@@ -278,6 +281,51 @@ def check_named_by_user(checks, program, folder, kinds):
     return seen
 
 
+def is_waiting(process):
+    """Whether the process has slept through three tenths of a second without using a processor, or has ended."""
+    seen = set()
+    for _ in range(4):
+        with open(f"/proc/{process.pid}/stat", encoding="utf-8") as stream:
+            fields = stream.read().rpartition(")")[2].split()
+        seen.add((fields[0], fields[11], fields[12]))
+        if process.poll() is not None:
+            return True
+        time.sleep(0.1)
+    return len(seen) == 1 and fields[0] == "S"
+
+
+def check_signals(checks, program, folder):
+    """The first SIGINT or SIGTERM ends a command that waits for a fifo's writer, for more from it, or for standard input."""
+    ways = [(what, ending, arguments) for _, ending, what, arguments in named_by_user()]
+    ways += [("optimise --from", ".txt", lambda name: ["optimise", "star", "--from", name, "--steps", "1", "-o", "best.txt"]),
+             ("verify", ".txt", lambda name: ["verify", name]), ("plot", ".txt", lambda name: ["plot", name, "-o", "p.svg"]),
+             ("curve", ".txt", lambda name: ["curve", "rings", name]), ("integrate", ".txt", lambda name: ["integrate", "disk", name])]
+    for i, (what, ending, arguments) in enumerate(ways):
+        hows = ["no writer", "a writer"] + ["standard input"] * (ending == ".txt")  # scenes and plans take none
+        for k, how in enumerate(hows):
+            if what != "verify" and k != i % len(hows):
+                continue  # each takes a second
+            fifo = os.path.join(folder, f"waiting{ending}")
+            os.mkfifo(fifo)
+            writer = os.open(fifo, os.O_RDWR) if how == "a writer" else None
+            name = "-" if how == "standard input" else os.path.basename(fifo)
+            with subprocess.Popen([program, *arguments(name)], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE) as process:
+                while not is_waiting(process):
+                    pass
+                number = (signal.SIGTERM, signal.SIGINT)[i // 2 % 2]
+                process.send_signal(number)
+                try:
+                    code = process.wait(files.SECONDS / 10)
+                except subprocess.TimeoutExpired:
+                    code = "none"
+                    process.kill()
+                checks.check(code in (130, -number), f"{what}, {how}: exit code {code} after signal {number}: {process.stderr.read()}")
+            if writer is not None:
+                os.close(writer)
+            os.remove(fifo)
+
+
 def check_pipes(checks, program, folder):
     """What the user names may be a pipe, and gives what the file gives."""
     put(os.path.join(folder, "p.txt"), "0.5 0.25\n0.75 0.5\n")
@@ -364,6 +412,7 @@ def main():
         seen = check_named_by_files(checks, program, folder, kinds)
         seen |= check_named_by_user(checks, program, folder, kinds)
         check_pipes(checks, program, folder)
+        check_signals(checks, program, folder)
         check_descriptors(checks, program, folder)
         check_openings(checks, program, folder)
     with open(os.path.join(SOURCE, "docs/files.md"), encoding="utf-8") as stream:
