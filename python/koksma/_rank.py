@@ -119,7 +119,7 @@ class Asked:
     scene: str
     pattern: str
     spp: int
-    size: Optional[Tuple[int, int]]  #: width, height; None: the renderer's own
+    size: Optional[Tuple[int, int]]  #: width, height; None: the renderer's own, which the ranking asks for by a first picture
     seed: int  #: 0 to 2**31 - 1; pictures of different seeds are independent, those of equal seeds are equal
 
 
@@ -144,6 +144,7 @@ class _Renderer:
             status = lab().koksma_image_init(image, width, height, channels)
             if status == 0:
                 memmove(image.contents.pixels, pixels.ctypes.data, pixels.nbytes)
+                self.reasons.pop(asked.pattern, None)  # that of a picture that only asked for the size
             return int(status)
         except ValueError as error:
             self.reasons.setdefault(asked.pattern, str(error))

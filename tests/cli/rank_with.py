@@ -23,9 +23,11 @@ scene, pattern, spp, seed, width, height, out = sys.argv[1:8]
 spp, seed, width, height = int(spp), int(seed), int(width) or 40, int(height) or 30
 if pattern == "broken":
     print("first line"); print("no such sampler: broken", file=sys.stderr); sys.exit(3)
+if pattern == "pairs" and spp < 2:
+    print("it takes 2 samples or more", file=sys.stderr); sys.exit(7)
 assert scene == "a 'scene' $HOME", scene
 noise = random.Random(f"{pattern} {seed} {spp}")
-deviation = {"fine": .1, "coarse": .2, "bands": .1, "same": 0}[pattern] / math.sqrt(spp)
+deviation = {"fine": .1, "coarse": .2, "bands": .1, "same": 0, "pairs": .05}[pattern] / math.sqrt(spp)
 pixels = []
 for y in range(height):
     for x in range(width):
@@ -76,6 +78,13 @@ def main():
         check("the command is in the rows", by["fine"]["with"] == command, by["fine"])
         check("one thread gives the same", rank(command, "coarse,fine,broken,bands", "--threads", "1")[:2] == (code, rows))
         check("nothing is left", not os.listdir(os.environ["TMPDIR"]), os.listdir(os.environ["TMPDIR"]))
+
+        for patterns, reference in (("broken,coarse,fine", "fine"), ("pairs,broken", "pairs"), ("broken,pairs,fine", "pairs")):
+            done = rank(command, patterns, "--reference", reference)
+            check(f"{patterns}: the size is that of a sampler that has a picture", done[0] == 0 and all(
+                (row["width"], row["height"]) == (40, 30) and (row["state"] == "refused") == (row["pattern"] == "broken")
+                for row in done[1]), done)
+        check("only samplers that fail", rank(command, "broken", "--reference", "broken")[0] in (2, 3), "")
 
         sized = rank(command, "fine,coarse", "--size", "48x32")
         check("another size, checked at half and twice", sized[0] == 0 and sized[1][0]["half_size"] == "confirmed" and

@@ -41,6 +41,12 @@ class Renderers(unittest.TestCase):
         self.assertEqual([(c.size, c.state) for c in ranking.checks], [((24, 16), "confirmed"), ((96, 64), "confirmed")])
 
     def test_left_out(self):
+        def two_at_least(asked):
+            if asked.spp < 2 or asked.pattern == "never":
+                raise ValueError("2 samples at least")
+            return renderer(asked)
+        ranking = koksma.rank("any", ["never", "coarse", "fine"], 4, renderer=two_at_least, reference="fine")
+        self.assertEqual({row.pattern: row.reason for row in ranking.rows}, {"never": "2 samples at least", "coarse": "", "fine": ""})
         ranking = koksma.rank("any", ["coarse", "fine", "square"], 5, renderer=renderer)
         self.assertEqual((ranking.rows[2].pattern, ranking.rows[2].state), ("square", "refused"))
         self.assertEqual(ranking.rows[2].reason, "square: spp 5 is no square number")

@@ -420,23 +420,29 @@ static void choose_size(const koksma_rank_options *options, koksma__study_scene 
 }
 
 /* Finds the size of another renderer's pictures: that of the options, or the size of a picture rendered for this
-   purpose. */
+   purpose, by the first pattern that can render it. It has 1 sample per pixel, or if no pattern has 1, spp. */
 static koksma_status ask_size(const koksma_rank_options *options, koksma__run_control *control,
                               koksma__study_scene *scene)
 {
-    const koksma__picture picture = {.pattern = options->patterns[0], .spp = 1};
-    koksma_image image;
+    const size_t n = options->n_patterns, tries = options->spp > 1 ? 2 * n : n;
+    koksma_status status = KOKSMA_ARGUMENT;
     scene->width = options->width;
     scene->height = options->height;
-    const koksma_status status =
-        options->width ? KOKSMA_OK : koksma__study_render(scene, &picture, &control->run, &image);
-    if (!status && !options->width) {
-        scene->width = image.width;
-        scene->height = image.height;
-        koksma_image_fini(&image);
+    if (options->width) {
+        return KOKSMA_OK;
+    }
+    for (size_t i = 0; i < tries && koksma__rank_leaves_out(status); i++) {
+        const koksma__picture picture = {.pattern = options->patterns[i % n], .spp = i < n ? 1 : options->spp};
+        koksma_image image;
+        status = koksma__study_render(scene, &picture, &control->run, &image);
+        if (!status) {
+            scene->width = image.width;
+            scene->height = image.height;
+            koksma_image_fini(&image);
+        }
     }
     return status == KOKSMA_INTERRUPTED && koksma__run_control_time_is_up(control)
-               ? koksma__fail(KOKSMA_ARGUMENT, "one picture with 1 sample per pixel takes longer than the time limit")
+               ? koksma__fail(KOKSMA_ARGUMENT, "the picture that shows the size takes longer than the time limit")
                : status;
 }
 

@@ -76,8 +76,7 @@ static koksma_status take_out(const timed *t, size_t trial, koksma_status status
         atomic_store(&p->late, true);
         return KOKSMA_OK;
     }
-    if (!status || status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY || status == KOKSMA_IO ||
-        status == KOKSMA_SYSTEM) {
+    if (!koksma__rank_leaves_out(status)) {
         return status;
     }
     pthread_mutex_lock(&c->lock);

@@ -51,6 +51,13 @@ typedef struct koksma__contest {
     pthread_mutex_t lock;        /* guards `reason` of all contestants */
 } koksma__contest;
 
+/* Whether a failed picture only takes its pattern out of the ranking. Others end the ranking. */
+static inline bool koksma__rank_leaves_out(koksma_status status)
+{
+    return status && status != KOKSMA_INTERRUPTED && status != KOKSMA_MEMORY && status != KOKSMA_IO &&
+           status != KOKSMA_SYSTEM;
+}
+
 /* The contest must not be moved in memory. Errors: MEMORY. koksma__contest_fini also accepts a zeroed contest and
    one whose init failed. */
 koksma_status koksma__contest_init(koksma__contest *contest, const koksma_rank_options *options,
