@@ -132,7 +132,7 @@ koksma__verdict koksma__table_judge(const koksma__table *t, const koksma__table_
     }
     bool agrees;
     if (t->scene) {
-        v.ratio = cell->mean.mean / printed->value - 1;
+        v.ratio = cell->mean.mean == printed->value ? 0 : cell->mean.mean / printed->value - 1; /* both may be 0 */
         agrees = fabs(v.ratio) <= KOKSMA__IMAGE_TOLERANCE;
     } else { /* the published mean was taken over 100 sets */
         v.z = (printed->value - cell->mean.mean) / (sqrt(cell->sd * cell->sd * (0.01 + 1 / n)) + printed->half_digit);

@@ -265,7 +265,8 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
     for (size_t k = 0; k < v->n_samplers * v->n_sizes; k++) {
         positive &= koksma__sheet_tally(v, k / v->n_sizes, m, k % v->n_sizes)->mean > 0;
     }
-    koksma__doc_chart_begin(d, &(koksma__chart){title, "points n", v->measures[m].name, true, positive, 0});
+    koksma__doc_chart_begin(d, &(koksma__chart){title, "points n", v->measures[m].name, true, positive,
+                                                measure->larger_is_better ? 1 : -1});
     for (size_t s = 0; s < v->n_samplers; s++) {
         koksma__doc_series_begin(d, v->samplers[s]->text, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < v->n_sizes; i++) {

@@ -75,6 +75,14 @@ static void every_verdict_has_its_case(void **state)
     t.table.scene = scene;
     assert_int_equal(verdict(&t, 0.0249, 0.05, 3), KOKSMA_VERDICT_AGREES);
     assert_int_equal(verdict(&t, 0.0251, 0.05, 3), KOKSMA_VERDICT_UNEXPLAINED);
+    set_up(&t, 0, 0.0005, -1);
+    t.table.measure = NULL;
+    t.table.scene = scene;
+    assert_int_equal(verdict(&t, 0, 0, 3), KOKSMA_VERDICT_AGREES); /* a scene without light has no error */
+    assert_int_equal(verdict(&t, 0.001, 0, 3), KOKSMA_VERDICT_UNEXPLAINED);
+    set_up(&t, 0.02, 0.0005, -1);
+    t.table.measure = NULL;
+    t.table.scene = scene;
     t.table.fitted = true;
     assert_int_equal(verdict(&t, 0.0249, 0.05, 3), KOKSMA_VERDICT_FITTED);
     assert_int_equal(verdict(&t, 0.0251, 0.05, 3), KOKSMA_VERDICT_UNEXPLAINED);
