@@ -12,7 +12,7 @@
 #   make release     build the optimised program: build/release/koksma
 #   make check       for daily work, under 2 minutes from a warm build: unit tests, claims of the patterns that changed,
 #                    tests of the directories that changed, lint; BASE=main: changed since that branch
-#   make test        everything, as continuous integration runs it: with gcc and sanitizers, then with clang (28 minutes on two slow cores)
+#   make test        everything, as continuous integration runs it: with gcc and sanitizers, then with clang (30 minutes on two slow cores)
 #   make bench       print a table of speeds beside peers and an older commit (bench/speed.py), in about 10 minutes
 #   make clean       remove build/ and demo/
 #
