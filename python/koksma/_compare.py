@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, check, lab, quoted, text, texts
-from ._points import Named, named
+from ._points import Named, has_masked, named
 
 FEW_PIXELS = 0.5  #: the share of the error in 0.1 % of the pixels from which on koksma warns
 
@@ -99,7 +99,7 @@ def as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
         raise ArgumentError(f"an image must be an array of real numbers, not {quoted(image)}") from None
     if given.dtype.kind not in "buifO":
         raise ArgumentError(f"pixels must be real numbers, not {given.dtype}")
-    if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
+    if has_masked(given):
         raise ArgumentError("an image must not have masked pixels")
     try:
         array = np.require(given, np.float32, ["C", "A"])

@@ -273,6 +273,11 @@ def view(array: PointArray) -> s.Points:
     return points
 
 
+def has_masked(array: npt.NDArray[Any]) -> bool:
+    """Whether values of an array are masked."""
+    return bool(isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array))  # type: ignore[no-untyped-call, unused-ignore]
+
+
 def as_points(points: npt.ArrayLike) -> PointArray:
     """A C-contiguous, aligned (n, dim) array of doubles; without a copy when it is one already.
 
@@ -282,7 +287,7 @@ def as_points(points: npt.ArrayLike) -> PointArray:
         return points
     try:
         given = np.asanyarray(points)
-        kind, masked = given.dtype.kind, isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given)
+        kind, masked = given.dtype.kind, has_masked(given)
         refused = kind == "O" and any(isinstance(value, _NO_REAL_NUMBERS) for value in given.flat)
         array = np.ascontiguousarray(given, dtype=np.float64) if kind in "buifO" and not refused else given
     except (TypeError, ValueError):
@@ -306,7 +311,7 @@ def numbers(name: str, values: npt.ArrayLike) -> PointArray:
     """
     try:
         given = np.asanyarray(values)
-        kind, masked = given.dtype.kind, isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given)
+        kind, masked = given.dtype.kind, has_masked(given)
         array = np.asarray(given, dtype=np.float64, order="C") if kind in "buifO" else None
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be numbers, not {quoted(values)}") from None
