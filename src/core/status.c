@@ -115,7 +115,7 @@ void koksma_text_escape(char *text, size_t size)
 }
 
 /* Copies a line of UTF-8 to error_text. Of one that is too long the first and the last characters are kept, because the
-   reason stands behind the name, and "..." is between them. */
+   reason comes after the name, and "..." is between them. */
 static void keep(const char *text)
 {
     static const char gap[] = "...";
