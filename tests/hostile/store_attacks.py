@@ -253,6 +253,10 @@ def rows():
     copy("emptied")
     change("emptied", "UPDATE meta SET value = '{}' WHERE key = 'plan-text-0'", sealed=True)
     refused("an empty plan", "emptied", ("report",))
+    for value in "0 7 0", "-1 7 0", "1 -7 0", "2 7 0", "", "one":
+        copy("r")
+        change("r", f"UPDATE meta SET value = '{value}' WHERE key = 'plan-texts'", sealed=True)
+        refused(f"plans and trials '{value}'", "r", ("report",))
     # Rows of another revision are not wrong, and not compared; a run makes those of its own beside them.
     copy("r")
     change("r", "UPDATE series SET made_by = 'random 1' WHERE made_by = 'random 0'", "UPDATE result SET v0 = 0.0 WHERE id & 4294967295 IN "

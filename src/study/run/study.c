@@ -221,7 +221,8 @@ static koksma_status recall_plan(koksma_study *study)
     int quick = 0;
     koksma__plan_trials trials = {0};
     koksma_status status = koksma__store_get_text(study->store, "plan-texts", &what);
-    if (!status && (!what || sscanf(what, "%lu %lld %d", &n, &trials.trials, &quick) != 3)) {
+    if (!status &&
+        (!what || sscanf(what, "%lu %lld %d", &n, &trials.trials, &quick) != 3 || n < 1 || trials.trials < 0)) {
         status =
             koksma__fail(KOKSMA_MALFORMED, "%s/results.sqlite: the store does not contain its plan", study->folder);
     }
