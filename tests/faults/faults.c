@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The program with a fault: linked in by --wrap, so that what the program and the two libraries call comes here, and
-   what outside libraries and libc call does not. Long because all calls share the counts and the log. */
+   what outside libraries and libc call does not. Long because all calls share the counts. */
 #include "faults.h"
 
 #include <errno.h>
@@ -17,8 +17,6 @@
 #include <unistd.h>
 
 #include <jansson.h>
-
-#include "core/clock.h"
 
 static const char *const names[N_FAULTS] = {
     "none", "memory", "open", "read", "write", "sync", "close", "rename", "thread", "db", "db-memory",
@@ -165,11 +163,8 @@ ssize_t __real_write(int descriptor, const void *bytes, size_t size);
 int __real_fsync(int descriptor);
 int __real_renameat(int from_folder, const char *from, int folder, const char *to);
 int __real_renameat2(int from_folder, const char *from, int folder, const char *to, unsigned flags);
-int __real_unlinkat(int folder, const char *path, int flags);
 int __real_close(int descriptor);
 int __real_mkdir(const char *path, mode_t bits);
-int __real_link(const char *from, const char *to);
-int __real_remove(const char *path);
 int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
 FILE *__wrap_fopen(const char *path, const char *how);
 FILE *__wrap_fdopen(int descriptor, const char *how);
@@ -182,72 +177,9 @@ ssize_t __wrap_write(int descriptor, const void *bytes, size_t size);
 int __wrap_fsync(int descriptor);
 int __wrap_renameat(int from_folder, const char *from, int folder, const char *to);
 int __wrap_renameat2(int from_folder, const char *from, int folder, const char *to, unsigned flags);
-int __wrap_unlinkat(int folder, const char *path, int flags);
 int __wrap_close(int descriptor);
 int __wrap_mkdir(const char *path, mode_t bits);
-int __wrap_link(const char *from, const char *to);
-int __wrap_remove(const char *path);
 int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
-
-/* ---- The order of what reaches the disk ------------------------------------------------------------------ */
-
-/* KOKSMA_FAULT_LOG: a line for each call that changes a file or folder, by inode; tests/hostile/disk.py reads it. */
-static int log_descriptor = -1;
-static pthread_mutex_t names_lock = PTHREAD_MUTEX_INITIALIZER; /* a name is in the list before others can use it */
-
-static unsigned long long inode(int descriptor)
-{
-    struct stat info;
-    return fstat(descriptor, &info) ? 0 : (unsigned long long)info.st_ino;
-}
-
-bool fault_logs(void)
-{
-    return log_descriptor >= 0;
-}
-
-/* A line is one write, as other threads write theirs, and the process may end at any time. */
-void fault_note(const char *format, ...)
-{
-    char line[1024];
-    va_list list;
-    va_start(list, format);
-    const int length = vsnprintf(line, sizeof line, format, list);
-    va_end(list);
-    if (log_descriptor >= 0 && __real_write(log_descriptor, line, (size_t)length) != length) {
-        abort();
-    }
-}
-
-void fault_note_write(unsigned long long file, long long offset, const void *bytes, size_t size)
-{
-    enum { PIECE = 4096, HEAD = 64 };
-    static const char digits[] = "0123456789abcdef";
-    const unsigned char *from = bytes;
-    char line[HEAD + 2 * PIECE + 1];
-    for (size_t done = 0; log_descriptor >= 0 && done < size;) {
-        const size_t n = size - done < PIECE ? size - done : PIECE;
-        int length = snprintf(line, HEAD, "write %llu %lld ", file, offset + (long long)done);
-        for (size_t i = 0; i < n; i++, done++) {
-            line[length++] = digits[from[done] >> 4];
-            line[length++] = digits[from[done] & 15];
-        }
-        line[length++] = '\n';
-        if (__real_write(log_descriptor, line, (size_t)length) != length) {
-            abort();
-        }
-    }
-}
-
-/* `size` bytes that were written up to where the descriptor stands now. */
-static void note_write(int descriptor, const void *bytes, size_t size)
-{
-    struct stat info;
-    if (log_descriptor >= 0 && !fstat(descriptor, &info) && S_ISREG(info.st_mode)) {
-        const off_t end = lseek(descriptor, 0, SEEK_CUR);
-        fault_note_write((unsigned long long)info.st_ino, (long long)end - (long long)size, bytes, size);
-    }
-}
 
 static ssize_t read_below(void *cookie, char *bytes, size_t size)
 {
@@ -271,9 +203,7 @@ static ssize_t write_below(void *cookie, const char *bytes, size_t size)
         errno = ENOSPC;
         return 0; /* what glibc asks for */
     }
-    const size_t n = fwrite(bytes, 1, size, cookie);
-    note_write(fileno(cookie), bytes, n);
-    return (ssize_t)n;
+    return (ssize_t)fwrite(bytes, 1, size, cookie);
 }
 
 static int seek_below(void *cookie, off64_t *offset, int from)
@@ -375,12 +305,7 @@ int __wrap_openat(int folder, const char *path, int flags, ...)
         return -1;
     }
     va_start(list, flags);
-    pthread_mutex_lock(&names_lock);
     const int descriptor = __real_openat(folder, path, flags, mode_in(flags, list));
-    if (descriptor >= 0 && flags & O_CREAT) {
-        fault_note("create %llu %llu %s\n", inode(folder), inode(descriptor), path);
-    }
-    pthread_mutex_unlock(&names_lock);
     va_end(list);
     return descriptor;
 }
@@ -406,11 +331,7 @@ ssize_t __wrap_write(int descriptor, const void *bytes, size_t size)
         errno = ENOSPC;
         return -1;
     }
-    const ssize_t n = __real_write(descriptor, bytes, size);
-    if (n > 0) {
-        note_write(descriptor, bytes, (size_t)n);
-    }
-    return n;
+    return __real_write(descriptor, bytes, size);
 }
 
 int __wrap_fsync(int descriptor)
@@ -419,7 +340,6 @@ int __wrap_fsync(int descriptor)
         errno = EIO;
         return -1;
     }
-    fault_note("sync %llu\n", inode(descriptor));
     return __real_fsync(descriptor);
 }
 
@@ -434,25 +354,8 @@ int __wrap_renameat2(int from_folder, const char *from, int folder, const char *
         errno = EACCES;
         return -1;
     }
-    pthread_mutex_lock(&names_lock);
-    const int code = flags ? __real_renameat2(from_folder, from, folder, to, flags)
-                           : __real_renameat(from_folder, from, folder, to);
-    if (!code) {
-        fault_note("rename %llu %s %s\n", inode(folder), from, to);
-    }
-    pthread_mutex_unlock(&names_lock);
-    return code;
-}
-
-int __wrap_unlinkat(int folder, const char *path, int flags)
-{
-    pthread_mutex_lock(&names_lock);
-    const int code = __real_unlinkat(folder, path, flags);
-    if (!code) {
-        fault_note("unlink %llu %s\n", inode(folder), path);
-    }
-    pthread_mutex_unlock(&names_lock);
-    return code;
+    return flags ? __real_renameat2(from_folder, from, folder, to, flags)
+                 : __real_renameat(from_folder, from, folder, to);
 }
 
 int __wrap_close(int descriptor)
@@ -465,76 +368,13 @@ int __wrap_close(int descriptor)
     return code;
 }
 
-static unsigned long long inode_at(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) ? 0 : (unsigned long long)info.st_ino;
-}
-
-/* Of the folder that an entry is in. */
-static unsigned long long inode_above(const char *path)
-{
-    char *copy = __real_strdup(path), *slash = strrchr(copy, '/');
-    if (slash) {
-        *slash = '\0';
-    }
-    const unsigned long long number = inode_at(!slash ? "." : *copy ? copy : "/");
-    free(copy);
-    return number;
-}
-
-static const char *name_in(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 int __wrap_mkdir(const char *path, mode_t bits)
 {
     if (fault_here(FAULT_OPEN, NULL)) {
         errno = ENOSPC;
         return -1;
     }
-    pthread_mutex_lock(&names_lock);
-    const int code = __real_mkdir(path, bits);
-    if (!code && log_descriptor >= 0) {
-        fault_note("mkdir %llu %llu %s\n", inode_above(path), inode_at(path), name_in(path));
-    }
-    pthread_mutex_unlock(&names_lock);
-    return code;
-}
-
-/* Waits once, until somebody removes the file KOKSMA_FAULT_PAUSE. */
-static void pause_here(void)
-{
-    static atomic_bool paused;
-    const char *path = getenv("KOKSMA_FAULT_PAUSE");
-    if (path && !atomic_exchange(&paused, true)) {
-        close(__real_open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-        while (!access(path, F_OK)) {
-            usleep(1000);
-        }
-    }
-}
-
-int __wrap_link(const char *from, const char *to)
-{
-    pause_here();
-    const int code = __real_link(from, to);
-    if (!code && log_descriptor >= 0) {
-        fault_note("link %llu %llu %s\n", inode_above(to), inode_at(to), name_in(to));
-    }
-    return code;
-}
-
-int __wrap_remove(const char *path)
-{
-    pause_here();
-    const int code = __real_remove(path);
-    if (!code && log_descriptor >= 0) {
-        fault_note("unlink %llu %s\n", inode_above(path), name_in(path));
-    }
-    return code;
+    return __real_mkdir(path, bits);
 }
 
 int __wrap_memfd_create(const char *name, unsigned flags)
@@ -570,24 +410,11 @@ static void tell_counts(void)
     }
 }
 
-/* A tenth of a second later at each look, so that the store commits often in a short run. */
-static double fast_clock(void)
-{
-    static atomic_long looks;
-    return 0.1 * (double)atomic_fetch_add(&looks, 1);
-}
-
 __attribute__((constructor)) static void begin(void)
 {
     const char *kind = getenv("KOKSMA_FAULT"), *at = getenv("KOKSMA_FAULT_AT"), *how = getenv("KOKSMA_FAULT_MODE");
     if (!kind) {
         return;
-    }
-    if (getenv("KOKSMA_FAULT_LOG")) {
-        log_descriptor = __real_open(getenv("KOKSMA_FAULT_LOG"), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    }
-    if (log_descriptor >= 0) {
-        koksma__set_clock(fast_clock);
     }
     json_set_alloc_funcs(json_memory, free);
     fault_install_sqlite();

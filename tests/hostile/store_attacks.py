@@ -135,6 +135,10 @@ def foreign():
     database.execute("ROLLBACK")
     database.close()
     refused("with another's journal", "f")
+    os.remove("f/results.sqlite")
+    told = study("run", "f")
+    check(told.returncode == 3 and "results.sqlite-journal: the database that it belongs to is gone" in told.stderr
+          and os.path.getsize("f/results.sqlite-journal") > 4096, f"a journal alone: {told}")
     shutil.rmtree("f")
 
 

@@ -31,14 +31,14 @@ static void add(char text[KOKSMA__MADE_BY], const char *name, int revision)
     snprintf(text + used, KOKSMA__MADE_BY - used, "%s%s", used ? ", " : "", word);
 }
 
-static void add_pattern(char text[KOKSMA__MADE_BY], const koksma_spec *spec, bool first)
+static void add_pattern(char text[KOKSMA__MADE_BY], const koksma_spec *spec)
 {
     if (spec->pattern) {
-        add(text, spec->pattern->name, first ? 0 : spec->pattern->revision);
+        add(text, spec->pattern->name, spec->pattern->revision);
     }
 }
 
-static koksma_status of_integrand(const char *measure, bool first, koksma__made_by *out)
+static koksma_status of_integrand(const char *measure, koksma__made_by *out)
 {
     char name[KOKSMA_MAX_SPEC];
     const char *spec = koksma__integrand_of(measure);
@@ -46,68 +46,67 @@ static koksma_status of_integrand(const char *measure, bool first, koksma__made_
     const koksma_integrand *integrand = koksma_integrand_find(name);
     KOKSMA__FAIL_IF(!integrand, KOKSMA_UNKNOWN, "no integrand '%.64s'", name);
     snprintf(name, sizeof name, "error of %s", integrand->name);
-    add(out->value, name, first ? 0 : integrand->revision);
+    add(out->value, name, integrand->revision);
     return KOKSMA_OK;
 }
 
-static koksma_status of_points(const char *pattern, const char *warp_name, const char *measure, bool first,
-                               koksma__made_by *out)
+static koksma_status of_points(const char *pattern, const char *warp_name, const char *measure, koksma__made_by *out)
 {
     koksma_spec spec;
     koksma_status status = koksma_pattern_spec(pattern, &spec);
     if (!status) {
-        add_pattern(out->points, &spec, first);
+        add_pattern(out->points, &spec);
         if (koksma__integrand_of(measure)) {
-            return of_integrand(measure, first, out);
+            return of_integrand(measure, out);
         }
         status = koksma_measure_spec(measure, &spec);
     }
     if (status) {
         return status;
     }
-    add(out->value, spec.measure->name, first ? 0 : spec.measure->revision);
+    add(out->value, spec.measure->name, spec.measure->revision);
     const koksma_warp *warp = koksma_warp_find(warp_name);
     if (warp) {
-        add(out->value, warp->name, first ? 0 : warp->revision);
+        add(out->value, warp->name, warp->revision);
     }
     return warp || !warp_name[0] ? KOKSMA_OK : koksma__fail(KOKSMA_UNKNOWN, "no warp '%s'", warp_name);
 }
 
-static koksma_status of_image(const char *pattern, bool first, char text[KOKSMA__MADE_BY])
+static koksma_status of_image(const char *pattern, char text[KOKSMA__MADE_BY])
 {
     koksma_render_options options = {0};
     const koksma_spec *spec;
     KOKSMA__TRY(koksma__image_pattern_set(pattern, &options));
-    add(text, "renderer", first ? 0 : KOKSMA__RENDERER_REVISION);
+    add(text, "renderer", KOKSMA__RENDERER_REVISION);
     for (size_t i = 0; (spec = koksma__image_pattern_at(&options, i)); i++) {
-        add_pattern(text, spec, first);
+        add_pattern(text, spec);
     }
     return KOKSMA_OK;
 }
 
-static koksma_status of_metric(const char *text, bool first, char made_by[KOKSMA__MADE_BY])
+static koksma_status of_metric(const char *text, char made_by[KOKSMA__MADE_BY])
 {
     koksma_metric_spec spec;
     const koksma_status status = koksma_metric_parse(text, &spec);
     if (!status) {
-        add(made_by, spec.metric->name, first ? 0 : spec.metric->revision);
+        add(made_by, spec.metric->name, spec.metric->revision);
     }
     return status;
 }
 
 koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what,
-                                   const char *metric, bool first, koksma__made_by *out)
+                                   const char *metric, koksma__made_by *out)
 {
     char name[KOKSMA_MAX_SPEC], of_reference[KOKSMA_MAX_SPEC];
     long long spp, replicates;
     *out = (koksma__made_by){0};
     if (!image) {
-        return of_points(pattern, options, what, first, out);
+        return of_points(pattern, options, what, out);
     }
-    koksma_status status = pattern[0] ? of_image(pattern, first, out->points) : KOKSMA_OK;
-    status = status || !metric[0] ? status : of_metric(metric, first, out->value);
+    koksma_status status = pattern[0] ? of_image(pattern, out->points) : KOKSMA_OK;
+    status = status || !metric[0] ? status : of_metric(metric, out->value);
     status = status ? status : koksma__reference_parse(what, name, of_reference, &spp, &replicates);
-    return status ? status : of_image(of_reference, first, out->value);
+    return status ? status : of_image(of_reference, out->value);
 }
 
 koksma_status koksma__reference_parse(const char *text, char name[KOKSMA_MAX_SPEC], char pattern[KOKSMA_MAX_SPEC],

@@ -22,10 +22,9 @@ typedef struct koksma__made_by {
 } koksma__made_by;
 
 /* Writes the revisions of all code that makes a row of the series that the texts describe. For a reference, pattern
-   is ""; metric is "" unless the row's value is in a metric. If `first`, writes every revision as 0, otherwise as it
-   is in this program. Errors: those of the specs. */
+   is ""; metric is "" unless the row's value is in a metric. Errors: those of the specs. */
 koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what,
-                                   const char *metric, bool first, koksma__made_by *out);
+                                   const char *metric, koksma__made_by *out);
 
 /* Splits the text of a reference, "name:pattern@SPPxREPLICATES" as in "r:jittered@256x4", into its parts. Errors:
    MALFORMED. */

@@ -39,8 +39,7 @@ typedef struct koksma__image_mean {
 koksma_status koksma__image_mean_by(koksma_study *study, const koksma__image_mean *of, const char *metric,
                                     koksma__result **results, koksma__summary *mean);
 
-/* Means of the members of koksma_metric_value over the images. A summary's n is 0 if the store has no rows for it:
-   an upgraded store has only values of the default metric. */
+/* Means of the members of koksma_metric_value over the images. A summary's n is 0 if the store has no rows for it. */
 typedef struct koksma__metric_means {
     koksma__summary value, robust, top_share;
 } koksma__metric_means;

@@ -270,8 +270,7 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
     const koksma__series *key = &series->key;
     const bool image = strcmp(key->kind, "discrepancy") != 0;
     series->state = KOKSMA__AUDIT_WRONG;
-    koksma_status status =
-        koksma__find_made_by(image, key->pattern, key->options, key->what, key->metric, false, here);
+    koksma_status status = koksma__find_made_by(image, key->pattern, key->options, key->what, key->metric, here);
     status = status ? status : koksma__audit_unused(key, series->is_reference);
     bool other = false;
     status = status ? status : koksma__audit_revisions(key, here, &other, &series->newer);

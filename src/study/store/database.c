@@ -273,13 +273,11 @@ static koksma_status open_as(koksma__database *database, koksma__database_mode m
 {
     static const char *const settings[] = {
         [KOKSMA__DATABASE_READ] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA cache_size=-32768",
-        [KOKSMA__DATABASE_WRITE] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; "
-                                   "PRAGMA synchronous=FULL; PRAGMA cache_size=-32768",
-        [KOKSMA__DATABASE_LOCK] = "PRAGMA locking_mode=EXCLUSIVE; BEGIN EXCLUSIVE; COMMIT; "
-                                  "PRAGMA wal_checkpoint(TRUNCATE)",
+        [KOKSMA__DATABASE_WRITE] = ("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; "
+                                    "PRAGMA synchronous=FULL; PRAGMA cache_size=-32768"),
         [KOKSMA__DATABASE_BUILD] = "PRAGMA page_size=16384; PRAGMA journal_mode=MEMORY; PRAGMA synchronous=FULL"};
     const bool read = mode == KOKSMA__DATABASE_READ;
-    const char *path = read ? database->uri : *database->real ? database->real : ":memory:";
+    const char *path = read ? database->uri : database->real;
     const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_URI | (read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE);
     write_uri(database, "?mode=ro&immutable=1");
     koksma_status status = read ? prepare_to_read(database) : KOKSMA_OK;
@@ -303,7 +301,7 @@ koksma_status koksma__database_open(const char *path, const char *shown, koksma_
     *out = NULL;
     if (!database || !(database->path = strdup(shown))) {
         status = koksma__fail_memory(sizeof *database);
-    } else if (!(whole = *path ? realpath(path, NULL) : strdup(""))) {
+    } else if (!(whole = realpath(path, NULL))) {
         status = koksma__fail(errno == ENOENT ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", shown, strerror(errno));
     } else if (strlen(whole) >= MAX_PATH) {
         status = koksma__fail(KOKSMA_ARGUMENT, "%s: the path is too long", shown);
@@ -319,25 +317,6 @@ koksma_status koksma__database_open(const char *path, const char *shown, koksma_
     }
     *out = database;
     return KOKSMA_OK;
-}
-
-koksma_status koksma__database_attach(koksma__database *database, const koksma__database *old)
-{
-    koksma__statement *s;
-    int column = 1;
-    koksma_status status = koksma__statement_open(database, "ATTACH ? AS old", &s);
-    if (!status) {
-        koksma__bind_text(s, &column, old->uri);
-        status = koksma__statement_run(database, s);
-        koksma__statement_close(s);
-    }
-    char *path = strdup(old->path);
-    if (!path) {
-        return status ? status : koksma__fail_memory(strlen(old->path));
-    }
-    free(database->path);
-    database->path = path;
-    return status ? status : koksma__database_execute(database, "PRAGMA old.locking_mode=EXCLUSIVE");
 }
 
 void koksma__database_close(koksma__database *database)

@@ -24,10 +24,7 @@ typedef enum koksma__database_mode {
        meanwhile */
     KOKSMA__DATABASE_READ,
     KOKSMA__DATABASE_WRITE, /* writes an existing file, with exclusive access and a write-ahead log */
-    /* opens an existing file with exclusive access; writes only what its write-ahead log or journal holds */
-    KOKSMA__DATABASE_LOCK,
-    /* fills an empty file that no other program knows, or, with path "", a database in memory */
-    KOKSMA__DATABASE_BUILD
+    KOKSMA__DATABASE_BUILD  /* fills an empty file that no other program knows */
 } koksma__database_mode;
 
 /* Opens the file `path`; error messages call it `shown`, the path that the user knows. */
@@ -35,10 +32,6 @@ koksma_status koksma__database_open(const char *path, const char *shown, koksma_
                                     koksma__database **out);
 /* Closes a database whose statements are closed; what was not committed is lost. */
 void koksma__database_close(koksma__database *database);
-
-/* Attaches the file `old` in its present state: its tables are then called old.NAME. The file must remain open. Error
-   messages about `database` name `old` from then on. */
-koksma_status koksma__database_attach(koksma__database *database, const koksma__database *old);
 
 /* Whether the path now leads to another file than when the database was opened. */
 bool koksma__database_has_moved(koksma__database *database);

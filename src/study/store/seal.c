@@ -62,7 +62,6 @@ uint64_t koksma__checksum_of_series(const koksma__series *key, long long id)
     for (size_t i = 0; i < sizeof wholes / sizeof *wholes; i++) {
         h = fold(h, (uint64_t)wholes[i]);
     }
-    /* Schema 6 had no metric: the seals of its stores remain right in their upgraded copies. */
     return key->metric[0] ? fold_text(h, key->metric) : h;
 }
 

@@ -167,7 +167,7 @@ void koksma__store_bind_key(koksma__store *store, const koksma__series *series, 
     const koksma__row_texts texts = {image, series->pattern, image ? series->what : ""};
     koksma__hash_with_points(&store->files, series->scene_hash, &texts, store->hash);
     key->metric = series->metric ? series->metric : "";
-    koksma__find_made_by(image, series->pattern, series->options, series->what, key->metric, false, &store->made_by);
+    koksma__find_made_by(image, series->pattern, series->options, series->what, key->metric, &store->made_by);
     key->scene_hash = store->hash;
     key->made_by = store->made_by.points;
     key->measured_by = store->made_by.value;

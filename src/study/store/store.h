@@ -51,10 +51,9 @@ typedef enum koksma__store_mode {
     KOKSMA__STORE_AUDIT  /* like KOKSMA__STORE_READ, but rows that no run wrote are not an error */
 } koksma__store_mode;
 
-/* Opens a store; if plan_name is NULL, the store may belong to any plan. A store of an older schema is upgraded: to
-   write, in a copy that replaces the file when complete; to read, in memory. Errors: MISSING (to read), IO (can't be
-   written, or another run holds it), MALFORMED (not a store, of a newer schema, or of another plan; the file is not
-   changed). */
+/* Opens a store; if plan_name is NULL, the store may belong to any plan. Errors: MISSING (to read), IO (can't
+   be written, or another run holds it), MALFORMED (not a store, of another schema, or of another plan; the file is
+   not changed). */
 koksma_status koksma__store_open(const char *path, koksma__store_mode mode, const char *plan_name,
                                  koksma__store **store);
 koksma_status koksma__store_close(koksma__store *store);

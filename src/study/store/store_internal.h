@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The internal interface of the store. store_open.c creates and opens it, store_schema.c checks its tables,
-   store_upgrade.c upgrades old schemas, store_tables.c reads and checks rows, store_series.c finds ids of series,
+   store_tables.c reads and checks rows, store_series.c finds ids of series,
    store_rows.c writes results, store_results.c reads them; store.c has locks, transactions, texts, references and
    runs. */
 #ifndef KOKSMA_STUDY_STORE_STORE_INTERNAL_H
@@ -134,17 +134,12 @@ koksma_status koksma__store_find_text(koksma__store *store, const char *key, cha
 
 /* ---- store_schema.c ------------------------------------------------------------------------------------------- */
 
-/* Finds which schema of Koksma the database has, and that it has no other tables: KOKSMA__SCHEMA, or an older one
-   that can be upgraded. Errors: MALFORMED (another program's database, or a newer schema). */
-koksma_status koksma__schema_of(koksma__database *database, const koksma__database_header *header, int *schema);
+/* Checks that the database is a store of KOKSMA__SCHEMA and has no other tables. Errors: MALFORMED (another program's
+   database, or another schema). */
+koksma_status koksma__schema_check(koksma__database *database, const koksma__database_header *header);
 
 /* Creates the tables of KOKSMA__SCHEMA in an empty database. */
 koksma_status koksma__schema_make(koksma__database *database);
-
-/* ---- store_upgrade.c ------------------------------------------------------------------------------------------ */
-
-/* Copies the rows of the attached database `old`, which has this schema, into a new store. */
-koksma_status koksma__store_upgrade(int schema, koksma__store *store);
 
 /* ---- store_tables.c ------------------------------------------------------------------------------------------- */
 

@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Creates and opens a store, and holds the SQL of its statements. An existing file is first checked without
-   changing any byte (database.h), and rejected if it is not a store. A new store, or the upgraded copy of an old
-   one, is written under a temporary name and renamed when complete. */
+   changing any byte (database.h), and rejected if it is not a store of this schema. A new store is written under a
+   temporary name and linked to its own when complete. */
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "core/atomic_file.h"
@@ -84,30 +82,17 @@ static koksma_status open_queries(koksma__store *store)
 
 /* ---- New stores ---------------------------------------------------------------------------------------- */
 
-/* Builds a complete store in an empty file that no other program knows, or in memory (path ""); it has the rows
-   of `old`, or none if `old` is NULL. Messages name the file `shown`. */
-static koksma_status build(const char *path, const char *shown, const koksma__database *old, int schema,
-                           koksma__store **out)
+/* Builds a complete store without rows in an empty file that no other program knows. Messages name the file `shown`. */
+static koksma_status build(const char *path, const char *shown, koksma__store **out)
 {
     koksma__database *database;
     koksma_status status = koksma__database_open(path, shown, KOKSMA__DATABASE_BUILD, &database);
     *out = NULL;
     status = status ? status : make_store(database, out);
-    if (!status && old) {
-        status = koksma__database_attach(database, old);
-    }
     status = status ? status : koksma__store_begin(*out);
     status = status ? status : koksma__schema_make(database);
     status = status ? status : open_queries(*out);
-    if (!status && old) {
-        status = koksma__store_upgrade(schema, *out);
-    }
-    status = status ? status : koksma__store_begin(*out);
-    status = status ? status : koksma__store_end(*out);
-    if (!status && old) {
-        status = koksma__database_execute(database, "DETACH old");
-    }
-    return status;
+    return status ? status : koksma__store_end(*out);
 }
 
 /* Sets bytes 18 and 19 of the header, which mark a file with a write-ahead log (https://sqlite.org/fileformat.html).
@@ -120,43 +105,23 @@ static koksma_status mark_as_logged(const char *temporary, const char *path)
     return done ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: writing failed: %s", path, strerror(errno));
 }
 
-/* Builds a store under a temporary name and moves it to `path` when complete. An upgrade replaces `old`; a new store
-   replaces nothing, so that it cannot destroy the store of another run that was faster. */
-static koksma_status put_in_place(const char *path, const koksma__database *old, int schema)
+/* Builds a store under a temporary name and gives it the name `path` when complete. It replaces nothing, so that it
+   cannot destroy the store of another run that was faster. */
+static koksma_status put_in_place(const char *path)
 {
     koksma__atomic_file file;
     koksma__store *store;
     KOKSMA__TRY(koksma__atomic_open(NULL, path, &file));
     char temporary[KOKSMA__TEMPORARY_PATH];
     koksma__atomic_temporary(&file, temporary);
-    koksma_status status = build(temporary, path, old, schema, &store);
-    if (!status && old && !koksma__store_is_sealed(store)) {
-        status = koksma__seal_fail(store); /* the old file is damaged, and is not replaced */
-    }
+    koksma_status status = build(temporary, path, &store);
     const koksma_status closed = koksma__store_close(store);
     status = status ? status : closed;
     status = status ? status : mark_as_logged(temporary, path);
-    bool keep = !status;
     /* the file system may have no hard links; the file is then renamed */
-    if (keep && !old && (!link(temporary, path) || errno == EEXIST)) {
-        keep = false;
-    }
-    const koksma_status placed = koksma__atomic_close(&file, keep);
+    const bool rename = !status && link(temporary, path) && errno != EEXIST;
+    const koksma_status placed = koksma__atomic_close(&file, rename);
     return status ? status : placed;
-}
-
-/* Upgrades a file. Opening the file locks it, and moves into it the write-ahead log of an earlier run that was
-   killed. */
-static koksma_status upgrade_file(const char *path, int schema)
-{
-    koksma__database *old;
-    koksma_status status = koksma__database_open(path, path, KOKSMA__DATABASE_LOCK, &old);
-    if (!status && koksma__database_has_moved(old)) {
-        status = koksma__fail(KOKSMA_IO, "%s: another run is using it", path);
-    }
-    status = status ? status : put_in_place(path, old, schema);
-    koksma__database_close(old);
-    return status;
 }
 
 /* ---- Existing stores ----------------------------------------------------------------------------------- */
@@ -177,7 +142,7 @@ static koksma_status check_plan(koksma__store *store, const char *name)
 }
 
 /* Opens a store to read and checks its header and tables before anything can write to it. */
-static koksma_status look(const char *path, bool *exists, int *schema, koksma__database **out)
+static koksma_status look(const char *path, bool *exists, koksma__database **out)
 {
     koksma__database_header header;
     koksma_status status = koksma__database_look(path, &header);
@@ -185,7 +150,7 @@ static koksma_status look(const char *path, bool *exists, int *schema, koksma__d
     *exists = header.exists;
     if (!status && *exists) {
         status = koksma__database_open(path, path, KOKSMA__DATABASE_READ, out);
-        status = status ? status : koksma__schema_of(*out, &header, schema);
+        status = status ? status : koksma__schema_check(*out, &header);
     }
     if (status) {
         koksma__database_close(*out);
@@ -213,8 +178,7 @@ static koksma_status open_to_read(const char *path, koksma__store **out)
 {
     koksma__database *database;
     bool exists;
-    int schema;
-    koksma_status status = look(path, &exists, &schema, &database);
+    koksma_status status = look(path, &exists, &database);
     if (!status && !exists) {
         status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, strerror(ENOENT));
     }
@@ -223,85 +187,24 @@ static koksma_status open_to_read(const char *path, koksma__store **out)
         koksma__database_close(database);
         return status;
     }
-    if (schema != KOKSMA__SCHEMA) {
-        status = build("", path, database, schema, out);
-        koksma__database_close(database);
-        return status;
-    }
     status = make_store(database, out);
     status = status ? status : open_queries(*out);
     return status ? status : koksma__seal_read(*out);
 }
 
-/* The endings of the files that SQLite writes beside a database. */
-static const char *const log_endings[] = {"-wal", "-shm", "-journal"};
-
-static bool has_log(const char *path)
-{
-    char beside[4096];
-    struct stat info;
-    bool found = false;
-    for (size_t i = 0; i < sizeof log_endings / sizeof *log_endings; i++) {
-        snprintf(beside, sizeof beside, "%s%s", path, log_endings[i]);
-        found |= !lstat(beside, &info);
-    }
-    return found;
-}
-
-/* Removes the log of a file that was deleted, so that SQLite does not write its contents into the new file. */
-static void remove_log(const char *path)
-{
-    char beside[4096];
-    for (size_t i = 0; i < sizeof log_endings / sizeof *log_endings; i++) {
-        snprintf(beside, sizeof beside, "%s%s", path, log_endings[i]);
-        remove(beside);
-    }
-}
-
-/* Locks the folder of `path` until *folder is closed. *folder is -1 if the folder can't be opened or its file system has no
-   such locks (NFS locks only what is open for writing). */
-static koksma_status lock_folder(const char *path, int *folder)
-{
-    enum { WAIT_MS = 5000, LOOK_AGAIN_MS = 10 };
-    const char *slash = strrchr(path, '/');
-    char *name = slash ? strndup(path, (size_t)(slash + 1 - path)) : strdup(".");
-    KOKSMA__REQUIRE_MEMORY(name, strlen(path));
-    *folder = open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    free(name);
-    for (int waited = 0; *folder >= 0 && flock(*folder, LOCK_EX | LOCK_NB); waited += LOOK_AGAIN_MS) {
-        const bool held = errno == EWOULDBLOCK;
-        if (!held || waited >= WAIT_MS) {
-            close(*folder);
-            *folder = -1;
-            KOKSMA__FAIL_IF(held, KOKSMA_IO, "%s: another program has locked its folder; try again when it has ended",
-                            path);
-        } else {
-            nanosleep(&(struct timespec){.tv_nsec = LOOK_AGAIN_MS * 1000000L}, NULL);
-        }
-    }
-    return KOKSMA_OK;
-}
-
-/* Makes a new store where there was none. Several first runs may do so at once, and the log that a run removes must not be
-   that of a store which another has made since. Where a run finds no log it removes none: a log that comes later is another
-   run's. Else it locks the folder until its store is in place, and looks again whether there is a store. */
+/* Makes a new store where there was none. A log beside it belongs to a database that is gone, and SQLite would write its
+   contents into the new file. */
 static koksma_status make_new(const char *path)
 {
-    koksma__database_header header;
-    int folder = -1;
-    const bool logged = has_log(path);
-    koksma_status status = logged ? lock_folder(path, &folder) : KOKSMA_OK;
-    status = status ? status : koksma__database_look(path, &header);
-    if (!status && !header.exists) {
-        if (logged) {
-            remove_log(path);
-        }
-        status = put_in_place(path, NULL, KOKSMA__SCHEMA);
+    static const char *const log_endings[] = {"-wal", "-shm", "-journal"};
+    char beside[4096];
+    struct stat info;
+    for (size_t i = 0; i < sizeof log_endings / sizeof *log_endings; i++) {
+        snprintf(beside, sizeof beside, "%s%s", path, log_endings[i]);
+        KOKSMA__FAIL_IF(!lstat(beside, &info), KOKSMA_MALFORMED,
+                        "%s: the database that it belongs to is gone; remove it, or choose another folder", beside);
     }
-    if (folder >= 0) {
-        close(folder);
-    }
-    return status;
+    return put_in_place(path);
 }
 
 static void pass(void *context, long long series, long long trial)
@@ -318,15 +221,12 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     koksma__database *database;
     koksma__database_header header;
     bool exists;
-    int schema = KOKSMA__SCHEMA;
     KOKSMA__FAIL_IF(access(path, W_OK) && errno != ENOENT, KOKSMA_IO, "%s: can't be written: %s", path,
                     strerror(errno));
-    koksma_status status = look(path, &exists, &schema, &database);
+    koksma_status status = look(path, &exists, &database);
     koksma__database_close(status ? NULL : database);
     if (!status && !exists) {
         status = make_new(path);
-    } else if (!status && schema != KOKSMA__SCHEMA) {
-        status = upgrade_file(path, schema);
     }
     status = status ? status : koksma__database_open(path, path, KOKSMA__DATABASE_WRITE, &database);
     status = status ? status : make_store(database, out);
@@ -336,7 +236,7 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     }
     /* check again, now that no other program can write */
     status = status ? status : koksma__database_look(path, &header);
-    status = status ? status : koksma__schema_of(database, &header, &schema);
+    status = status ? status : koksma__schema_check(database, &header);
     status = status ? status : open_queries(*out);
     status = status ? status : koksma__seal_read(*out);
     if (!status) {                      /* damage must be reported before any byte is written */

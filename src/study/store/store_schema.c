@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Checks which tables a file has. The SQL of every table and view, as SQLite stores it, is compared with the
-   statements of schema.sql (of schema_6.sql, or of schema_past.sql for files older than schema 6), after removing
-   comments and replacing white space by one blank: the file must have each statement once and nothing else. A file from
-   an untrusted source thus has no triggers, further tables or views, virtual tables, or computed columns. */
+   statements of schema.sql after removing comments and replacing white space by one blank: the file must have each
+   statement once and nothing else. A file from an untrusted source thus has no triggers, further tables or views,
+   virtual tables, or computed columns. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,14 +10,12 @@
 
 #include "core/status.h"
 #include "study/store/schema.h"
-#include "study/store/schema_6.h"
-#include "study/store/schema_past.h"
 #include "study/store/store_internal.h"
 
 /* "Kksm", which no other program has in SQLite's own list of application ids (magic.txt). */
 static const uint32_t APPLICATION = 0x4b6b736d;
 
-enum { OLDEST = 3, FIRST_WITH_ID = 6, MAX_STATEMENTS = 16, STATEMENTS = 6 };
+enum { STATEMENTS = 6 };
 
 /* Writes one statement to `out` without comments and with one blank for each stretch of white space. The statement
    ends at the first ';' outside quotes, or at the end of the text. Returns the rest of the SQL. */
@@ -55,13 +53,13 @@ static int find_statement(const char *schema, const char *sql, char *out, char *
     return -1;
 }
 
-/* Checks that every entry of the file's schema is a statement of `schema` and that none is repeated; *n is the number
+/* Checks that every entry of the file's schema is a statement of schema.sql and that none is repeated; *n is the number
    of entries. */
-static koksma_status compare(koksma__database *database, const char *schema, int *n)
+static koksma_status compare(koksma__database *database, int *n)
 {
     koksma__statement *s;
-    bool seen[MAX_STATEMENTS] = {false};
-    char *out = NULL, *known = malloc(strlen(schema) + 1);
+    bool seen[STATEMENTS] = {false};
+    char *out = NULL, *known = malloc(strlen(koksma__schema_sql) + 1);
     koksma_status status = koksma__statement_open(database, "SELECT sql, type, name FROM sqlite_schema", &s);
     *n = 0;
     while (koksma__next_row(database, s, &status)) {
@@ -72,10 +70,10 @@ static koksma_status compare(koksma__database *database, const char *schema, int
         }
         free(out);
         out = malloc(strlen(sql) + 1);
-        const int i = out && known ? find_statement(schema, sql, out, known) : -1;
+        const int i = out && known ? find_statement(koksma__schema_sql, sql, out, known) : -1;
         if (!out || !known) {
             status = koksma__fail_memory(strlen(sql));
-        } else if (i < 0 || i >= MAX_STATEMENTS || seen[i]) {
+        } else if (i < 0 || i >= STATEMENTS || seen[i]) {
             status = koksma__fail(
                 KOKSMA_MALFORMED,
                 "%s: not a store of koksma study: its %.20s '%.100s' is another program's; choose another folder",
@@ -91,35 +89,17 @@ static koksma_status compare(koksma__database *database, const char *schema, int
     return status;
 }
 
-/* Reads the number of the schema from the table `meta` of an old store. */
-static koksma_status old_schema(koksma__database *database, int *schema)
-{
-    koksma__statement *s;
-    koksma_status status = koksma__statement_open(database, "SELECT value FROM meta WHERE key = 'schema'", &s);
-    *schema = koksma__next_row(database, s, &status) ? atoi(koksma__column_text(s, 0)) : 0;
-    koksma__statement_close(s);
-    return status;
-}
-
-koksma_status koksma__schema_of(koksma__database *database, const koksma__database_header *header, int *schema)
+koksma_status koksma__schema_check(koksma__database *database, const koksma__database_header *header)
 {
     const char *path = koksma__database_path(database);
     const bool ours = header->application_id == APPLICATION;
     int n = 0;
-    KOKSMA__FAIL_IF(ours && header->version != KOKSMA__SCHEMA && header->version != FIRST_WITH_ID, KOKSMA_MALFORMED,
+    KOKSMA__FAIL_IF(ours && header->version != KOKSMA__SCHEMA, KOKSMA_MALFORMED,
                     "%s: the file has schema %u, but this program has schema %d; choose another folder", path,
                     (unsigned)header->version, KOKSMA__SCHEMA);
-    *schema = ours ? (int)header->version : KOKSMA__SCHEMA;
-    const char *const sql = !ours                       ? koksma__schema_past_sql
-                            : *schema == KOKSMA__SCHEMA ? koksma__schema_sql
-                                                        : koksma__schema_6_sql;
-    koksma_status status = ours || !header->application_id ? compare(database, sql, &n) : KOKSMA_OK;
-    if (!status && !ours && n == STATEMENTS) {
-        status = old_schema(database, schema);
-    }
-    if (!status && (n != STATEMENTS || *schema < OLDEST || (!ours && *schema >= FIRST_WITH_ID))) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s: not a store of koksma study; choose another folder", path);
-    }
+    const koksma_status status = ours ? compare(database, &n) : KOKSMA_OK;
+    KOKSMA__FAIL_IF(!status && n != STATEMENTS, KOKSMA_MALFORMED,
+                    "%s: not a store of koksma study; choose another folder", path);
     return status;
 }
 
