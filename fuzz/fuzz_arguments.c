@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: cli/options.c cli/options.h cli/cli.h cli/main.c cli/command_*.c cli/[a-z]*_option*.c */
 /* The command line: lines of the input are the arguments of the command that the first line names. The command itself
    is not run; all its options are read in each way that a command may read them. */
 #include <fcntl.h>

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/meshes/gltf_check.c src/meshes/gltf_read.c src/json */
 /* Mutator: fuzz/mutate_json.c */
 /* A glTF file in memory, JSON or binary. Files that it names are looked for in the current folder. */
 #include "meshes/gltf_read.h"

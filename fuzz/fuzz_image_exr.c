@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/image/exr*.c */
 /* Fuzzes the reader of EXR files: bytes that it recognises give an image or an error. */
 #include "image/formats.h"
 #include "target.h"

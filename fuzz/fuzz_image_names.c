@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/study/images/image_names.c */
 /* The first line is a path with places, the second a path that may fit. */
 #include "study/images/image_names.h"
 #include "target.h"

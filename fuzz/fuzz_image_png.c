@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/image/png.c */
 /* Mutator: fuzz/mutate_png.c */
 /* Fuzzes the reader of PNG files: bytes that it recognises give an image or an error. */
 #include "image/formats.h"

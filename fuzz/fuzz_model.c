@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/meshes src/scene :!src/scene/scene_parts.c src/render/scene_images.c src/json */
 /* Mutator: fuzz/mutate_words.c */
 /* A mesh file or another renderer's scene: the first line is the ending of its name (.obj .ply .ply.gz .off .gltf
    .glb .serialized .pbrt .xml), the rest the file. */

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/meshes/mesh_mtl.c src/meshes/mesh_text.c */
 /* Mutator: fuzz/mutate_words.c */
 /* A material file of an OBJ mesh. */
 #include <fcntl.h>

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/patterns/lattice_file.c src/patterns/net_file.c src/core/read_file.c */
 /* The files of lattice-file and net-file: any bytes give points in [0, 1) or an error. */
 #include <fcntl.h>
 #include <stdio.h>

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/study/plan src/json */
 /* Mutator: fuzz/mutate_json.c */
 /* Fuzzes the parser of plans: any text gives a plan or an error. */
 #include "study/plan/plan.h"

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/core/points_npy.c src/core/npy.c */
 /* Fuzzes the reader of points in NPY files: any bytes give points or an error. */
 #include "core/points_npy.h"
 #include "points.h"

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/core/points_text.c src/core/decimal.c */
 /* Fuzzes the reader of points in text files: any bytes give points or an error. */
 #include "core/points_text.h"
 #include "points.h"

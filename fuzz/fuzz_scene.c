@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/scene :!src/scene/scene_parts.c src/render/scene_images.c src/json */
 /* Mutator: fuzz/mutate_json.c */
 /* Fuzzes the parser of scene files: any text gives a scene or an error. */
 #include "scene/scene.h"

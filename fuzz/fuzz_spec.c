@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/core/spec.c */
 /* Specs of patterns, measures, integrands and adaptive methods, and the patterns of a renderer's uses: what parses has a
    canonical text, which parses to the same. */
 #include <koksma/adaptive.h>

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Readers: src/study/store */
 /*
  * Damaged and forged databases of studies. The first byte of the input chooses a database (of the present schema, or one of
  * tests/study/stores) and what is done with it: export, run and report, the same without the plan's file, or audit. The
