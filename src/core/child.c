@@ -1,18 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Runs a program as a child process, for samplers that are programs. Three processes take part:
- *
- *     caller   reads the output of the program, and checks the time limit and run->keep_going
- *     keeper   a fork of the caller, connected to it by a socket. It adopts all orphaned descendants
- *              (PR_SET_CHILD_SUBREAPER), so that no daemon, fork or new session of the program escapes. When the
- *              program ends, or the caller closes its end of the socket or dies, the keeper kills all its descendants
- *     program  in a process group of its own, with a limit on memory and no core file
- *
- * A separate keeper is needed because PR_SET_CHILD_SUBREAPER applies to a whole process, and a library must not set
- * it for its host program. Between fork and exec the child makes only calls that are safe after fork in a process of
- * several threads.
+ * Runs a program as a child process, for samplers that are programs. The program leads a process group of its own, with a
+ * limit on memory and no core file; at its end, or when the caller stops it, the whole group is killed. A process that
+ * leaves the group (setsid) is not followed. Between fork and exec the child makes only calls that are safe after fork in
+ * a process of several threads.
  */
-#define _GNU_SOURCE /* pipe2, ppoll */
+#define _GNU_SOURCE /* pipe2 */
 #include "core/child.h"
 
 #include <stdlib.h>
@@ -37,30 +30,12 @@ koksma_status koksma__child_run(const koksma__child *child, const koksma_run *ru
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { OUT, ERR, KEEPER, N_ENDS, STEP_MS = 20, CHUNK = 1 << 16, SHOWN = 200, MOST_FILES = 1 << 16 };
-
-/* The message that the keeper sends at its end, or that the program's process sends if it cannot start the
-   program. */
-typedef struct outcome {
-    int error;  /* 0: the program was started; otherwise errno of the failed start */
-    int status; /* the exit status that waitpid returned */
-} outcome;
-
-/* ---- The program and its keeper: these functions make only calls that are safe after fork ----------------- */
-
-static void tell(int socket, int error, int status)
-{
-    const outcome o = {error, status};
-    while (send(socket, &o, sizeof o, MSG_NOSIGNAL) < 0 && errno == EINTR) {
-    }
-}
+/* OUT and ERR: the program's standard output and error. START: errno, if the program can't be started. */
+enum { OUT, ERR, START, N_ENDS, STEP_MS = 20, CHUNK = 1 << 16, SHOWN = 200 };
 
 static _Noreturn void become_program(const koksma__child *child, const int ends[N_ENDS])
 {
@@ -76,115 +51,24 @@ static _Noreturn void become_program(const koksma__child *child, const int ends[
         sigprocmask(SIG_SETMASK, &no_signals, NULL);
         execv(child->arguments[0], child->arguments);
     }
-    tell(ends[KEEPER], errno, 0);
+    const int error = errno;
+    while (write(ends[START], &error, sizeof error) < 0 && errno == EINTR) {
+    }
     _exit(127);
 }
-
-/* Closes all files but the three of `ends`: the caller's files must not stay open in the keeper when the caller has
-   died. */
-static void close_others(const int ends[N_ENDS])
-{
-    unsigned first = 0;
-    for (int round = 0; round <= N_ENDS; round++) { /* ends has the three descriptors in increasing order; close those
-                                                       between them */
-        unsigned next = ~0u;
-        for (int e = 0; e < N_ENDS; e++) {
-            next = (unsigned)ends[e] >= first && (unsigned)ends[e] < next ? (unsigned)ends[e] : next;
-        }
-        if (next > first && syscall(SYS_close_range, first, next - 1, 0)) { /* before Linux 5.9 */
-            for (unsigned file = first; file < next && file < MOST_FILES; file++) {
-                close((int)file);
-            }
-        }
-        first = next + 1;
-    }
-}
-
-/* Kills all children of this process, as listed by /proc. */
-static void kill_children(void)
-{
-    char text[4096];
-    const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
-    const ssize_t length = file < 0 ? 0 : read(file, text, sizeof text);
-    pid_t process = 0;
-    for (ssize_t i = 0; i < length; i++) {
-        if (text[i] >= '0' && text[i] <= '9') {
-            process = 10 * process + (text[i] - '0');
-        } else if (process) {
-            kill(process, SIGKILL);
-            process = 0;
-        }
-    }
-    if (file >= 0) {
-        close(file);
-    }
-}
-
-static void on_child(int number)
-{
-    (void)number; /* an empty handler: the signal only has to end ppoll */
-}
-
-/* Waits until the program ends or the caller shuts its end of the socket. It does not reap the program yet, so that
-   no other process can get its number. */
-static void await(pid_t program, int socket)
-{
-    const struct sigaction action = {.sa_handler = on_child};
-    sigset_t waiting;
-    sigfillset(&waiting);
-    sigdelset(&waiting, SIGCHLD);
-    sigaction(SIGCHLD, &action, NULL);
-    for (;;) {
-        struct pollfd order = {.fd = socket, .events = POLLIN};
-        siginfo_t ended = {0};
-        if (waitid(P_PID, (id_t)program, &ended, WEXITED | WNOHANG | WNOWAIT) || ended.si_pid == program ||
-            ppoll(&order, 1, NULL, &waiting) > 0) {
-            return;
-        }
-    }
-}
-
-static _Noreturn void keep(const koksma__child *child, const int ends[N_ENDS])
-{
-    int status = 0;
-    setpgid(0, 0);
-    close_others(ends);
-    prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0);
-    const pid_t program = fork();
-    if (program == 0) {
-        become_program(child, ends);
-    }
-    if (program < 0) {
-        tell(ends[KEEPER], errno, 0);
-        _exit(1);
-    }
-    setpgid(program, program); /* both processes call setpgid, because either may run first */
-    close(ends[OUT]);
-    close(ends[ERR]);
-    await(program, ends[KEEPER]);
-    kill(-program, SIGKILL);
-    kill(program, SIGKILL);
-    waitpid(program, &status, 0);
-    do {
-        kill_children();
-    } while (waitpid(-1, NULL, 0) > 0);
-    tell(ends[KEEPER], 0, status);
-    _exit(0);
-}
-
-/* ---- The caller ------------------------------------------------------------------------------------------- */
 
 typedef struct conversation {
     const koksma__child *child;
     const koksma_run *run;
+    pid_t program;
     int ends[N_ENDS]; /* -1: closed */
     double started_s;
     char *output;
     size_t size, capacity;
     char line[SHOWN], last[SHOWN]; /* the current line of standard error, and its last line that was not empty */
     size_t length;
-    outcome outcome;
-    bool heard;           /* true: the keeper or the program has sent an outcome */
+    int error;            /* errno of the start, 0: the program was started */
+    int ended;            /* the exit status that waitpid returned; -1: lost, as the host program ignores SIGCHLD */
     koksma_status status; /* why the program is being stopped */
 } conversation;
 
@@ -199,7 +83,7 @@ static void shut(int *end)
 static void stop_program(conversation *c, koksma_status status)
 {
     c->status = status;
-    shutdown(c->ends[KEEPER], SHUT_WR);
+    kill(-c->program, SIGKILL);
 }
 
 static void take_output(conversation *c, const char *bytes, size_t count)
@@ -233,31 +117,39 @@ static void take_message(conversation *c, const char *bytes, size_t count)
     }
 }
 
-static void take_outcome(conversation *c, const char *bytes, size_t count)
+static void take_error(conversation *c, const char *bytes, size_t count)
 {
-    /* only the first outcome counts: if the program can't be started, its process sends one before the keeper does */
-    if (count >= sizeof c->outcome && !c->heard) {
-        memcpy(&c->outcome, bytes, sizeof c->outcome);
-        c->heard = true;
+    if (count == sizeof c->error) {
+        memcpy(&c->error, bytes, count);
     }
 }
 
-static void take(conversation *c, int end, char *chunk)
+/* Reads once from an end; returns whether there may be more. */
+static bool take(conversation *c, int end, char *chunk)
 {
     static void (*const takers[N_ENDS])(conversation * c, const char *bytes, size_t count) = {
-        [OUT] = take_output, [ERR] = take_message, [KEEPER] = take_outcome};
-    const ssize_t count = read(c->ends[end], chunk, CHUNK);
+        [OUT] = take_output, [ERR] = take_message, [START] = take_error};
+    const ssize_t count = c->ends[end] < 0 ? 0 : read(c->ends[end], chunk, CHUNK);
     if (count > 0) {
         takers[end](c, chunk, (size_t)count);
     } else if (count == 0 || (errno != EINTR && errno != EAGAIN)) {
         shut(&c->ends[end]);
     }
+    return count > 0 || (count < 0 && errno == EINTR);
 }
 
-/* Reads output until the keeper has ended; then no process is left that could still print. */
+/* Whether the program has ended. It is not reaped yet, so that its number remains that of its group. */
+static bool has_ended(const conversation *c)
+{
+    siginfo_t info = {0};
+    return waitid(P_PID, (id_t)c->program, &info, WEXITED | WNOHANG | WNOWAIT) ? errno == ECHILD
+                                                                               : info.si_pid == c->program;
+}
+
+/* Reads output until the program has ended, and then what is left in the pipes, which other processes may hold open. */
 static void talk(conversation *c, char *chunk)
 {
-    while (c->ends[OUT] >= 0 || c->ends[ERR] >= 0 || c->ends[KEEPER] >= 0) {
+    while (!has_ended(c)) {
         struct pollfd files[N_ENDS];
         for (int e = 0; e < N_ENDS; e++) {
             files[e] = (struct pollfd){.fd = c->ends[e], .events = POLLIN}; /* poll() ignores -1 */
@@ -276,20 +168,25 @@ static void talk(conversation *c, char *chunk)
                                          c->child->name, c->child->seconds));
         }
     }
+    kill(-c->program, SIGKILL);
+    for (int e = 0; e < N_ENDS; e++) {
+        while (!c->status && take(c, e, chunk)) {
+        }
+    }
 }
 
 static koksma_status judge(const conversation *c)
 {
     const char *name = c->child->name;
-    const int status = c->outcome.status;
+    const int status = c->ended;
     if (c->status) {
         return c->status; /* the error text was set where the status was */
     }
-    KOKSMA__FAIL_IF(!c->heard, KOKSMA_SYSTEM, "%s: the process that supervises it was killed", name);
-    KOKSMA__FAIL_IF(c->outcome.error == ENOEXEC, KOKSMA_MISSING,
+    KOKSMA__FAIL_IF(c->error == ENOEXEC, KOKSMA_MISSING,
                     "%s: it can't be run: it is not a program; a script begins with #!, as in #!/usr/bin/env python3",
                     name);
-    KOKSMA__FAIL_IF(c->outcome.error, KOKSMA_MISSING, "%s: it can't be run: %s", name, strerror(c->outcome.error));
+    KOKSMA__FAIL_IF(c->error, KOKSMA_MISSING, "%s: it can't be run: %s", name, strerror(c->error));
+    KOKSMA__FAIL_IF(status < 0, KOKSMA_SYSTEM, "%s: its exit code is lost, as this process ignores SIGCHLD", name);
     KOKSMA__FAIL_IF(status, KOKSMA_MALFORMED, "%s: it ended with %s %d%s%s", name,
                     WIFSIGNALED(status) ? "signal" : "exit code",
                     WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status), *c->last ? ": " : "", c->last);
@@ -307,60 +204,56 @@ static bool lift(int *end)
     return *end >= 0;
 }
 
-/* Makes pairs of connected files: one end for the caller, one for the child. */
+/* Makes pipes: one end for the caller, which never waits in read(), one for the child. */
 static bool open_ends(int ours[N_ENDS], int theirs[N_ENDS])
 {
     bool good = true;
     for (int e = 0; e < N_ENDS; e++) {
         int pair[2] = {-1, -1};
-        const int failed =
-            e == KEEPER ? socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) : pipe2(pair, O_CLOEXEC);
+        const int failed = pipe2(pair, O_CLOEXEC);
         ours[e] = failed ? -1 : pair[0];
         theirs[e] = failed ? -1 : pair[1];
-        const bool lifted = lift(&ours[e]);
-        good = lift(&theirs[e]) && lifted && good;
+        const bool lifted = lift(&ours[e]) && lift(&theirs[e]);
+        good = good && lifted && !fcntl(ours[e], F_SETFL, O_NONBLOCK);
     }
     return good;
 }
 
-/* Forks the keeper and sets *keeper to its process number. All signals are blocked in the keeper from the start. */
-static koksma_status start_keeper(conversation *c, pid_t *keeper)
+/* Forks; all signals are blocked in the child until the program begins. */
+static koksma_status start(conversation *c)
 {
     int theirs[N_ENDS];
     sigset_t all, before;
     const bool opened = open_ends(c->ends, theirs);
     int error = errno;
-    *keeper = -1;
     if (opened) {
         sigfillset(&all);
         pthread_sigmask(SIG_SETMASK, &all, &before);
-        *keeper = fork();
+        c->program = fork();
         error = errno;
-        if (*keeper == 0) {
-            keep(c->child, theirs);
+        if (c->program == 0) {
+            become_program(c->child, theirs);
         }
         pthread_sigmask(SIG_SETMASK, &before, NULL);
     }
     for (int e = 0; e < N_ENDS; e++) {
         shut(&theirs[e]);
     }
-    return *keeper > 0
-               ? KOKSMA_OK
-               : koksma__fail(KOKSMA_SYSTEM, "%s: can't start a process for it: %s", c->child->name, strerror(error));
+    KOKSMA__FAIL_IF(c->program <= 0, KOKSMA_SYSTEM, "%s: can't start a process for it: %s", c->child->name,
+                    strerror(error));
+    setpgid(c->program, c->program); /* both processes call setpgid, because either may run first */
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__child_run(const koksma__child *child, const koksma_run *run, char **output, size_t *size)
 {
-    conversation c = {.child = child, .run = run, .started_s = koksma__now_s()};
-    pid_t keeper;
+    conversation c = {.child = child, .run = run, .program = -1, .started_s = koksma__now_s(), .ended = -1};
     char *chunk = malloc(CHUNK);
     KOKSMA__REQUIRE_MEMORY(chunk, (size_t)CHUNK);
-    koksma_status status = start_keeper(&c, &keeper);
+    koksma_status status = start(&c);
     if (!status) {
         talk(&c, chunk);
-        while (waitpid(keeper, NULL, 0) < 0 &&
-               errno == EINTR) { /* the loop also ends with ECHILD, which waitpid returns if the host program ignores
-                                    SIGCHLD */
+        while (waitpid(c.program, &c.ended, 0) < 0 && errno == EINTR) {
         }
         status = judge(&c);
     }

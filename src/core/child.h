@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs another program to its end, within limits of time, output and memory, and ends all its processes. */
+/* Runs another program to its end, within limits of time, output and memory, and ends its process group. */
 #ifndef KOKSMA_CORE_CHILD_H
 #define KOKSMA_CORE_CHILD_H
 
@@ -15,8 +15,8 @@ typedef struct koksma__child {
 } koksma__child;
 
 /* Runs the program and returns its standard output, which the caller frees. The program's standard input is empty;
-   the last line that it prints to standard error becomes the text of a failure. When the call returns, every process
-   that the program started has ended. Errors: MISSING (the program cannot be run), MALFORMED (it ended with an exit
+   the last line that it prints to standard error becomes the text of a failure. When the call returns, the
+   program's process group has been killed. Errors: MISSING (the program cannot be run), MALFORMED (it ended with an exit
    code or signal, took too long or printed too much), INTERRUPTED, MEMORY, SYSTEM. */
 koksma_status koksma__child_run(const koksma__child *child, const koksma_run *run, char **output, size_t *size);
 
