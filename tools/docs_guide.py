@@ -15,10 +15,9 @@ except ImportError:
     sys.exit("make_docs: Python has no module markdown; on Debian: apt-get install python3-markdown")
 
 # The documents for users, in their order; all others follow.
-FIRST = ("tutorial", "install", "commands", "scenes", "scaling", "report-format", "abi", "hardening", "contributing", "conventions")
+FIRST = ("tutorial", "install", "commands", "scenes", "scaling", "report-format", "abi", "hardening", "contributing", "conventions", "decisions")
 FOLDERS = (("guide", "Guide", "documents for users and for those who work on Koksma"), ("adding", "Adding members", "a member of each table, added"),
-           ("findings", "Findings", "studies with their numbers, and the commands that give them"),
-           ("decisions", "Decisions", "why it is built like this"))
+           ("findings", "Findings", "studies with their numbers, and the commands that give them"))
 
 
 def documents():

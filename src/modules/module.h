@@ -2,7 +2,7 @@
 /*
  * Modules are files koksma-NAME.so. Each contains the source file (for OpenEXR: two) that uses an external library
  * which takes long to load. A process loads a module when it first needs it
- * (docs/decisions/0029-modules-on-first-use.md). A module is not linked with Koksma's libraries, so that programs
+ * (docs/decisions.md, 29). A module is not linked with Koksma's libraries, so that programs
  * with static libraries can also load it. It calls Koksma through the struct `host` of function pointers.
  */
 #ifndef KOKSMA_MODULES_MODULE_H

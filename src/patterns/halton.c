@@ -67,7 +67,7 @@ const koksma_pattern koksma__pattern_halton = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATIN_PREFIXES,
     .params = params,
     .revision = 1, /* since revision 1 a study makes one trial, not several, of the unscrambled points
-                      (docs/decisions/0058) */
+                      (docs/decisions.md, 58) */
     .generate = generate,
     .ranges = ranges,
 };

@@ -11,7 +11,7 @@
  * for up to 2^20 points, but can be used for more. Multiples of 2^32 added to z_k change no point below 2^32; without
  * them the points beyond 2^32 would lie on few lines. late_bits therefore draws bits 32 to 52 of each z_k but the
  * first from a hash, so that pairs of coordinates of 2^33 to 2^51 points are as even as those of a random vector
- * (docs/decisions/0055).
+ * (docs/decisions.md, 55).
  * Sources: Hickernell, Hong, L'Ecuyer & Lemieux 2000, and Cools, Kuo & Nuyens 2006 for embedded lattices. The weights
  * are those of lattice-rank1. For 2^m points, m = 4 to 18, the worst-case error is at most 1.41 times that of
  * lattice-rank1 in 2 to 10 dimensions; Cools, Kuo & Nuyens report at most 1.6 (docs/findings/lattices.md).

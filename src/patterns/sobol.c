@@ -295,7 +295,7 @@ const koksma_pattern koksma__pattern_sobol = {
               KOKSMA_CLAIM_NET2_PREFIXES,
     .params = params,
     .revision = 2, /* since revision 2 a study makes one trial, not several, of the unscrambled points
-                      (docs/decisions/0058) */
+                      (docs/decisions.md, 58) */
     .generate = generate,
     .ranges = koksma__ranges_always,
 };

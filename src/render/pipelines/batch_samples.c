@@ -11,7 +11,7 @@
  *     x = m x + a mod 2^k,   x = x XOR (x >> 2),   x = x rotated by (k + 1) / 2 bits.
  *
  * Each round takes 16 random bits for m, which is made odd, and 16 for a. There are six rounds: with five, the pairs
- * of positions still differ measurably from those of a random order (docs/decisions/0040-samples-in-floats.md).
+ * of positions still differ measurably from those of a random order (docs/decisions.md, 40).
  */
 #include <string.h>
 

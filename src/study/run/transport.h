@@ -2,7 +2,7 @@
 /*
  * Messages between the ranks of a run. transport_mpi.c is built as a separate module, the only object that links
  * MPI. The module uses no function of this library, and this library loads the module only if mpirun has started the
- * process (docs/decisions/0008-mpi-as-a-module.md).
+ * process (docs/decisions.md, 8).
  */
 #ifndef KOKSMA_STUDY_RUN_TRANSPORT_H
 #define KOKSMA_STUDY_RUN_TRANSPORT_H
