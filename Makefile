@@ -12,7 +12,8 @@
 #   make release     build the optimised program: build/release/koksma
 #   make check       for daily work, under 2 minutes from a warm build: unit tests, claims of the patterns that changed,
 #                    tests of the directories that changed, lint; BASE=main: changed since that branch
-#   make test        everything, as continuous integration runs it: with gcc and sanitizers, then with clang (30 minutes on two slow cores)
+#   make test        what guards a change, as continuous integration runs it: optimised, and readers and kernels with sanitizers
+#   make test-all    every test, optimised and with sanitizers, lean builds, another machine, packages: before a release
 #   make bench       print a table of speeds beside peers and an older commit (bench/speed.py), in about 10 minutes
 #   make clean       remove build/ and demo/
 #
@@ -33,7 +34,7 @@ TRIALS ?=
 BASE ?= main
 MACHINES ?= aarch64
 
-.PHONY: help demo check test bench install docs explorer wheel deb dist dist-test cross release clean
+.PHONY: help demo check test test-all bench install docs explorer wheel deb dist dist-test cross release clean
 
 help:
 	@sed -n 's/^#   //p; s/^#$$//p' Makefile | sed '1{/^$$/d}'
@@ -52,8 +53,16 @@ check:
 
 test:
 	@scripts/setup build test
-	@scripts/setup explorer browser || echo "make test: emcc or Chromium is missing; the tests that need it are skipped" >&2
+	@scripts/setup browser || echo "make test: Chromium is missing; the tests that need it are skipped" >&2
 	@scripts/test
+
+test-all:
+	@scripts/setup build test
+	@scripts/setup explorer browser || echo "make test-all: emcc or Chromium is missing; the tests that need it are skipped" >&2
+	@scripts/test clang dev
+	@scripts/test-lean
+	@scripts/cross $(MACHINES)
+	@$(MAKE) deb
 
 bench: release
 	@scripts/bench

@@ -8,7 +8,7 @@ import tempfile
 import threading
 
 SANITIZED = os.environ.get("KOKSMA_SANITIZED") == "1"  # tests/CMakeLists.txt: repeat little
-SECONDS = 300  # a run takes tenths of one; this finds those that never end, on machines under any load
+SECONDS = 1800  # a run takes tenths of one; this finds those that never end, on machines under any load
 MIB = 1 << 20
 OTHER = 400  # MiB that the program and its sanitizers take beside a file
 

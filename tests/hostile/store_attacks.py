@@ -351,7 +351,7 @@ def exports():
         told = study("export", "e", "--format", "csv", "-o", path)
         check(told.returncode == 2 and f"{path}: the folder has the study's reference images" in told.stderr, f"an export among the references: {told}")
         check(bytes_of("e") == before, f"an export among the references as {path}: they are changed")
-    told = subprocess.run([KOKSMA, "study", "export", "..", "-o", "-"], cwd="e/references", capture_output=True, text=True, timeout=60)
+    told = subprocess.run([KOKSMA, "study", "export", "..", "-o", "-"], cwd="e/references", capture_output=True, text=True, timeout=1800)
     check(told.returncode == 0 and told.stdout, f"an export to standard output from there: {told}")
     for name in "e/results.sqlite.csv", "e/results.csv", "results.sqlite-wal", "e/references/../results.csv":
         check(study("export", "e", "--format", "csv", "-o", name).returncode == 0, f"an export to {name}")

@@ -502,7 +502,7 @@ def texts():
         for column in ("scene", "pattern", "made_by")[:3 if value == "x'ff41'" else 1]:
             copy("t")
             change("t", f"UPDATE series SET {column} = CAST({value} AS TEXT) WHERE scene = 'checker'", sealed=False)
-            told = subprocess.run([KOKSMA, "study", "audit", "t", "--rows", "all", "--json"], capture_output=True, timeout=60)
+            told = subprocess.run([KOKSMA, "study", "audit", "t", "--rows", "all", "--json"], capture_output=True, timeout=1800)
             try:
                 rows = [json.loads(line) for line in told.stdout.decode().rstrip("\n").split("\n")]
                 check("differences" in rows[-1] and plain(told.stdout.decode()), f"{column} = {value}: {told}")

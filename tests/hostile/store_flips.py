@@ -24,7 +24,7 @@ FLIPS = 50 if os.environ.get("KOKSMA_SANITIZED") == "1" else 1000
 
 
 def run(*arguments):
-    return subprocess.run([KOKSMA, "study", *arguments], capture_output=True, timeout=60)
+    return subprocess.run([KOKSMA, "study", *arguments], capture_output=True, timeout=1800)
 
 
 def results(folder):

@@ -24,7 +24,7 @@ def command(verb, folder):
 
 
 def run(verb, folder):
-    return subprocess.run(command(verb, folder), capture_output=True, text=True, timeout=120)
+    return subprocess.run(command(verb, folder), capture_output=True, text=True, timeout=1800)
 
 
 def listing(folder):

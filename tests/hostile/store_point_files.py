@@ -159,7 +159,7 @@ def plans_elsewhere():
         check([row["pattern"] for row in rows(f"elsewhere{i}", text)] == ["file:cw/" + name], f"a plan in a folder: {name}")
         os.makedirs("here", exist_ok=True)
         ran = subprocess.run([KOKSMA, "study", "quick", "-p", "file:" + name, "-m", "l2-star", "-n", str(N), "-q", "-o", f"../here/{i}"],
-                             cwd="cw", capture_output=True, text=True, timeout=120)
+                             cwd="cw", capture_output=True, text=True, timeout=1800)
         check(ran.returncode == 0, f"a quick study: {ran}")
     points("cw/b.txt", 3)
     for use in "n-rooks;pixel=file:{}b.txt;lens=file:{}b.txt", "file:{}b.txt;lens+time=random;light=file:{}b.txt", "file:{}a=file:b.txt;lens=file:{}b.txt":
@@ -190,11 +190,11 @@ def folders():
                 continue  # a program is run for each pixel
             arguments = ["-p", "exec:./one.sh" if whole is code else "file:one.txt", "-m", "star", "-n", str(N), "--trials", "1", "-q", "--allow-exec", *more]
             told = subprocess.run([KOKSMA, "study", "quick", *arguments, "-o", f"quick{i}{len(more)}"], cwd=folder, capture_output=True, text=True,
-                                  timeout=120)
+                                  timeout=1800)
             named = f"the current folder '{os.path.abspath(folder)}'" in told.stderr and not os.path.exists(f"{folder}/quick{i}{len(more)}")
             check(told.returncode == 0 if quick_fits else told.returncode == 2 and named, f"quick in {folder}: {told}")
         told = subprocess.run([KOKSMA, "study", "run", "./p.json", "-o", f"here{i}", "-q", "--allow-exec"], cwd=folder, capture_output=True, text=True,
-                              timeout=120)
+                              timeout=1800)
         check(told.returncode == 0, f"in {folder}: {told}")
 
 

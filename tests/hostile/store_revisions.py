@@ -15,8 +15,8 @@ STORE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../study/store
 
 with tempfile.TemporaryDirectory() as folder:
     shutil.copy(STORE, folder + "/results.sqlite")
-    audit = subprocess.run([KOKSMA, "study", "audit", folder, "--rows", "all"], capture_output=True, text=True, timeout=300)
-    export = subprocess.run([KOKSMA, "study", "export", folder], capture_output=True, text=True, timeout=60).stdout
+    audit = subprocess.run([KOKSMA, "study", "audit", folder, "--rows", "all"], capture_output=True, text=True, timeout=1800)
+    export = subprocess.run([KOKSMA, "study", "export", folder], capture_output=True, text=True, timeout=1800).stdout
 print(audit.stdout + audit.stderr)
 if audit.returncode:
     print("where the bits of a pattern, measure or warp have changed on purpose, raise its `revision`; of images\n"

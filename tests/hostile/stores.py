@@ -18,7 +18,7 @@ def check(right, what):
 
 
 def koksma(*arguments, prefix=()):
-    return subprocess.run([*prefix, KOKSMA, *arguments], capture_output=True, text=True, timeout=60)
+    return subprocess.run([*prefix, KOKSMA, *arguments], capture_output=True, text=True, timeout=1800)
 
 
 @contextlib.contextmanager
