@@ -16,8 +16,7 @@ except ImportError:
 
 # The documents for users, in their order; all others follow.
 FIRST = ("tutorial", "install", "commands", "scenes", "scaling", "report-format", "abi", "hardening", "contributing", "conventions", "decisions")
-FOLDERS = (("guide", "Guide", "documents for users and for those who work on Koksma"), ("adding", "Adding members", "a member of each table, added"),
-           ("findings", "Findings", "studies with their numbers, and the commands that give them"))
+FOLDERS = (("guide", "Guide", "documents for users and for those who work on Koksma"), ("findings", "Findings", "studies with their numbers, and the commands that give them"))
 
 
 def documents():
@@ -88,7 +87,7 @@ def guide(site):
     for source, address in pages.items():
         title, body = Linker(site, pages, source).page()
         titles[address] = title
-        site.write(address, "" if address.startswith("guide/") else address.split("/")[0].rstrip("s") if "adding" not in address else "adding", title, "", body)
+        site.write(address, "" if address.startswith("guide/") else address.split("/")[0].rstrip("s"), title, "", body)
     for folder, title, what in FOLDERS:
         of = [a for a in titles if a.startswith(folder + "/")]
         of.sort(key=lambda a: FIRST.index(a[6:-5]) if folder == "guide" and a[6:-5] in FIRST else len(FIRST))

@@ -14,7 +14,6 @@ in_documents() {
     grep -oE '\]\([^)#: ]+\)' "$file" | sed 's/](\(.*\))/\1/' | while read -r link; do
       [ -e "$folder/$link" ] || echo "$file: no file $link"
     done
-    case $file in docs/adding/*) continue ;; esac # what these name is added in them
     grep -oE '`(docs|src|cli|tests|scripts|examples|explorer|fuzz|cmake|include|python|tools|studies|scenes)/[A-Za-z0-9_./-]+`' "$file" | tr -d '`' |
       while read -r path; do
         case $path in *my_* | *my-*) continue ;; esac

@@ -8,7 +8,7 @@
   const up = document.documentElement.dataset.up, input = document.querySelector("#search input"), list = document.getElementById("found");
   let sections = null, isLoading = false;
   const small = new Set("a an and are can do does for how i in is it me my of on or the this to what when where which why with you your".split(" "));
-  const forDevelopers = /^(guide\/decisions|adding\/)/;
+  const forDevelopers = /^guide\/decisions/;
 
   const escape = text => text.replace(/[\\^$.*+?()[\]{}|]/g, "\\$&");
   const begins = word => new RegExp(`(^|[^\\p{L}\\p{N}])${escape(word)}`, "iu");
