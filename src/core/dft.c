@@ -20,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 
 enum { SHORT = 16 };
@@ -32,9 +33,7 @@ koksma_status koksma__fourier_init(koksma__fourier *f, size_t longest)
     f->sines = f->cosines + count;
     const size_t last = count / 2;
     for (size_t p = 0; p < last; p++) {
-        const double angle = M_PI / 2 * (double)p / (double)last;
-        f->cosines[last + p] = cos(angle);
-        f->sines[last + p] = sin(angle);
+        koksma__cos_sin(M_PI / 2 * (double)p / (double)last, &f->cosines[last + p], &f->sines[last + p]);
     }
     for (size_t q = last / 2; q; q /= 2) {
         for (size_t p = 0; p < q; p++) {
@@ -157,8 +156,7 @@ koksma_status koksma__dft_init(koksma__dft *dft, const koksma__fourier *f, size_
     const size_t halves = padded ? 2 * length : length;
     for (size_t j = 0; j < length; j++) {
         const double angle = 2 * M_PI * (double)((padded ? j * j : j) % halves) / (double)halves;
-        dft->re[j] = cos(angle);
-        dft->im[j] = -sin(angle);
+        koksma__cos_sin(-angle, &dft->re[j], &dft->im[j]);
     }
     if (padded) {
         for (size_t j = 0; j < length; j++) {

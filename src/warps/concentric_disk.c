@@ -10,6 +10,7 @@
 
 const koksma_warp koksma__warp_concentric_disk = {
     .name = "concentric-disk",
+    .revision = 1,
     .title = "low-distortion map of concentric squares to concentric circles",
     .cite = "shirley1997",
     .domain = KOKSMA_DOMAIN_DISK,

@@ -14,6 +14,7 @@ static void map(const double *u, double *x)
 
 const koksma_warp koksma__warp_concentric_hemisphere = {
     .name = "concentric-hemisphere",
+    .revision = 1,
     .title = "concentric map to the disk, lifted to uniform directions",
     .cite = "shirley1997",
     .domain = KOKSMA_DOMAIN_HEMISPHERE,

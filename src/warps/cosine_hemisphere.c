@@ -15,6 +15,7 @@ static void map(const double *u, double *x)
 
 const koksma_warp koksma__warp_cosine_hemisphere = {
     .name = "cosine-hemisphere",
+    .revision = 1,
     .title = "concentric map to the disk, projected up: density proportional to the cosine",
     .cite = "shirley1997",
     .domain = KOKSMA_DOMAIN_HEMISPHERE_COSINE,

@@ -15,6 +15,7 @@ static void map(const double *u, double *x)
 
 const koksma_warp koksma__warp_hemisphere = {
     .name = "hemisphere",
+    .revision = 1,
     .title = "(u, v) to height 1 - u and angle 2 pi v; uniform directions",
     .cite = "shirley1991",
     .domain = KOKSMA_DOMAIN_HEMISPHERE,

@@ -9,6 +9,7 @@
 
 const koksma_warp koksma__warp_polar_disk = {
     .name = "polar-disk",
+    .revision = 1,
     .title = "(u, v) to radius sqrt(u) and angle 2 pi v",
     .cite = "shirley1991",
     .domain = KOKSMA_DOMAIN_DISK,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Our own exp, log and erf, beside libm's, and bits that every machine must give. */
+/* Our own exp, log, cos, sin and erf, beside libm's, and bits that every machine must give. */
 #include "test.h"
 
 #include "core/elementary.h"
@@ -25,6 +25,24 @@ static void test_near_libm(void **state)
         const double x = ldexp(i * 0x1p-18, i % 80 - 60);
         assert_near(koksma__log(x), log(x), 2 * ulp(log(x)));
     }
+}
+
+/* Beside long doubles, near multiples of pi / 2 too, where a sine is as small as 6e-17. */
+static void test_cos_and_sin(void **state)
+{
+    (void)state;
+    for (int i = -200000; i <= 200000; i++) {
+        const double x = i % 2 ? i * 0.00031 : i * M_PI_4 / 2 + (i % 7 - 3) * 1e-16 * i;
+        double c, s;
+        koksma__cos_sin(x, &c, &s);
+        assert_near(c, (double)cosl(x), ulp((double)cosl(x)));
+        assert_near(s, (double)sinl(x), ulp((double)sinl(x)));
+    }
+    double c, s;
+    koksma__cos_sin(M_PI, &c, &s);
+    assert_near(s, 0x1.1a62633145c07p-53, 0); /* pi less its double */
+    koksma__cos_sin(0, &c, &s);
+    assert_true(c == 1 && s == 0);
 }
 
 /* The way there and back; near 1 a number's neighbours are far apart in t. */
@@ -101,8 +119,9 @@ static void test_gaussian_jittered(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_near_libm), cmocka_unit_test(test_inverse_erf),       cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_limits),    cmocka_unit_test(test_gaussian_jittered),
+        cmocka_unit_test(test_near_libm),   cmocka_unit_test(test_cos_and_sin),
+        cmocka_unit_test(test_inverse_erf), cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_limits),      cmocka_unit_test(test_gaussian_jittered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

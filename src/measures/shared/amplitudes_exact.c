@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
@@ -43,8 +44,9 @@ static void fill_panel(const koksma_points *p, int k, size_t first, int width, s
     for (size_t j = 0; j < count; j++) {
         const double x = p->xs[(from + j) * (size_t)p->dim + (size_t)k], turn = 2 * M_PI * x;
         const double start = fmod((double)(first / 2) * x, 1) * 2 * M_PI;
-        double c = cos(start), s = sin(start);
-        const double dc = cos(turn), ds = sin(turn);
+        double c, s, dc, ds;
+        koksma__cos_sin(start, &c, &s);
+        koksma__cos_sin(turn, &dc, &ds);
         for (int r = 0; r < width; r += 2) {
             out[(size_t)width * j + (size_t)r] = c;
             out[(size_t)width * j + (size_t)r + 1] = s;

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
@@ -40,15 +41,15 @@ static void find_corrections(job *j)
     const double b = beta(j);
     double z[NODES], height[NODES], slope[NODES];
     for (int i = 0; i < NODES; i++) {
-        const double angle = M_PI * (i + 0.5) / NODES;
-        z[i] = cos(angle);
-        slope[i] = sin(angle);
-        height[i] = exp(b * (slope[i] - 1));
+        koksma__cos_sin(M_PI * (i + 0.5) / NODES, &z[i], &slope[i]);
+        height[i] = koksma__exp(b * (slope[i] - 1));
     }
     for (int k = 0; k <= j->half; k++) {
         double sum = 0;
         for (int i = 0; i < NODES; i++) {
-            sum += height[i] * cos(M_PI * WIDTH * k * z[i] / (double)j->m) * slope[i];
+            double cosine, sine;
+            koksma__cos_sin(M_PI * WIDTH * k * z[i] / (double)j->m, &cosine, &sine);
+            sum += height[i] * cosine * slope[i];
         }
         j->corrections[k] = 1 / (sum * M_PI / NODES * WIDTH / 2);
     }
@@ -64,7 +65,7 @@ static void spread(job *j, const double *point)
         first[k] = (size_t)(start + m) & (j->m - 1);
         for (int i = 0; i < WIDTH; i++) {
             const double z = (start + i - at) * (2.0 / WIDTH), inside = (1 - z) * (1 + z);
-            weights[k][i] = inside > 0 ? exp(b * (sqrt(inside) - 1)) : 0;
+            weights[k][i] = inside > 0 ? koksma__exp(b * (sqrt(inside) - 1)) : 0;
         }
     }
     for (size_t y = 0; y < WIDTH; y++) {
@@ -163,8 +164,7 @@ koksma_status koksma__power_fast(const koksma_points *points, int half, const ko
     j.twiddles = j.im + rows * j.m;
     j.corrections = j.twiddles + 2 * j.m;
     for (size_t p = 0; p < j.m; p++) {
-        j.twiddles[2 * p] = cos(2 * M_PI * (double)p / (double)j.m);
-        j.twiddles[2 * p + 1] = sin(2 * M_PI * (double)p / (double)j.m);
+        koksma__cos_sin(2 * M_PI * (double)p / (double)j.m, &j.twiddles[2 * p], &j.twiddles[2 * p + 1]);
     }
     find_corrections(&j);
     for (size_t i = 0; i < points->n; i++) {

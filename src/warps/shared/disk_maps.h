@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
+
 /* Maps squares about the centre to circles: a point (a, b) of [-1,1]^2 with |a| > |b| goes to radius a and angle
    (pi/4) b/a; one with |a| <= |b| goes to radius b and angle pi/2 - (pi/4) a/b. */
 static inline void koksma__map_concentric(const double *u, double *x)
@@ -14,22 +16,23 @@ static inline void koksma__map_concentric(const double *u, double *x)
     if (a == 0 && b == 0) {
         x[0] = x[1] = 0;
     } else if (fabs(a) > fabs(b)) {
-        const double angle = M_PI / 4 * (b / a);
-        x[0] = a * cos(angle);
-        x[1] = a * sin(angle);
+        koksma__cos_sin(M_PI / 4 * (b / a), &x[0], &x[1]);
+        x[0] *= a;
+        x[1] *= a;
     } else {
-        const double angle = M_PI / 4 * (a / b);
-        x[0] = b * sin(angle);
-        x[1] = b * cos(angle);
+        koksma__cos_sin(M_PI / 4 * (a / b), &x[1], &x[0]);
+        x[0] *= b;
+        x[1] *= b;
     }
 }
 
 /* Maps (u, v) of the square to radius sqrt(u) and angle 2 pi v. */
 static inline void koksma__map_polar(const double *u, double *x)
 {
-    const double r = sqrt(u[0]), angle = 2 * M_PI * u[1];
-    x[0] = r * cos(angle);
-    x[1] = r * sin(angle);
+    const double r = sqrt(u[0]);
+    koksma__cos_sin(2 * M_PI * u[1], &x[0], &x[1]);
+    x[0] *= r;
+    x[1] *= r;
 }
 
 /* Maps a point of the disk to the hemisphere at height z = 1 - r^2, uniform in solid angle (the inverse of Lambert's
