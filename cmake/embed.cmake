@@ -7,6 +7,19 @@ function(koksma_embed_text symbol file header)
   file(CONFIGURE OUTPUT ${header} CONTENT "/* Made from a text file; do not edit. */\nstatic const char ${symbol}[] = {\n${bytes}0};\n" @ONLY)
 endfunction()
 
+# koksma_embed_records(FILE HEADER): the rows of records.csv as lines RECORD(measure, dim, n, value, published, source, seed, steps),
+# and the coordinates of all in their order as the array `points`.
+function(koksma_embed_records file header)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text)
+  string(REGEX REPLACE "#[^\n]*\n|measure,[^\n]*\n" "" text "${text}")
+  string(REGEX REPLACE "([^,\n]+),([^,\n]+),([^,\n]+),([^,\n]+),([^,\n]+),([^,\n]+),([^,\n]+),([^,\n]+),[^\n]*\n"
+         "RECORD(\"\\1\", \\2, \\3, \\4, \\5, \"\\6\", \\7, \\8)\n" rows "${text}")
+  string(REGEX REPLACE "[^\n]*,([0-9 ]+)\n" "\\1,\n" points "${text}")
+  string(REPLACE " " ",\n" points "${points}")
+  file(CONFIGURE OUTPUT ${header} CONTENT "/* Made from records.csv; do not edit. */\n#ifdef RECORD\n${rows}#else\nstatic const uint64_t points[] = {\n${points}};\n#endif\n" @ONLY)
+endfunction()
+
 # koksma_embed_folder(HEADER GLOB): a header with the table `embedded_texts[]` of {name, text, size}: every file that
 # matches GLOB, by its name without the ending, in alphabetical order.
 function(koksma_embed_folder header glob)

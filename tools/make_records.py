@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes src/patterns/shared/records.inc, the sets of the pattern record: make_records.py PROGRAM FOLDER
+"""Writes src/patterns/data/records.csv, the sets of the pattern record: make_records.py PROGRAM FOLDER
 
 FOLDER has sets that `koksma optimise MEASURE -n N [-d D] --seed S --steps K -o FOLDER/ANY.txt` wrote. Of each measure, dim and n
 the best is kept, with its seed and steps, from which that command makes it again. A set that is there already stays if it is not
@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-FILE = Path(__file__).resolve().parent.parent / "src/patterns/shared/records.inc"
+FILE = Path(__file__).resolve().parent.parent / "src/patterns/data/records.csv"
 MEASURES = ["star", "l2-star", "l2-periodic", "l2-centered"]  # in the order of record.c
 
 # The best published values of the 2D star discrepancy that were at hand.
@@ -26,12 +26,10 @@ OPENEVOLVE = {40: .033127, 50: .027842, 60: .023363, 80: .018192, 100: .015038, 
               580: .003772, 620: .00386, 660: .0036, 700: .003789, 740: .003456, 780: .003104, 820: .002941, 860: .003162,
               900: .002957, 940: .002889, 980: .002803, 1020: .00245}
 
-HEAD = """/* SPDX-License-Identifier: Apache-2.0 */
-/* Made by tools/make_records.py of sets that `koksma optimise` found. A line RECORD(measure, dim, n, value, published, source,
-   seed, steps) for each set, in order of measure, dim and n; published 0: no published value was at hand. The command
-   `koksma optimise MEASURE -n N -d DIM --seed SEED --steps STEPS` makes the set; steps 0: an earlier form of the search did.
-   Then the coordinates of all sets, in that order, point by point, in units of 10^-12. */
-#ifdef RECORD
+HEAD = """# The sets of the pattern record, made by tools/make_records.py of sets that `koksma optimise` found: `koksma optimise MEASURE -n N
+# -d DIM --seed SEED --steps STEPS` makes one (steps 0: an earlier form of the search did). published 0: no published value was at
+# hand. Coordinates are in units of 10^-12, point by point.
+measure,dim,n,value,published,source,seed,steps,coordinates
 """
 
 
@@ -52,23 +50,20 @@ def measured(program, measure, points):
 
 def shipped():
     """(key, (value, points, seed, steps)) of each set in FILE; a key sorts as the file does."""
-    text = FILE.read_text(encoding="utf-8") if FILE.exists() else "#else"
-    lines, coordinates = text.split("#else")
-    numbers = [int(x) for x in re.findall(r"\d{1,12}(?=,)", coordinates)]
-    for fields in re.findall(r"^RECORD\((.*)\)$", lines, re.M):
-        name, dim, n, value, _, _, seed, steps = fields.split(", ")
-        dim, n = int(dim), int(n)
+    for row in FILE.read_text(encoding="utf-8")[len(HEAD):].splitlines():
+        measure, dim, n, value, _, _, seed, steps, coordinates = row.split(",")
+        dim, n, numbers = int(dim), int(n), [int(x) for x in coordinates.split()]
         points = [tuple(numbers[i * dim:(i + 1) * dim]) for i in range(n)]
-        yield (MEASURES.index(name.lower().replace("_", "-")), dim, n), (float(value), points, seed, steps)
-        numbers = numbers[n * dim:]
+        yield (MEASURES.index(measure), dim, n), (float(value), points, seed, steps)
 
 
-def line(key, value, seed, steps):
+def line(key, value, points, seed, steps):
     index, dim, n = key
     table, source = (CLEMENT, "clement2023") if n in CLEMENT else (OPENEVOLVE, "sadikov2025")
     known = index == 0 and dim == 2 and n in table
-    return (f'RECORD({MEASURES[index].upper().replace("-", "_")}, {dim}, {n}, {value!r}, '
-            f'{table[n] if known else 0}, "{source if known else "-"}", {seed}, {steps})\n')
+    coordinates = " ".join(str(x) for point in points for x in point)
+    return (f"{MEASURES[index]},{dim},{n},{value!r},{table[n] if known else 0},{source if known else '-'},{seed},{steps},"
+            f"{coordinates}\n")
 
 
 def main():
@@ -84,12 +79,7 @@ def main():
             sets[key] = (value, points, head["seed"], head["steps"])
     with open(FILE, "w", encoding="utf-8") as out:
         out.write(HEAD)
-        out.writelines(line(key, value, seed, steps) for key, (value, _, seed, steps) in sorted(sets.items()))
-        out.write("#else\nstatic const uint64_t points[] = {\n")
-        for _, (_, points, _, _) in sorted(sets.items()):
-            numbers = [f"{x}," for point in points for x in point]
-            out.writelines(" ".join(numbers[i:i + 8]) + "\n" for i in range(0, len(numbers), 8))
-        out.write("};\n#endif\n")
+        out.writelines(line(key, *sets[key]) for key in sorted(sets))
 
 
 main()

@@ -3,7 +3,7 @@
  * record: the best known sets of n points for a measure, found by `koksma optimise`. `koksma list records` prints
  * their values, the best published values, and the seed and steps that reproduce them. Numbers n without a stored set
  * are an error.
- *     x_ik = t_ik / 10^12, t_ik a whole number from a table
+ *     x_ik = t_ik / 10^12, t_ik a whole number from records.csv
  *
  * Source: this project's searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 14
  * points in the plane, which tools/prove_star.c proves, and to four digits up to 21 (Clement, Doerr, Klamroth &
@@ -16,21 +16,16 @@
 #include "core/status.h"
 #include "patterns/patterns.h"
 
-#define STAR "star"
-#define L2_STAR "l2-star"
-#define L2_PERIODIC "l2-periodic"
-#define L2_CENTERED "l2-centered"
-
-static const char *const names[] = {STAR, L2_STAR, L2_PERIODIC, L2_CENTERED, NULL};
+static const char *const names[] = {"star", "l2-star", "l2-periodic", "l2-centered", NULL};
 
 static const koksma_record records[] = {
 #define RECORD(measure, dim, n, value, published, source, seed, steps)                                               \
     {(measure), (n), (dim), (value), (published), (source), (seed), (steps)},
-#include "patterns/shared/records.inc"
+#include "patterns/data/records.inc"
 #undef RECORD
 };
 
-#include "patterns/shared/records.inc"
+#include "patterns/data/records.inc" /* made from records.csv */
 
 const koksma_record *koksma_record_at(size_t i)
 {
