@@ -55,13 +55,20 @@ MAY_USE = {
 }
 
 
-# Headers that declare what several files of their directory define, and why.
+# Headers that declare what several files of their directory define, and why; so do headers that have their directory's name,
+# if no .c file has it (measures/star/star.h).
 INTERNAL = {
     "src/study/plan/plan.h": "the data of a plan, which plan.c and the parsers of its sections fill",
     "src/study/store/store.h": "the interface of the store, whose files are parts of one object",
     "src/study/store/store_internal.h": "the store's object, for its own files only",
     "src/study/plan/plan_section.h": "the parsers of a plan's sections, one file each, for plan.c's table",
 }
+
+
+def is_internal(path):
+    parts = path.split("/")
+    alone = parts[-1] == parts[-2] + ".h" and not os.path.exists(os.path.join(ROOT, path[:-1] + "c"))
+    return path in INTERNAL or alone
 
 
 def directory(path):
@@ -76,7 +83,7 @@ def directory(path):
 
 def unit(path):
     """A header and its .c file are one; an internal header stands for itself."""
-    return path if path in INTERNAL else path.rsplit(".", 1)[0]
+    return path if is_internal(path) else path.rsplit(".", 1)[0]
 
 
 def read_sources():
@@ -224,7 +231,7 @@ def check_headers(tree):
     for name, path in sorted(tree.defined.items()):
         if name.startswith("koksma__") and name not in headers.get(unit(path) + ".h", ()):
             elsewhere = sorted(h for h, names in headers.items() if name in names)
-            if elsewhere and not (elsewhere[0] in INTERNAL and directory(elsewhere[0]) == directory(path)):
+            if elsewhere and not (is_internal(elsewhere[0]) and directory(elsewhere[0]) == directory(path)):
                 yield "headers", path, "%s is declared in %s" % (name, elsewhere[0])
     types = {}
     for path, text in sorted(tree.code.items()):

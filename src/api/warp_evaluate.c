@@ -15,7 +15,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "core/sum.h"
-#include "measures/shared/disk_laws.h"
+#include "measures/disk/disk.h"
 #include "measures/shared/sampled.h"
 #include "measures/shared/warp_caps.h"
 #include "measures/shared/warp_domains.h"

@@ -13,11 +13,8 @@
  */
 #include <math.h>
 
+#include "measures/l2/l2.h"
 #include "measures/measures.h"
-#include "measures/shared/l2_gradient.h"
-#include "measures/shared/l2_pairs.h"
-#include "measures/shared/l2_range.h"
-#include "measures/shared/l2_sort.h"
 
 static koksma_status gradient(const koksma_points *points, const koksma_args *args, double *square, double *out)
 {

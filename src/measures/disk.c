@@ -23,10 +23,9 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "measures/disk/disk.h"
 #include "measures/measures.h"
 #include "measures/shared/deadline.h"
-#include "measures/shared/disk_cover.h"
-#include "measures/shared/disk_pencil.h"
 
 enum { PAIRS_TO = 64 };
 

@@ -14,8 +14,8 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "measures/disk/disk.h"
 #include "measures/measures.h"
-#include "measures/shared/disk_laws.h"
 #include "measures/shared/sampled.h"
 
 enum { DISKS_PER_BLOCK = 256 };

@@ -23,11 +23,8 @@
  */
 #include <math.h>
 
+#include "measures/edge/edge.h"
 #include "measures/measures.h"
-#include "measures/shared/edge_domain.h"
-#include "measures/shared/edge_space.h"
-#include "measures/shared/edge_sweep.h"
-#include "measures/shared/lines.h"
 
 /* Computes the chord with midpoint p = (x, y), which goes from (2x - ex, ey) to (ex, 2y - ey), where e is the corner
    of the square nearest to p. */

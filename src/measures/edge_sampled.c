@@ -17,9 +17,8 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "measures/edge/edge.h"
 #include "measures/measures.h"
-#include "measures/shared/lines.h"
-#include "measures/shared/planes.h"
 #include "measures/shared/sampled.h"
 
 enum { LANES = 16, LINES_PER_BLOCK = 512 };

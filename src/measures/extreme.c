@@ -20,9 +20,8 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "measures/extreme/extreme.h"
 #include "measures/measures.h"
-#include "measures/shared/extreme_plane.h"
-#include "measures/shared/extreme_small.h"
 
 /* With `grid`, there is one pass along the rows of the grid for each pair of columns. The pass stores the lowest and
    the highest value so far of (number of points below the row) / n - area below the row; the best box that ends at a

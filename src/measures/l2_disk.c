@@ -35,8 +35,8 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
+#include "measures/disk/disk.h"
 #include "measures/measures.h"
-#include "measures/shared/disk_laws.h"
 #include "measures/shared/torus_cells.h"
 
 enum { BLOCK = 64, MIN_COLUMNS = 4 };

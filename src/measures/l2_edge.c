@@ -7,10 +7,10 @@
  * and y, L^2 = (1/n) sum_i P(x_i) - (1/2n^2) sum_ij sigma(x_i, x_j) - C/2, where P(x) = int sigma(x, y) dy over the
  * square, C = int P. For isotropic lines sigma = |x - y|/2 and C = (2 + sqrt 2 + 5 asinh 1)/30; for law=mitchell,
  * with a >= b the larger and smaller of |dx| and |dy|, sigma = ((a + b) ln(1 + b/a) + a - b)/2 and C = (8/15) ln 2 -
- * 1/9. P has a closed form (measures/shared/lines.c).
+ * 1/9. P has a closed form (measures/edge/lines.c).
  * Source: Mitchell 1992, section 5; the formula as a sum over pairs is from Alexander 1990. In 3 dimensions planes
  * through the unit cube replace the lines, only with the isotropic distribution: sigma = |x - y|/3, and C is a third
- * of the mean distance of two points of the cube (Robbins 1978), which is .6617... (measures/shared/planes.c).
+ * of the mean distance of two points of the cube (Robbins 1978), which is .6617... (measures/edge/planes.c).
  * Known exactly: random points, E(L^2) = C/(2n). L does not depend on which side of the line is counted.
  * Limits: the terms are near 0.26 and cancel; with compensated sums the error of the square is about 1e-16.
  */
@@ -21,9 +21,8 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
+#include "measures/edge/edge.h"
 #include "measures/measures.h"
-#include "measures/shared/lines.h"
-#include "measures/shared/planes.h"
 
 enum { ROWS_PER_BLOCK = 64 };
 

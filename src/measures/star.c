@@ -20,10 +20,7 @@
 #include "core/status.h"
 #include "measures/measures.h"
 #include "measures/shared/deadline.h"
-#include "measures/shared/star_2d.h"
-#include "measures/shared/star_cover.h"
-#include "measures/shared/star_partition.h"
-#include "measures/shared/star_search.h"
+#include "measures/star/star.h"
 
 enum { FIRST_STEPS = 200, FIRST_RESTARTS = 1 };
 

@@ -4,7 +4,7 @@
  * is meant for many dimensions, where finding the worst box is NP-hard.
  *
  * Formula: the largest |#{x_i in box}/n - volume| that threshold accepting finds among anchored boxes (see star.c).
- * Source: Gnewuch, Wahlstrom and Winzen 2012; measures/shared/star_search.c describes how this search differs from
+ * Source: Gnewuch, Wahlstrom and Winzen 2012; measures/star/star_search.c describes how this search differs from
  * theirs. Known exactly: the value never exceeds the value of the measure star, except in the last bit by rounding.
  * In measurements (docs/findings/star-lower.md) the default search reached star in all of 360 sets of 12 patterns,
  * with 64 to 2000 points in 2 to 5 dimensions and 50 to 200 points in 6 to 8. Limits: the witness, which is given up
@@ -12,8 +12,7 @@
  */
 #include "measures/measures.h"
 #include "measures/shared/deadline.h"
-#include "measures/shared/star_partition.h"
-#include "measures/shared/star_search.h"
+#include "measures/star/star.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {

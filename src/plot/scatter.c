@@ -15,7 +15,7 @@
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
-#include "measures/shared/spectrum.h"
+#include "measures/spectra/spectra.h"
 
 enum { MARGIN = 6, TITLE = 12, TEXT = 11, LABEL = 10, SWATCH = 12, FAR = 100, CURVE = 96, LOCAL = 256, NOTE = 128 };
 

@@ -3,11 +3,8 @@
 #include <string.h>
 
 #include "kernels/kernels.h"
-#include "measures/shared/disk_laws.h"
-#include "measures/shared/edge_cover.h"
-#include "measures/shared/edge_domain.h"
-#include "measures/shared/edge_sweep.h"
-#include "measures/shared/lines.h"
+#include "measures/disk/disk.h"
+#include "measures/edge/edge.h"
 #include "measures/shared/orientation.h"
 #include "sets.h"
 

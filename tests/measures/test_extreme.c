@@ -6,9 +6,7 @@
 
 #include "core/clock.h"
 #include "kernels/kernels.h"
-#include "measures/shared/extreme_plane.h"
-#include "measures/shared/extreme_runs.h"
-#include "measures/shared/extreme_small.h"
+#include "measures/extreme/extreme.h"
 #include "sets.h"
 
 static void plane_equals_plain_search(void **state)

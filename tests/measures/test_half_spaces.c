@@ -3,8 +3,7 @@
    points. */
 #include <string.h>
 
-#include "measures/shared/lines.h"
-#include "measures/shared/planes.h"
+#include "measures/edge/edge.h"
 #include "sets.h"
 
 enum { DIRECTIONS = 1500, STARTS = 6 };

@@ -4,9 +4,7 @@
    large n against 128-bit sums and a closed form; threads. */
 #include <string.h>
 
-#include "measures/shared/l2_divide.h"
-#include "measures/shared/l2_pairs.h"
-#include "measures/shared/l2_sort.h"
+#include "measures/l2/l2.h"
 #include "sets.h"
 
 #if defined(__SIZEOF_FLOAT128__)

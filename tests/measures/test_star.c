@@ -5,8 +5,7 @@
 
 #include <koksma/series.h>
 
-#include "measures/shared/star_2d.h"
-#include "measures/shared/star_partition.h"
+#include "measures/star/star.h"
 #include "sets.h"
 
 static double radical_inverse(unsigned base, unsigned long i)

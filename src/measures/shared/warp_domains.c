@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "measures/shared/edge_domain.h"
+#include "measures/edge/edge.h"
 
 enum { NODES = 64 };
 

@@ -3,8 +3,7 @@
 #ifndef KOKSMA_MEASURES_SHARED_WARP_DOMAINS_H
 #define KOKSMA_MEASURES_SHARED_WARP_DOMAINS_H
 
-#include "measures/shared/edge_domain.h"
-#include "measures/shared/edge_sweep.h"
+#include "measures/edge/edge.h"
 
 typedef enum koksma__domain_kind { KOKSMA__DISK, KOKSMA__TRIANGLE, KOKSMA__HEMISPHERE } koksma__domain_kind;
 

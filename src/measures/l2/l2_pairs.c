@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The L2 discrepancies by sums over all pairs, O(n^2 d), and the terms that all methods share. A kernel sums the pairs
+ * in blocks of rows, and the blocks are added in order. The three terms of the square, which cancel, are added in
+ * double-double arithmetic.
+ */
+#include "measures/l2/l2.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "core/sum.h"
+#include "kernels/kernels.h"
+#include "measures/shared/double_double.h"
+
+enum { ROWS_PER_BLOCK = 128 };
+
+double koksma__l2_polynomial(const double f[4], double u)
+{
+    const double z = u - 0.5;
+    return f[0] + f[1] * z + f[2] * z * z + f[3] * fabs(z);
+}
+
+koksma__dd koksma__l2_polynomial_dd(const double f[4], double z)
+{
+    koksma__dd sum = {f[0], 0};
+    if (f[1] != 0) {
+        sum = koksma__dd_add(sum, koksma__dd_product(f[1], z));
+    }
+    if (f[2] != 0) {
+        sum = koksma__dd_add(sum, koksma__dd_scale(koksma__dd_product(z, z), f[2]));
+    }
+    if (f[3] != 0) {
+        sum = koksma__dd_add(sum, koksma__dd_product(f[3], fabs(z)));
+    }
+    return sum;
+}
+
+/* prod_k a(x_k). In doubles the rounding errors of the products would all have the same sign for points on a grid. */
+koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim)
+{
+    koksma__dd product = {1, 0};
+    for (int k = 0; k < dim; k++) {
+        const koksma__dd a = koksma__l2_polynomial_dd(row->a24, x[k] - 0.5);
+        product = koksma__dd_mul(product, koksma__dd_divide(a, 24));
+    }
+    return product;
+}
+
+typedef struct pairs {
+    const koksma__l2_row *row;
+    size_t n;
+    int dim;
+    double *u, *g;     /* u[k n + j] is coordinate k of point j, and g[k n + j] the function g of the kernel at this
+                          coordinate */
+    koksma__sum *sums; /* the sum of each block of rows */
+} pairs;
+
+static koksma_status sum_block(void *context, size_t block)
+{
+    const pairs *p = context;
+    const size_t first = block * ROWS_PER_BLOCK;
+    const size_t end = first + ROWS_PER_BLOCK < p->n ? first + ROWS_PER_BLOCK : p->n;
+    double sum[2];
+    koksma__kernels()->l2_pairs(first, end, p->n, p->dim, p->u, p->g, p->row->q, p->row->r, sum);
+    p->sums[block] = (koksma__sum){sum[0], sum[1]};
+    return KOKSMA_OK;
+}
+
+/* Computes sum_i prod_k a(x_ik) and sum_i prod_k K(x_ik, x_ik), and fills u and g. */
+static void sum_points(const pairs *p, const koksma_points *points, koksma__dd *linear, koksma__sum *self)
+{
+    for (size_t i = 0; i < p->n; i++) {
+        double k_ii = 1;
+        for (size_t k = 0; k < (size_t)p->dim; k++) {
+            const double x = points->xs[i * (size_t)p->dim + k];
+            p->u[k * p->n + i] = x;
+            p->g[k * p->n + i] = koksma__l2_polynomial(p->row->g, x);
+            k_ii *= 2 * p->g[k * p->n + i];
+        }
+        *linear = koksma__dd_add(*linear, koksma__l2_linear(p->row, points->xs + i * (size_t)p->dim, p->dim));
+        koksma__sum_add(self, k_ii);
+    }
+}
+
+/* Adds the three terms of the square, which cancel, in 106 bits. */
+double koksma__l2_combine(const koksma__l2_row *row, int dim, size_t n, koksma__dd linear,
+                          const koksma__sum *over_pairs)
+{
+    const double count = (double)n;
+    const koksma__dd c = koksma__dd_divide((koksma__dd){row->c12, 0}, 12);
+    koksma__dd total = c;
+    for (int k = 1; k < dim; k++) {
+        total = koksma__dd_mul(total, c);
+    }
+    const koksma__dd pair_sum = koksma__dd_quick_sum(over_pairs->total, over_pairs->lost);
+    total = koksma__dd_add(total, koksma__dd_divide(koksma__dd_scale(linear, -2), count));
+    return koksma__dd_add(total, koksma__dd_divide(koksma__dd_divide(pair_sum, count), count)).hi;
+}
+
+koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                  double *square)
+{
+    const size_t n = points->n, coordinates = n * (size_t)points->dim;
+    const size_t n_blocks = (n + ROWS_PER_BLOCK - 1) / ROWS_PER_BLOCK;
+    const size_t bytes = 2 * coordinates * sizeof(double) + n_blocks * sizeof(koksma__sum);
+    pairs p = {.row = row, .n = n, .dim = points->dim, .u = malloc(bytes)};
+    KOKSMA__REQUIRE_MEMORY(p.u, bytes);
+    p.g = p.u + coordinates;
+    p.sums = (koksma__sum *)(p.g + coordinates);
+    koksma__dd linear = {0, 0};
+    koksma__sum both = {0};
+    sum_points(&p, points, &linear, &both);
+    const koksma_status status = koksma__parallel(run, n_blocks, sum_block, &p);
+    for (size_t block = 0; block < n_blocks && !status; block++) {
+        koksma__sum_add(&both, 2 * p.sums[block].total);
+        koksma__sum_add(&both, 2 * p.sums[block].lost);
+    }
+    *square = koksma__l2_combine(row, points->dim, n, linear, &both);
+    free(p.u);
+    return status;
+}
