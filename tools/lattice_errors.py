@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tables of docs/findings/lattices.md: errors of the lattices of a built program, by formulas of its own.
 
-    tools/lattice_errors.py build/release/koksma          all tables; half a minute of one core
+    tools/lattice_errors.py build/release/koksma          all tables; a minute of one core
     tools/lattice_errors.py build/release/koksma small    without sets of more than 2^16 points
 """
 import array
@@ -67,6 +67,38 @@ def p2(n, z, gamma):
     return math.fsum(terms) / n
 
 
+def p2_of_prefixes(n, z, gamma):
+    """P_2 of the first d coordinates for d = 1 to len(z), with running sums."""
+    weight, sums = 2 * math.pi**2 * gamma, [0.0] * len(z)
+    for i in range(n // 2 + 1):
+        product, count = 1.0, 1 if i == 0 or 2 * i == n else 2
+        for k, multiplier in enumerate(z):
+            x = i * multiplier % n / n
+            product *= 1 + weight * (x * (x - 1) + 1 / 6)
+            sums[k] += (product - 1) * count
+    return [total / n for total in sums]
+
+
+def p2_of_pairs(n, z, gamma):
+    """P_2 with order-2 weights: projections of one and of two coordinates."""
+    weight, terms = 2 * math.pi**2 * gamma, []
+    for i in range(n // 2 + 1):
+        parts = [weight * (x * (x - 1) + 1 / 6) for x in (i * multiplier % n / n for multiplier in z)]
+        total = sum(parts)
+        terms.append((total + (total * total - sum(t * t for t in parts)) / 2) * (1 if i == 0 or 2 * i == n else 2))
+    return math.fsum(terms) / n
+
+
+def largest_ratios(program, most, embedded):
+    """For each dimension the largest root of the ratio of P_2 to lattice-rank1's, over the powers of two, and where."""
+    worst = [(0, 0)] * len(embedded)
+    for n in (1 << m for m in range(4, most.bit_length())):
+        own = p2_of_prefixes(n, vector(program, "lattice-rank1", n, len(embedded)), GAMMA)
+        for d, (a, b) in enumerate(zip(p2_of_prefixes(n, embedded, GAMMA), own)):
+            worst[d] = max(worst[d], (math.sqrt(a / b), n))
+    return worst[1:]
+
+
 def shifted_error(program, spec, n, dim, shifts):
     """prod_k (1 + B_2(x_k)), whose integral is 1, over `shifts` sets: the root mean square of the errors."""
     squares = 0.0
@@ -97,6 +129,15 @@ def main():
         if n <= most:
             own = [vector(program, spec, n, 10) for spec in ("lattice-rank1", "korobov")]
             show(name(n), *(p2(n, z, GAMMA) for z in own + [embedded, CKN, CKN_B, CKN_C, CKN_D, K32, HKKN]))
+    ratios = largest_ratios(program, most, embedded)
+    show("dimensions", *(str(d) for d in range(2, 11)))
+    show("lattice-sequence", *(f"{ratio:.2f}" for ratio, _ in ratios))
+    show("at n", *(name(n) for _, n in ratios))
+    show("n", "CKN over lattice-rank1:order=2, order-2 weights")
+    for n in (1 << k for k in (10, 12, 14, 16, 18, 20)):
+        if n <= most:
+            best = vector(program, "lattice-rank1:order=2", n, 10)
+            show(name(n), f"{math.sqrt(p2_of_pairs(n, CKN, GAMMA) / p2_of_pairs(n, best, GAMMA)):.2f}")
     show("n", "fibonacci", "lattice-rank1", "ratio")
     for n in (5, 8, 13, 21, 55, 233, 987, 4181, 17711, 75025, 317811):
         if n <= most:

@@ -13,7 +13,7 @@
  * first from a hash, so that pairs of coordinates of 2^33 to 2^51 points are as even as those of a random vector
  * (docs/decisions.md, 55).
  * Sources: Hickernell, Hong, L'Ecuyer & Lemieux 2000, and Cools, Kuo & Nuyens 2006 for embedded lattices. The weights
- * are those of lattice-rank1. For 2^m points, m = 4 to 18, the worst-case error is at most 1.41 times that of
+ * are those of lattice-rank1. For 2^m points, m = 4 to 20, the worst-case error is at most 1.53 times that of
  * lattice-rank1 in 2 to 10 dimensions; Cools, Kuo & Nuyens report at most 1.6 (docs/findings/lattices.md).
  */
 #include <koksma/sampler.h>

@@ -260,29 +260,56 @@ static void search_is_no_worse_than_others(void **state)
     }
 }
 
-/* What it costs to be good for all powers of two at once: Cools, Kuo & Nuyens 2006 report worst-case errors, roots of P_2,
-   of at most 1.6 times those of lattices that are constructed for one n, from 2^10 to 2^20 points. */
+/* P_2 of the first d coordinates, for each d up to `dim`. */
+static void p2_of_prefixes(size_t n, const size_t *z, int dim, double *errors)
+{
+    size_t at[MAX_DIM] = {0};
+    double lost[MAX_DIM] = {0};
+    memset(errors, 0, (size_t)(dim + 1) * sizeof *errors);
+    for (size_t i = 0; 2 * i <= n; i++) {
+        double product = 1;
+        for (int k = 0; k < dim; k++) {
+            product *= 1 + WEIGHT * kernel(at[k], n);
+            at[k] += z[k];
+            at[k] -= at[k] >= n ? n : 0;
+            const double term = (i == 0 || 2 * i == n ? 1 : 2) * (product - 1) - lost[k];
+            const double total = errors[k + 1] + term;
+            lost[k] = total - errors[k + 1] - term;
+            errors[k + 1] = total;
+        }
+    }
+    for (int d = 1; d <= dim; d++) {
+        errors[d] /= (double)n;
+    }
+}
+
+/* What it costs to be good for all powers of two at once, for each of them and each dimension that
+   docs/findings/lattices.md names: the largest ratio is 1.53 as stated there, no more and no less. Cools, Kuo & Nuyens
+   2006 report worst-case errors, roots of P_2, of at most 1.6 times those of lattices made for one n. */
 static void embedded_lattices_cost_little(void **state)
 {
     (void)state;
-    static const int dims[] = {2, 3, 5, 10};
-    size_t z[MAX_DIM];
-    lattices_sequence_multipliers(10, z);
-    for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
-        for (int bits = 4; bits <= MOST_BITS && bits <= 18; bits += 2) {
-            const size_t n = (size_t)1 << bits;
-            size_t own[MAX_DIM];
-            lattices_multipliers("lattice-rank1", n, dims[d], own);
-            const double ratio = sqrt(p2(n, z, dims[d], WEIGHT) / p2(n, own, dims[d], WEIGHT));
-            if (getenv("RATIOS")) {
-                printf("n = 2^%d, dim = %d: %.3f\n", bits, dims[d], ratio);
-            }
-            if (!(ratio < 1.6)) {
-                fail_msg("n = 2^%d, dim = %d: %.3f times the worst-case error of lattice-rank1", bits, dims[d],
-                         ratio);
+    enum { DIM = 10 };
+    size_t sequence[DIM], z[DIM], own[DIM];
+    double embedded[DIM + 1], single[DIM + 1], largest = 0;
+    lattices_sequence_multipliers(DIM, sequence);
+    for (int bits = 4; bits <= MOST_BITS; bits++) {
+        const size_t n = (size_t)1 << bits;
+        for (int k = 0; k < DIM; k++) {
+            z[k] = sequence[k] % n;
+        }
+        lattices_multipliers("lattice-rank1", n, DIM, own);
+        p2_of_prefixes(n, z, DIM, embedded);
+        p2_of_prefixes(n, own, DIM, single);
+        for (int d = 2; d <= DIM; d++) {
+            const double ratio = sqrt(embedded[d] / single[d]);
+            largest = fmax(largest, ratio);
+            if (!(ratio < 1.53)) {
+                fail_msg("n = 2^%d, dim = %d: %.3f times the worst-case error of lattice-rank1", bits, d, ratio);
             }
         }
     }
+    assert_true(largest > 1.525);
 }
 
 /* The pairs of coordinates, too, are far from a diagonal, whose P_2 doesn't fall: of its order n^-2 they have 2
