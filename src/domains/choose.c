@@ -134,7 +134,7 @@ static koksma_status eliminate(const choice *c, size_t length, size_t factor, bo
     KOKSMA__FAIL_IF(length > most, KOKSMA_N, "%s: n = %zu is too large; n = %zu or less would do", c->pattern->name,
                     length, most);
     const double d_max = radius_of(c->domain, length),
-                 d_min = d_max * koksma__elimination_limit(length, factor * length);
+                 d_min = d_max * koksma__elimination_limit(length, factor * length, 2);
     koksma__domain_point *chosen = malloc(length * sizeof *chosen);
     KOKSMA__REQUIRE_MEMORY(chosen, length * sizeof *chosen);
     koksma_status status = choose_from(c, length, factor, d_max, d_min, chosen);

@@ -51,4 +51,5 @@ const koksma_pattern koksma__pattern_progressive_elimination = {
     .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_BLUE | KOKSMA_CLAIM_UNBIASED,
     .params = params,
     .generate = generate,
+    .revision = 1, /* no weight limit from 4 dimensions on */
 };

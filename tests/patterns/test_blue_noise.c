@@ -99,8 +99,10 @@ static void elimination_has_the_papers_formulas(void **state)
     assert_near(koksma__elimination_radius(1000, 4), 2 * pow(2 / (M_PI * M_PI * 1000), 0.25), 1e-14);
     assert_near(koksma__elimination_radius(1000, 5), 2 * pow(15 / (8 * M_PI * M_PI * 1000), 0.2), 1e-14);
     assert_near(koksma__elimination_radius(1000, 6), 2 * pow(6 / (M_PI * M_PI * M_PI * 1000), 1.0 / 6), 1e-14);
-    assert_near(koksma__elimination_limit(100, 100), 0, 0);
-    assert_near(koksma__elimination_limit(100, 500), 0.65 * (1 - pow(0.2, 1.5)), 1e-15);
+    for (int dim = 1; dim <= 8; dim++) { /* the paper's limit up to 3 dimensions, above them none */
+        assert_near(koksma__elimination_limit(100, 100, dim), 0, 0);
+        assert_near(koksma__elimination_limit(100, 500, dim), dim > 3 ? 0 : 0.65 * (1 - pow(0.2, 1.5)), 1e-15);
+    }
 }
 
 enum { ELIMINATED = 150 };
@@ -135,7 +137,7 @@ static void assert_heaviest_go(size_t count, size_t keep, int dim, bool nearest)
     uint32_t order[ELIMINATED];
     koksma_points points = test_points("random", count, dim, 7);
     const double d_max = koksma__elimination_radius(keep, dim);
-    const double d_min = d_max * koksma__elimination_limit(keep, count);
+    const double d_min = d_max * koksma__elimination_limit(keep, count, dim);
     assert_true(nearest || (d_max <= 1 && (d_max > 0.5) == (dim > 3)));
     for (size_t i = 0; i < count; i++) {
         for (size_t j = 0; j < i; j++) {
@@ -181,7 +183,7 @@ static void limited_weights_keep_points_apart(void **state)
     enum { N = 1024, ALL = 5 * N };
     static uint32_t order[ALL];
     static double kept[2 * N];
-    const double d_max = koksma__elimination_radius(N, 2), limit = koksma__elimination_limit(N, ALL);
+    const double d_max = koksma__elimination_radius(N, 2), limit = koksma__elimination_limit(N, ALL, 2);
     koksma_points points = test_points("random", ALL, 2, 3);
     double rho[2], mean;
     for (int limited = 0; limited < 2; limited++) {

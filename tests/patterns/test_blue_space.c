@@ -239,6 +239,45 @@ static void relative_radii_in_space(void **state)
     }
 }
 
+/* The mean over sets, with the seeds 0 .. sets - 1, of the smallest distance. */
+static double mean_smallest(const char *spec, size_t n, int dim, uint64_t sets)
+{
+    double sum = 0;
+    for (uint64_t seed = 0; seed < sets; seed++) {
+        koksma_points p = test_points(spec, n, dim, seed);
+        sum += smallest(&p) / (double)sets;
+        koksma_points_fini(&p);
+    }
+    return sum;
+}
+
+/* In 2 to 8 dimensions every pattern that claims blue noise keeps points twice as far apart as random ones are. n grows
+   where the patterns of that dimension allow it: of few points in many dimensions random ones are far apart, too. */
+static void blue_noise_keeps_apart_in_all_dimensions(void **state)
+{
+    (void)state;
+    const size_t counts[] = {0, 0, 200, 100, 100, 64, 64, 300, 500};
+    for (int dim = 2; dim <= 8; dim++) {
+        const size_t n = TEST_SANITIZED ? 40 : counts[dim];
+        const double random = mean_smallest("random", n, dim, 24);
+        const koksma_pattern *p;
+        for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+            if (!(p->claims & KOKSMA_CLAIM_BLUE) || dim < p->min_dim || dim > p->max_dim ||
+                (TEST_SANITIZED && dim > 4)) {
+                continue;
+            }
+            char text[64];
+            const bool has_length = p->params && !strcmp(p->params[0].name, "length");
+            snprintf(text, sizeof text, has_length ? "%s:length=%zu" : "%s", p->name, n);
+            const double found = mean_smallest(text, n, dim, 1);
+            print_message("%s, dim = %d: %.4f, %.2f times that of random points\n", text, dim, found, found / random);
+            if (!(found >= 2 * random)) {
+                fail_msg("%s, n = %zu, dim = %d: smallest distance %g, random %g", text, n, dim, found, random);
+            }
+        }
+    }
+}
+
 /* Every prefix of a progressive order is blue noise of its number (Yuksel 2015): in the plane his program has relative
    radii of .63 to .65 for eighths, quarters and halves. Spheres of the densest known packings (fcc, D4, D5, E6), n a unit
    of volume, have the radius (filled / (ball n))^(1/dim), ball the volume of the unit ball. Random points have .3 and
@@ -250,7 +289,7 @@ static void prefixes_are_blue_in_space(void **state)
     static const double filled[] = {0.740480489693061, 0.616850275068085, 0.465257613309259, 0.372947545582064};
     for (int dim = 3; dim <= 6; dim++) {
         koksma_points all = test_points("progressive-elimination:length=512", 512, dim, 1);
-        for (size_t n = 64; n <= 256; n *= 2) {
+        for (size_t n = 64; n <= 512; n *= 2) {
             const koksma_points prefix = {.n = n, .dim = dim, .xs = all.xs};
             const double radius = pow(filled[dim - 3] / (ball[dim - 3] * (double)n), 1.0 / dim);
             const double rho = smallest(&prefix) / (2 * radius);
@@ -288,6 +327,7 @@ int main(void)
         cmocka_unit_test(forces_are_sums_over_images),
         cmocka_unit_test(low_frequencies_are_weak_in_space),
         cmocka_unit_test(relative_radii_in_space),
+        cmocka_unit_test(blue_noise_keeps_apart_in_all_dimensions),
         cmocka_unit_test(prefixes_are_blue_in_space),
         cmocka_unit_test(threads_change_nothing),
     };

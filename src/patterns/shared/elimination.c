@@ -8,11 +8,12 @@
  *         sqrt(1 / (2 sqrt3 n))          dim 2, the hexagonal packing
  *         (1 / (4 sqrt2 n))^(1/3)        dim 3, the face-centred cubic packing
  *         (1 / (V_dim n))^(1/dim)        dim > 3, V_dim the volume of the unit ball
- *     d_min = d_max (1 - (n/m)^1.5) 0.65, the weight limit, where n of m points are kept
+ *     d_min = d_max (1 - (n/m)^1.5) 0.65, the weight limit, where n of m points are kept; 0 in dim > 3
  *
  * Without weight limiting, two points that happen to be close have more weight than a point among many neighbours,
  * and the last removals pick the wrong points. For n = 1024 of 5120 points the relative radius is 0.635 without and
- * 0.696 with weight limiting.
+ * 0.696 with weight limiting. In more than 3 dimensions, where the paper has the same limit, d_max is so large that
+ * d_min is above the distances that are reached: nothing would keep a pair apart that is closer than d_min.
  *
  * A heap has the heaviest point on top. When that point is removed, its contribution to its neighbours' weights is
  * subtracted. The remaining points are sorted into a grid of cells that are about d_max / 2 wide in up to 3
@@ -24,8 +25,7 @@
  * Yuksel's implementation does the same: from equal candidates both programs keep the same points (tested for n = 64
  * in 2 to 6 dimensions). A ball of radius d_max contains 2^dim m/n points and images, which is too many above 8
  * dimensions. Below 4 dimensions only sets of at most 11 points have such a d_max. In both cases only the nearest
- * image contributes. This changes which points remain, but hardly their evenness: the mean smallest distance of 64
- * points in 6 dimensions, over 20 sets, is 0.159 with all images and 0.155 with the nearest.
+ * image contributes. This changes which points remain, but hardly their evenness.
  */
 #include "patterns/shared/elimination.h"
 
@@ -39,7 +39,7 @@
 #include "core/torus.h"
 #include "patterns/shared/fill.h"
 
-enum { GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22, SINK = 32 };
+enum { MAX_LIMITED_DIM = 3, GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22, SINK = 32 };
 
 #define BETA 0.65 /* beta of the paper; its other constant, the exponent gamma = 1.5, is applied by sqrt() */
 
@@ -87,10 +87,10 @@ double koksma__elimination_radius(size_t n, int dim)
     return 2 * pow(area / ball, 1.0 / dim);
 }
 
-double koksma__elimination_limit(size_t n, size_t m)
+double koksma__elimination_limit(size_t n, size_t m, int dim)
 {
     const double ratio = (double)n / (double)m;
-    return (1 - ratio * sqrt(ratio)) * BETA;
+    return dim > MAX_LIMITED_DIM ? 0 : (1 - ratio * sqrt(ratio)) * BETA;
 }
 
 /* ---- The heap -------------------------------------------------------------------------------------------- */
@@ -437,7 +437,7 @@ koksma_status koksma__eliminated_set(const char *name, uint64_t seed, size_t n, 
 {
     const size_t all = factor * n, width = (size_t)dim, most = KOKSMA_MAX_COORDINATES / width / factor;
     KOKSMA__FAIL_IF(n > most, KOKSMA_N, "%s: n = %zu is too large; n = %zu or less would do", name, n, most);
-    const double d_max = koksma__elimination_radius(n, dim), d_min = d_max * koksma__elimination_limit(n, all);
+    const double d_max = koksma__elimination_radius(n, dim), d_min = d_max * koksma__elimination_limit(n, all, dim);
     double *drawn = malloc(all * (width * sizeof *drawn + sizeof(uint32_t)));
     KOKSMA__REQUIRE_MEMORY(drawn, all * (width * sizeof *drawn + sizeof(uint32_t)));
     uint32_t *order = (uint32_t *)(drawn + all * width);

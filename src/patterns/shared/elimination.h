@@ -13,9 +13,9 @@
    paper. */
 KOKSMA__LAB double koksma__elimination_radius(size_t n, int dim);
 
-/* Returns the weight limit d_min / d_max if n of m points remain: distances below d_min have the same weight as
-   d_min. */
-KOKSMA__LAB double koksma__elimination_limit(size_t n, size_t m);
+/* Returns the weight limit d_min / d_max if n of m points remain in `dim` dimensions: distances below d_min have the same
+   weight as d_min. It is 0 above 3 dimensions. */
+KOKSMA__LAB double koksma__elimination_limit(size_t n, size_t m, int dim);
 
 /* Removes the heaviest of `count` points, one after the other, until `keep` are left. The weight of a point is the
    sum over the other points with d < d_max of (1 - max(d, d_min) / d_max)^8, where d is the distance on the torus;
