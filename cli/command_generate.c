@@ -2,13 +2,15 @@
 /*
  * `koksma generate`: generates one point set of a pattern, or a range of its points, maps it by --warp, and writes it
  * to a file or to standard output. Points of patterns that can generate ranges are written piece by piece, unless
- * --warp is given. --density and --on generate points of varying density and points on a model. The comment in the
- * file has the pattern, the seed and the warp, and for blue-noise patterns the smallest distance of two points.
+ * --warp is given. --density, --domain and --on generate points of varying density, points in a rectangle and points on
+ * a model. The comment in the file has the pattern, the seed and where the points lie, and for points of blue-noise
+ * patterns in the unit square the smallest distance of two of them.
  */
 #include <koksma/density.h>
 #include <koksma/verify.h>
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -36,7 +38,7 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, con
         koksma_spec_text(spec, text);
         int used = snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
         double distance;
-        if (spec->pattern->claims & KOKSMA_CLAIM_BLUE && points->dim == 2 && points->n > 1 &&
+        if (!warp && spec->pattern->claims & KOKSMA_CLAIM_BLUE && points->dim == 2 && points->n > 1 &&
             !koksma_smallest_distance(points, true, run, &distance)) {
             used += snprintf(comment + used, sizeof comment - (size_t)used, "\ndistance-torus %.17g", distance);
         }
@@ -77,39 +79,86 @@ static int fail_in_density(const cli_arguments *arguments, const char *path)
     return koksma_status_exit_code(KOKSMA_MALFORMED);
 }
 
-/* Generates points whose density follows the image `density`, or points on the model `on`; one of them is NULL. */
-static int generate_in(const cli_arguments *arguments, const cli_source *source, const char *density, const char *on,
+/* Where points lie that are not in the unit square: on the model `on`, or in a rectangle of the size `size` ("W:H"), or of
+   the shape of the image `density`. What is not given is NULL. */
+typedef struct target {
+    const char *density, *on, *size;
+    double width, height;
+} target;
+
+/* Reads --density, --on and --domain. Returns the exit code. */
+static int read_target(const cli_arguments *arguments, target *t)
+{
+    *t = (target){cli_text(arguments, "density", NULL), cli_text(arguments, "on", NULL),
+                  cli_text(arguments, "domain", NULL), 1, 1};
+    char *end = NULL;
+    if (t->size) {
+        t->width = strtod(t->size, &end);
+        t->height = end > t->size && *end == ':' && end[1] ? strtod(end + 1, &end) : 0;
+    }
+    if (t->size && (*end || !(t->width > 0) || !(t->height > 0))) {
+        return cli_usage_error(arguments, "--domain %s: it takes the width and the height of a rectangle, as in 4:1",
+                               t->size);
+    }
+    return CLI_YES;
+}
+
+/* Calls the library for the points of a target. *unfit: the density can't be used. */
+static koksma_status make_in(const cli_source *source, const target *t, uint64_t seed, const koksma_run *run,
+                             koksma_points *points, bool *unfit)
+{
+    koksma_image map = {0};
+    koksma_status status = t->density ? koksma_image_read(t->density, &map) : KOKSMA_OK;
+    if (status) {
+        return status;
+    }
+    status = t->on     ? koksma_generate_on(&source->spec, seed, t->on, run, points)
+             : t->size ? koksma_generate_rectangle(&source->spec, seed, t->width, t->height, t->density ? &map : NULL,
+                                                   run, points)
+                       : koksma_generate_density(&source->spec, seed, &map, run, points);
+    *unfit = t->density && status == KOKSMA_MALFORMED;
+    koksma_image_fini(&map);
+    return status;
+}
+
+/* Writes the comment of the file: what the points are, and what their coordinates mean. */
+static void describe(const cli_source *source, const target *t, uint64_t seed, char *comment, size_t size)
+{
+    char text[KOKSMA_MAX_SPEC];
+    koksma_spec_text(&source->spec, text);
+    int used = snprintf(comment, size, "pattern %s\nseed %llu", text, (unsigned long long)seed);
+    if (t->on) {
+        used += snprintf(comment + used, size - (size_t)used, "\non %s", t->on);
+    }
+    if (t->density) {
+        used += snprintf(comment + used, size - (size_t)used, "\ndensity %s", t->density);
+    }
+    if (t->size) {
+        snprintf(comment + used, size - (size_t)used, "\ndomain %.17g:%.17g", t->width, t->height);
+    } else if (t->density) {
+        snprintf(comment + used, size - (size_t)used,
+                 "\ncoordinates x of the picture's width, y of its height from the bottom");
+    }
+}
+
+/* Generates and writes the points of a target. If source->n is 0, the pattern's d decides how many there are. */
+static int generate_in(const cli_arguments *arguments, const cli_source *source, int dim, const target *t,
                        uint64_t seed, cli_work *work)
 {
     const koksma_run *run = &work->run;
-    char text[KOKSMA_MAX_SPEC], comment[2 * KOKSMA_MAX_SPEC + 128];
-    koksma_points points;
-    koksma_image map = {0};
+    char comment[3 * KOKSMA_MAX_SPEC + 256];
+    koksma_points points = {.dim = t->on && dim == 2 ? 3 : dim};
     bool unfit = false;
-    koksma_status status = koksma_points_init(&points, source->n, on && source->dim == 2 ? 3 : source->dim);
-    if (status) {
-        return cli_fail(arguments, status);
-    }
-    if (on) {
-        status = koksma_generate_on(&source->spec, seed, on, run, &points);
-    } else {
-        status = koksma_image_read(density, &map);
-        if (!status) {
-            status = koksma_generate_density(&source->spec, seed, &map, run, &points);
-            unfit = status == KOKSMA_MALFORMED;
-        }
-        koksma_image_fini(&map);
-    }
+    koksma_status status = source->n ? koksma_points_init(&points, source->n, points.dim) : KOKSMA_OK;
+    status = status ? status : make_in(source, t, seed, run, &points, &unfit);
     if (!status) {
-        koksma_spec_text(&source->spec, text);
-        snprintf(comment, sizeof comment, "pattern %s\nseed %llu\n%s %s", text, (unsigned long long)seed,
-                 on ? "on" : "density", on ? on : density);
+        describe(source, t, seed, comment, sizeof comment);
         make_way(arguments, work);
-        status = (on ? koksma_points_write_mapped : koksma_points_write)(cli_text(arguments, "output", "-"), &points,
-                                                                         comment, run);
+        status = (t->on || t->size ? koksma_points_write_mapped
+                                   : koksma_points_write)(cli_text(arguments, "output", "-"), &points, comment, run);
     }
     koksma_points_fini(&points);
-    return unfit ? fail_in_density(arguments, density) : status ? cli_fail(arguments, status) : CLI_YES;
+    return unfit ? fail_in_density(arguments, t->density) : status ? cli_fail(arguments, status) : CLI_YES;
 }
 
 static int run(const cli_arguments *arguments)
@@ -126,7 +175,13 @@ static int run(const cli_arguments *arguments)
         return code;
     }
     const koksma_pattern *pattern = source.spec.pattern;
-    if (!source.n && !pattern->whole) {
+    target t;
+    code = read_target(arguments, &t);
+    if (code) {
+        return code;
+    }
+    const bool elsewhere = t.density || t.on || t.size;
+    if (!source.n && !pattern->whole && !elsewhere) {
         return cli_usage_error(arguments, "-n N, the number of points, is missing");
     }
     if (!cli_whole(arguments, "first", 0, 0, KOKSMA_MAX_INDEX, &first) ||
@@ -143,16 +198,16 @@ static int run(const cli_arguments *arguments)
     if (first && (name || !source.n)) {
         return cli_usage_error(arguments, "--first needs -n N and excludes --warp");
     }
-    const char *density = cli_text(arguments, "density", NULL), *on = cli_text(arguments, "on", NULL);
-    if ((density || on) && (!source.n || first || warp || (density && on))) {
-        return cli_usage_error(arguments, "--density and --on need -n N, and exclude each other, --first and --warp");
+    if (elsewhere && (first || warp || (t.on && (t.density || t.size)))) {
+        return cli_usage_error(arguments,
+                               "--density, --domain and --on exclude --first and --warp, and --on the other two");
     }
     code = cli_try_output(arguments, cli_text(arguments, "output", "-"));
     if (code) {
         return code;
     }
-    if (density || on) {
-        code = generate_in(arguments, &source, density, on, seed, &work);
+    if (elsewhere) {
+        code = generate_in(arguments, &source, (int)dim, &t, seed, &work);
         cli_work_end();
         return code;
     }
@@ -180,7 +235,11 @@ static const cli_option options[] = {
     {0, "first", "I", "index of the first point, up to 2^51 - 1, for sequences that have ranges (default: 0)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
-    {0, "density", "FILE.png|.exr|.pfm", "the points' density follows the luminance of this image"},
+    {0, "density", "FILE.png|.exr|.pfm",
+     "the points' density follows the luminance of this image, with distances of its shape; x and y are in units of "
+     "its "
+     "width and height"},
+    {0, "domain", "W:H", "points in a rectangle, 0 <= x < W, 0 <= y < H; with --density, the image fills it"},
     {0, "on", "FILE.obj|.ply|.ply.gz|.off|.gltf|.glb|.serialized",
      "points on this model: x y z; -d 6 adds the normal, -d 7 also the number of the triangle, from 0"},
     {'o', "output", "FILE.txt|.csv|.npy", "the file (default: text on stdout)"},
@@ -201,10 +260,14 @@ const cli_command cli_command_generate = {
         "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N. All other "
         "patterns are generated in memory, with at most 2^28 coordinates.\n"
         "\n"
-        "With --density and --on the pattern is random, sample-elimination, progressive-elimination, poisson-disk,\n"
-        "dart-throwing, best-candidate, poisson-disk-maximal or gaussian-blue-noise; the last two also with\n"
-        "order=progressive. On a model the distance d is in the model's units, and distances are straight-line\n"
-        "distances in space, not distances along the surface.\n"
+        "With --density, --domain and --on the pattern is random, sample-elimination, progressive-elimination,\n"
+        "poisson-disk, dart-throwing, best-candidate, poisson-disk-maximal or gaussian-blue-noise; the last two "
+        "also\n"
+        "with order=progressive. poisson-disk-maximal:d=D needs no -n there: D decides how many points there are. D\n"
+        "is in units of --domain or of the model; with --density alone in units of the picture's height, and where\n"
+        "the density equals its mean. Distances on a picture or rectangle wrap around its edges (those of\n"
+        "poisson-disk with torus=1 only); on a model they are straight-line distances in space, not along the\n"
+        "surface.\n"
         "\n"
         "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each\n"
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
@@ -214,7 +277,8 @@ const cli_command cli_command_generate = {
                 "koksma generate sobol -n 1000000 --first 4000000000 -o far.npy\n"
                 "koksma generate jittered -n 64 --warp concentric-disk -o disk.txt\n"
                 "koksma generate sample-elimination -n 2000 --density photo.png -o stipples.csv\n"
-                "koksma generate sample-elimination -n 500 --on model.obj -o on.txt\n",
+                "koksma generate sample-elimination -n 400 --domain 4:1 -o wide.csv\n"
+                "koksma generate poisson-disk-maximal:d=0.1 --on model.obj -o on.txt\n",
     .options = options,
     .run = run,
 };

@@ -228,6 +228,8 @@ def lab() -> ctypes.CDLL:
     _declare(library, None, "koksma_image_fini", image)
     _declare(library, c_int, "koksma_image_read", c_char_p, image)
     _declare(library, c_int, "koksma_generate_density", POINTER(s.Spec), c_uint64, image, POINTER(s.Run), POINTER(s.Points))
+    _declare(library, c_int, "koksma_generate_rectangle", POINTER(s.Spec), c_uint64, c_double, c_double, image, POINTER(s.Run),
+             POINTER(s.Points))
     _declare(library, c_int, "koksma_generate_on", POINTER(s.Spec), c_uint64, c_char_p, POINTER(s.Run), POINTER(s.Points))
     _declare(library, c_int, "koksma_image_png_bytes", image, POINTER(POINTER(c_ubyte)), POINTER(c_size_t))
     _declare(library, c_int, "koksma_image_write", c_char_p, image, c_char_p)

@@ -354,7 +354,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
              seed: SupportsIndex = 0, *, first: SupportsIndex = 0, threads: SupportsIndex = 0,
              out: Optional[PointArray] = None, allow_exec: bool = False,
              density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]] = None,
-             on: Optional[Union[str, "os.PathLike[str]"]] = None, warp: Optional[str] = None) -> PointArray:
+             on: Optional[Union[str, "os.PathLike[str]"]] = None, warp: Optional[str] = None,
+             domain: Optional[Sequence[float]] = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     Parameters
@@ -362,7 +363,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     pattern : str
         A spec such as "n-rooks" or "poisson-disk:d=0.2"; koksma.patterns() has them all.
     n : int
-        How many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
+        How many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1"), the latter
+        also with density, domain and on.
     dim : int
         2 where it is left out, but all that a file has where n is left out, too.
     seed : int
@@ -377,7 +379,12 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     allow_exec : bool
         Run what "exec:PROGRAM" or "plugin:LIBRARY" names; allow_exec() is for other functions, and sets the time.
     density : path or array_like of shape (height, width), optional
-        An image whose luminance the density follows; its bottom row is at y = 0.
+        An image whose luminance the density follows. Distances are those of the picture, with square pixels, and wrap around
+        its edges; coordinates are fractions of it: x in [0,1) of its width, y in [0,1) of its height from the bottom. A
+        pattern's d is in units of its height.
+    domain : (width, height), optional
+        The points lie in this rectangle, 0 <= x < width, 0 <= y < height, and distances and a pattern's d are in its units.
+        With density, the image fills it.
     on : path, optional
         A model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
         dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
@@ -401,7 +408,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
 
     Notes
     -----
-    density and on are for "random", "sample-elimination", "progressive-elimination", "poisson-disk", "dart-throwing",
+    density, domain and on are for "random", "sample-elimination", "progressive-elimination", "poisson-disk", "dart-throwing",
     "best-candidate", "poisson-disk-maximal" and "gaussian-blue-noise"; the last two also with order=progressive. Equal arguments give
     equal bits, and the same as `koksma generate`.
 
@@ -416,7 +423,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     """
     shape: Any = (n, 2 if dim is None else dim) if out is None else out.shape if type(out) is np.ndarray and n is dim is None else None
     if (type(seed) is int and type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
-            and type(allow_exec) is bool and density is on is warp is None and type(first) is int and first == 0
+            and type(allow_exec) is bool and density is on is warp is domain is None and type(first) is int and first == 0
             and set(map(type, shape or ())) == {int} and (pattern, shape) in quick):
         quickly = _quick_points(pattern, shape, seed, threads, out)
         if quickly is not None:
@@ -424,22 +431,24 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     if flag("allow_exec", allow_exec):
         core().koksma_allow_exec(before := core().koksma_allow_exec(0))
         with allowing_exec(before if before > 0 else 60):  # the time of a block of allow_exec() remains
-            return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, density=density, on=on, warp=warp)
+            return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, density=density, on=on, warp=warp,
+                            domain=domain)
     if warp is not None:
-        if out is not None or density is not None or on is not None:
-            raise ArgumentError("warp excludes out, density and on: its points lie in another domain")
+        if out is not None or density is not None or on is not None or domain is not None:
+            raise ArgumentError("warp excludes out, density, domain and on: its points lie in another domain")
         found = find_warp(warp)
         return _warped(found, generate(pattern, n, 2 if dim is None else dim, seed, first=first, threads=threads))
-    if density is not None or on is not None:
-        if n is None or first or out is not None or (density is not None and on is not None):
-            raise ArgumentError("density and on need n, and exclude each other, first and out")
-        return _generate_in(pattern, n, dim, seed, density, on, threads)
+    if density is not None or on is not None or domain is not None:
+        if first or out is not None or (on is not None and not density is domain is None):
+            raise ArgumentError("density, domain and on exclude first and out, and on the other two")
+        return _generate_in(pattern, n, dim, seed, density, on, domain, threads)
     parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
     first = whole("first", first, 0, s.MAX_INDEX)
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)
     if first and not (is_sequence(pattern) and has_ranges(pattern)):
-        raise ArgumentError(f"{pattern}: first needs a sequence that has ranges (koksma.has_ranges)")
+        way = f"; generate(..., {first + n})[{first}:] has these points" if n is not None and is_sequence(pattern) else ""
+        raise ArgumentError(f"{pattern}: first needs a sequence that has ranges (koksma.has_ranges){way}")
     if n is None and out is None:
         if first:
             raise ArgumentError("first needs n, the number of points")
@@ -472,28 +481,43 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     return out
 
 
-def _generate_in(pattern: str, n: SupportsIndex, dim: Optional[SupportsIndex], seed: SupportsIndex,
+def _rectangle_of(domain: Sequence[float]) -> Tuple[float, float]:
+    sides = numbers("domain", domain)
+    if sides.shape != (2,):
+        raise ArgumentError(f"domain must be (width, height), not {quoted(domain)}")
+    return float(sides[0]), float(sides[1])
+
+
+def _generate_in(pattern: str, n: Optional[SupportsIndex], dim: Optional[SupportsIndex], seed: SupportsIndex,
                  density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]],
-                 on: Optional[Union[str, "os.PathLike[str]"]], threads: SupportsIndex) -> PointArray:
+                 on: Optional[Union[str, "os.PathLike[str]"]], domain: Optional[Sequence[float]],
+                 threads: SupportsIndex) -> PointArray:
     from ._compare import as_image, view_image
     from ._render import read_image
 
     parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
     axes = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
-    out = np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
-    points = view(out)
-    if on is not None:
-        call(lab().koksma_generate_on, byref(parsed), seed, text(on, "on"), byref(points), threads=threads, run_at=3)
-    elif density is not None:
+    out: Optional[PointArray] = None if n is None else np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
+    points = s.Points(0, axes) if out is None else view(out)
+    image: Any = None
+    if density is not None:
         array = read_image(density) if isinstance(density, (str, os.PathLike)) else as_image(density)
-        try:
-            call(lab().koksma_generate_density, byref(parsed), seed, byref(view_image(array)), byref(points),
-                 threads=threads, run_at=3)
-        except MalformedError as error:
-            if isinstance(density, (str, os.PathLike)):  # the library knows no name of an image
-                error.args = (f"{os.fsdecode(density)}: {error}",)
-            raise
-    return out
+        image = byref(view_image(array))
+    try:
+        if on is not None:
+            call(lab().koksma_generate_on, byref(parsed), seed, text(on, "on"), byref(points), threads=threads, run_at=3)
+        elif domain is not None:
+            call(lab().koksma_generate_rectangle, byref(parsed), seed, *_rectangle_of(domain), image, byref(points),
+                 threads=threads, run_at=5)
+        else:
+            call(lab().koksma_generate_density, byref(parsed), seed, image, byref(points), threads=threads, run_at=3)
+    except BaseException as error:
+        if isinstance(error, MalformedError) and isinstance(density, (str, os.PathLike)):  # the library knows no name of an image
+            error.args = (f"{os.fsdecode(density)}: {error}",)
+        if out is None:
+            core().koksma_points_fini(byref(points))
+        raise
+    return adopt(points) if out is None else out
 
 
 def find_warp(name: str) -> Any:

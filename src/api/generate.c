@@ -143,6 +143,11 @@ koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint
     if (!koksma_has_ranges(spec)) {
         char text[KOKSMA_MAX_SPEC];
         koksma_spec_text(spec, text);
+        KOKSMA__FAIL_IF(koksma_is_sequence(spec), KOKSMA_UNSUPPORTED,
+                        "%s: first = %llu: the sequence has no ranges, because it generates all points together; "
+                        "generate %llu points and drop the first %llu",
+                        text, (unsigned long long)first, (unsigned long long)first + out->n,
+                        (unsigned long long)first);
         return koksma__fail(KOKSMA_UNSUPPORTED,
                             "%s: the pattern has no ranges, because it generates all points together", text);
     }

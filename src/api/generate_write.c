@@ -60,6 +60,11 @@ koksma_status koksma_generate_write(const koksma_spec *spec, uint64_t seed, uint
         "%s: n = %llu from first = %llu ends beyond the last point of all patterns, which has number %llu",
         spec->pattern->name, (unsigned long long)n, (unsigned long long)first, (unsigned long long)KOKSMA_MAX_INDEX);
     KOKSMA__FAIL_IF(
+        first && !j.ranges && koksma_is_sequence(spec), KOKSMA_UNSUPPORTED,
+        "%s: first = %llu: the sequence has no ranges, because it generates all points together; generate "
+        "%llu points and drop the first %llu",
+        spec->pattern->name, (unsigned long long)first, (unsigned long long)(first + n), (unsigned long long)first);
+    KOKSMA__FAIL_IF(
         first && !(j.ranges && spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE), KOKSMA_UNSUPPORTED,
         "%s: first = %llu: only sequences that have ranges accept this, such as sobol, halton and r-sequence",
         spec->pattern->name, (unsigned long long)first);

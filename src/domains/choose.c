@@ -16,7 +16,8 @@
  *
  * poisson-disk-maximal and dart-throwing (maximal.c), and gaussian-blue-noise (gaussian.c), work differently. With
  * order=progressive, patterns/shared/elimination.c orders the points that they have made. Each part of a domain has a
- * unit of distance; the distance of two points is measured in the smaller of their two units.
+ * unit of distance; the distance of two points is measured in the smaller of their two units. Where the pattern's d
+ * decides how many points there are, the method counts them.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -57,6 +58,7 @@ static double radius_of(const koksma__point_domain *domain, size_t n)
 typedef struct layout {
     double *xs, *units; /* units: NULL if all units of distance are 1 */
     uint32_t *order;
+    koksma__metric metric;
 } layout;
 
 static koksma_status layout_init(layout *l, const koksma__point_domain *domain, size_t n)
@@ -66,6 +68,7 @@ static koksma_status layout_init(layout *l, const koksma__point_domain *domain, 
     KOKSMA__REQUIRE_MEMORY(l->xs, bytes);
     l->units = domain->varies ? l->xs + n * dim : NULL;
     l->order = (uint32_t *)(l->xs + n * (dim + 1));
+    l->metric = (koksma__metric){l->units, domain->lengths, domain->torus};
     return KOKSMA_OK;
 }
 
@@ -90,9 +93,8 @@ static koksma_status order_progressively(const koksma__point_domain *domain, siz
         lay_out(&l, domain, i, &before[i]);
         status = koksma__look(run, i, 0);
     }
-    status = status ? status
-                    : koksma__progressive_order(n, domain->dim, l.xs, l.units, domain->torus, 2, d_max, d_min, run,
-                                                l.order);
+    status =
+        status ? status : koksma__progressive_order(n, domain->dim, l.xs, &l.metric, 2, d_max, d_min, run, l.order);
     for (size_t i = 0; i < n && !status; i++) {
         points[i] = before[l.order[i]];
     }
@@ -116,9 +118,9 @@ static koksma_status choose_from(const choice *c, size_t length, size_t factor, 
         lay_out(&l, domain, i, &point);
         status = koksma__look(c->run, i, 0);
     }
-    status = status ? status
-                    : koksma__eliminate_scaled(all, domain->dim, l.xs, l.units, domain->torus, length, d_max, d_min,
-                                               c->run, l.order);
+    status = status
+                 ? status
+                 : koksma__eliminate_scaled(all, domain->dim, l.xs, &l.metric, length, d_max, d_min, c->run, l.order);
     for (size_t i = 0; i < length && !status; i++) {
         domain->draw(domain->data, c->seed, l.order[i], &chosen[i]);
         status = koksma__look(c->run, i, 1);
@@ -214,8 +216,8 @@ static double squared_room(koksma__dart_grid *grid, const koksma__dart_query *q)
         double square = 0;
         for (size_t k = 0; k < dim; k++) {
             const double y = grid->xs[i * dim + k];
-            const double t = grid->torus ? koksma__torus_difference(y, q->x[k]) : q->x[k] - y;
-            square += t * t;
+            const double along = grid->torus ? koksma__torus_difference(y, q->x[k]) : q->x[k] - y;
+            square += grid->lengths[k] * along * (grid->lengths[k] * along);
         }
         least = fmin(least, square / (unit * unit));
     }
@@ -284,8 +286,25 @@ static const struct {
     {"gaussian-blue-noise", koksma__choose_gaussian, 3},
 };
 
+/* Makes the points of the task by method number i. If c->n is 0, the method finds their number. Allocates c->points. */
+static koksma_status choose_by(size_t i, koksma__choice *c)
+{
+    if (!c->n) {
+        KOKSMA__FAIL_IF(
+            strcmp(c->pattern->name, "poisson-disk-maximal") != 0 || !(c->params[0] > 0), KOKSMA_N,
+            "%s: the number of points is missing; only poisson-disk-maximal:d=D makes points %s without it",
+            c->pattern->name, c->domain->what);
+        KOKSMA__TRY(koksma__choose_by_distance(c));
+    } else {
+        c->points = malloc(c->n * sizeof *c->points);
+        KOKSMA__REQUIRE_MEMORY(c->points, c->n * sizeof *c->points);
+        KOKSMA__TRY(methods[i].choose(c));
+    }
+    return methods[i].order && c->params[methods[i].order] > 0 ? order_finished(c) : KOKSMA_OK;
+}
+
 koksma_status koksma__domain_choose(const koksma__point_domain *domain, const koksma_spec *spec, uint64_t seed,
-                                    size_t n, const koksma_run *run, koksma__domain_point *points)
+                                    const koksma_run *run, size_t *n, koksma__domain_point **points)
 {
     const koksma_pattern *p = spec->pattern;
     p = p && p->alias_of ? koksma_pattern_find(p->alias_of) : p;
@@ -298,9 +317,11 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
     }
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (!strcmp(methods[i].pattern, p->name)) {
-            const choice c = {domain, p, spec->params, seed, n, run, points};
-            KOKSMA__TRY(methods[i].choose(&c));
-            return methods[i].order && spec->params[methods[i].order] > 0 ? order_finished(&c) : KOKSMA_OK;
+            choice c = {domain, p, spec->params, seed, *n, run, NULL};
+            const koksma_status status = choose_by(i, &c);
+            *n = c.n;
+            *points = c.points;
+            return status;
         }
     }
     return koksma__fail(KOKSMA_UNSUPPORTED,

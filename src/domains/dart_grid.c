@@ -31,7 +31,9 @@ koksma_status koksma__dart_grid_init(koksma__dart_grid *g, const koksma__point_d
 {
     const size_t dim = (size_t)domain->dim;
     *g = (koksma__dart_grid){.dim = domain->dim, .torus = torus, .capacity = capacity, .side = 1};
-    const double most = fmin(pow((double)capacity, 1.0 / domain->dim), d > 0 ? 1 / d : 1);
+    memcpy(g->lengths, domain->lengths, sizeof g->lengths);
+    const double length = pow(g->lengths[0] * g->lengths[1] * (dim > 2 ? g->lengths[2] : 1), 1.0 / domain->dim);
+    const double most = fmin(pow((double)capacity, 1.0 / domain->dim), d > 0 ? length / d : 1);
     g->side = most > 1 ? (uint32_t)most : 1;
     const size_t bytes = capacity * ((dim + 1) * sizeof *g->xs + sizeof *g->next) + cells_of(g) * sizeof *g->head;
     g->xs = malloc(bytes);
@@ -81,12 +83,12 @@ static bool conflicts(const koksma__dart_grid *g, const koksma__dart_query *q, u
     double t[3];
     for (size_t k = 0; k < dim; k++) {
         const double y = g->xs[i * dim + k];
-        t[k] = g->torus ? koksma__torus_difference(y, q->x[k]) : q->x[k] - y;
+        t[k] = g->lengths[k] * (g->torus ? koksma__torus_difference(y, q->x[k]) : q->x[k] - y);
     }
     for (size_t c = 0; c < q->corners || (c == 0 && q->corners == 0); c++) {
         double square = 0;
         for (size_t k = 0; k < dim; k++) {
-            const double to = q->corners ? t[k] + q->offsets[c][k] : t[k];
+            const double to = q->corners ? t[k] + g->lengths[k] * q->offsets[c][k] : t[k];
             square += to * to;
         }
         if (!(square < d * d)) {
@@ -109,7 +111,7 @@ static bool meets(koksma__dart_grid *g, int k, size_t row, const koksma__dart_qu
         }
         return false;
     }
-    const size_t reach = (size_t)fmin(ceil(g->d * q->unit * (double)g->side), (double)g->side);
+    const size_t reach = (size_t)fmin(ceil(g->d * q->unit / g->lengths[k] * (double)g->side), (double)g->side);
     const size_t own = koksma__cell_along(q->x[k], g->side);
     size_t first = own > reach ? own - reach : 0, some = (own + reach < g->side ? own + reach + 1 : g->side) - first;
     if (g->torus) {

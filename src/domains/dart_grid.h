@@ -12,6 +12,7 @@ typedef struct koksma__dart_grid {
     double d;           /* smallest distance allowed where the unit is 1 */
     size_t n, capacity; /* number of points; capacity for points */
     double *xs, *units; /* positions and units of distance of the points */
+    double lengths[3];  /* as in domain.h */
     uint32_t *next, *head;
     uint32_t side; /* number of cells along an axis; about one cell for each point */
     size_t work;   /* since the last question whether to go on: cells that were visited and distances computed */

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * koksma_generate_density: points in the unit square whose density follows an image. A candidate is a uniform point
- * in a pixel that is drawn with probability proportional to its luminance, by bisection in the running sums of the
- * luminance. Where the luminance is p times its mean, there are n p points in a unit of area, whose distances are
- * proportional to 1 / sqrt p: the unit of distance there is 1 / sqrt p.
+ * koksma_generate_density and koksma_generate_rectangle: points in a rectangle, whose density may follow an image. A
+ * candidate is a uniform point in a pixel that is drawn with probability proportional to its luminance, by bisection in
+ * the running sums of the luminance. Where the luminance is p times its mean, distances are proportional to 1 / sqrt p:
+ * the unit of distance there is 1 / sqrt p. A rectangle without an image is one of equal pixels that are about square.
+ *
+ * Positions of choose.c are in [0,1)^2; `lengths` makes distances those of the rectangle, in units of its height.
  */
 #include <koksma/density.h>
 
@@ -20,6 +22,8 @@
 #include "image/image.h"
 
 typedef koksma__image_density density;
+
+enum { LONGEST = 10000 };
 
 static void draw(const void *data, uint64_t seed, uint64_t i, koksma__domain_point *point)
 {
@@ -62,27 +66,59 @@ static koksma_status sum_up(const koksma_image *map, density *m)
     return KOKSMA_OK;
 }
 
-koksma_status koksma_generate_density(const koksma_spec *spec, uint64_t seed, const koksma_image *map,
-                                      const koksma_run *run, koksma_points *out)
+/* Makes the pixels of a rectangle without an image. */
+static void make_even(density *m)
 {
-    KOKSMA__REQUIRE(spec, map, out);
-    KOKSMA__REQUIRE_RUN(run);
-    KOKSMA__FAIL_IF(!out->xs || !out->n, KOKSMA_ARGUMENT, "%s: it takes initialised points", __func__);
-    KOKSMA__FAIL_IF(out->dim != 2, KOKSMA_DIM, "points with a density are in 2 dimensions, not %d", out->dim);
-    KOKSMA__TRY(koksma__points_fit(out->n, 2));
-    KOKSMA__TRY(koksma_image_check_finite(map, "the density"));
-    density m = {(size_t)map->width, (size_t)map->height, NULL};
-    const size_t pixels = m.width * m.height, bytes = pixels * sizeof *m.sums + out->n * sizeof(koksma__domain_point);
-    m.sums = malloc(bytes);
-    KOKSMA__REQUIRE_MEMORY(m.sums, bytes);
-    koksma__domain_point *points = (koksma__domain_point *)(m.sums + pixels);
-    const koksma__point_domain domain = {.what = "with a density",
+    for (size_t i = 0; i < m->width * m->height; i++) {
+        m->sums[i] = (double)(i + 1);
+    }
+}
+
+/* Makes points of a rectangle and writes them to `out`, with the sides `scale`. */
+static koksma_status choose(const koksma__point_domain *domain, const koksma_spec *spec, uint64_t seed,
+                            const double scale[2], const koksma_run *run, koksma_points *out)
+{
+    size_t n = out->n;
+    koksma__domain_point *points = NULL;
+    koksma_status status = koksma__domain_choose(domain, spec, seed, run, &n, &points);
+    if (!status && !out->n) {
+        status = koksma_points_init(out, n, 2);
+    }
+    for (size_t i = 0; i < out->n && !status; i++) {
+        double *x = out->xs + 2 * i;
+        place(domain->data, &points[i], x);
+        x[0] *= scale[0];
+        x[1] *= scale[1];
+    }
+    free(points);
+    return status;
+}
+
+/* Makes points in a rectangle of the sides `size`, with the density `map`, which may be NULL. The coordinates are written
+   in units of the sides over `scale`. */
+static koksma_status generate(const koksma_spec *spec, uint64_t seed, const double size[2], const koksma_image *map,
+                              const double scale[2], const koksma_run *run, koksma_points *out)
+{
+    const double ratio = size[0] / size[1];
+    density m = {1, 1, NULL};
+    if (map) {
+        m.width = (size_t)map->width;
+        m.height = (size_t)map->height;
+    } else {
+        m.width = (size_t)fmax(round(ratio), 1);
+        m.height = (size_t)fmax(round(1 / ratio), 1);
+    }
+    const size_t pixels = m.width * m.height;
+    m.sums = malloc(pixels * sizeof *m.sums);
+    KOKSMA__REQUIRE_MEMORY(m.sums, pixels * sizeof *m.sums);
+    const koksma__point_domain domain = {.what = map ? "with a density" : "in a rectangle",
                                          .dim = 2,
+                                         .lengths = {ratio, 1, 1},
                                          .corners = 4,
                                          .torus = true,
-                                         .varies = true,
-                                         .area = 1,
-                                         .unit = 1,
+                                         .varies = map != NULL,
+                                         .area = ratio,
+                                         .unit = 1 / size[1],
                                          .n_parts = pixels,
                                          .data = &m,
                                          .draw = draw,
@@ -90,11 +126,50 @@ koksma_status koksma_generate_density(const koksma_spec *spec, uint64_t seed, co
                                          .share = share,
                                          .unit_of = unit_of,
                                          .open_field = koksma__density_field_open};
-    koksma_status status = sum_up(map, &m);
-    status = status ? status : koksma__domain_choose(&domain, spec, seed, out->n, run, points);
-    for (size_t i = 0; i < out->n && !status; i++) {
-        place(&m, &points[i], out->xs + 2 * i);
+    koksma_status status = KOKSMA_OK;
+    if (map) {
+        status = sum_up(map, &m);
+    } else {
+        make_even(&m);
     }
+    status = status ? status : choose(&domain, spec, seed, scale, run, out);
     free(m.sums);
     return status;
+}
+
+/* Checks where the points are to be written: n points in 2 dimensions, or none, for a set whose d decides. */
+static koksma_status check_points(const char *caller, const koksma_points *out)
+{
+    KOKSMA__FAIL_IF(!out->xs != !out->n, KOKSMA_ARGUMENT, "%s: it takes initialised points, or n = 0 and xs = NULL",
+                    caller);
+    KOKSMA__FAIL_IF(out->dim != 2, KOKSMA_DIM, "points in a rectangle or with a density are in 2 dimensions, not %d",
+                    out->dim);
+    return out->n ? koksma__points_fit(out->n, 2) : KOKSMA_OK;
+}
+
+koksma_status koksma_generate_density(const koksma_spec *spec, uint64_t seed, const koksma_image *map,
+                                      const koksma_run *run, koksma_points *out)
+{
+    KOKSMA__REQUIRE(spec, map, out);
+    KOKSMA__REQUIRE_RUN(run);
+    KOKSMA__TRY(check_points(__func__, out));
+    KOKSMA__TRY(koksma_image_check_finite(map, "the density"));
+    const double size[2] = {(double)map->width / (double)map->height, 1}, scale[2] = {1, 1};
+    return generate(spec, seed, size, map, scale, run, out);
+}
+
+koksma_status koksma_generate_rectangle(const koksma_spec *spec, uint64_t seed, double width, double height,
+                                        const koksma_image *map, const koksma_run *run, koksma_points *out)
+{
+    KOKSMA__REQUIRE(spec, out);
+    KOKSMA__REQUIRE_RUN(run);
+    KOKSMA__TRY(check_points(__func__, out));
+    const double least = fmin(width, height), most = fmax(width, height);
+    KOKSMA__FAIL_IF(!(width > 0 && height > 0 && least >= 1e-100 && most <= 1e100 && most <= LONGEST * least),
+                    KOKSMA_ARGUMENT,
+                    "a rectangle of %g x %g: width and height are above 0, and one is at most %d times the other", width,
+                    height, LONGEST);
+    KOKSMA__TRY(map ? koksma_image_check_finite(map, "the density") : KOKSMA_OK);
+    const double size[2] = {width, height};
+    return generate(spec, seed, size, map, size, run, out);
 }

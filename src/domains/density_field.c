@@ -17,11 +17,12 @@
 #include "core/torus.h"
 #include "domains/image_density.h"
 
-enum { DEEPEST = 26, LEAST_POINTS = 4 };
+enum { DEEPEST = 26, LEAST_POINTS = 4, ROOTS = 8 };
 
 typedef struct density_field {
     const koksma__image_density *m;
-    double *table; /* (height + 1) rows of width + 1: number of points left of and below each pixel corner */
+    const double *lengths; /* of the axes (domain.h); other positions and sides here are coordinates in [0,1) */
+    double *table;         /* (height + 1) rows of width + 1: number of points left of and below each pixel corner */
     double n, sigma;
     size_t capacity;
     koksma__field *field;
@@ -52,17 +53,25 @@ static double points_in(const density_field *f, double x0, double y0, double x1,
     return fmax(repeated(f, x1, y1) - repeated(f, x0, y1) - repeated(f, x1, y0) + repeated(f, x0, y0), 0);
 }
 
+/* Returns the number of points in the square about x whose half side measures h. */
+static double points_about(const density_field *f, const double *x, double h)
+{
+    const double a = h / f->lengths[0], b = h / f->lengths[1];
+    return points_in(f, x[0] - a, x[1] - b, x[0] + a, x[1] + b);
+}
+
 static double width(const void *data, const double *x)
 {
     const density_field *f = data;
     if (f->n <= LEAST_POINTS) {
-        return f->sigma / sqrt(f->n);
+        return f->sigma * sqrt(f->lengths[0] * f->lengths[1] / f->n);
     }
     const double root = sqrt(LEAST_POINTS);
-    double low = 0, high = 0.5, at_low = -root, at_high = sqrt(f->n) - root, h = high;
+    double low = 0, high = 0.5 * fmax(f->lengths[0], f->lengths[1]), at_low = -root, h = high;
+    double at_high = sqrt(points_about(f, x, high)) - root;
     for (int i = 0, last = 0; i < 60 && high - low > 1e-6 * high; i++) {
         h = (low * at_high - high * at_low) / (at_high - at_low);
-        const double value = sqrt(points_in(f, x[0] - h, x[1] - h, x[0] + h, x[1] + h)) - root;
+        const double value = sqrt(points_about(f, x, h)) - root;
         if (fabs(value) < 1e-6) {
             break;
         }
@@ -116,41 +125,70 @@ static void close_field(void *data)
     free(f);
 }
 
-/* Adds the node of a square of the quadtree. */
-static koksma_status add_node(density_field *f, const double low[2], double side, double mass, double s)
+/* Adds the node of a box of the quadtree. */
+static koksma_status add_node(density_field *f, const double low[2], const double side[2], double mass, double s)
 {
     KOKSMA__TRY(koksma__look(f->run, f->field->n_nodes, 0));
-    koksma__field_node node = {.mass = mass, .square = s * s + side * side / 6};
-    const double part = side / 4;
+    const double u = side[0] * f->lengths[0], v = side[1] * f->lengths[1];
+    koksma__field_node node = {.mass = mass, .square = s * s + (u * u + v * v) / 12};
+    const double part[2] = {side[0] / 4, side[1] / 4};
     double sum = 0;
     for (int i = 0; i < 16; i++) {
-        const double x = low[0] + part * (i % 4), y = low[1] + part * (double)(i / 4);
-        const double points = points_in(f, x, y, x + part, y + part);
+        const double x = low[0] + part[0] * (i % 4), y = low[1] + part[1] * (double)(i / 4);
+        const double points = points_in(f, x, y, x + part[0], y + part[1]);
         sum += points;
-        node.x[0] += points * (x + part / 2);
-        node.x[1] += points * (y + part / 2);
+        node.x[0] += points * (x + part[0] / 2);
+        node.x[1] += points * (y + part[1] / 2);
     }
     for (int k = 0; k < 2; k++) {
-        node.x[k] = sum > 0 ? node.x[k] / sum : low[k] + side / 2;
+        node.x[k] = sum > 0 ? node.x[k] / sum : low[k] + side[k] / 2;
         node.x[k] = fmin(node.x[k], 1 - 0x1p-53);
     }
     return koksma__field_add(f->field, &f->capacity, node);
 }
 
-static koksma_status add_square(density_field *f, const double low[2], double side, int depth)
+static koksma_status add_box(density_field *f, const double low[2], const double side[2], int depth)
 {
-    const double centre[2] = {low[0] + side / 2, low[1] + side / 2};
-    const double mass = points_in(f, low[0], low[1], low[0] + side, low[1] + side);
+    const double half[2] = {side[0] / 2, side[1] / 2}, centre[2] = {low[0] + half[0], low[1] + half[1]};
+    const double mass = points_in(f, low[0], low[1], low[0] + side[0], low[1] + side[1]);
     if (!(mass > 0)) {
         return KOKSMA_OK;
     }
     const double s = width(f, centre);
-    if (side <= KOKSMA__NODE_WIDTHS * s || depth == DEEPEST) {
+    const double longer = fmax(side[0] * f->lengths[0], side[1] * f->lengths[1]);
+    if (longer <= KOKSMA__NODE_WIDTHS * s || depth == DEEPEST) {
         return add_node(f, low, side, mass, s);
     }
     for (int quarter = 0; quarter < 4; quarter++) {
         const double corner[2] = {quarter & 1 ? centre[0] : low[0], quarter & 2 ? centre[1] : low[1]};
-        KOKSMA__TRY(add_square(f, corner, side / 2, depth + 1));
+        KOKSMA__TRY(add_box(f, corner, half, depth + 1));
+    }
+    return KOKSMA_OK;
+}
+
+/* Covers the rectangle by quadtrees whose boxes are as near to squares as up to ROOTS of them along the shorter side
+   allow: the variance of a node is the same along both axes. */
+static koksma_status add_boxes(density_field *f)
+{
+    const int longer = f->lengths[1] > f->lengths[0];
+    const double ratio = f->lengths[longer] / f->lengths[!longer];
+    int best = 1;
+    double off = INFINITY;
+    for (int rows = 1; rows <= ROOTS; rows++) {
+        const double found = fabs(log(round(ratio * rows) / rows / ratio));
+        best = found < off ? rows : best;
+        off = fmin(found, off);
+    }
+    double side[2], low[2];
+    const int across = (int)round(ratio * best);
+    side[longer] = 1.0 / across;
+    side[!longer] = 1.0 / best;
+    for (int i = 0; i < across; i++) {
+        for (int j = 0; j < best; j++) {
+            low[longer] = i * side[longer];
+            low[!longer] = j * side[!longer];
+            KOKSMA__TRY(add_box(f, low, side, 0));
+        }
     }
     return KOKSMA_OK;
 }
@@ -181,10 +219,15 @@ koksma_status koksma__density_field_open(const koksma__point_domain *domain, siz
     const size_t bytes = (m->width + 1) * (m->height + 1) * sizeof(double);
     density_field *f = malloc(sizeof *f);
     KOKSMA__REQUIRE_MEMORY(f, sizeof *f);
-    *f = (density_field){.m = m, .table = malloc(bytes), .n = (double)n, .sigma = sigma, .field = field, .run = run};
+    *f = (density_field){.m = m,
+                         .lengths = domain->lengths,
+                         .table = malloc(bytes),
+                         .n = (double)n,
+                         .sigma = sigma,
+                         .field = field,
+                         .run = run};
     *field = (koksma__field){.data = f, .width = width, .settle = settle, .along = along, .close = close_field};
     KOKSMA__REQUIRE_MEMORY(f->table, bytes); /* the caller closes the field, also after an error */
     sum_up(f);
-    const double origin[2] = {0, 0};
-    return add_square(f, origin, 1, 0);
+    return add_boxes(f);
 }

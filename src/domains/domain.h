@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Domains of points other than the uniform unit cube: a square with a density, or the surface of a model. A domain
+/* Domains of points other than the uniform unit cube: a rectangle, which may have a density, or the surface of a model. A domain
    consists of parts (the pixels of the density or the triangles of the model), each with its own coordinates. choose.c
    makes points on a domain with the methods of patterns. */
 #ifndef KOKSMA_DOMAINS_DOMAIN_H
@@ -19,10 +19,11 @@ struct koksma__field;
 typedef struct koksma__point_domain {
     const char *what;   /* for messages: "with a density" */
     int dim;            /* number of coordinates of a position; they are in [0,1) */
+    double lengths[3];  /* what a coordinate of 1 measures along each axis */
     int corners;        /* number of corners of a part: 4 or 3 */
     bool torus, varies; /* varies: the density is not constant */
-    double area;        /* area of the domain, in the coordinates of positions */
-    double unit;        /* the length, in these coordinates, that a pattern's d=1 stands for */
+    double area;        /* area of the domain, in the measure of `lengths` */
+    double unit;        /* the length, in this measure, that a pattern's d=1 stands for */
     size_t n_parts;
     const void *data; /* argument of the functions below */
     /* Makes candidate i. Candidates are independent and have the density of the domain. */

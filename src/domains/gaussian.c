@@ -12,7 +12,7 @@
  *
  * which is minus the gradient of the energy, times pi s_i^4. The density attracts points in the same way: it is a sum
  * over nodes (field.h), which act like points with negative masses. Where the density is constant, all widths are
- * sigma / sqrt n, the attraction cancels out, and the forces are those of the pattern on the torus
+ * sigma sqrt(area / n), the attraction cancels out, and the forces are those of the pattern on the torus
  * (patterns/gaussian_blue_noise.c); its parameters are also those of this method.
  *
  * The widths of the moving points are computed anew in each of the first 128 steps, which have little momentum, and
@@ -77,7 +77,7 @@ static void move_point(descent *d, size_t i, double force[3])
     d->field.along(d->field.data, &d->c->points[i], force);
     for (size_t k = 0; k < dim; k++) {
         square += force[k] * force[k];
-        to[k] = x[k] + d->momentum * move[k] + d->step * force[k];
+        to[k] = x[k] + d->momentum * move[k] + d->step * force[k] / d->domain->lengths[k];
     }
     d->squares[i] = square / (d->widths[i] * d->widths[i]);
     const double before[3] = {x[0], x[1], dim > 2 ? x[2] : 0};
@@ -146,7 +146,7 @@ static koksma_status start(descent *d)
     const size_t sources = d->field.n_nodes + n, bytes = n * (2 * dim + 2) * sizeof *d->xs;
     KOKSMA__FAIL_IF(sources >= UINT32_MAX, KOKSMA_N, "gaussian-blue-noise: n = %zu is too large %s", n,
                     d->domain->what);
-    KOKSMA__TRY(koksma__source_tree_init(&d->tree, d->domain->dim, d->domain->torus, sources));
+    KOKSMA__TRY(koksma__source_tree_init(&d->tree, d->domain, sources));
     d->xs = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(d->xs, bytes);
     d->moves = d->xs + n * dim;

@@ -231,7 +231,7 @@ static koksma_status by_distance(maximal *m)
                     m->c->params[0], m->grid.n - 1, m->c->domain->what, n);
     KOKSMA__FAIL_IF(
         m->grid.n != n, KOKSMA_N,
-        "poisson-disk-maximal: d=%g with this seed has %zu points %s, not %zu; n = %zu, or no d, would do",
+        "poisson-disk-maximal: d=%g with this seed has %zu points %s, not %zu; n = %zu, or no n, or no d, would do",
         m->c->params[0], m->grid.n, m->c->domain->what, n, m->grid.n);
     return KOKSMA_OK;
 }
@@ -259,8 +259,10 @@ static koksma_status by_fraction(maximal *m)
                         m->c->params[0], most, n, m->c->domain->what);
 }
 
-/* Makes the points of the task c by a method; d is the initial distance, for which the grid's cells are sized. */
-static koksma_status choose(const koksma__choice *c, size_t capacity, double d, koksma_status (*method)(maximal *m))
+/* Makes at most `capacity` points of the task c by a method, and stores their number; d is the initial distance, for which
+   the grid's cells are sized. */
+static koksma_status choose(const koksma__choice *c, size_t capacity, double d, koksma_status (*method)(maximal *m),
+                            size_t *n)
 {
     maximal m = {.c = c};
     koksma_status status = koksma__dart_grid_init(&m.grid, c->domain, c->domain->torus, capacity, d);
@@ -270,22 +272,52 @@ static koksma_status choose(const koksma__choice *c, size_t capacity, double d, 
     }
     status = status ? status : method(&m);
     if (!status) {
-        memcpy(c->points, m.points, c->n * sizeof *c->points);
+        *n = m.grid.n;
+        memcpy(c->points, m.points, *n * sizeof *c->points);
     }
     koksma__dart_grid_fini(&m.grid);
     KOKSMA__FREE(m.points, m.pieces, m.sums);
     return status;
 }
 
+static koksma_status by_distance_alone(maximal *m)
+{
+    m->seed = m->c->seed;
+    return fill(m, m->grid.capacity);
+}
+
+/* How many points a distance gives is known after the darts: a set that has filled its capacity, twice the expected
+   number, is made again with more, by the same darts. */
+koksma_status koksma__choose_by_distance(koksma__choice *c)
+{
+    const double d = c->params[0] * c->domain->unit, most = KOKSMA_MAX_COORDINATES / 3;
+    for (double capacity = 2 * PER_AREA * c->domain->area / d / d + 64; capacity <= 2 * most; capacity *= 2) {
+        c->n = (size_t)fmin(capacity, most);
+        c->points = malloc(c->n * sizeof *c->points);
+        KOKSMA__REQUIRE_MEMORY(c->points, c->n * sizeof *c->points);
+        const size_t room = c->n;
+        KOKSMA__TRY(choose(c, room, d, by_distance_alone, &c->n));
+        if (c->n < room) {
+            return KOKSMA_OK;
+        }
+        KOKSMA__FREE(c->points);
+        c->points = NULL;
+    }
+    return koksma__fail(KOKSMA_N, "poisson-disk-maximal: d=%g gives more than %.2g points %s; a larger d would do",
+                        c->params[0], most, c->domain->what);
+}
+
 koksma_status koksma__choose_maximal(const koksma__choice *c)
 {
     const double d = c->params[0] * c->domain->unit;
+    size_t n; /* c->n, or the method has failed */
     return choose(c, 4 * c->n + 1024, d > 0 ? d : sqrt(PER_AREA * c->domain->area / (double)c->n),
-                  d > 0 ? by_distance : by_number);
+                  d > 0 ? by_distance : by_number, &n);
 }
 
 koksma_status koksma__choose_fraction(const koksma__choice *c)
 {
     const double densest = koksma__packing_distance(c->n, 2, true) * sqrt(c->domain->area);
-    return choose(c, c->n, c->params[0] * densest, by_fraction);
+    size_t n; /* c->n, or the method has failed */
+    return choose(c, c->n, c->params[0] * densest, by_fraction, &n);
 }

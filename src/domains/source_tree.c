@@ -32,12 +32,13 @@ enum { RUNS = 128, GAP = 8 };
 #define CUT2 12.0
 #define AT_CUT 0x1.9c54c3b43bc8bp-18 /* exp(-CUT2) */
 
-koksma_status koksma__source_tree_init(koksma__source_tree *t, int dim, bool torus, size_t n)
+koksma_status koksma__source_tree_init(koksma__source_tree *t, const koksma__point_domain *domain, size_t n)
 {
     const size_t length = n + PADDING; /* the kernel reads beyond the last source */
     const size_t bytes =
         5 * length * sizeof(double) + n * (2 * sizeof *t->keys + 2 * sizeof *t->order) + sizeof *t->order;
-    *t = (koksma__source_tree){.dim = dim, .torus = torus, .n = n};
+    *t = (koksma__source_tree){.dim = domain->dim, .torus = domain->torus, .n = n};
+    memcpy(t->lengths, domain->lengths, sizeof t->lengths);
     t->columns[0] = calloc(1, bytes);
     KOKSMA__REQUIRE_MEMORY(t->columns[0], bytes);
     for (int c = 1; c < 5; c++) {
@@ -191,7 +192,7 @@ koksma_status koksma__source_tree_build(koksma__source_tree *t,
         t->order[i] = (uint32_t)t->keys[i];
         const koksma__field_node node = source(context, t->order[i]);
         for (int k = 0; k < 3; k++) {
-            t->columns[k][i] = k < t->dim ? node.x[k] : 0;
+            t->columns[k][i] = k < t->dim ? node.x[k] * t->lengths[k] : 0;
         }
         t->columns[3][i] = node.square;
         t->columns[4][i] = node.mass;
@@ -303,11 +304,14 @@ void koksma__source_forces(const koksma__source_tree *t, size_t group, size_t fi
     walk w = {.t = t, .start = t->groups[group], .force = force};
     gather(&w, group, first);
     const double reach = sqrt(CUT2 * (w.square + t->boxes[0].square));
-    const int images = t->torus ? (int)ceil(fmax(reach, 0.5) - 0.5) + 1 : 0;
-    for (int i = -images; i <= images && w.count; i++) {
-        for (int j = -images; j <= images; j++) {
-            w.offset[0] = i;
-            w.offset[1] = j;
+    int images[2];
+    for (int k = 0; k < 2; k++) {
+        images[k] = t->torus ? (int)ceil(fmax(reach / t->lengths[k], 0.5) - 0.5) + 1 : 0;
+    }
+    for (int i = -images[0]; i <= images[0] && w.count; i++) {
+        for (int j = -images[1]; j <= images[1]; j++) {
+            w.offset[0] = i * t->lengths[0];
+            w.offset[1] = j * t->lengths[1];
             for (int k = 0; k < 3; k++) {
                 w.from[k] = w.low[k] + w.offset[k];
                 w.to[k] = w.high[k] + w.offset[k];

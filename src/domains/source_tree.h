@@ -16,6 +16,7 @@ typedef struct koksma__source_box {
 typedef struct koksma__source_tree {
     int dim;
     bool torus;
+    double lengths[3]; /* of the axes, as in domain.h; columns, boxes and forces are in their measure */
     size_t n, n_boxes, capacity, n_groups; /* capacity: of the array of boxes */
     double *columns[5]; /* three coordinates, squared width and mass of each sorted source; negative masses attract */
     uint32_t *order;    /* number of each sorted source before sorting */
@@ -27,7 +28,7 @@ typedef struct koksma__source_tree {
 /* The maximum number of sources in a group. */
 enum { KOKSMA__SOURCE_GROUP = 32 };
 
-koksma_status koksma__source_tree_init(koksma__source_tree *tree, int dim, bool torus, size_t n);
+koksma_status koksma__source_tree_init(koksma__source_tree *tree, const koksma__point_domain *domain, size_t n);
 void koksma__source_tree_fini(koksma__source_tree *tree);
 
 /* Sorts the n sources that `source(context, i)` gives for i = 0, 1, ..., and builds the boxes. Errors: MEMORY,

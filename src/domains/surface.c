@@ -117,11 +117,10 @@ static void write_points(const surface *s, const koksma__domain_point *points, k
 static koksma_status choose(surface *s, const koksma_spec *spec, uint64_t seed, const koksma_run *run,
                             koksma_points *out)
 {
-    const size_t n = s->mesh.n_triangles, bytes = n * sizeof *s->sums + out->n * sizeof(koksma__domain_point);
+    const size_t n = s->mesh.n_triangles;
     double area = 0;
-    s->sums = malloc(bytes);
-    KOKSMA__REQUIRE_MEMORY(s->sums, bytes);
-    koksma__domain_point *points = (koksma__domain_point *)(s->sums + n);
+    s->sums = malloc(n * sizeof *s->sums);
+    KOKSMA__REQUIRE_MEMORY(s->sums, n * sizeof *s->sums);
     for (size_t t = 0; t < n; t++) {
         const triangle a = triangle_of(&s->mesh, t);
         s->sums[t] = area += 0.5 * length(a.normal);
@@ -132,6 +131,7 @@ static koksma_status choose(surface *s, const koksma_spec *spec, uint64_t seed, 
     const koksma__point_domain domain = {.what = "on a model",
                                          .dim = 3,
                                          .corners = 3,
+                                         .lengths = {1, 1, 1},
                                          .area = area / s->side / s->side,
                                          .unit = 1 / s->side,
                                          .n_parts = n,
@@ -141,10 +141,16 @@ static koksma_status choose(surface *s, const koksma_spec *spec, uint64_t seed, 
                                          .share = share,
                                          .unit_of = unit_of,
                                          .open_field = koksma__surface_field_open};
-    const koksma_status status = koksma__domain_choose(&domain, spec, seed, out->n, run, points);
+    size_t count = out->n;
+    koksma__domain_point *points = NULL;
+    koksma_status status = koksma__domain_choose(&domain, spec, seed, run, &count, &points);
+    if (!status && !out->n) {
+        status = koksma_points_init(out, count, out->dim);
+    }
     if (!status) {
         write_points(s, points, out);
     }
+    free(points);
     free(s->sums);
     return status;
 }
@@ -154,11 +160,12 @@ koksma_status koksma_generate_on(const koksma_spec *spec, uint64_t seed, const c
 {
     KOKSMA__REQUIRE(spec, path, out);
     KOKSMA__REQUIRE_RUN(run);
-    KOKSMA__FAIL_IF(!out->xs || !out->n, KOKSMA_ARGUMENT, "%s: it takes initialised points", __func__);
+    KOKSMA__FAIL_IF(!out->xs != !out->n, KOKSMA_ARGUMENT, "%s: it takes initialised points, or n = 0 and xs = NULL",
+                    __func__);
     KOKSMA__FAIL_IF(
         out->dim != 3 && out->dim != 6 && out->dim != 7, KOKSMA_DIM,
         "points on a model have dim = 3, or 6 with their normal, or 7 with their triangle as well; not %d", out->dim);
-    KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
+    KOKSMA__TRY(out->n ? koksma__points_fit(out->n, out->dim) : KOKSMA_OK);
     surface s = {.warp = koksma_warp_find("triangle")};
     koksma_status status = koksma__mesh_read(path, KOKSMA__BY_USER, NULL, &s.mesh);
     status = status ? status : choose(&s, spec, seed, run, out);

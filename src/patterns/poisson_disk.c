@@ -159,7 +159,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"d", "smallest distance between two points", 0.1, 0, 8, NULL, false},
+    {"d", "smallest distance between two points", 0.1, 0, 1e9, NULL, false},
     {"torus", "1: measure distances on the torus; 0: in the cube, where points crowd at the sides", 0, 0, 1, NULL,
      true},
     {0},

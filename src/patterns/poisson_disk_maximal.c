@@ -217,7 +217,7 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
 static const char *const orders[] = {"plain", "progressive", NULL};
 
 static const koksma_param params[] = {
-    {"d", "smallest distance; 0: the distance that gives n points", 0, 0, 8, NULL, false},
+    {"d", "smallest distance; 0: the distance that gives n points", 0, 0, 1e9, NULL, false},
     {"order", "order of the points: plain, or progressive (every prefix is blue noise, too)", 0, 0, 1, orders, true},
     {0},
 };

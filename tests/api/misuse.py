@@ -67,6 +67,8 @@ VALID = {
     "koksma_spectrum_fini.spectrum": "a_zero(sizeof(koksma_spectrum))",
     "koksma_spectrum_power.kx": "1", "koksma_spectrum_power.ky": "1", "koksma_pair_correlation.bins": "16",
     "koksma_generate_density.spec": "a_pattern(\"sample-elimination\")", "koksma_generate_on.spec": "a_pattern(\"sample-elimination\")",
+    "koksma_generate_rectangle.spec": "a_pattern(\"sample-elimination\")", "koksma_generate_rectangle.width": "4",
+    "koksma_generate_rectangle.height": "1",
     "koksma_generate_on.path": "work_path(\"in.off\")", "koksma_generate_on.out": "points_in_space()",
     "koksma_warp_find.name": "\"triangle\"", "koksma_warp_points.out": "a_buffer(sizeof(koksma_points))", "koksma_warp_evaluate.measure": "a_measure(\"edge\")",
     "koksma_plot_format_of.path": "\"a.svg\"", "koksma_plot_panels.n": "2", "koksma_plot_panels.size": "64", "koksma_plot_strata.n": "1",
@@ -153,7 +155,7 @@ ALLOWED = [
     r"\w+ \w+->path = .*(l2-disk|edge).*", r"\w+ \w+->params.* = 0 .*", r"\w+ \w+->params.*file:.*",
     r"koksma_integral_of_function function->(name = \"[/%n]|max_dim = INT_MAX).*", r"koksma_integral_sensitivity samples = 0.*",
     r"koksma_integration_summary (value|variance|estimates|options->sizes).*",
-    r"koksma_generate_(range|write) first = 0.*", r"koksma_generate_range n = UINT64_MAX.*", # of a sequence n is unused
+    r"koksma_generate_(range|write) first = 0.*", r"koksma_generate_rectangle (map = NULL|(width|height) = (2|5)) .*", r"koksma_generate_range n = UINT64_MAX.*", # of a sequence n is unused
     r"koksma_generate_whole dim = 0 .*", r"koksma_local_discrepancy x\[0\] = 0 .*", r"\w+ n_sizes = 0 .*",
     r"koksma_warp_evaluate measure->params.*", r"\w+ (options->witness->|panels->scatter\.)(dim|count|columns|rows) = .*",
     r"koksma_plot_panels panels->spectrum = NULL .*", r"\w+ chart->curves->(xs|ys|errors|colour).*(\d|NAN|X|INFINITY|2 \+ 1) a_chart.*",

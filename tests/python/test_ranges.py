@@ -315,6 +315,8 @@ class Ranges(unittest.TestCase):
         for spec in ("n-rooks", "hammersley", "best-candidate", "halton:scramble=owen", "file:x"):
             with self.assertRaisesRegex(koksma.ArgumentError, "^" + spec + ": first needs a sequence that has ranges"):
                 generate(spec, 3, 2, first=1)
+        with self.assertRaisesRegex(koksma.ArgumentError, r"generate\(\.\.\., 4\)\[1:\] has these points"):
+            generate("best-candidate", 3, 2, first=1)
 
     def test_engine(self):
         for spec in ("sobol:scramble=owen", "halton", "random", "r-sequence:shift=1"):

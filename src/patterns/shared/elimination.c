@@ -54,6 +54,7 @@ typedef struct elimination {
     double d_max, d_min;
     bool plain;             /* true: distances are measured in the cube, not on the torus */
     double *scale;          /* each renumbered point's own unit of distance; NULL: all are 1 */
+    const double *lengths;  /* what a coordinate of 1 measures along each axis; NULL: 1 */
     bool all_images;        /* true: all images of a point contribute, not only the nearest */
     double *xs;             /* coordinates of the renumbered points */
     uint32_t *origin;       /* the original number of a point */
@@ -123,7 +124,7 @@ static void sink(elimination *e, size_t at)
 
 /* Chooses the number of cells on a side: as many as d_max allows, but no more cells than points. If scaled, d_max
    does not limit this number, because the distances within which points are neighbours then differ from point to
-   point. Returns the number of cells. */
+   point, or from axis to axis. Returns the number of cells. */
 static size_t size_cells(elimination *e, bool scaled)
 {
     e->grid_dims = e->dim < GRID_DIMS ? e->dim : GRID_DIMS;
@@ -230,7 +231,8 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
         const double limit2 = d_max2 * (unit * unit);
         double square = 0;
         for (size_t k = 0; k < dim && square < limit2; k++) {
-            const double t = e->plain ? y[k] - x[k] : koksma__torus_difference(x[k], y[k]);
+            const double along = e->plain ? y[k] - x[k] : koksma__torus_difference(x[k], y[k]);
+            const double t = e->lengths ? along * e->lengths[k] : along;
             square += t * t;
             if (e->all_images) {
                 across[k] = t;
@@ -252,12 +254,14 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
     }
 }
 
-/* Returns how many cells away, along each axis, the neighbours of a point can be. With e->scale, two points are
+/* Returns how many cells away, along axis k, the neighbours of a point can be. With e->scale, two points are
    neighbours if they are nearer than d_max times the smaller of their units, so a point with a larger unit can have
    neighbours farther away. */
-static size_t reach_of(const elimination *e, uint32_t point)
+static size_t reach_of(const elimination *e, uint32_t point, int k)
 {
-    return e->scale ? (size_t)fmin(ceil(e->d_max * e->scale[point] * (double)e->cells), (double)e->cells) : e->reach;
+    const double unit = e->scale ? e->scale[point] : 1, length = e->lengths ? e->lengths[k] : 1;
+    return e->scale || e->lengths ? (size_t)fmin(ceil(e->d_max * unit / length * (double)e->cells), (double)e->cells)
+                                  : e->reach;
 }
 
 /* Calls weigh_cell for each cell that can contain neighbours of `point`, by recursion over the dimensions. */
@@ -268,7 +272,7 @@ static void weigh_from(elimination *e, int k, size_t row, uint32_t point, bool r
         return;
     }
     const size_t own = koksma__cell_along(e->xs[(size_t)point * (size_t)e->dim + (size_t)k], e->cells);
-    const size_t reach = reach_of(e, point), some = 2 * reach + 1 < e->cells ? 2 * reach + 1 : e->cells;
+    const size_t reach = reach_of(e, point, k), some = 2 * reach + 1 < e->cells ? 2 * reach + 1 : e->cells;
     size_t cell = some < e->cells ? (own + e->cells - reach) % e->cells : 0;
     for (size_t i = 0; i < some; i++) {
         weigh_from(e, k + 1, row * e->cells + cell, point, relieve);
@@ -333,16 +337,21 @@ static void list_kept(const elimination *e, uint32_t *order)
 koksma_status koksma__eliminate(size_t count, int dim, const double *points, size_t keep, double d_max, double d_min,
                                 const koksma_run *run, uint32_t *order)
 {
-    return koksma__eliminate_scaled(count, dim, points, NULL, true, keep, d_max, d_min, run, order);
+    const koksma__metric unit = {.torus = true};
+    return koksma__eliminate_scaled(count, dim, points, &unit, keep, d_max, d_min, run, order);
 }
 
-koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *points, const double *scale, bool torus,
+koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *points, const koksma__metric *metric,
                                        size_t keep, double d_max, double d_min, const koksma_run *run,
                                        uint32_t *order)
 {
-    elimination e = {.dim = dim, .all = count, .keep = keep, .d_max = d_max, .d_min = d_min, .plain = !torus};
-    e.all_images = !scale && torus && dim >= MIN_IMAGE_DIMS && dim <= MAX_IMAGE_DIMS && d_max > 0.5;
-    const size_t cells = size_cells(&e, scale != NULL), words = 4 * count + 2 * cells;
+    elimination e = {.dim = dim, .all = count, .keep = keep, .d_max = d_max, .d_min = d_min};
+    const double *scale = metric->units;
+    e.plain = !metric->torus;
+    e.lengths = metric->lengths;
+    e.all_images =
+        !scale && !e.lengths && metric->torus && dim >= MIN_IMAGE_DIMS && dim <= MAX_IMAGE_DIMS && d_max > 0.5;
+    const size_t cells = size_cells(&e, scale || e.lengths), words = 4 * count + 2 * cells;
     const size_t numbers = (size_t)dim + (scale ? 1 : 0);
     const size_t bytes = count * (numbers * sizeof *e.xs + sizeof *e.heap) + words * sizeof *e.members;
     e.xs = malloc(bytes);
@@ -375,7 +384,7 @@ static void pick(size_t n, size_t dim, const double *from, const uint32_t *order
 
 /* Each halving has a d_max that grows with the volume available to each point. d_min is always that of the whole set, as
    in Yuksel's implementation. */
-koksma_status koksma__progressive_order(size_t count, int dim, const double *points, const double *scale, bool torus,
+koksma_status koksma__progressive_order(size_t count, int dim, const double *points, const koksma__metric *metric,
                                         int volume_dim, double d_max, double d_min, const koksma_run *run,
                                         uint32_t *order)
 {
@@ -385,6 +394,8 @@ koksma_status koksma__progressive_order(size_t count, int dim, const double *poi
     double *xs = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(xs, bytes);
     double *units = xs + count * width;
+    koksma__metric left_metric = *metric;
+    left_metric.units = metric->units ? units : NULL;
     uint32_t *before = (uint32_t *)(units + count), *picked = before + count;
     for (size_t i = 0; i < count; i++) {
         order[i] = (uint32_t)i;
@@ -394,11 +405,10 @@ koksma_status koksma__progressive_order(size_t count, int dim, const double *poi
         d_max *= growth;
         memcpy(before, order, left * sizeof *order);
         pick(left, width, points, before, xs);
-        for (size_t i = 0; scale && i < left; i++) {
-            units[i] = scale[before[i]];
+        for (size_t i = 0; metric->units && i < left; i++) {
+            units[i] = metric->units[before[i]];
         }
-        status =
-            koksma__eliminate_scaled(left, dim, xs, scale ? units : NULL, torus, left / 2, d_max, d_min, run, picked);
+        status = koksma__eliminate_scaled(left, dim, xs, &left_metric, left / 2, d_max, d_min, run, picked);
         for (size_t i = 0; i < left && !status; i++) {
             order[i] = before[picked[i]];
         }
@@ -415,7 +425,8 @@ static koksma_status order_set(size_t n, int dim, double d_max, double d_min, co
     KOKSMA__REQUIRE_MEMORY(before, bytes);
     uint32_t *order = (uint32_t *)(before + n * width);
     memcpy(before, xs, n * width * sizeof *xs);
-    const koksma_status status = koksma__progressive_order(n, dim, before, NULL, true, dim, d_max, d_min, run, order);
+    const koksma__metric unit = {.torus = true};
+    const koksma_status status = koksma__progressive_order(n, dim, before, &unit, dim, d_max, d_min, run, order);
     if (!status) {
         pick(n, width, before, order, xs);
     }

@@ -26,13 +26,18 @@ KOKSMA__LAB double koksma__elimination_limit(size_t n, size_t m, int dim);
 koksma_status koksma__eliminate(size_t count, int dim, const double *points, size_t keep, double d_max, double d_min,
                                 const koksma_run *run, uint32_t *order);
 
-/* Does the same as koksma__eliminate for points with different units of distance: `scale` has one unit for each
-   point, and the distance of a pair is divided by the smaller unit of its two points ("smaller disks", Mitchell,
-   Rand, Ebeida & Bajaj 2012). If scale is NULL, all units are 1. If torus is false, distances are measured in the
-   cube [0,1)^dim. */
-KOKSMA__LAB koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *points, const double *scale,
-                                                   bool torus, size_t keep, double d_max, double d_min,
-                                                   const koksma_run *run, uint32_t *order);
+/* How distances are measured. units has a unit of distance for each point; the distance of a pair is divided by the
+   smaller unit of its two points ("smaller disks", Mitchell, Rand, Ebeida & Bajaj 2012). lengths[k] is what a coordinate
+   of 1 measures along axis k. Both may be NULL: all are 1. Without torus distances do not wrap around. */
+typedef struct koksma__metric {
+    const double *units, *lengths;
+    bool torus;
+} koksma__metric;
+
+/* Does the same as koksma__eliminate with a metric other than that of the unit torus. */
+KOKSMA__LAB koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *points,
+                                                   const koksma__metric *metric, size_t keep, double d_max,
+                                                   double d_min, const koksma_run *run, uint32_t *order);
 
 /* Puts points into Yuksel's progressive order, in which every prefix is blue noise: elimination halves the set again and
    again, and each point comes after those that remain when it is removed.
@@ -41,9 +46,9 @@ KOKSMA__LAB koksma_status koksma__eliminate_scaled(size_t count, int dim, const 
        d_min        argument of koksma__eliminate for the whole set; all halvings use it
        order[k]     number of the k-th point in progressive order
    Errors: MEMORY, INTERRUPTED. */
-KOKSMA__LAB koksma_status koksma__progressive_order(size_t count, int dim, const double *points, const double *scale,
-                                                    bool torus, int volume_dim, double d_max, double d_min,
-                                                    const koksma_run *run, uint32_t *order);
+KOKSMA__LAB koksma_status koksma__progressive_order(size_t count, int dim, const double *points,
+                                                    const koksma__metric *metric, int volume_dim, double d_max,
+                                                    double d_min, const koksma_run *run, uint32_t *order);
 
 /* Puts a finished set on the torus into progressive order. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__order_progressively(const koksma_run *run, koksma_points *points);
