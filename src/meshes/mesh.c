@@ -33,9 +33,15 @@ koksma_status koksma__mesh_init(size_t n_vertices, size_t n_triangles, bool norm
     return KOKSMA_OK;
 }
 
+koksma_status koksma__mesh_init_corners(koksma__mesh *mesh)
+{
+    mesh->corners = calloc(2 * mesh->n_vertices + 1, sizeof *mesh->corners);
+    return mesh->corners ? KOKSMA_OK : koksma__fail_memory(2 * mesh->n_vertices * sizeof *mesh->corners);
+}
+
 void koksma__mesh_fini(koksma__mesh *mesh)
 {
-    KOKSMA__FREE(mesh->vertices, mesh->normals, mesh->uvs, mesh->colours, mesh->indices);
+    KOKSMA__FREE(mesh->vertices, mesh->normals, mesh->uvs, mesh->colours, mesh->indices, mesh->corners);
     *mesh = (koksma__mesh){0};
 }
 
@@ -137,26 +143,37 @@ koksma_status koksma__mesh_check(koksma__mesh *m)
     return status;
 }
 
-/* Bits 8 * digit and up of a vertex's position, which are the same for 0 and -0. */
-static size_t byte_of(const koksma__mesh *m, size_t vertex, size_t digit)
+/* Number `word` of a vertex's key: of its position, with the same bits for 0 and -0, or, if by_corner, of its `corners`. */
+static uint32_t key_word(const koksma__mesh *m, bool by_corner, size_t vertex, size_t word)
 {
-    const float x = m->vertices[3 * vertex + digit / 4] + 0.0f;
+    if (by_corner) {
+        return m->corners[2 * vertex + word];
+    }
+    const float x = m->vertices[3 * vertex + word] + 0.0f;
     uint32_t bits;
     memcpy(&bits, &x, sizeof bits);
-    return bits >> 8 * (digit % 4) & 255;
+    return bits;
 }
 
-static bool same_place(const koksma__mesh *m, size_t a, size_t b)
+static size_t byte_of(const koksma__mesh *m, bool by_corner, size_t vertex, size_t digit)
 {
-    const float *v = m->vertices + 3 * a, *w = m->vertices + 3 * b;
-    return v[0] == w[0] && v[1] == w[1] && v[2] == w[2];
+    return key_word(m, by_corner, vertex, digit / 4) >> 8 * (digit % 4) & 255;
 }
 
-/* For each vertex the first vertex at the same position: files repeat vertices where textures have seams. They are sorted
-   by the bytes of their positions, which takes as long for any positions; a hash table would take the square of that
-   for positions that are chosen so that their hashes agree. Returns NULL when memory runs out; the caller frees the
-   result. */
-static uint32_t *first_alike(const koksma__mesh *m)
+static bool same_key(const koksma__mesh *m, bool by_corner, size_t a, size_t b)
+{
+    bool same = true;
+    for (size_t word = 0; word < (by_corner ? 2 : 3); word++) {
+        same &= key_word(m, by_corner, a, word) == key_word(m, by_corner, b, word);
+    }
+    return same;
+}
+
+/* For each vertex the first vertex with the same key: files repeat positions where textures have seams, and readers what
+   several triangles share. They are sorted by the bytes of their keys, which takes as long for any keys; a hash table
+   would take the square of that for keys that are chosen so that their hashes agree. Returns NULL when memory runs out;
+   the caller frees the result. */
+static uint32_t *first_alike(const koksma__mesh *m, bool by_corner)
 {
     const size_t n = m->n_vertices;
     uint32_t *order = malloc((n + 1) * sizeof *order), *other = malloc((n + 1) * sizeof *other);
@@ -168,26 +185,26 @@ static uint32_t *first_alike(const koksma__mesh *m)
     for (size_t i = 0; i < n; i++) {
         order[i] = (uint32_t)i;
     }
-    for (size_t digit = 0; digit < 12; digit++) {
+    for (size_t digit = 0; digit < (by_corner ? 8 : 12); digit++) {
         size_t starts[257] = {0};
         for (size_t i = 0; i < n; i++) {
-            starts[byte_of(m, i, digit) + 1]++;
+            starts[byte_of(m, by_corner, i, digit) + 1]++;
         }
-        if (n && starts[byte_of(m, 0, digit) + 1] == n) {
+        if (n && starts[byte_of(m, by_corner, 0, digit) + 1] == n) {
             continue; /* the byte is equal everywhere */
         }
         for (size_t b = 1; b < 257; b++) {
             starts[b] += starts[b - 1];
         }
         for (size_t i = 0; i < n; i++) {
-            other[starts[byte_of(m, order[i], digit)]++] = order[i];
+            other[starts[byte_of(m, by_corner, order[i], digit)]++] = order[i];
         }
         uint32_t *const sorted = other;
         other = order;
         order = sorted;
     }
-    for (size_t i = 0; i < n; i++) { /* vertices at one position are in the order of the file */
-        other[order[i]] = i && same_place(m, order[i], order[i - 1]) ? other[order[i - 1]] : order[i];
+    for (size_t i = 0; i < n; i++) { /* vertices with one key are in the order of the file */
+        other[order[i]] = i && same_key(m, by_corner, order[i], order[i - 1]) ? other[order[i - 1]] : order[i];
     }
     free(order);
     return other;
@@ -199,7 +216,7 @@ koksma_status koksma__mesh_smooth(koksma__mesh *m)
         return KOKSMA_OK;
     }
     double *sums = calloc(3 * m->n_vertices + 1, sizeof *sums);
-    uint32_t *first = first_alike(m);
+    uint32_t *first = first_alike(m, false);
     m->normals = calloc(3 * m->n_vertices + 1, sizeof *m->normals);
     if (!sums || !first || !m->normals) {
         free(sums);
@@ -242,9 +259,10 @@ static double corner_angle(const koksma__mesh *m, size_t t, size_t c)
 koksma_status koksma__mesh_smooth_by_angles(koksma__mesh *m)
 {
     double *sums = calloc(3 * m->n_vertices + 1, sizeof *sums);
+    uint32_t *first = m->corners ? first_alike(m, true) : NULL;
     m->normals = calloc(3 * m->n_vertices + 1, sizeof *m->normals);
-    if (!sums || !m->normals) {
-        free(sums);
+    if (!sums || !m->normals || (m->corners && !first)) {
+        KOKSMA__FREE(sums, first);
         return koksma__fail_memory(3 * m->n_vertices * sizeof *sums);
     }
     for (size_t t = 0; t < m->n_triangles; t++) {
@@ -253,19 +271,35 @@ koksma_status koksma__mesh_smooth_by_angles(koksma__mesh *m)
         const bool has_area = koksma__normalise(normal);
         for (size_t c = 0; has_area && c < 3; c++) {
             const double angle = corner_angle(m, t, c);
+            const size_t vertex = m->indices[3 * t + c], at = first ? first[vertex] : vertex;
             for (size_t k = 0; k < 3; k++) {
-                sums[3 * m->indices[3 * t + c] + k] += angle * normal[k];
+                sums[3 * at + k] += angle * normal[k];
             }
         }
     }
     for (size_t i = 0; i < m->n_vertices; i++) {
-        const bool has_direction = koksma__normalise(sums + 3 * i);
+        const size_t at = first ? first[i] : i; /* at most i, so that those of `at` are made */
+        const bool has_direction = at == i && koksma__normalise(sums + 3 * i);
         for (size_t k = 0; k < 3; k++) {
-            m->normals[3 * i + k] = has_direction ? (float)sums[3 * i + k] : 0;
+            m->normals[3 * i + k] = at < i ? m->normals[3 * at + k] : has_direction ? (float)sums[3 * i + k] : 0;
         }
     }
-    free(sums);
+    KOKSMA__FREE(sums, first);
     return KOKSMA_OK;
+}
+
+bool koksma__mesh_is_curved(const koksma__mesh *m)
+{
+    bool curved = false;
+    for (size_t t = 0; m->normals && !curved && t < m->n_triangles; t++) {
+        double normal[3];
+        twice_area(m, t, normal);
+        const bool has_area = koksma__normalise(normal);
+        for (size_t i = 0; has_area && i < 9; i++) {
+            curved |= fabs((double)m->normals[3 * m->indices[3 * t + i / 3] + i % 3] - normal[i % 3]) > 1e-3;
+        }
+    }
+    return curved;
 }
 
 uint64_t koksma__mesh_hash(const koksma__mesh *m)

@@ -17,6 +17,9 @@ typedef struct koksma__mesh {
     float *uvs;        /* 2 for each vertex, or NULL */
     float *colours;    /* 3 for each vertex, linear, or NULL; a reader allocates them after koksma__mesh_init */
     uint32_t *indices; /* 3 for each triangle, counterclockwise seen from outside */
+    /* NULL, or 2 numbers for each vertex: those with equal numbers are one vertex in the file (OBJ's position and texture
+       vertex), which has become several */
+    uint32_t *corners;
     double low[3], high[3];
     size_t n_degenerate; /* triangles without area */
 } koksma__mesh;
@@ -61,10 +64,16 @@ koksma_status koksma__mesh_check(koksma__mesh *mesh);
    around the vertex. Errors: MEMORY. */
 koksma_status koksma__mesh_smooth(koksma__mesh *mesh);
 
+/* Allocates `corners`. Errors: MEMORY. */
+koksma_status koksma__mesh_init_corners(koksma__mesh *mesh);
+
 /* Computes normals for a checked mesh that has none, as Mitsuba does: each is the mean of the normals of the vertex's
    triangles, weighted by their angles at the vertex (Thuermer and Wuethrich 1998). Vertices that the file lists
-   separately get separate normals, even at the same position. Errors: MEMORY. */
+   separately get separate normals, even at the same position; those with equal `corners` get one. Errors: MEMORY. */
 koksma_status koksma__mesh_smooth_by_angles(koksma__mesh *mesh);
+
+/* Whether some normal of a checked mesh differs from that of one of its triangles. */
+bool koksma__mesh_is_curved(const koksma__mesh *mesh);
 
 /* 64-bit hash of the mesh's content. */
 uint64_t koksma__mesh_hash(const koksma__mesh *mesh);

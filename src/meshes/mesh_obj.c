@@ -5,8 +5,8 @@
  *
  * A corner names a position and perhaps a texture vertex and a normal, by numbers that count from 1, or backwards
  * from the last one if they are negative. Numbers may refer to later lines, so the corners are stored until the end
- * of the file. Then each corner becomes a separate vertex, because OBJ files share positions, not vertices. A polygon
- * becomes a fan of triangles. A new mesh begins where o or g name another object or group and where usemtl names
+ * of the file. Then each corner becomes a separate vertex, because OBJ files share positions, not vertices; corners of
+ * meshes without normals keep their numbers, so that whoever smooths them knows what is one vertex. A polygon becomes a fan of triangles. A new mesh begins where o or g name another object or group and where usemtl names
  * another material; polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of
  * its corners names one; corners without one get the value 0.
  *
@@ -395,6 +395,7 @@ static koksma_status make_mesh(obj *o, const part *p, size_t end_corner, size_t 
     bool coloured = false;
     koksma_status status =
         koksma__mesh_init(n, n_indices / 3, p->kinds & 1 << NORMAL, p->kinds & 1 << TEXTURE, &mesh);
+    status = status || mesh.normals ? status : koksma__mesh_init_corners(&mesh);
     float *const to[KINDS] = {[PLACE] = mesh.vertices, [TEXTURE] = mesh.uvs, [NORMAL] = mesh.normals};
     for (size_t i = 0; !status && i < KINDS * n; i++) {
         const size_t kind = i % KINDS, width = kind == TEXTURE ? 2 : 3, named = corners[i / KINDS].names[kind];
@@ -403,6 +404,10 @@ static koksma_status make_mesh(obj *o, const part *p, size_t end_corner, size_t 
             memcpy(to[kind] + width * (i / KINDS), from, width * sizeof *from);
             coloured |= kind == PLACE && from[3] > 0;
         }
+    }
+    for (size_t i = 0; !status && mesh.corners && i < n; i++) {
+        mesh.corners[2 * i] = corners[i].names[PLACE];
+        mesh.corners[2 * i + 1] = corners[i].names[TEXTURE];
     }
     if (!status) {
         memcpy(mesh.indices, (const uint32_t *)o->indices.items + p->first_index, n_indices * sizeof *mesh.indices);

@@ -143,6 +143,9 @@ static void append_vertices(const koksma__mesh *from, const double matrix[12], k
     if (out->uvs) {
         memcpy(out->uvs + 2 * out->n_vertices, from->uvs, 2 * from->n_vertices * sizeof *from->uvs);
     }
+    if (out->corners) {
+        memcpy(out->corners + 2 * out->n_vertices, from->corners, 2 * from->n_vertices * sizeof *from->corners);
+    }
 }
 
 /* Appends a mesh after the vertices and triangles of out, which has capacity for it. */
@@ -161,15 +164,17 @@ static void append(const koksma__mesh *from, const double matrix[12], koksma__me
 static koksma_status join(const koksma__mesh_file *f, koksma__mesh *out)
 {
     size_t n_vertices = 0, n_triangles = 0;
-    bool normals = true, uvs = true;
+    bool normals = true, uvs = true, corners = true;
     for (size_t i = 0; i < f->placements.n; i++) {
         const koksma__mesh *mesh = &koksma__file_mesh_at(f, koksma__file_placement_at(f, i)->mesh)->mesh;
         n_vertices += mesh->n_vertices;
         n_triangles += mesh->n_triangles;
         normals &= mesh->normals != NULL;
         uvs &= mesh->uvs != NULL;
+        corners &= mesh->corners != NULL;
     }
     KOKSMA__TRY(koksma__mesh_init(n_vertices, n_triangles, normals, uvs, out));
+    KOKSMA__TRY(corners ? koksma__mesh_init_corners(out) : KOKSMA_OK);
     out->n_vertices = out->n_triangles = 0;
     for (size_t i = 0; i < f->placements.n; i++) {
         const koksma__file_placement *p = koksma__file_placement_at(f, i);

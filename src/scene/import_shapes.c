@@ -117,27 +117,28 @@ static koksma_status find_packed(koksma__import *im, koksma__text_place place, c
     return KOKSMA_OK;
 }
 
-/* Reads the mesh and adapts it to the conventions of the other renderer: Mitsuba turns the texture coordinates of OBJ
-   files upside down, and gives smooth normals to meshes that have none. */
+/* Reads the mesh and adapts it to the conventions of the other renderer. */
 static koksma_status read_mesh(koksma__import *im, const char *path, koksma__serialized *packed, long part,
-                               bool with_normals, koksma__mesh *mesh)
+                               koksma__mesh_rules rules, koksma__mesh *mesh)
 {
     KOKSMA__TRY(packed ? koksma__serialized_mesh(packed, path, part, mesh)
                        : koksma__mesh_read(path, KOKSMA__BY_FILE, &im->scene->mesh_files, mesh));
     KOKSMA__TRY(koksma__scene_limit_mesh(im->scene, mesh, path));
-    const char *dot = strrchr(path, '.');
-    if (im->rows_down && dot && !strcmp(dot, ".obj")) {
+    if (rules.flips_v) {
         turn_rows(mesh);
     }
-    if (!with_normals) {
+    if (rules.facets) {
         free(mesh->normals);
         mesh->normals = NULL;
     }
-    return im->smooths && with_normals && !mesh->normals ? koksma__mesh_smooth_by_angles(mesh) : KOKSMA_OK;
+    KOKSMA__TRY(rules.smooths && !rules.facets && !mesh->normals ? koksma__mesh_smooth_by_angles(mesh) : KOKSMA_OK);
+    free(mesh->corners);
+    mesh->corners = NULL;
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
-                                       bool with_normals, int *out)
+                                       koksma__mesh_rules rules, int *out)
 {
     char full[KOKSMA__MAX_PATH], file[KOKSMA__FILE_KEY], which[128];
     const char *ending = NULL;
@@ -146,6 +147,9 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
     size_t known = 0;
     KOKSMA__TRY(koksma__import_path(im, place, name, full));
     *out = -1;
+    if (im->only_checks) {
+        return KOKSMA_OK;
+    }
     if (!koksma__is_mesh_file(full)) {
         return koksma__import_unknown(im, place, "the mesh %s has an unsupported format: it is left out", name);
     }
@@ -153,13 +157,14 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
     koksma__file_key(full, file);
     ending = strrchr(full, '.');
     part = strcmp(ending, ".serialized") != 0 ? -1 : part; /* others have no numbered meshes */
-    snprintf(which, sizeof which, "%s %ld %d%.16s", file, part, with_normals, ending);
+    snprintf(which, sizeof which, "%s %ld %d%d%d%.16s", file, part, rules.facets, rules.smooths, rules.flips_v,
+             ending);
     if (*file && koksma__names_find(&im->files, which, strlen(which), &known)) {
         *out = (int)known - 1;
         return KOKSMA_OK;
     }
     KOKSMA__TRY(part < 0 ? KOKSMA_OK : find_packed(im, place, full, file, &packed));
-    const koksma_status status = read_mesh(im, full, packed, part, with_normals, &mesh);
+    const koksma_status status = read_mesh(im, full, packed, part, rules, &mesh);
     if (status) {
         koksma__mesh_fini(&mesh);
         return koksma__import_fail_at(place, status);
@@ -572,7 +577,7 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     double length[3];
     int mesh = item->mesh;
     KOKSMA__TRY(koksma__import_spend(im, item->place, 64));
-    if (item->surface.material < 0 && !item->surface.emits) {
+    if (im->only_checks || (item->surface.material < 0 && !item->surface.emits)) {
         return KOKSMA_OK; /* no surface: light passes through */
     }
     if (item->surface.emits && item->surface.material >= 0 &&

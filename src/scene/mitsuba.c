@@ -821,8 +821,10 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
         if (numbered && !(part >= 0 && part <= 1e9 && part == floor(part))) {
             return koksma__import_fail(n->place, "a shape_index of %g: it is a whole number from 0 on", part);
         }
-        return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename", ""), (long)part,
-                                        !flag(r, n, "face_normals", false), &item->mesh);
+        const koksma__mesh_rules rules = {.facets = flag(r, n, "face_normals", false),
+                                          .smooths = true,
+                                          .flips_v = flag(r, n, "flip_tex_coords", !strcmp(type, "obj"))};
+        return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename", ""), (long)part, rules, &item->mesh);
     } else if (item->form == KOKSMA__FORM_MESH) {
         return koksma__import_unknown(r->im, n->place, "shape '%s' is left out", type);
     }
@@ -1027,6 +1029,12 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
     }
     set_read(r, n);
     KOKSMA__TRY(surface_of(r, n, &item.surface));
+    KOKSMA__TRY(koksma__import_spend(r->im, n->place,
+                                     item.mesh < 0 ? 0 : r->im->scene->meshes[item.mesh].n_triangles / 16));
+    KOKSMA__TRY(item.surface.emits && item.mesh >= 0 && koksma__mesh_is_curved(&r->im->scene->meshes[item.mesh])
+                    ? koksma__import_unknown(r->im, n->place,
+                                             "a luminous mesh shines from its flat sides, not by its smooth normals")
+                    : KOKSMA_OK);
     KOKSMA__TRY(name_media(r, n, item.surface.material));
     KOKSMA__TRY(transform(r, n, "to_world", to_world));
     koksma__matrix_multiply(to_world, form, item.matrix);
@@ -1251,7 +1259,7 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
 {
     mistake first = {0};
     reader r = {.im = im, .mistake = &first};
-    im->rows_down = im->smooths = true;
+    im->rows_down = true;
     koksma_status status = koksma__xml_read(im, bytes, size, &r.xml);
     if (!status) {
         r.materials = malloc((r.xml.n + 1) * sizeof *r.materials);

@@ -700,7 +700,8 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
         return status;
     }
     if (!strcmp(type, "plymesh")) {
-        status = koksma__import_mesh_file(im, p->place, koksma__pbrt_word(p, "filename", ""), -1, true, &item->mesh);
+        status = koksma__import_mesh_file(im, p->place, koksma__pbrt_word(p, "filename", ""), -1,
+                                          (koksma__mesh_rules){0}, &item->mesh);
     } else if (!strcmp(type, "trianglemesh") || !strcmp(type, "bilinearmesh")) {
         status = triangles(scene, p, *type == 'b', false, &item->mesh);
     } else if (!strcmp(type, "loopsubdiv")) {
