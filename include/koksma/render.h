@@ -218,7 +218,9 @@ typedef struct koksma_render_options {
     koksma_scope scope;
     koksma_light_selection lights;
     const koksma_integrator *integrator;
-    int depth; /* largest number of bounces, 0 to KOKSMA_MAX_DEPTH; -1: the integrator's default */
+    /* largest number of bounces, 0 to KOKSMA_MAX_DEPTH; -1: that of the scene's file for path tracing, if the file has
+       one, else the integrator's default (koksma_render_depth()) */
+    int depth;
     const koksma_filter *filter;
     /* true (splatting): add each sample to all pixels that the filter reaches and divide by the sum of weights; false
        (filter importance sampling): draw the position of each pixel's samples from the filter (Ernst, Stamminger &
@@ -256,6 +258,9 @@ KOKSMA_API void koksma_use_group_text(const koksma_use_group *group, char *text)
 /* Returns the number of rays that one sample traces for its first hit: one from the camera and one to each
    light. */
 KOKSMA_API int koksma_scene_rays_per_sample(const koksma_scene *scene);
+
+/* Returns the largest number of bounces with which these options render the scene. */
+KOKSMA_API int koksma_render_depth(const koksma_scene *scene, const koksma_render_options *options);
 
 /* Returns whether rendering this scene with these options needs use i. A pattern for a use that is not needed, such
    as the lens of a pinhole camera, has no effect. */

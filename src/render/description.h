@@ -62,7 +62,8 @@ typedef struct koksma__map {
 
 /* Colours are red, green and blue in linear light. A checker has two albedos, in squares of side `period` in a flat
    shape's coordinates: the second albedo where floor(s + phase[0]) + floor(t + phase[1]) is odd, with (s, t) = (u, v)
-   rotated by angle_rad and divided by period. */
+   rotated by angle_rad and divided by period; or, if mapping.moved, where floor(s) + floor(t) is odd, with (s, t) =
+   (u, v) mapped and divided by period. */
 typedef struct koksma__material {
     char name[64];
     const struct koksma__bsdf *bsdf;
@@ -72,7 +73,7 @@ typedef struct koksma__material {
     double values[KOKSMA__MAX_VALUES]; /* values of the kind's parameters */
     /* the albedo as an image over the surface's coordinates, instead of `albedo`; or NULL */
     koksma_image *image;
-    koksma__mapping mapping; /* how image is mapped to a mesh */
+    koksma__mapping mapping; /* how the image, or the checker, is mapped to a mesh */
     koksma__map maps[KOKSMA__N_MAPS];
     bool tinted; /* the albedo is multiplied by the vertex colours of a mesh that has them */
     /* see_through: only the fraction alpha of the rays meets the surface; with a cutoff, rays meet it where alpha is
@@ -137,6 +138,8 @@ typedef struct koksma__camera {
         /* the times when the shutter opens and closes; rays before time 0 see the scene at 0, rays after 1 at 1 */
         shutter[2];
     double motion[3]; /* at time t the eye is eye + t motion */
+    /* the camera sees what is between the planes at these distances along `forward`; far_clip 0: no end */
+    double near_clip, far_clip;
 } koksma__camera;
 
 /* Data that the renderer derives from a scene and that all images of the scene share. They are made, under the lock,
@@ -165,7 +168,9 @@ struct koksma_scene {
     double background[3]; /* radiance of a ray that hits nothing */
     double ambient[3];    /* ambient light: irradiance / pi, without shadows */
     koksma__medium medium;
-    double clamp; /* samples are clamped to this; infinity: no clamping */
+    double clamp;      /* samples are clamped to this; infinity: no clamping */
+    int path_vertices; /* of path tracing unless options say otherwise: 1 + the most bounces; 0: the integrator decides */
+    bool hides_lights; /* rays from the camera pass through lights that rays hit, and see no environment */
     koksma__material *materials;
     koksma__shape *shapes;
     koksma__light *lights;

@@ -72,6 +72,11 @@ static koksma__batch_material make_material(const koksma__material *from)
         m.s0 = (float)from->phase[0];
         m.t0 = (float)from->phase[1];
     }
+    if (from->checker && from->mapping.moved) {
+        const float *by = from->mapping.matrix, scale = 1 / (float)from->period;
+        m.su = by[0] * scale, m.sv = by[1] * scale, m.s0 = by[2] * scale;
+        m.tu = by[3] * scale, m.tv = by[4] * scale, m.t0 = by[5] * scale;
+    }
     return m;
 }
 
@@ -142,9 +147,14 @@ static koksma_status make_lane_materials(koksma__frame *f)
 
 /* ---- The frame ------------------------------------------------------------------------------------------- */
 
-static int depth_of(const koksma_render_options *options)
+int koksma_render_depth(const koksma_scene *scene, const koksma_render_options *options)
 {
-    return options->depth < 0 ? options->integrator->depth : options->depth;
+    KOKSMA__REQUIRE_OR(0, scene, options);
+    KOKSMA__REQUIRE_OR(0, options->integrator);
+    KOKSMA__REQUIRE_OR(0, options->integrator->flags);
+    const koksma__integrator_flags *flags = options->integrator->flags;
+    const bool follows = flags->roulette && scene->path_vertices > 0;
+    return options->depth >= 0 ? options->depth : follows ? scene->path_vertices - 1 : options->integrator->depth;
 }
 
 koksma_light_selection koksma__light_selection(const koksma_scene *scene, const koksma_render_options *options)
@@ -175,7 +185,8 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
                               .lights = flags->areas ? lights : 0,
                               .light_choice = one,
                               .distance = medium,
-                              .vertices = lobes & flags->followed ? depth_of(options) + 1 + past : 1};
+                              .vertices =
+                                  lobes & flags->followed ? koksma_render_depth(scene, options) + 1 + past : 1};
 }
 
 bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i)
@@ -293,7 +304,7 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
     KOKSMA__FAIL_IF(scene->medium.is_there && !out->flags->media && !out->flags->replace_scene, KOKSMA_ARGUMENT,
                     "integrator %s leaves out the scene's medium; path and its variants render it",
                     options->integrator->name);
-    out->depth = depth_of(options);
+    out->depth = koksma_render_depth(scene, options);
     out->light_selection = koksma__light_selection(scene, options);
     out->together = KOKSMA__BLOCK;
     out->channels = scene->grey ? 1 : 3;

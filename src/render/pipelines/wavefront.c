@@ -72,6 +72,16 @@ static koksma__lens lens_of(const koksma__camera *camera)
     return lens;
 }
 
+/* Moves the origins of rays from the camera, whose directions have length 1 along `forward`, to a plane in front of it. */
+static void advance(koksma__rays *rays, float distance, int n)
+{
+    for (int i = 0; distance > 0 && i < n; i++) {
+        rays->ox[i] += distance * rays->dx[i];
+        rays->oy[i] += distance * rays->dy[i];
+        rays->oz[i] += distance * rays->dz[i];
+    }
+}
+
 /* Starts paths at the eye. The positions, lens points and times are padded with copies up to a multiple of
    KOKSMA__LANE_STEP. */
 static koksma_status start_paths(const koksma__trace *trace, const koksma__values *values, size_t first, size_t end)
@@ -102,6 +112,7 @@ static koksma_status start_paths(const koksma__trace *trace, const koksma__value
         frame->batch->start(&frame->camera, &lens, values->film + 2 * start, points ? x : NULL, y, times ? u : NULL,
                             whole, to);
         koksma__move_origins(frame, values->film + 2 * start, whole, &to->rays);
+        advance(&to->rays, (float)camera->near_clip, whole);
         for (int i = 0; i < whole; i++) {
             to->sample[i] = (uint32_t)(start + (size_t)(i < n ? i : n - 1));
         }
@@ -115,6 +126,48 @@ static koksma_status start_paths(const koksma__trace *trace, const koksma__value
 static koksma__v3 direction_at(const koksma__paths *p, int i)
 {
     return koksma__v3_unit((koksma__v3){p->rays.dx[i], p->rays.dy[i], p->rays.dz[i]});
+}
+
+/* Takes lane i, whose ray from the camera hits a light that the camera does not see, to the light's other side; passed: how
+   far it has come. */
+static void pass_light(koksma__paths *p, const koksma__hits *hits, int i, float *passed)
+{
+    p->rays.ox[i] += hits->t[i] * p->rays.dx[i];
+    p->rays.oy[i] += hits->t[i] * p->rays.dy[i];
+    p->rays.oz[i] += hits->t[i] * p->rays.dz[i];
+    p->from[i] = hits->primitive[i];
+    *passed += hits->t[i];
+}
+
+/* Finds what rays from the camera meet. If the camera sees no lights, rays pass through them, one after the other; hits are
+   then counted from the rays' own origins. What is beyond the far plane is not met. */
+static void meet_first(const koksma__frame *frame, koksma__paths *p, int n, koksma__hits *hits)
+{
+    const koksma__geometry *g = &frame->geometry;
+    const koksma_scene *scene = frame->scene;
+    const float end = (float)(scene->camera.far_clip - scene->camera.near_clip);
+    const koksma__rays start = p->rays;
+    _Alignas(64) koksma__lanes passed = {0};
+    g->closest(g, &p->rays, NULL, n, hits);
+    for (bool again = scene->hides_lights; again;) {
+        again = false;
+        for (int i = 0; i < n; i++) {
+            if (hits->primitive[i] >= 0 && g->light(g, hits->primitive[i]) >= 0) {
+                pass_light(p, hits, i, &passed[i]);
+                again = true;
+            }
+        }
+        if (again) {
+            g->closest(g, &p->rays, p->from, n, hits);
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        hits->t[i] += passed[i];
+        if (scene->camera.far_clip > 0 && hits->t[i] > end) {
+            hits->primitive[i] = hits->material[i] = -1;
+        }
+    }
+    p->rays = start;
 }
 
 /* Returns the multiple-importance weight of the light that ray i found by hitting the light with index `light`. pdf:
@@ -285,8 +338,9 @@ static void add_texture(const koksma__frame *frame, koksma__vertices *v, int i)
 }
 
 /* Stores the albedo, normal and depth of the first hit for the layers. */
-static void note_first(koksma__values *values, const koksma__vertices *v, int i)
+static void note_first(const koksma__frame *frame, koksma__values *values, const koksma__vertices *v, int i)
 {
+    const float near = (float)frame->scene->camera.near_clip;
     const koksma__hits *h = &v->hits;
     const koksma__rays *r = &v->paths->rays;
     const size_t sample = v->paths->sample[i];
@@ -296,7 +350,7 @@ static void note_first(koksma__values *values, const koksma__vertices *v, int i)
         values->albedo[3 * sample + (size_t)k] = v->surfaces.form[i] < 0 ? 0 : v->surfaces.albedo[k][i];
         values->normal[3 * sample + (size_t)k] = hit ? n[k] : 0;
     }
-    values->depth[sample] = hit ? h->t[i] * sqrtf(koksma__dot3(d, d)) : 0;
+    values->depth[sample] = hit ? (h->t[i] + near) * sqrtf(koksma__dot3(d, d)) : 0;
 }
 
 /* ---- Going on --------------------------------------------------------------------------------------------- */
@@ -479,7 +533,11 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     v->surfaces.materials = frame->shading_materials;
     v->surfaces.table = &frame->lane_materials;
     fill_lanes(paths, n, v->whole);
-    frame->geometry.closest(&frame->geometry, &paths->rays, trace->bounce ? paths->from : NULL, v->whole, hits);
+    if (trace->bounce) {
+        frame->geometry.closest(&frame->geometry, &paths->rays, paths->from, v->whole, hits);
+    } else {
+        meet_first(frame, paths, v->whole, hits);
+    }
     KOKSMA__TRY(travel(trace, paths, v));
     if (frame->scene->moves) {
         memcpy(hits->time, paths->rays.time, sizeof hits->time);
@@ -492,7 +550,9 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
             add_texture(frame, v, i);
         }
     }
-    add_misses(frame, v);
+    if (trace->bounce || !frame->scene->hides_lights) {
+        add_misses(frame, v);
+    }
     for (int i = 0; i < n; i++) {
         if ((v->surfaces.form[i] < 0) & (hits->primitive[i] >= 0)) {
             add_emission(frame, v, i);
@@ -501,7 +561,7 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
         }
     }
     for (int i = 0; values->albedo && trace->bounce == trace->first && i < n; i++) {
-        note_first(values, v, i);
+        note_first(frame, values, v, i);
     }
     koksma__wavefront_detach(frame->scene, v);
     note_aovs(trace, v, trace->bounce, before, values);
