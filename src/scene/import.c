@@ -206,6 +206,10 @@ static koksma_status find_image(koksma__import *im, koksma__text_place place, co
 {
     koksma__image_use use = KOKSMA__PLAIN_IMAGE;
     use.upside_down = im->rows_down;
+    *out = NULL;
+    if (im->only_checks) {
+        return KOKSMA_OK;
+    }
     const koksma_status status = koksma__scene_image(im->scene, path, &use, out);
     return status ? leave_out(im, place, status) : KOKSMA_OK;
 }
@@ -245,6 +249,7 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
     koksma__import_albedo(m->albedo[1]);
     m->checker = from->is_checker;
     m->period = from->period;
+    m->mapping = from->is_checker ? from->mapping : m->mapping;
     KOKSMA__TRY(*from->image ? find_image(im, place, from->image, &m->image) : KOKSMA_OK);
     if (m->image) {
         m->mapping = from->mapping;
@@ -294,6 +299,10 @@ koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_plac
 {
     koksma_scene *scene = im->scene;
     KOKSMA__TRY(koksma__import_spend(im, place, scene->n_materials / 8));
+    if (im->only_checks) {
+        *out = -1;
+        return KOKSMA_OK;
+    }
     for (size_t i = 0; i < scene->n_materials; i++) {
         if (same_material(&scene->materials[i], material)) {
             *out = (int)i;

@@ -3,8 +3,9 @@
  * Reads scenes of Mitsuba 3 (Jakob et al. 2022), and names of Mitsuba 0.6 and 2 that have changed since. xml.c parses
  * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
  * shape first refers to it. One homogeneous medium is read, of the sensor or of a cube along the axes; volumes and motion
- * are not read. Integrators and samplers are ignored, because the program's own options choose them.
- * The file is long because all of Mitsuba's names are in one place.
+ * are not read. Of an integrator only the length of paths and whether lights are seen is read; samplers and filters are
+ * ignored, because the program's own options choose them. Whatever no function takes or looks up is named at the end
+ * (koksma__xml_name_unread). The file is long because all of Mitsuba's names are in one place.
  */
 #include "scene/mitsuba.h"
 
@@ -47,9 +48,7 @@ typedef struct reader {
     identity *identities; /* sorted by name */
     size_t n_identities;
     int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
-    /* for each node: used: the function that converts its parent has looked it up; read: it is converted as the file
-       describes it, so that each of its properties that nothing looks up gives a warning */
-    bool *used, *read;
+    bool *looked;   /* for each node: whether its properties were looked up */
     bool has_sensor;
     const node *medium, *box; /* the only medium that is read, and the cube that bounds it; or NULL */
     double low[3], high[3];   /* the bounds of `box`, if it is not NULL */
@@ -59,7 +58,7 @@ typedef struct reader {
 
 static bool is(const node *n, const char *tag)
 {
-    return koksma__xml_alike(n->tag, tag);
+    return !strcasecmp(n->tag, tag); /* lookAt was the name in Mitsuba 0.6 */
 }
 
 static const char *type_of(const node *n)
@@ -102,24 +101,46 @@ static const node *next_of(const reader *r, const node *n)
     return look_at(r, n->next);
 }
 
+/* Whether elements with this tag are values or objects that a property can be. */
+static bool is_property(const node *n)
+{
+    static const char *const tags[] = {"float",     "integer", "boolean", "string",   "point",     "vector",
+                                       "rgb",       "srgb",    "color",   "spectrum", "blackbody", "transform",
+                                       "animation", "texture", "bsdf",    "emitter",  "medium",    "volume",
+                                       "phase",     "film",    "sampler", "rfilter",  "shape",     "ref"};
+    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++) {
+        if (is(n, tags[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* The child element whose attribute "name" is `name`, or NULL. */
 static const node *property(const reader *r, const node *n, const char *name)
 {
+    r->looked[n - r->xml.nodes] = true;
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const char *has = koksma__xml_attribute(c, "name");
-        if (has && koksma__xml_alike(has, name)) {
-            r->used[c - r->xml.nodes] = true;
+        if (has && koksma__xml_alike(has, name) && is_property(c)) {
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
             return c;
         }
     }
     return NULL;
 }
 
-/* Marks a node as converted as the file describes it: name_unused() warns about its properties that nothing looks
-   up. */
-static void set_read(const reader *r, const node *n)
+/* Warns of what becomes of a node, which covers all that it contains. */
+#define REPLACE(r, n, ...)                                                                                           \
+    (koksma__xml_mark(n, KOKSMA__XML_COVERED), koksma__import_unknown((r)->im, (n)->place, __VA_ARGS__))
+
+/* Takes the properties of this list of names, which have no effect on the pictures that are made here. */
+static void pass(const reader *r, const node *n, const char *names)
 {
-    r->read[n - r->xml.nodes] = true;
+    char name[64];
+    for (int length; sscanf(names, "%63s%n", name, &length) == 1; names += length) {
+        property(r, n, name);
+    }
 }
 
 static const char *text(const reader *r, const node *n, const char *name, const char *otherwise)
@@ -191,10 +212,12 @@ static koksma_status find_identities(reader *r)
         }
     }
     for (const node *n = r->xml.nodes; n < r->xml.nodes + r->xml.n; n++) {
-        if (!target(r, n)) {
+        const node *to = target(r, n);
+        if (!to) {
             const char *id = koksma__xml_attribute(n, "id");
             return koksma__import_fail(n->place, "%s: no element has the id '%.60s'", n->tag, id ? id : "");
         }
+        koksma__xml_mark(to, to != n ? KOKSMA__XML_TAKEN : 0); /* if nothing takes the <ref>, that is named */
     }
     return KOKSMA_OK;
 }
@@ -204,7 +227,7 @@ static double number(const reader *r, const node *n, const char *name, double ot
     const node *c = property(r, n, name), *to = c ? resolve(r, c) : NULL;
     double x = otherwise;
     if (to && (is(to, "texture") || (koksma__mitsuba_is_colour(to) && !koksma__mitsuba_is_number(to)))) {
-        r->used[c - r->xml.nodes] = false; /* it varies, which is not read here: name_unused() says so */
+        c->marks[0] &= (unsigned char)~KOKSMA__XML_TAKEN; /* it varies, which is not read here */
     } else if (c && (!koksma__mitsuba_is_number(c) || koksma__mitsuba_number(c, "value", &x))) {
         note(r, c, "a number");
     }
@@ -237,13 +260,16 @@ static koksma_status transform(const reader *r, const node *n, const char *name,
 {
     const node *t = property(r, n, name);
     memcpy(out, koksma__import_identity, sizeof koksma__import_identity);
+    if (t && !is(t, "animation") && !is(t, "transform")) {
+        note(r, t, "a transform");
+    }
     if (t && is(t, "animation")) {
-        KOKSMA__TRY(
-            koksma__import_unknown(r->im, t->place, "motion is ignored: the transform of the first time is taken"));
+        KOKSMA__TRY(REPLACE(r, t, "motion is ignored: the transform of the first time is taken"));
         t = first_of(r, t);
     }
     for (const node *c = t ? first_of(r, t) : NULL; c; c = next_of(r, c)) {
         double by[12], product[12];
+        koksma__xml_mark(c, KOKSMA__XML_TAKEN);
         KOKSMA__TRY(koksma__import_spend(r->im, c->place, 8));
         KOKSMA__TRY(koksma__mitsuba_operation(c, by));
         koksma__matrix_multiply(by, out, product);
@@ -259,9 +285,8 @@ static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use
     koksma__mitsuba_colour c;
     if (!koksma__mitsuba_is_colour(n)) {
         rgb[0] = rgb[1] = rgb[2] = 1;
-        return koksma__xml_attribute(n, "type")
-                   ? koksma__import_unknown(r->im, n->place, "'%s' is replaced by white where a colour is", n->tag)
-                   : koksma__import_fail(n->place, "<%s> is not a colour", n->tag);
+        return koksma__xml_attribute(n, "type") ? REPLACE(r, n, "'%s' is replaced by white where a colour is", n->tag)
+                                                : koksma__import_fail(n->place, "<%s> is not a colour", n->tag);
     }
     KOKSMA__TRY(koksma__import_spend(r->im, n->place, is(n, "spectrum") ? KOKSMA__SPECTRUM_STEPS : 0));
     KOKSMA__TRY(koksma__mitsuba_colour_read(n, &c));
@@ -275,6 +300,10 @@ static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use
         koksma__sampled_spectrum_colour(&c.pairs, use, rgb);
         return KOKSMA_OK;
     }
+    const double low = fmin(fmin(c.rgb[0], c.rgb[1]), c.rgb[2]), high = fmax(fmax(c.rgb[0], c.rgb[1]), c.rgb[2]);
+    KOKSMA__TRY(use == KOKSMA__REFLECTANCE && (low < 0 || high > 1)
+                    ? koksma__import_unknown(r->im, n->place, "a reflectance beyond 0 to 1 is clamped")
+                    : KOKSMA_OK);
     for (int k = 0; k < 3; k++) {
         rgb[k] = c.form == KOKSMA__NO_COLOUR ? 1 : c.rgb[k];
     }
@@ -286,17 +315,27 @@ static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use
 
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth);
+static koksma_status colour_for(reader *r, const node *n, const char *name, double otherwise,
+                                koksma__spectrum_use use, koksma__import_colour *out, int depth);
 
 /* Reads a texture's transform of the plane z = 0: the third row and column have no effect. */
-static koksma_status transform_uv(const reader *r, const node *n, double out[6])
+static koksma_status set_matrix(reader *r, const node *n, koksma__mapping *to)
 {
+    /* in place of to_uv, Mitsuba 0.6 has four numbers, of which Mitsuba 3 moves by the offsets first */
+    static const char *const older[] = {"uscale", "vscale", "uoffset", "voffset"};
+    static const float identity[6] = {1, 0, 0, 0, 1, 0};
     const node *t = property(r, n, "to_uv");
-    double m[12];
+    double m[12], by[4] = {1, 1, 0, 0}, all[6];
     KOKSMA__TRY(transform(r, n, "to_uv", m));
-    for (int i = 0; i < 6; i++) {
-        out[i] = m[i / 3 * 4 + (i % 3 < 2 ? i % 3 : 3)];
+    for (size_t i = 0; !t && i < 4; i++) {
+        by[i] = number(r, n, older[i], by[i]);
     }
-    return koksma__import_check_uv(t ? t->place : n->place, out, 6);
+    for (int i = 0; i < 6; i++) {
+        all[i] = by[i / 3] * (m[i / 3 * 4 + (i % 3 < 2 ? i % 3 : 3)] + (i % 3 == 2 ? by[2 + i / 3] : 0));
+        to->matrix[i] = (float)all[i];
+    }
+    to->moved = memcmp(to->matrix, identity, sizeof identity) != 0;
+    return koksma__import_check_uv(t ? t->place : n->place, all, 6);
 }
 
 /* Reads how an image is mapped. */
@@ -308,7 +347,6 @@ static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
     static const koksma__wrap kinds[] = {KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR,
                                          KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_CLAMP};
     const size_t wrap = choice(r, n, "wrap_mode", wraps), filter = choice(r, n, "filter_type", filters);
-    double m[6];
     to->wrap[0] = to->wrap[1] = kinds[wrap];
     to->nearest = filter == 1;
     if (wrap > 2) {
@@ -319,12 +357,7 @@ static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a texture's filter '%s' is replaced by 'bilinear'",
                                            filters[filter]));
     }
-    to->moved = property(r, n, "to_uv");
-    KOKSMA__TRY(transform_uv(r, n, m));
-    for (int i = 0; i < 6; i++) {
-        to->matrix[i] = (float)m[i];
-    }
-    return KOKSMA_OK;
+    return set_matrix(r, n, to);
 }
 
 /* Fails if an object lacks a property that Mitsuba has no default for. */
@@ -352,7 +385,7 @@ static koksma_status in_daylight(reader *r, const node *n, koksma__import_colour
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         if (is_texture(resolve(r, c))) {
             KOKSMA__TRY(inner ? koksma__import_fail(c->place, "spectrum 'd65': more than one texture") : KOKSMA_OK);
-            r->used[c - r->xml.nodes] = true;
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
             inner = resolve(r, c);
         }
     }
@@ -424,7 +457,6 @@ static koksma_status spectrum(reader *r, const node *n, koksma__spectrum_use use
     if (!*known) {
         return KOKSMA_OK;
     }
-    set_read(r, n);
     switch (kind) {
     case COLOUR_IN_D65:
         KOKSMA__TRY(needed(r, n, "color"));
@@ -460,15 +492,13 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
                              int depth)
 {
     const char *type = type_of(n);
-    double m[6];
     bool known;
     if (depth > MOST_NESTED) {
         return koksma__import_fail(n->place, "textures are nested more than %d deep", MOST_NESTED);
     }
     if (!strcmp(type, "bitmap")) {
         const char *name = text(r, n, "filename", ""), *dot = strrchr(name, '.');
-        const bool linear = dot && (koksma__xml_alike(dot, ".exr") || koksma__xml_alike(dot, ".pfm"));
-        set_read(r, n);
+        const bool linear = dot && (!strcasecmp(dot, ".exr") || !strcasecmp(dot, ".pfm"));
         KOKSMA__TRY(flag(r, n, "raw", false) && !linear
                         ? koksma__import_unknown(r->im, n->place, "a texture's 'raw' is ignored: its levels are sRGB")
                         : KOKSMA_OK);
@@ -478,33 +508,23 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
     }
     if (!strcmp(type, "checkerboard")) {
         koksma__import_colour second;
-        set_read(r, n);
-        KOKSMA__TRY(colour(r, n, "color0", 0.4, out, depth + 1));
-        KOKSMA__TRY(colour(r, n, "color1", 0.2, &second, depth + 1));
+        const koksma__spectrum_use each = use == KOKSMA__REFLECTANCE ? use : KOKSMA__UNBOUNDED;
+        KOKSMA__TRY(colour_for(r, n, "color0", 0.4, each, out, depth + 1));
+        KOKSMA__TRY(colour_for(r, n, "color1", 0.2, each, &second, depth + 1));
         KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, out));
         KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, &second));
-        KOKSMA__TRY(transform_uv(r, n, m));
+        KOKSMA__TRY(set_matrix(r, n, &out->mapping));
         memcpy(out->second, second.rgb, sizeof second.rgb);
         out->is_checker = true;
-        /* moved by whole periods or turned by 180 degrees, the squares are where they were */
-        const double scale = fmax(hypot(m[0], m[3]), 1e-6);
-        const double off[] = {(m[0] - m[4]) / scale, m[1] / scale, m[3] / scale, remainder(m[2], 1),
-                              remainder(m[5], 1)};
-        bool differs = false;
-        for (size_t i = 0; i < sizeof off / sizeof *off; i++) {
-            differs |= fabs(off[i]) > 1e-6;
-        }
-        out->period = 0.5 / scale;
-        return differs ? koksma__import_unknown(r->im, n->place,
-                                                "only the scale along u of a checkerboard's transform is used")
-                       : KOKSMA_OK;
+        out->period = 0.5;
+        return KOKSMA_OK;
     }
     KOKSMA__TRY(spectrum(r, n, use, out, depth, &known));
     if (!known && is(n, "spectrum")) {
         out->rgb[0] = out->rgb[1] = out->rgb[2] = 1;
-        return koksma__import_unknown(r->im, n->place, "spectrum '%s' is replaced by white", type);
+        return REPLACE(r, n, "spectrum '%s' is replaced by white", type);
     }
-    return known ? KOKSMA_OK : koksma__import_unknown(r->im, n->place, "texture '%s' is replaced by grey", type);
+    return known ? KOKSMA_OK : REPLACE(r, n, "texture '%s' is replaced by grey", type);
 }
 
 /* What the samples of a property are. Those of the spectra "d65" and "srgb" are factors of daylight, also in a light;
@@ -517,8 +537,8 @@ static koksma__spectrum_use use_of(const node *n, const char *name)
 }
 
 /* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
-static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
-                            int depth)
+static koksma_status colour_for(reader *r, const node *n, const char *name, double otherwise,
+                                koksma__spectrum_use use, koksma__import_colour *out, int depth)
 {
     const node *found = property(r, n, name);
     *out = (koksma__import_colour){.rgb = {otherwise, otherwise, otherwise}, .period = 1};
@@ -526,8 +546,14 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
         return KOKSMA_OK;
     }
     found = resolve(r, found);
-    const koksma__spectrum_use use = use_of(n, name);
     return is_texture(found) ? texture(r, found, use, out, depth) : value_of(r, found, use, out->rgb);
+}
+
+/* The same, for what the name says. */
+static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
+                            int depth)
+{
+    return colour_for(r, n, name, otherwise, use_of(n, name), out, depth);
 }
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */
@@ -560,8 +586,17 @@ static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5,
 static const struct {
     const char *name;
     bool is_exact;
-} wrappers[] = {{"twosided", true}, {"mask", false},      {"bumpmap", false},     {"normalmap", false},
-                {"coating", false}, {"blendbsdf", false}, {"mixturebsdf", false}, {"opacity", false}};
+} wrappers[] = {{"twosided", true},
+                {"mask", false},
+                {"bumpmap", false},
+                {"normalmap", false},
+                {"coating", false},
+                {"blendbsdf", false},
+                {"mixturebsdf", false},
+                {"opacity", false},
+                /* of Mitsuba 0.6 */
+                {"bump", false},
+                {"roughcoating", false}};
 
 /* An index of refraction: a number or the name of a material. One that is not above 0 is a mistake. */
 static double index_of(const reader *r, const node *n, const char *name, double otherwise)
@@ -602,6 +637,7 @@ static koksma_status constant(reader *r, const node *n, const char *name, double
     const bool is_file = to && is(to, "spectrum") && koksma__xml_attribute(to, "filename");
     if (to && is_texture(to) ? kind_of_spectrum(to) == NO_SPECTRUM : is_object || is_file) {
         *is_constant = false;
+        koksma__xml_mark(found, KOKSMA__XML_COVERED);
         return KOKSMA_OK;
     }
     KOKSMA__TRY(colour(r, n, name, otherwise, &c, 0));
@@ -666,6 +702,9 @@ static const node *find_inner(const reader *r, const node *c)
     while (c && !is(resolve(r, c), "bsdf")) {
         c = next_of(r, c);
     }
+    if (c) {
+        koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+    }
     return c;
 }
 
@@ -681,10 +720,8 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
         const node *inner = wraps ? find_inner(r, first_of(r, n)) : NULL;
         if (inner) {
             const node *back = wrappers[i].is_exact ? find_inner(r, next_of(r, inner)) : NULL;
-            KOKSMA__TRY(
-                wrappers[i].is_exact
-                    ? KOKSMA_OK
-                    : koksma__import_unknown(r->im, n->place, "BSDF '%s' is replaced by the BSDF within it", type));
+            KOKSMA__TRY(wrappers[i].is_exact ? KOKSMA_OK
+                                             : REPLACE(r, n, "BSDF '%s' is replaced by the BSDF within it", type));
             KOKSMA__TRY(back && resolve(r, back) != resolve(r, inner)
                             ? koksma__import_unknown(r->im, back->place,
                                                      "the BSDF of a back is replaced by that of the front")
@@ -698,18 +735,20 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
     }
-    if (!found->instead && found->kind != KOKSMA__COATED) {
-        set_read(r, n);
-    }
     if (found->instead) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF '%s': %s here", type, found->instead));
+    }
+    if (found == &other || found->kind < 0) {
+        koksma__xml_mark(n, found->instead ? KOKSMA__XML_COVERED : 0);
     }
     *out = -1;
     if (found->kind < 0) {
         return KOKSMA_OK;
     }
     m.kind = (unsigned)found->kind;
-    KOKSMA__TRY(colour(r, n, found->colour, found->otherwise, &m.colour, 0));
+    const char *name = found->colour, *older = "diffuse_reflectance"; /* Mitsuba 0.6 has both names */
+    name = m.kind == KOKSMA__MATTE && !property(r, n, name) && property(r, n, older) ? older : name;
+    KOKSMA__TRY(colour(r, n, name, found->otherwise, &m.colour, 0));
     if (m.kind == KOKSMA__GLASS &&
         !koksma__import_is_white(&m.colour)) { /* a tint would colour what it reflects as well */
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a glass's '%s' is ignored", found->colour));
@@ -739,10 +778,18 @@ static koksma_status find_bsdf(reader *r, const node *n, int *out)
 
 /* ---- Shapes ------------------------------------------------------------------------------------------------ */
 
+/* Mitsuba samples no light of weight 0; here all lights are sampled. */
+static koksma_status weight(reader *r, const node *n)
+{
+    return number(r, n, "sampling_weight", 1) > 0
+               ? KOKSMA_OK
+               : koksma__import_unknown(r->im, n->place, "a light whose sampling weight is 0 is sampled");
+}
+
 static koksma_status area_light(reader *r, const node *n, koksma__import_surface *surface)
 {
     koksma__import_colour radiance;
-    set_read(r, n);
+    KOKSMA__TRY(weight(r, n));
     KOKSMA__TRY(colour(r, n, "radiance", 1, &radiance, 0));
     KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &radiance));
     memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
@@ -758,6 +805,9 @@ static koksma_status surface_of(reader *r, const node *n, koksma__import_surface
     *out = (koksma__import_surface){.material = -1, .turned = flag(r, n, "flip_normals", false)};
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const node *to = resolve(r, c);
+        if (is(to, "bsdf") || is(to, "emitter")) {
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+        }
         if (is(to, "bsdf")) {
             KOKSMA__TRY(find_bsdf(r, to, &out->material));
             has_bsdf = true;
@@ -826,7 +876,7 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
                                           .flips_v = flag(r, n, "flip_tex_coords", !strcmp(type, "obj"))};
         return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename", ""), (long)part, rules, &item->mesh);
     } else if (item->form == KOKSMA__FORM_MESH) {
-        return koksma__import_unknown(r->im, n->place, "shape '%s' is left out", type);
+        return REPLACE(r, n, "shape '%s' is left out", type);
     }
     return KOKSMA_OK;
 }
@@ -840,6 +890,7 @@ static const node *medium_of(const reader *r, const node *n, const char *name)
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const char *has = koksma__xml_attribute(c, "name");
         if (is(resolve(r, c), "medium") && (!name || (has && koksma__xml_alike(has, name)))) {
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
             return resolve(r, c);
         }
     }
@@ -893,12 +944,31 @@ static koksma_status find_medium(reader *r, const node *root)
     return KOKSMA_OK;
 }
 
+/* A medium that is not the one to read is covered by the warning of name_media(). */
+static void cover_medium(const reader *r, const node *medium)
+{
+    if (medium && medium != r->medium) {
+        koksma__xml_mark(medium, KOKSMA__XML_COVERED);
+    }
+}
+
+static bool is_glass(const reader *r, int material)
+{
+    const koksma__bsdf *bsdf = material < 0 ? NULL : r->im->scene->materials[material].bsdf;
+    return bsdf == &koksma__bsdf_dielectric || bsdf == &koksma__bsdf_rough_dielectric;
+}
+
 /* Warns about the media of a shape that are not read. */
 static koksma_status name_media(reader *r, const node *n, int material)
 {
     const node *inside = medium_of(r, n, "interior"), *outside = medium_of(r, n, "exterior");
+    cover_medium(r, inside);
+    cover_medium(r, outside);
+    if (r->im->only_checks) {
+        return KOKSMA_OK;
+    }
     if (inside && strcmp(type_of(inside), "homogeneous") != 0) {
-        return koksma__import_unknown(r->im, n->place, "media that vary in space are ignored");
+        return koksma__import_unknown(r->im, inside->place, "media that vary in space are ignored");
     }
     if (inside && n != r->box) {
         return koksma__import_unknown(
@@ -908,9 +978,7 @@ static koksma_status name_media(reader *r, const node *n, int material)
     if (outside && outside != r->medium) {
         return koksma__import_unknown(r->im, n->place, "a medium around a shape is ignored: only one is read");
     }
-    const koksma__bsdf *bsdf = material < 0 ? NULL : r->im->scene->materials[material].bsdf;
-    const bool glass = bsdf == &koksma__bsdf_dielectric || bsdf == &koksma__bsdf_rough_dielectric;
-    return outside && !inside && glass
+    return outside && !inside && is_glass(r, material)
                ? koksma__import_unknown(r->im, n->place, "glass in a medium is filled by the medium")
                : KOKSMA_OK;
 }
@@ -922,8 +990,7 @@ static koksma_status medium_colour(reader *r, const node *n, const char *name, d
     koksma__import_colour c = {.rgb = {otherwise, otherwise, otherwise}};
     found = found ? resolve(r, found) : NULL;
     if (found && is(found, "volume") && strcmp(type_of(found), "constvolume") != 0) {
-        KOKSMA__TRY(
-            koksma__import_unknown(r->im, found->place, "volume '%s' is replaced by %g", type_of(found), otherwise));
+        KOKSMA__TRY(REPLACE(r, found, "volume '%s' is replaced by %g", type_of(found), otherwise));
     } else {
         KOKSMA__TRY(found && is(found, "volume")
                         ? colour(r, found, property(r, found, "color") ? "color" : "value", 1, &c, 0)
@@ -941,11 +1008,13 @@ static koksma_status phase_of(reader *r, const node *n, double *g)
     *g = 0;
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const node *phase = resolve(r, c);
+        if (is(phase, "phase")) {
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+        }
         if (is(phase, "phase") && !strcmp(type_of(phase), "hg")) {
             *g = fmax(-0.999, fmin(number(r, phase, "g", 0.8), 0.999));
         } else if (is(phase, "phase") && strcmp(type_of(phase), "isotropic") != 0) {
-            return koksma__import_unknown(r->im, phase->place, "phase function '%s' is replaced by the isotropic",
-                                          type_of(phase));
+            return REPLACE(r, phase, "phase function '%s' is replaced by the isotropic", type_of(phase));
         }
     }
     return KOKSMA_OK;
@@ -954,19 +1023,14 @@ static koksma_status phase_of(reader *r, const node *n, double *g)
 /* Sets the scene's medium. Mitsuba gives the extinction and the albedo: their product is the scattering, and the rest
    of the extinction is the absorption. Versions before Mitsuba 2 give scattering and absorption. A scale multiplies
    all coefficients. */
-static koksma_status set_medium(reader *r)
+static koksma_status read_medium(reader *r, const node *n)
 {
-    const node *n = r->medium;
-    koksma__medium *to = &r->im->scene->medium;
+    koksma__medium medium = {0}, *to = r->im->only_checks ? &medium : &r->im->scene->medium;
     double a[3], b[3], g;
-    if (!n) {
-        return KOKSMA_OK;
-    }
     if (strcmp(type_of(n), "homogeneous") != 0 || property(r, n, "material")) {
-        return koksma__import_unknown(
-            r->im, n->place, "media that vary in space, and media named in place of a material, are ignored");
+        return REPLACE(r, n, "media that vary in space, and media named in place of a material, are ignored");
     }
-    set_read(r, n);
+    pass(r, n, "sample_emitters sampling_density");
     const bool old = property(r, n, "sigma_s") || property(r, n, "sigma_a");
     const double scale = fmin(fmax(number(r, n, "scale", 1), 0), FAR);
     KOKSMA__TRY(medium_colour(r, n, old ? "sigma_s" : "albedo", old ? 0 : 0.75, b));
@@ -982,7 +1046,7 @@ static koksma_status set_medium(reader *r)
         memcpy(to->low, r->low, sizeof to->low);
         memcpy(to->high, r->high, sizeof to->high);
     }
-    if (koksma__medium_check(r->im->scene)) {
+    if (!r->im->only_checks && koksma__medium_check(r->im->scene)) {
         to->is_there = false;
         return koksma__import_unknown(
             r->im, n->place, "the sensor's medium is ignored, because it would absorb all light of distant lights");
@@ -991,6 +1055,20 @@ static koksma_status set_medium(reader *r)
 }
 
 static koksma_status shape(reader *r, const node *n, const double outer[12], int depth);
+
+/* Adds the shapes of a group. */
+static koksma_status parts_of_group(reader *r, const node *group, const double matrix[12], int depth)
+{
+    r->looked[group - r->xml.nodes] = true;
+    for (const node *c = first_of(r, group); c; c = next_of(r, c)) {
+        const node *part = resolve(r, c);
+        if (is(part, "shape")) {
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+            KOKSMA__TRY(shape(r, part, matrix, depth + 1));
+        }
+    }
+    return KOKSMA_OK;
+}
 
 /* Adds the shapes of the group to which an instance refers. */
 static koksma_status instance(reader *r, const node *n, const double outer[12], int depth)
@@ -1004,13 +1082,26 @@ static koksma_status instance(reader *r, const node *n, const double outer[12], 
     koksma__matrix_multiply(outer ? outer : koksma__import_identity, m, matrix);
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const node *group = resolve(r, c);
-        found |= is(group, "shape");
-        for (const node *s = is(group, "shape") ? first_of(r, group) : NULL; s; s = next_of(r, s)) {
-            const node *part = resolve(r, s);
-            KOKSMA__TRY(is(part, "shape") ? shape(r, part, matrix, depth + 1) : KOKSMA_OK);
+        if (is(group, "shape")) {
+            found = true;
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+            KOKSMA__TRY(parts_of_group(r, group, matrix, depth));
         }
     }
     return found ? KOKSMA_OK : koksma__import_fail(n->place, "an instance without a reference to a shape group");
+}
+
+/* Warns if a shape's normals are turned round to no effect: surfaces that reflect have two sides here, and a sphere of glass
+   has its own normals. */
+static koksma_status name_flip(reader *r, const node *n, const koksma__import_item *item)
+{
+    const node *bsdf = find_inner(r, first_of(r, n));
+    const char *type = bsdf ? type_of(resolve(r, bsdf)) : "";
+    const bool none = item->surface.emits || item->surface.material < 0 || !strcmp(type, "twosided") ||
+                      (is_glass(r, item->surface.material) && item->form != KOKSMA__FORM_SPHERE);
+    return item->surface.turned && !none
+               ? koksma__import_unknown(r->im, n->place, "'flip_normals' is ignored: surfaces have two sides")
+               : KOKSMA_OK;
 }
 
 static koksma_status shape(reader *r, const node *n, const double outer[12], int depth)
@@ -1024,13 +1115,14 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
         return instance(r, n, outer, depth);
     }
     KOKSMA__TRY(form_of(r, n, &item, form));
-    if (item.form == KOKSMA__FORM_MESH && item.mesh < 0) {
+    if (item.form == KOKSMA__FORM_MESH && item.mesh < 0 && !r->im->only_checks) {
+        koksma__xml_mark(n, KOKSMA__XML_COVERED);
         return KOKSMA_OK;
     }
-    set_read(r, n);
     KOKSMA__TRY(surface_of(r, n, &item.surface));
-    KOKSMA__TRY(koksma__import_spend(r->im, n->place,
-                                     item.mesh < 0 ? 0 : r->im->scene->meshes[item.mesh].n_triangles / 16));
+    KOKSMA__TRY(name_flip(r, n, &item));
+    KOKSMA__TRY(
+        koksma__import_spend(r->im, n->place, item.mesh < 0 ? 0 : r->im->scene->meshes[item.mesh].n_triangles / 16));
     KOKSMA__TRY(item.surface.emits && item.mesh >= 0 && koksma__mesh_is_curved(&r->im->scene->meshes[item.mesh])
                     ? koksma__import_unknown(r->im, n->place,
                                              "a luminous mesh shines from its flat sides, not by its smooth normals")
@@ -1050,9 +1142,7 @@ static koksma_status emitter(reader *r, const node *n)
     double m[12], along[3] = {0, 0, 1};
     const char *type = type_of(n);
     const bool far = !strcmp(type, "directional"), around = !strcmp(type, "constant");
-    if (far || around || !strcmp(type, "envmap") || !strcmp(type, "spot") || !strcmp(type, "point")) {
-        set_read(r, n);
-    }
+    KOKSMA__TRY(weight(r, n));
     KOKSMA__TRY(transform(r, n, "to_world", m));
     KOKSMA__TRY(colour(r, n, around ? "radiance" : far ? "irradiance" : "intensity", 1, &c, 0));
     KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &c));
@@ -1064,9 +1154,7 @@ static koksma_status emitter(reader *r, const node *n)
     if (around || !strcmp(type, "sunsky") || !strcmp(type, "sky") || !strcmp(type, "sun")) {
         light.kind = &koksma__light_environment;
         light.visible = true;
-        KOKSMA__TRY(around
-                        ? KOKSMA_OK
-                        : koksma__import_unknown(r->im, n->place, "emitter '%s' is replaced by a white sky", type));
+        KOKSMA__TRY(around ? KOKSMA_OK : REPLACE(r, n, "emitter '%s' is replaced by a white sky", type));
     } else if (far) {
         light.kind = &koksma__light_directional;
         point(r, n, "direction", along);
@@ -1084,43 +1172,133 @@ static koksma_status emitter(reader *r, const node *n)
         if (!strcmp(type, "spot")) {
             const double outer = number(r, n, "cutoff_angle", 20);
             const node *picture = property(r, n, "texture");
-            KOKSMA__TRY(picture ? koksma__import_unknown(r->im, picture->place, "a spot's texture is ignored")
-                                : KOKSMA_OK);
+            KOKSMA__TRY(picture ? REPLACE(r, picture, "a spot's texture is ignored") : KOKSMA_OK);
             for (int k = 0; k < 3; k++) {
                 along[k] = m[4 * k + 2];
             }
             KOKSMA__TRY(koksma__import_spot(n->place, along, number(r, n, "beam_width", outer * 3 / 4), outer,
                                             KOKSMA__FALLOFF_ANGLE, &light));
         } else if (strcmp(type, "point") != 0) {
-            KOKSMA__TRY(koksma__import_unknown(
-                r->im, n->place, "emitter '%s' is replaced by a point light equal in all directions", type));
+            KOKSMA__TRY(REPLACE(r, n, "emitter '%s' is replaced by a point light equal in all directions", type));
         }
     }
     return koksma__import_light(r->im, n->place, &light);
 }
 
-static koksma_status film(reader *r, const node *n)
+/* Objects that choose how a picture is computed or stored, which the program's own options do here, with the names of
+   those of their parameters that have no effect on what the picture shows. Those of Mitsuba 0.6 are here, too. */
+typedef struct plain_object {
+    const char *tag, *type, *parameters;
+} plain_object;
+
+#define FILM "file_format pixel_format component_format compensate banner high_quality_edges attach_log"
+#define PATHS "rr_depth block_size samples_per_pass timeout"
+
+static const plain_object plain_objects[] = {
+    {"sampler", "independent", "sample_count seed"},
+    {"sampler", "stratified", "sample_count seed jitter"},
+    {"sampler", "multijitter", "sample_count seed jitter"},
+    {"sampler", "orthogonal", "sample_count seed jitter strength"},
+    {"sampler", "ldsampler", "sample_count seed dimension"},
+    {"sampler", "halton", "sample_count scramble"},
+    {"sampler", "hammersley", "sample_count scramble"},
+    {"sampler", "sobol", "sample_count scramble"},
+    {"rfilter", "box", "radius"},
+    {"rfilter", "tent", "radius"},
+    {"rfilter", "gaussian", "radius stddev"},
+    {"rfilter", "mitchell", "a b c"},
+    {"rfilter", "catmullrom", ""},
+    {"rfilter", "lanczos", "lobes"},
+    {"film", "hdrfilm", FILM},
+    {"film", "tiledhdrfilm", FILM},
+    {"film", "ldrfilm", FILM},
+    {"integrator", "path", PATHS},
+    {"integrator", "volpath", PATHS},
+    {"integrator", "volpathmis", PATHS " use_spectral_mis"},
+    {"integrator", "volpath_simple", PATHS},
+    {"integrator", "prb", PATHS},
+    {"integrator", "prb_basic", PATHS},
+    {"integrator", "prbvolpath", PATHS},
+    {"integrator", "ptracer", PATHS},
+    {"integrator", "bdpt", PATHS " light_image sample_direct"},
+    {"integrator", "pssmlt", PATHS " bidirectional direct_samples luminance_samples two_stage p_large"},
+    {"integrator", "direct", "emitter_samples bsdf_samples shading_samples block_size samples_per_pass timeout"}};
+
+/* Takes the parameters of such an object; returns false, with a warning, if it has another type. */
+static bool plain(reader *r, const node *n, koksma_status *status)
+{
+    for (size_t i = 0; i < sizeof plain_objects / sizeof *plain_objects; i++) {
+        const plain_object *known = &plain_objects[i];
+        if (is(n, known->tag) && !strcmp(type_of(n), known->type)) {
+            pass(r, n, known->parameters);
+            return true;
+        }
+    }
+    *status = REPLACE(r, n, "%s '%s' is ignored", n->tag, type_of(n));
+    return false;
+}
+
+/* Takes the children of an object that are samplers or filters. */
+static koksma_status plain_children(reader *r, const node *n)
+{
+    koksma_status status = KOKSMA_OK;
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        const node *to = resolve(r, c);
+        if (is(to, "sampler") || is(to, "rfilter")) {
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+            plain(r, to, &status);
+            KOKSMA__TRY(status);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Reads the sides of a film. */
+static koksma_status film(reader *r, const node *n, double *width, double *height)
+{
+    static const char *const formats[] = {
+        "rgb", "rgba", "xyz", "xyza", "spectrum", "spectrumalpha", "luminance", "luminancealpha", "luminance_alpha",
+        NULL};
+    koksma_status status = KOKSMA_OK;
+    *width = number(r, n, "width", *width);
+    *height = number(r, n, "height", *height);
+    if (!(*width >= 1 && *height >= 1 && *width <= KOKSMA_MAX_IMAGE_SIDE && *height <= KOKSMA_MAX_IMAGE_SIDE &&
+          *width == floor(*width) && *height == floor(*height))) {
+        return koksma__import_fail(n->place, "a film of %g x %g pixels; each side must be a whole number, 1 to %d",
+                                   *width, *height, KOKSMA_MAX_IMAGE_SIDE);
+    }
+    if (!plain(r, n, &status)) {
+        return status;
+    }
+    static const char *const crops[] = {"crop_width", "crop_height", "crop_offset_x", "crop_offset_y"};
+    bool crops_it = false;
+    for (size_t i = 0; i < sizeof crops / sizeof *crops; i++) {
+        crops_it |= property(r, n, crops[i]) != NULL;
+    }
+    KOKSMA__TRY(crops_it ? koksma__import_unknown(r->im, n->place, "a film's crop is ignored") : KOKSMA_OK);
+    KOKSMA__TRY(choice(r, n, "pixel_format", formats) > 5
+                    ? koksma__import_unknown(r->im, n->place, "a film's 'luminance' is ignored: it has colours")
+                    : KOKSMA_OK);
+    KOKSMA__TRY(flag(r, n, "sample_border", false)
+                    ? koksma__import_unknown(r->im, n->place, "a film's 'sample_border' is ignored")
+                    : KOKSMA_OK);
+    return plain_children(r, n);
+}
+
+/* Reads the objects of a sensor. */
+static koksma_status objects_of_sensor(reader *r, const node *n)
 {
     double width = 768, height = 576;
     for (const node *child = first_of(r, n); child; child = next_of(r, child)) {
         const node *c = resolve(r, child);
         if (is(c, "film")) {
-            width = number(r, c, "width", width);
-            height = number(r, c, "height", height);
-            if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE &&
-                  width == floor(width) && height == floor(height))) {
-                return koksma__import_fail(c->place,
-                                           "a film of %g x %g pixels; each side must be a whole number, 1 to %d",
-                                           width, height, KOKSMA_MAX_IMAGE_SIDE);
-            }
-            if (property(r, c, "crop_width") || property(r, c, "crop_height")) {
-                KOKSMA__TRY(koksma__import_unknown(r->im, c->place, "a film's crop is ignored"));
-            }
+            koksma__xml_mark(child, KOKSMA__XML_TAKEN);
+            KOKSMA__TRY(film(r, c, &width, &height));
         }
     }
     r->im->scene->width = (int)width;
     r->im->scene->height = (int)height;
-    return KOKSMA_OK;
+    return plain_children(r, n);
 }
 
 /* The focal length in mm: a number, or a text that may end in "mm". */
@@ -1156,7 +1334,7 @@ static koksma_status sensor(reader *r, const node *n)
     const char *type = type_of(n);
     const bool lens = !strcmp(type, "thinlens");
     if (r->has_sensor) {
-        return koksma__import_unknown(r->im, n->place, "the scene has a second sensor, which is left out");
+        return REPLACE(r, n, "the scene has a second sensor, which is left out");
     }
     const bool parallel = !strcmp(type, "orthographic");
     if (!lens && !parallel && strcmp(type, "perspective") != 0) {
@@ -1164,12 +1342,19 @@ static koksma_status sensor(reader *r, const node *n)
                                    "sensor '%s' is not read; 'perspective', 'thinlens' and 'orthographic' are", type);
     }
     r->has_sensor = true;
-    set_read(r, n);
-    KOKSMA__TRY(film(r, n));
+    KOKSMA__TRY(objects_of_sensor(r, n));
+    const double near = number(r, n, "near_clip", 0.01), far = number(r, n, "far_clip", 1e4);
+    if (!(near > 0 && far > near)) {
+        return koksma__import_fail(
+            n->place, "the camera sees from near_clip, above 0, to far_clip: not from %g to %g", near, far);
+    }
+    pass(r, n, lens ? "shutter_open shutter_close" : "shutter_open shutter_close focus_distance");
     KOKSMA__TRY(transform(r, n, "to_world", m));
     const double width = r->im->scene->width, height = r->im->scene->height;
     koksma__camera camera = {.focus_distance = lens ? number(r, n, "focus_distance", 1) : 1,
-                             .lens_radius = lens ? number(r, n, "aperture_radius", 0) : 0};
+                             .lens_radius = lens ? number(r, n, "aperture_radius", 0) : 0,
+                             .near_clip = near,
+                             .far_clip = far};
     if (parallel) { /* an orthographic sensor shows -1 to 1 along x */
         const double x = sqrt(m[0] * m[0] + m[4] * m[4] + m[8] * m[8]),
                      y = sqrt(m[1] * m[1] + m[5] * m[5] + m[9] * m[9]);
@@ -1184,55 +1369,76 @@ static koksma_status sensor(reader *r, const node *n)
     return koksma__import_camera(r->im, n->place, m, -1, &camera);
 }
 
+/* ---- Integrators ---------------------------------------------------------------------------------------------- */
+
+/* Reads what an integrator says of the picture: how long paths are, and whether the camera sees lights. All that estimate
+   the same light by other means are path tracing here. */
+static koksma_status integrator(reader *r, const node *n, int depth)
+{
+    koksma_scene *scene = r->im->scene;
+    koksma_status status = KOKSMA_OK;
+    if (!strcmp(type_of(n), "aov") && depth < MOST_NESTED) { /* the picture is that of the integrator within */
+        pass(r, n, "aovs");
+        for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+            if (is(resolve(r, c), "integrator")) {
+                koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+                return integrator(r, resolve(r, c), depth + 1);
+            }
+        }
+    }
+    if (!plain(r, n, &status)) {
+        return status;
+    }
+    const bool direct = !strcmp(type_of(n), "direct");
+    const double most = direct ? 2 : number(r, n, "max_depth", -1);
+    scene->hides_lights = flag(r, n, "hide_emitters", false);
+    KOKSMA__TRY(flag(r, n, "strict_normals", false)
+                    ? koksma__import_unknown(r->im, n->place, "'strict_normals' is ignored")
+                    : KOKSMA_OK);
+    if (most >= 0 && most < 2) {
+        return koksma__import_unknown(r->im, n->place, "a max_depth of %g is replaced by 2", most);
+    }
+    /* Mitsuba counts the path's segments, --depth its vertices between the first surface and the last one that lights reach */
+    scene->path_vertices = 1 + (most < 0 ? KOKSMA_MAX_DEPTH : (int)fmin(most - 2, KOKSMA_MAX_DEPTH));
+    return KOKSMA_OK;
+}
+
 /* ---- The whole scene ---------------------------------------------------------------------------------------- */
 
-/* Whether a property has no effect on the pictures that Koksma makes, so that no warning is needed. */
-static bool is_harmless(const node *n, const char *name)
+/* Whether the children of a scene with this tag are read, wherever else they are referred to. */
+static bool is_of_scene(const node *n)
 {
-    static const struct {
-        const char *name, *value; /* value NULL: any */
-    } all[] = {{"near_clip", NULL},       {"far_clip", NULL},     {"focus_distance", NULL}, {"sample_visible", NULL},
-               {"sampling_weight", NULL}, {"shutter_open", NULL}, {"shutter_close", NULL},  {"accel", NULL},
-               {"to_world", NULL},        {"interior", NULL},     {"exterior", NULL},       {"sample_emitters", NULL},
-               {"fov_axis", NULL},        {"face_normals", NULL}, {"flip_normals", NULL},   {"distribution", NULL}};
-    const char *value = koksma__xml_attribute(n, "value");
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        if (koksma__xml_alike(all[i].name, name) && (!all[i].value || (value && !strcmp(value, all[i].value)))) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Whether the function that converts a node's parent finds the node by its tag, whatever its name is; Mitsuba's own
-   writer gives names to all nodes. */
-static bool is_found_by_kind(const node *n)
-{
-    static const char *const tags[] = {"bsdf", "emitter", "medium", "film", "sampler", "rfilter", "shape"};
+    static const char *const tags[] = {"sensor", "shape", "emitter", "integrator", "bsdf",    "texture", "spectrum",
+                                       "medium", "ref",   "alias",   "default",    "include", "path"};
     for (size_t i = 0; i < sizeof tags / sizeof *tags; i++) {
         if (is(n, tags[i])) {
-            return true;
+            return !is(n, "emitter") || strcmp(type_of(n), "area") != 0;
         }
     }
     return false;
 }
 
-/* Warns about the properties that nothing has looked up, in the nodes that set_read() has marked. */
-static koksma_status name_unused(reader *r)
+/* Reads the objects that nothing refers to, so that what is wrong in them is an error and what is unknown in them a
+   warning. */
+static koksma_status check_unused(reader *r, const node *root)
 {
-    for (size_t i = 0; i < r->xml.n; i++) {
-        const node *parent = &r->xml.nodes[i];
-        for (const node *c = r->read[i] ? first_of(r, parent) : NULL; c; c = next_of(r, c)) {
-            const char *name = koksma__xml_attribute(c, "name");
-            if (!name || r->used[c - r->xml.nodes] || is_harmless(c, name)) {
-                continue;
-            }
-            KOKSMA__TRY(is_found_by_kind(resolve(r, c))
-                            ? KOKSMA_OK
-                            : koksma__import_unknown(r->im, c->place, "'%s' of %s '%s' is ignored", name, parent->tag,
-                                                     type_of(parent)));
+    double rgb[3];
+    int material;
+    koksma__import_colour c = {0};
+    r->im->only_checks = true;
+    for (const node *n = first_of(r, root); n; n = next_of(r, n)) {
+        if (r->looked[n - r->xml.nodes]) {
+            continue;
         }
+        KOKSMA__TRY(is(n, "bsdf")       ? make_bsdf(r, n, 0, &material)
+                    : is_texture(n)     ? texture(r, n, KOKSMA__UNBOUNDED, &c, 0)
+                    : is(n, "spectrum") ? value_of(r, n, KOKSMA__UNBOUNDED, rgb)
+                    : is(n, "shape") && !strcmp(type_of(n), "shapegroup")
+                        ? parts_of_group(r, n, koksma__import_identity, 0)
+                    : is(n, "medium") ? read_medium(r, n)
+                                      : KOKSMA_OK);
     }
+    r->im->only_checks = false;
     return KOKSMA_OK;
 }
 
@@ -1246,13 +1452,19 @@ static koksma_status read_root(reader *r)
     KOKSMA__TRY(find_medium(r, root));
     for (const node *c = first_of(r, root); c; c = next_of(r, c)) {
         const node *n = object_of(r, c);
+        koksma__xml_mark(c, is_of_scene(c) ? KOKSMA__XML_TAKEN : 0);
         KOKSMA__TRY(is(n, "sensor")                                       ? sensor(r, n)
+                    : is(n, "integrator")                                 ? integrator(r, n, 0)
                     : is(n, "shape")                                      ? shape(r, n, NULL, 0)
                     : is(n, "emitter") && strcmp(type_of(n), "area") != 0 ? emitter(r, n)
                                                                           : KOKSMA_OK);
     }
-    KOKSMA__TRY(r->has_sensor ? set_medium(r) : koksma__import_fail(root->place, "no <sensor>"));
-    return name_unused(r);
+    KOKSMA__TRY(r->has_sensor ? (r->medium ? read_medium(r, r->medium) : KOKSMA_OK)
+                              : koksma__import_fail(root->place, "no <sensor>"));
+    (void)koksma__xml_attribute(root, "version");
+    KOKSMA__TRY(check_unused(r, root));
+    koksma__xml_mark(root, KOKSMA__XML_TAKEN);
+    return koksma__xml_name_unread(r->im, &r->xml);
 }
 
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t size)
@@ -1263,9 +1475,8 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
     koksma_status status = koksma__xml_read(im, bytes, size, &r.xml);
     if (!status) {
         r.materials = malloc((r.xml.n + 1) * sizeof *r.materials);
-        r.used = calloc(r.xml.n + 1, sizeof *r.used);
-        r.read = calloc(r.xml.n + 1, sizeof *r.read);
-        status = r.materials && r.used && r.read ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
+        r.looked = calloc(r.xml.n + 1, sizeof *r.looked);
+        status = r.materials && r.looked ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
         for (size_t i = 0; r.materials && i < r.xml.n; i++) {
             r.materials[i] = -2;
         }
@@ -1279,7 +1490,7 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
                                                       first.at->tag, value ? value : "", first.expected)
                                 : koksma__import_spend(im, first.at->place, 0);
     }
-    KOKSMA__FREE(r.materials, r.used, r.read, r.identities);
+    KOKSMA__FREE(r.materials, r.looked, r.identities);
     koksma__xml_fini(&r.xml);
     return status;
 }

@@ -22,7 +22,7 @@ typedef koksma__xml_node node;
 
 static bool is(const node *n, const char *tag)
 {
-    return koksma__xml_alike(n->tag, tag);
+    return !strcasecmp(n->tag, tag); /* lookAt was the name in Mitsuba 0.6 */
 }
 
 /* Fails with "FILE:LINE: NAME: 'VALUE' is not EXPECTED"; the name is that of the property or the element, and of the

@@ -3,7 +3,8 @@
  * Parses XML with expat. Elements become nodes in the order of the text. <default name value> sets $name unless
  * it was set before; <include filename> is replaced by the children of that file's <scene>, or by the object that is
  * its root; <path value> names a folder to search for files. Nothing else is loaded or expanded: a document type
- * declaration stops the parser before any entity is declared.
+ * declaration stops the parser before any entity is declared. Readers mark what they use, so that
+ * koksma__xml_name_unread() finds everything that no reader knows: misspelt names above all.
  */
 #include "scene/xml.h"
 
@@ -38,24 +39,70 @@ const char *koksma__xml_attribute(const koksma__xml_node *node, const char *name
 {
     for (size_t i = 0; node->attributes[i]; i += 2) {
         if (!strcmp(node->attributes[i], name)) {
+            node->marks[1 + i / 2] = 1;
             return node->attributes[i + 1];
         }
     }
     return NULL;
 }
 
-bool koksma__xml_alike(const char *a, const char *b)
+/* Warns about an element that no reader has taken. */
+static koksma_status name_element(koksma__import *im, const koksma__xml_node *parent, const koksma__xml_node *n)
 {
-    for (;; a++, b++) {
-        a += *a == '_';
-        b += *b == '_';
-        if (tolower((unsigned char)*a) != tolower((unsigned char)*b)) {
-            return false;
-        }
-        if (!*a) {
-            return true;
+    const char *name = koksma__xml_attribute(n, "name"), *type = koksma__xml_attribute(parent, "type");
+    const char *open = type ? " '" : "", *close = type ? "'" : "";
+    type = type ? type : "";
+    return name ? koksma__import_unknown(im, n->place, "'%.60s' of %.60s%s%.60s%s is ignored", name, parent->tag,
+                                         open, type, close)
+                : koksma__import_unknown(im, n->place, "<%.60s> in %.60s%s%.60s%s is ignored", n->tag, parent->tag,
+                                         open, type, close);
+}
+
+/* Warns about the attributes of an element that no reader has looked up; all elements may have a name and an id. */
+static koksma_status name_attributes(koksma__import *im, const koksma__xml_node *n)
+{
+    for (size_t i = 0; n->attributes[i]; i += 2) {
+        const char *name = n->attributes[i];
+        if (!n->marks[1 + i / 2] && strcmp(name, "name") != 0 && strcmp(name, "id") != 0) {
+            KOKSMA__TRY(
+                koksma__import_unknown(im, n->place, "attribute '%.60s' of <%.60s> is ignored", name, n->tag));
         }
     }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml)
+{
+    /* parents precede their children, so that marks go down the tree in one pass */
+    for (size_t i = 0; i < xml->n; i++) {
+        const koksma__xml_node *n = &xml->nodes[i];
+        const bool covered = n->marks[0] & KOKSMA__XML_COVERED;
+        KOKSMA__TRY(koksma__import_spend(im, n->place, 1));
+        KOKSMA__TRY(covered ? KOKSMA_OK : name_attributes(im, n));
+        for (int c = n->first; c >= 0; c = xml->nodes[c].next) {
+            const koksma__xml_node *child = &xml->nodes[c];
+            KOKSMA__TRY(covered || child->marks[0] & KOKSMA__XML_TAKEN ? KOKSMA_OK : name_element(im, n, child));
+            koksma__xml_mark(child, covered || !(child->marks[0] & KOKSMA__XML_TAKEN) ? KOKSMA__XML_COVERED : 0);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+bool koksma__xml_alike(const char *text, const char *name)
+{
+    for (bool in_capitals = false; *text; text++, name++) {
+        const bool capital = isupper((unsigned char)*text);
+        if (capital && *name == '_') {
+            name++;
+        } else if (capital && !in_capitals) {
+            return false;
+        }
+        if (tolower((unsigned char)*text) != *name) {
+            return false;
+        }
+        in_capitals = capital;
+    }
+    return !*name;
 }
 
 #ifdef KOKSMA_EXPAT
@@ -184,7 +231,7 @@ static void include(reading *r, const koksma__xml_node *node, int parent)
 /* Makes the block of memory that has a node's attributes, its tag and their texts, from those in r->texts. */
 static void set_texts(reading *r, koksma__xml_node *node, size_t n)
 {
-    const size_t size = (n + 1) * sizeof *node->attributes + r->n_texts;
+    const size_t texts = (n + 1) * sizeof *node->attributes, size = texts + r->n_texts + 1 + n / 2;
     stop(r, koksma__import_hold(r->im, node->place, HELD_WITH_NODE + size));
     node->attributes = r->status ? NULL : malloc(size);
     if (!node->attributes) {
@@ -199,6 +246,7 @@ static void set_texts(reading *r, koksma__xml_node *node, size_t n)
         node->length += strlen(at);
     }
     node->attributes[n] = NULL;
+    node->marks = memset((char *)node->attributes + texts + r->n_texts, 0, 1 + n / 2);
 }
 
 /* Adds a node for an element to the children of its parent. */
@@ -214,7 +262,7 @@ static int add_node(reading *r, const char *tag, const char **attributes, int pa
         fail_memory(r);
         return -1;
     }
-    *node = (koksma__xml_node){NULL, NULL, here(r), 0, -1, -1, -1};
+    *node = (koksma__xml_node){.place = here(r), .first = -1, .last = -1, .next = -1};
     r->n_texts = 0;
     add_text(r, tag);
     for (; attributes[n] && !r->status; n++) {
@@ -251,6 +299,9 @@ static void start_element(void *data, const char *tag, const char **attributes)
     }
     const int node = add_node(r, tag, attributes, parent);
     r->open[++r->depth] = node;
+    if (!r->status && is_included_root) {
+        (void)koksma__xml_attribute(&r->xml->nodes[node], "version");
+    }
     if (!r->status && is_included_root && !koksma__xml_attribute(&r->xml->nodes[node], "type")) {
         stop(r, koksma__import_fail(
                     here(r), "an included file is a <%.60s>; it must be a <scene> or an object with a 'type'", tag));

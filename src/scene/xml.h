@@ -6,9 +6,15 @@
 #include "meshes/names.h"
 #include "scene/import.h"
 
+/* Marks of an element: TAKEN: a reader has taken it for what its parent may contain; COVERED: a warning says already what
+   becomes of all that it contains. */
+enum { KOKSMA__XML_TAKEN = 1, KOKSMA__XML_COVERED = 2 };
+
 typedef struct koksma__xml_node {
     const char *tag;
-    char **attributes; /* names and values in turn, ended by NULL; their texts and the tag are in the same block */
+    char **
+        attributes; /* names and values in turn, ended by NULL; their texts, the tag and `marks` are in the same block */
+    unsigned char *marks; /* those of the element; then, for each attribute, whether it was looked up */
     koksma__text_place place;
     size_t length;         /* characters of the attributes */
     int first, last, next; /* first and last child; next child of the same parent; -1: none */
@@ -28,10 +34,20 @@ typedef struct koksma__xml {
 koksma_status koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out);
 void koksma__xml_fini(koksma__xml *xml);
 
-/* The value of an attribute; NULL if the node does not have it. */
+/* The value of an attribute, which is marked as looked up; NULL if the node does not have it. */
 const char *koksma__xml_attribute(const koksma__xml_node *node, const char *name);
 
-/* Whether two names are equal, ignoring case and '_' (toWorld, to_world). */
-bool koksma__xml_alike(const char *a, const char *b);
+/* Marks a node. */
+static inline void koksma__xml_mark(const koksma__xml_node *node, unsigned char marks)
+{
+    node->marks[0] |= marks;
+}
+
+/* Warns about each element that no reader has taken, and each attribute that none has looked up, in the whole tree but for
+   what is covered. Errors: MEMORY, MALFORMED (koksma__import_spend). */
+koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml);
+
+/* Whether a text has this name, as it is or in the form of Mitsuba 0.6: with a capital in place of '_' (toWorld, intIOR). */
+bool koksma__xml_alike(const char *text, const char *name);
 
 #endif

@@ -301,6 +301,58 @@ static void a_luminous_room_is_a_geometric_series(void **state)
     }
 }
 
+/* The camera looks along -z at two luminous squares, of radiance 7 at distance 4 and 3 at distance 6, and at a sky of
+   radiance 1: it sees the first thing between its planes, and no light at all if it hides them. max_depth counts segments
+   of paths, of which two are those without a bounce. */
+static void mitsubas_cameras_see_what_they_may(void **state)
+{
+    static const struct {
+        const char *sensor, *integrator;
+        double seen;
+        int depth;
+    } cases[] = {{"", "", 7, KOKSMA_MAX_DEPTH},
+                 {"<float name=\"near_clip\" value=\"5\"/>", "<integer name=\"max_depth\" value=\"2\"/>", 3, 0},
+                 {"<float name=\"far_clip\" value=\"3\"/>", "<integer name=\"max_depth\" value=\"9\"/>", 1, 7},
+                 {"<float name=\"nearClip\" value=\"5\"/><float name=\"farClip\" value=\"5.5\"/>",
+                  "<integer name=\"maxDepth\" value=\"-1\"/>", 1, KOKSMA_MAX_DEPTH},
+                 {"", "<boolean name=\"hide_emitters\" value=\"true\"/>", 0, KOKSMA_MAX_DEPTH},
+                 {"", "<boolean name=\"hideEmitters\" value=\"false\"/>", 7, KOKSMA_MAX_DEPTH}};
+    (void)state;
+    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+        char text[2048];
+        koksma_render_options options;
+        koksma_image image = {0};
+        snprintf(
+            text, sizeof text,
+            "<scene version=\"3.0.0\"><integrator type=\"path\">%s</integrator><sensor type=\"perspective\">%s"
+            "<float name=\"fov\" value=\"2\"/><transform name=\"to_world\"><lookat origin=\"0 0 5\" target=\"0 0 "
+            "0\" up=\"0 1 0\"/></transform></sensor><emitter type=\"constant\"/><shape type=\"rectangle\"><transform "
+            "name=\"to_world\"><translate z=\"1\"/></transform><emitter type=\"area\"><rgb name=\"radiance\" "
+            "value=\"7\"/></emitter></shape><shape type=\"rectangle\"><transform name=\"to_world\"><translate "
+            "z=\"-1\"/></transform><emitter type=\"area\"><rgb name=\"radiance\" value=\"3\"/></emitter></shape>"
+            "</scene>",
+            cases[i].integrator, cases[i].sensor);
+        koksma_scene *scene = opened("c.xml", text);
+        assert_int_equal(scene->n_unknown, 0);
+        koksma_render_options_init(&options, scene);
+        options.integrator = koksma_integrator_find("path");
+        options.width = options.height = 2;
+        options.spp = 1;
+        assert_int_equal(koksma_render_depth(scene, &options), cases[i].depth);
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        for (int p = 0; p < 4 * image.channels; p++) {
+            assert_near((double)image.pixels[p], cases[i].seen, 1e-6);
+        }
+        koksma_image_fini(&image);
+        options.depth = 3; /* the options' depth wins; integrators that do not trace paths have their own */
+        assert_int_equal(koksma_render_depth(scene, &options), 3);
+        options.depth = -1;
+        options.integrator = koksma_integrator_find("whitted");
+        assert_int_equal(koksma_render_depth(scene, &options), options.integrator->depth);
+        koksma_scene_close(scene);
+    }
+}
+
 /* ---- Cameras' windows, invisible lights, spectra ------------------------------------------------------------------ */
 
 /* The vertical angle is that of the screen window's height at the distance where pbrt's fov spans -1 to 1 (Pharr, Jakob
@@ -801,10 +853,10 @@ static void both_sides_light_alike(void **state)
 #define CHECKED(to_uv)                                                                                               \
     IMAGED("<texture name=\"reflectance\" type=\"checkerboard\"><transform name=\"to_uv\">" to_uv                    \
            "</transform></texture>")
-#define SCALED "a.xml:2: only the scale along u of a checkerboard's transform is used"
 
-#define GLASS(type, inner)                                                                                           \
-    BALL("<bsdf type=\"" type "\"><string name=\"distribution\" value=\"ggx\"/>" inner "</bsdf>")
+#define INTEGRATOR(type, inner) MITSUBA("<integrator type=\"" type "\">" inner "</integrator>")
+#define SENSOR(inner) "<scene version=\"3.0.0\"><sensor type=\"perspective\">" inner "</sensor></scene>"
+#define GLASS(type, inner) BALL("<bsdf type=\"" type "\">" inner "</bsdf>")
 #define TINTED "a.xml:2: a glass's 'specular_transmittance' is ignored"
 
 #define CHROMIUM "a.xml:2: a metal whose eta or k varies or is in a file is replaced by chromium"
@@ -959,7 +1011,10 @@ static const struct {
              "id=\"d\"/></bsdf></shape>"),
      NULL},
     {"a.xml", GLASS("dielectric", "<rgb name=\"specular_transmittance\" value=\"0.9,0.1,0.1\"/>"), TINTED},
-    {"a.xml", GLASS("roughdielectric", "<float name=\"specularTransmittance\" value=\"0.2\"/>"), TINTED},
+    {"a.xml",
+     GLASS("roughdielectric",
+           "<string name=\"distribution\" value=\"ggx\"/><float name=\"specularTransmittance\" value=\"0.2\"/>"),
+     TINTED},
     {"a.xml", GLASS("dielectric", "<texture name=\"specular_transmittance\" type=\"checkerboard\"/>"), TINTED},
     {"a.xml", GLASS("dielectric", "<rgb name=\"specular_transmittance\" value=\"1\"/>"), NULL},
     {"a.xml", GLASS("dielectric", "<spectrum name=\"specular_transmittance\" value=\"360:1, 830:1\"/>"), NULL},
@@ -1011,16 +1066,16 @@ static const struct {
      "a.xml:2: an image's scale is ignored"},
     {"a.xml", CHECKED("<scale value=\"2\"/>"), NULL},
     {"a.xml", CHECKED("<scale x=\"-2\" y=\"-2\"/>"), NULL},
-    {"a.xml", CHECKED("<scale x=\"2\" y=\"3\"/>"), SCALED},
-    {"a.xml", CHECKED("<scale x=\"-1\"/>"), SCALED},
+    {"a.xml", CHECKED("<scale x=\"2\" y=\"3\"/>"), NULL},
+    {"a.xml", CHECKED("<scale x=\"-1\"/>"), NULL},
     {"a.xml", CHECKED("<rotate z=\"1\" angle=\"180\"/>"), NULL},
     {"a.xml", CHECKED("<translate x=\"1\" y=\"-2\"/>"), NULL},
-    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"45\"/>"), SCALED},
-    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"90\"/>"), SCALED},
-    {"a.xml", CHECKED("<translate x=\"0.25\"/>"), SCALED},
-    {"a.xml", CHECKED("<translate y=\"0.25\"/>"), SCALED},
-    {"a.xml", CHECKED("<matrix value=\"1 0.5 0 0 1 0 0 0 1\"/>"), SCALED},
-    {"a.xml", CHECKED("<matrix value=\"1 0 0 0.5 1 0 0 0 1\"/>"), SCALED},
+    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"45\"/>"), NULL},
+    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"90\"/>"), NULL},
+    {"a.xml", CHECKED("<translate x=\"0.25\"/>"), NULL},
+    {"a.xml", CHECKED("<translate y=\"0.25\"/>"), NULL},
+    {"a.xml", CHECKED("<matrix value=\"1 0.5 0 0 1 0 0 0 1\"/>"), NULL},
+    {"a.xml", CHECKED("<matrix value=\"1 0 0 0.5 1 0 0 0 1\"/>"), NULL},
     /* choices of Mitsuba 0.6, and in other case */
     {"a.xml", IMAGE("<string name=\"filterType\" value=\"nearest\"/><string name=\"wrapMode\" value=\"Mirror\"/>"),
      NULL},
@@ -1040,6 +1095,48 @@ static const struct {
      "<scene version=\"3.0.0\"><sensor type=\"perspective\"><string name=\"fovAxis\" "
      "value=\"Larger\"/></sensor></scene>",
      NULL},
+    /* what another picture than Mitsuba's would come of */
+    {"a.xml", INTEGRATOR("path", "<integer name=\"max_depth\" value=\"2\"/>"), NULL},
+    {"a.xml", INTEGRATOR("path", "<integer name=\"maxDepth\" value=\"1\"/>"), "a.xml:2: a max_depth of 1"},
+    {"a.xml", INTEGRATOR("path", "<boolean name=\"hide_emitters\" value=\"true\"/>"), NULL},
+    {"a.xml", INTEGRATOR("path", "<boolean name=\"strictNormals\" value=\"true\"/>"), "a.xml:2: 'strict_normals'"},
+    {"a.xml", INTEGRATOR("path", "\n<integer name=\"max_dept\" value=\"2\"/>"), "a.xml:3: 'max_dept' of integrator"},
+    {"a.xml", INTEGRATOR("direct", ""), NULL},
+    {"a.xml", INTEGRATOR("depth", ""), "a.xml:2: integrator 'depth' is ignored"},
+    {"a.xml", INTEGRATOR("aov", "<string name=\"aovs\" value=\"d:depth\"/><integrator type=\"path\"/>"), NULL},
+    {"a.xml", SENSOR("<float name=\"near_clip\" value=\"2\"/>"), NULL},
+    {"a.xml", SENSOR("<float name=\"shutter_open\" value=\"0\"/>"), NULL},
+    {"a.xml", SENSOR("<film type=\"hdrfilm\"><string name=\"pixelFormat\" value=\"luminance\"/></film>"),
+     "a.xml:1: a film's 'luminance' is ignored"},
+    {"a.xml", SENSOR("<film type=\"hdrfilm\"><boolean name=\"sample_border\" value=\"true\"/></film>"),
+     "a.xml:1: a film's 'sample_border' is ignored"},
+    {"a.xml", SENSOR("<film type=\"hdrfilm\"><float name=\"cropOffsetX\" value=\"2\"/></film>"),
+     "a.xml:1: a film's crop is ignored"},
+    {"a.xml", SENSOR("<film type=\"specfilm\"/>"), "a.xml:1: film 'specfilm' is ignored"},
+    {"a.xml", SENSOR("<sampler type=\"independant\"/>"), "a.xml:1: sampler 'independant' is ignored"},
+    {"a.xml", MITSUBA("<emitter type=\"point\"><float name=\"sampling_weight\" value=\"0\"/></emitter>"),
+     "a.xml:2: a light whose sampling weight is 0"},
+    {"a.xml", BALL("<boolean name=\"flip_normals\" value=\"true\"/><bsdf type=\"diffuse\"/>"),
+     "a.xml:2: 'flip_normals' is ignored"},
+    {"a.xml",
+     BALL("<boolean name=\"flip_normals\" value=\"true\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>"),
+     NULL},
+    {"a.xml", BALL("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1.5, 0, 0\"/></bsdf>"),
+     "a.xml:2: a reflectance beyond 0 to 1"},
+    /* elements and attributes that nothing takes */
+    {"a.xml", MITSUBA("<emiter type=\"point\"/>"), "a.xml:2: <emiter> in scene is ignored"},
+    {"a.xml", MITSUBA("<film type=\"hdrfilm\"/>"), "a.xml:2: <film> in scene is ignored"},
+    {"a.xml", BALL("<bdsf type=\"diffuse\"/>"), "a.xml:2: <bdsf> in shape 'sphere' is ignored"},
+    {"a.xml", BALL("<transform><translate x=\"1\"/></transform>"), "a.xml:2: <transform> in shape 'sphere'"},
+    {"a.xml", BALL("<trnsform name=\"to_world\"><translate x=\"1\"/></trnsform>"),
+     "a.xml:2: 'to_world' of shape 'sphere' is ignored"},
+    {"a.xml", BALL("<transform name=\"to_world\"><translate x=\"1\" yy=\"2\"/></transform>"),
+     "a.xml:2: attribute 'yy' of <translate> is ignored"},
+    {"a.xml", BALL("<float name=\"radius\" value=\"1\"/><float name=\"radius\" value=\"2\"/>"),
+     "a.xml:2: 'radius' of shape 'sphere' is ignored"},
+    {"a.xml", MITSUBA("<bsdf type=\"diffuse\" id=\"unused\"><rgb name=\"reflectence\" value=\"1\"/></bsdf>"),
+     "a.xml:2: 'reflectence' of bsdf 'diffuse' is ignored"},
+    {"a.xml", MITSUBA("<bsdf type=\"diffuse\" id=\"unused\"><rgb name=\"reflectance\" value=\"1\"/></bsdf>"), NULL},
     {"a.xml", MITSUBA("<shape type=\"sdfgrid\"/>"), "a.xml:2: shape 'sdfgrid' is left out"},
     {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), NULL},
     {"a.xml",
@@ -1165,17 +1262,31 @@ static void images_are_mapped_as_in_mitsuba(void **state)
     }
 }
 
-/* The squares keep their size when they are turned, although not their places. */
-static void turned_checkerboards_keep_their_size(void **state)
+/* In Mitsuba the square of (u, v) is found by to_uv, and has sides of one half; Mitsuba 3 makes a to_uv of the four numbers
+   of Mitsuba 0.6, which moves before it scales. */
+static void checkerboards_are_mapped_as_in_mitsuba(void **state)
 {
-    static const char *const texts[] = {CHECKED("<scale value=\"2\"/>"),
-                                        CHECKED("<scale value=\"2\"/><rotate z=\"1\" angle=\"90\"/>"),
-                                        CHECKED("<rotate z=\"1\" angle=\"30\"/><scale value=\"2\"/>"),
-                                        CHECKED("<matrix value=\"0 2 0 2 0 0 0 0 1\"/>")};
+    static const struct {
+        const char *text;
+        float matrix[6];
+    } cases[] = {{CHECKED("<scale x=\"2\" y=\"3\"/>"), {2, 0, 0, 0, 3, 0}},
+                 {CHECKED("<translate x=\"0.25\"/><scale value=\"2\"/>"), {2, 0, 0.5f, 0, 2, 0}},
+                 {CHECKED("<scale value=\"2\"/><rotate z=\"1\" angle=\"90\"/>"), {0, -2, 0, 2, 0, 0}},
+                 {CHECKED("<matrix value=\"1 0.5 0 0.1 0 1 0 0 0 0 1 0 0 0 0 1\"/>"), {1, 0.5f, 0.1f, 0, 1, 0}},
+                 {IMAGED("<texture name=\"reflectance\" type=\"checkerboard\"><float "
+                         "name=\"uscale\" value=\"8\"/><float name=\"vscale\" value=\"4\"/><float name=\"uoffset\" "
+                         "value=\"0.5\"/><float name=\"voffset\" value=\"0.25\"/></texture>"),
+                  {8, 0, 4, 0, 4, 1}}};
     (void)state;
-    for (size_t i = 0; reads_xml() && i < sizeof texts / sizeof *texts; i++) {
-        koksma_scene *scene = opened("a.xml", texts[i]);
-        assert_near(scene->materials[0].period, 0.25, 1e-9);
+    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+        koksma_scene *scene = opened("a.xml", cases[i].text);
+        const koksma__material *m = &scene->materials[0];
+        assert_int_equal(scene->n_unknown, 0);
+        assert_true(m->checker && m->mapping.moved);
+        assert_near(m->period, 0.5, 1e-9);
+        for (int k = 0; k < 6; k++) {
+            assert_near((double)m->mapping.matrix[k], (double)cases[i].matrix[k], 1e-6);
+        }
         koksma_scene_close(scene);
     }
 }
@@ -1527,6 +1638,7 @@ int main(void)
         cmocka_unit_test(one_scene_is_one_picture),
         cmocka_unit_test(orthographic_cameras_show_their_height),
         cmocka_unit_test(spots_light_a_circle),
+        cmocka_unit_test(mitsubas_cameras_see_what_they_may),
         cmocka_unit_test(the_screen_window_sets_the_angle),
         cmocka_unit_test(alpha_zero_hides_a_shape_but_not_its_light),
         cmocka_unit_test(round_shapes_have_mitsubas_coordinates),
@@ -1545,7 +1657,7 @@ int main(void)
         cmocka_unit_test(unknown_things_are_named),
         cmocka_unit_test(references_and_includes_are_objects),
         cmocka_unit_test(images_are_mapped_as_in_mitsuba),
-        cmocka_unit_test(turned_checkerboards_keep_their_size),
+        cmocka_unit_test(checkerboards_are_mapped_as_in_mitsuba),
         cmocka_unit_test(textures_in_checkerboards_are_their_means),
         cmocka_unit_test(images_of_lights_are_their_means),
         cmocka_unit_test(the_cameras_medium_is_read),
