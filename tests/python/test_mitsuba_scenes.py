@@ -85,7 +85,7 @@ class Agreement(unittest.TestCase):
 
     def ours(self, path, spp, seed, depth):
         out = self.path("ours.pfm")
-        subprocess.run([PROGRAM, "render", path, "--integrator", "path", "--depth", str(depth), "--spp", str(spp), "--seed",
+        subprocess.run([PROGRAM, "render", path, "--integrator", "path", *([] if depth is None else ["--depth", str(depth)]), "--spp", str(spp), "--seed",
                         str(seed), "--size", f"{SIDE}x{SIDE}", "-p", "random", "-q", "-o", out, "--unknown", "refuse"], check=True, stdout=subprocess.DEVNULL)
         return koksma.read_image(out)
 
@@ -139,15 +139,52 @@ class Agreement(unittest.TestCase):
                 f'<scale value="0.5"/>{move(y=.8)}</transform>{diffuse("0.5, 0.6, 0.7")}</shape>'
                 f'<emitter type="constant">{rgb("radiance", 0.6)}</emitter>', depth=3), depth=1)
 
+    def test_meshes_without_normals(self):
+        """A bowl of 6 x 8 patches, open to the sides that see it, is smooth in every format; as OBJ also in groups."""
+        rings, spokes = 6, 8
+        places = [(np.cos(2 * np.pi * j / spokes) * i / rings, .6 * (i / rings) ** 2, np.sin(2 * np.pi * j / spokes) * i / rings)
+                  for i in range(1, rings + 1) for j in range(spokes)] + [(0, 0, 0)]
+        last, at = len(places) - 1, lambda i, j: i * spokes + j % spokes
+        faces = [(last, at(0, j + 1), at(0, j)) for j in range(spokes)]
+        for i, j in ((i, j) for i in range(rings - 1) for j in range(spokes)):
+            faces += [(at(i, j), at(i, j + 1), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i + 1, j))]
+        obj = "".join(f"v {x} {y} {z}\n" for x, y, z in places)
+        groups = "".join(f"g {k // 20}\nf " + " ".join(str(c + 1) for c in face) + "\n" for k, face in enumerate(faces))
+        pathlib.Path(self.path("bowl.obj")).write_text(obj + groups, encoding="utf-8")
+        header = f"ply\nformat ascii 1.0\nelement vertex {last + 1}\nproperty float x\nproperty float y\nproperty float z\n"
+        pathlib.Path(self.path("bowl.ply")).write_text(
+            header + f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+            + "".join(f"{x} {y} {z}\n" for x, y, z in places) + "".join("3 %d %d %d\n" % face for face in faces), encoding="utf-8")
+        light = f'<emitter type="directional"><vector name="direction" x="-0.3" y="-1" z="-0.2"/>{rgb("irradiance", 3)}</emitter>'
+        for kind in ("obj", "ply"):
+            with self.subTest(format=kind):
+                self.of_text(scene(f'<shape type="{kind}"><string name="filename" value="bowl.{kind}"/>{diffuse("0.8")}</shape>' + light,
+                                   depth=2, eye="0, 5, 2", target="0, .3, 0", fov=18), depth=None)
+
+    def test_what_the_camera_sees(self):
+        """Lights that it does not see, planes that clip, and direct light alone; the file says how long paths are."""
+        light = rectangle(emitter("9, 8, 7"), '<scale value="0.4"/>', move(y=1, z=2)) + '<emitter type="constant"/>'
+        block = f'<shape type="cube"><transform name="to_world"><scale value="0.4"/>{turn("y", 30)}{move(y=.7)}</transform>{diffuse("0.5")}</shape>'
+        inside = ROOM + light + block  # behind a hidden light Mitsuba 3.9.1 shades spheres as if all their normals were the camera's
+        hide = '<boolean name="hide_emitters" value="true"/></integrator>'
+        for name, text in (("hidden", scene(inside).replace("</integrator>", hide)),
+                           ("direct", scene(inside).replace('"path"><integer name="max_depth" value="64"/>', '"direct">')),
+                           ("near", scene(inside).replace("<film", '<float name="near_clip" value="5.7"/><film')),
+                           ("far", scene(inside).replace("<film", '<float name="far_clip" value="6"/><film')),
+                           ("short", scene(inside, depth=3))):
+            with self.subTest(name=name):
+                self.of_text(text, depth=None)
+
     def test_checkerboards(self):
-        """Texture coordinates of a cube's six sides and of a rectangle: the phase of their squares."""
+        """Texture coordinates of a cube's six sides and of a rectangle, there mapped by a matrix: the phase of their squares."""
         checks = (f'<bsdf type="twosided"><bsdf type="diffuse"><texture type="checkerboard" name="reflectance">'
                   f'{rgb("color0", "0.8, 0.4, 0.1")}{rgb("color1", 0.1)}<transform name="to_uv"><scale x="1.5" y="1.5"/></transform>'
                   '</texture></bsdf></bsdf>')
+        floor = checks.replace('<scale x="1.5" y="1.5"/>', f'{move(x=.2, y=.1)}<scale x="2.5" y="1.5"/>{turn("z", 20)}')
         for angle in (35, 215):
             self.of_text(scene(
                 f'<shape type="cube"><transform name="to_world"><scale value="0.6"/>{turn("y", angle)}{turn("x", angle)}{move(y=1)}'
-                f'</transform>{checks}</shape>' + rectangle(checks, '<scale value="1.5"/>', move(y=1, z=-1.5))
+                f'</transform>{checks}</shape>' + rectangle(floor, '<scale value="1.5"/>', move(y=1, z=-1.5))
                 + f'<emitter type="constant">{rgb("radiance", 0.6)}</emitter>', depth=2), depth=0)
 
     def test_mitsubas_cornell_box(self):
