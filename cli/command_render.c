@@ -62,8 +62,8 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
     snprintf(text + used, size - used,
              " spp=%d pairing=%s scope=%s lights=%s integrator=%s depth=%d filter=%s%s seed=%llu", o->spp,
              koksma_pairing_name(o->pairing), koksma_scope_name(o->scope), koksma_light_selection_name(o->lights),
-             o->integrator->name, koksma_render_depth(scene, o), o->filter->name,
-             o->splat ? " splat" : "", (unsigned long long)o->seed);
+             o->integrator->name, koksma_render_depth(scene, o), o->filter->name, o->splat ? " splat" : "",
+             (unsigned long long)o->seed);
     if (adaptive->method) {
         const size_t length = strlen(text);
         koksma_adaptive_text(adaptive, pattern);

@@ -6,8 +6,9 @@
  * A corner names a position and perhaps a texture vertex and a normal, by numbers that count from 1, or backwards
  * from the last one if they are negative. Numbers may refer to later lines, so the corners are stored until the end
  * of the file. Then each corner becomes a separate vertex, because OBJ files share positions, not vertices; corners of
- * meshes without normals keep their numbers, so that whoever smooths them knows what is one vertex. A polygon becomes a fan of triangles. A new mesh begins where o or g name another object or group and where usemtl names
- * another material; polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of
+ * meshes without normals keep their numbers, so that whoever smooths them knows what is one vertex. A polygon becomes a
+ * fan of triangles. A new mesh begins where o or g name another object or group and where usemtl names another material;
+ * polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of
  * its corners names one; corners without one get the value 0.
  *
  * Format: Wavefront's "Advanced Visualizer Manual", appendix B1.

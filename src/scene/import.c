@@ -89,6 +89,11 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
     return KOKSMA_OK;
 }
 
+bool koksma__import_is_full(const koksma__import *im)
+{
+    return im->scene->n_unknown == MOST_UNKNOWN;
+}
+
 /* ---- Files ------------------------------------------------------------------------------------------------ */
 
 koksma_status koksma__import_path(koksma__import *im, koksma__text_place place, const char *name,

@@ -112,6 +112,9 @@ koksma_status koksma__import_spend(koksma__import *im, koksma__text_place place,
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
     KOKSMA_PRINTF(3, 4);
 
+/* Whether the list of warnings is full: more would only be counted in its last entry. */
+bool koksma__import_is_full(const koksma__import *im);
+
 /* Adds a folder, relative to the scene's own, to search for files that are not beside the scene. Error: MALFORMED
    (too many, or the path is too long). */
 koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place, const char *name);

@@ -1091,8 +1091,8 @@ static koksma_status instance(reader *r, const node *n, const double outer[12], 
     return found ? KOKSMA_OK : koksma__import_fail(n->place, "an instance without a reference to a shape group");
 }
 
-/* Warns if a shape's normals are turned round to no effect: surfaces that reflect have two sides here, and a sphere of glass
-   has its own normals. */
+/* Warns if a shape's normals are turned round to no effect: surfaces that reflect have two sides here, and a sphere of
+   glass has its own normals. */
 static koksma_status name_flip(reader *r, const node *n, const koksma__import_item *item)
 {
     const node *bsdf = find_inner(r, first_of(r, n));
@@ -1398,7 +1398,7 @@ static koksma_status integrator(reader *r, const node *n, int depth)
     if (most >= 0 && most < 2) {
         return koksma__import_unknown(r->im, n->place, "a max_depth of %g is replaced by 2", most);
     }
-    /* Mitsuba counts the path's segments, --depth its vertices between the first surface and the last one that lights reach */
+    /* Mitsuba counts a path's segments, of which one comes from the camera and one from a light; --depth the others */
     scene->path_vertices = 1 + (most < 0 ? KOKSMA_MAX_DEPTH : (int)fmin(most - 2, KOKSMA_MAX_DEPTH));
     return KOKSMA_OK;
 }

@@ -74,12 +74,12 @@ static koksma_status name_attributes(koksma__import *im, const koksma__xml_node 
 koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml)
 {
     /* parents precede their children, so that marks go down the tree in one pass */
-    for (size_t i = 0; i < xml->n; i++) {
+    for (size_t i = 0; i < xml->n && !koksma__import_is_full(im); i++) {
         const koksma__xml_node *n = &xml->nodes[i];
         const bool covered = n->marks[0] & KOKSMA__XML_COVERED;
         KOKSMA__TRY(koksma__import_spend(im, n->place, 1));
         KOKSMA__TRY(covered ? KOKSMA_OK : name_attributes(im, n));
-        for (int c = n->first; c >= 0; c = xml->nodes[c].next) {
+        for (int c = n->first; c >= 0 && !koksma__import_is_full(im); c = xml->nodes[c].next) {
             const koksma__xml_node *child = &xml->nodes[c];
             KOKSMA__TRY(covered || child->marks[0] & KOKSMA__XML_TAKEN ? KOKSMA_OK : name_element(im, n, child));
             koksma__xml_mark(child, covered || !(child->marks[0] & KOKSMA__XML_TAKEN) ? KOKSMA__XML_COVERED : 0);

@@ -65,7 +65,7 @@ static void write_ply(void)
     write_bytes("t.ply", text, strlen(text));
 }
 
-/* Writes t.serialized, of version 3, by one stored block of DEFLATE in a zlib stream, in a machine of little-endian order. */
+/* Writes t.serialized, of version 3: a zlib stream of one stored block. The machine has little-endian order. */
 static void write_serialized(void)
 {
     unsigned char data[512], file[512] = {0x1c, 0x04, 3, 0, 0x78, 0x01, 1};
