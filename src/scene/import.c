@@ -2,9 +2,9 @@
 /*
  * Functions that the readers of other renderers' scenes share: paths, warnings about unsupported features, materials,
  * lights and the camera; import_shapes.c has the shapes, import_text.c the texts. Every material becomes the nearest
- * kind that Koksma has. Two differences apply to all scenes and are documented in docs/scenes.md: a conductor's Fresnel
- * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other difference is reported in a
- * warning with file and line.
+ * kind that Koksma has. Two differences apply and are documented in docs/scenes.md: without an index of refraction a
+ * conductor's Fresnel reflectance becomes Schlick's approximation, and surfaces have two sides. Any other difference is
+ * reported in a warning with file and line.
  */
 #include "scene/import.h"
 
@@ -324,6 +324,20 @@ koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_plac
     return KOKSMA_OK;
 }
 
+static void set_conductor(const koksma__import_material *from, koksma__material *m)
+{
+    m->bsdf = from->alpha < 1e-6 ? &koksma__bsdf_conductor : &koksma__bsdf_rough_conductor;
+    for (int i = 0; i < 3; i++) {
+        koksma__material_value(m, "eta")[i] = fmin(fmax(from->eta[i], 0), FAR);
+        koksma__material_value(m, "k")[i] = fmin(fmax(from->k[i], 0), FAR);
+    }
+    memcpy(koksma__material_value(m, "tint"), from->colour.rgb, sizeof from->colour.rgb);
+    koksma__import_albedo(koksma__material_value(m, "tint"));
+    if (m->bsdf == &koksma__bsdf_rough_conductor) {
+        *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 1e-3), 1);
+    }
+}
+
 /* Sets a material of the nearest kind. */
 static koksma_status set_material(koksma__import *im, koksma__text_place place, const koksma__import_material *from,
                                   koksma__material *m)
@@ -332,6 +346,10 @@ static koksma_status set_material(koksma__import *im, koksma__text_place place, 
                                                 [KOKSMA__METAL] = &koksma__bsdf_ggx,
                                                 [KOKSMA__GLASS] = &koksma__bsdf_dielectric,
                                                 [KOKSMA__COATED] = &koksma__bsdf_utah};
+    if (from->kind == KOKSMA__METAL && from->has_index) {
+        set_conductor(from, m);
+        return KOKSMA_OK;
+    }
     m->bsdf = from->kind == KOKSMA__METAL && from->alpha < 1e-6   ? &koksma__bsdf_mirror
               : from->kind == KOKSMA__GLASS && from->alpha > 1e-6 ? &koksma__bsdf_rough_dielectric
                                                                   : kinds[from->kind];

@@ -66,7 +66,9 @@ typedef struct koksma__import_material {
     enum { KOKSMA__MATTE, KOKSMA__METAL, KOKSMA__GLASS, KOKSMA__COATED } kind;
     koksma__import_colour colour; /* colour of matte and coated materials; reflectance of metals along the normal */
     double alpha;                 /* GGX width of metals and coats; 0: smooth */
-    double ior;                   /* above 0 */
+    bool has_index;               /* of metals: the index of refraction is eta + i k, and `colour` a factor */
+    double eta[3], k[3];
+    double ior; /* above 0 */
 } koksma__import_material;
 
 /* The material and emission of a shape. */

@@ -654,28 +654,86 @@ static koksma_status mean_of_metal(reader *r, const node *n, koksma__import_mate
                : KOKSMA_OK;
 }
 
+/* Finds eta and k of a conductor in the RGB variants of Mitsuba 3.9.1, which are
+   mi.traverse(mi.load_dict({'type': 'conductor', 'material': NAME})). */
+static bool find_conductor(const char *name, double eta[3], double k[3])
+{
+    static const struct {
+        const char *name;
+        double eta[3], k[3];
+    } all[] = {
+        {"a-C", {2.944, 2.227, 1.968}, {0.8875, 0.7993, 0.8153}},
+        {"Ag", {0.1553, 0.1167, 0.1384}, {4.828, 3.122, 2.147}},
+        {"Al", {1.658, 0.8804, 0.5212}, {9.224, 6.27, 4.837}},
+        {"AlAs", {3.605, 3.233, 2.216}, {0.0006794, 0, 0.007513}},
+        {"AlSb", {0, 4.139, 4.669}, {0, 0.09401, 1.301}},
+        {"Au", {0.143, 0.3753, 1.442}, {3.983, 2.386, 1.603}},
+        {"Be", {4.185, 3.185, 2.784}, {3.835, 3.01, 2.869}},
+        {"Cr", {4.37, 2.917, 1.655}, {5.207, 4.231, 3.755}},
+        {"CsI", {2.145, 1.702, 1.662}, {0, 0, 0}},
+        {"Cu", {0.201, 0.9237, 1.102}, {3.913, 2.453, 2.142}},
+        {"Cu2O", {3.552, 2.95, 2.752}, {0.1142, 0.1939, 0.6061}},
+        {"CuO", {3.248, 2.448, 2.21}, {0.5211, 0.57, 0.7222}},
+        {"d-C", {2.709, 2.319, 2.229}, {0, 0, 0}},
+        {"Hg", {2.399, 1.44, 0.9096}, {6.328, 4.372, 3.422}},
+        {"HgTe", {4.779, 3.231, 2.66}, {1.632, 1.581, 1.729}},
+        {"Ir", {3.086, 2.082, 1.618}, {5.592, 4.067, 3.267}},
+        {"K", {0.06404, 0.04641, 0.03818}, {2.104, 1.349, 0.9131}},
+        {"Li", {0.2658, 0.1956, 0.2209}, {3.54, 2.311, 1.669}},
+        {"MgO", {2.09, 1.651, 1.595}, {0, 0, 0}},
+        {"Mo", {4.484, 3.525, 2.776}, {4.111, 3.421, 3.151}},
+        {"Nb", {3.42, 2.79, 2.396}, {3.441, 2.738, 2.58}},
+        {"Rh", {2.586, 1.86, 1.554}, {6.782, 4.703, 3.976}},
+        {"Se", {4.058, 2.843, 2.821}, {0.754, 0.6384, 0.5218}},
+        {"SiC", {3.172, 2.526, 2.479}, {0, 0, 1.019e-05}},
+        {"SnTe", {4.524, 1.982, 1.282}, {0, 0, 0}},
+        {"Ta", {2.063, 2.393, 2.628}, {2.408, 1.741, 1.947}},
+        {"Te", {7.39, 4.482, 2.637}, {3.256, 3.527, 3.292}},
+        {"ThF4", {1.831, 1.442, 1.388}, {0, 0, 0}},
+        {"TiC", {3.701, 2.837, 2.582}, {3.266, 2.352, 2.173}},
+        {"TiN", {1.648, 1.151, 1.38}, {3.368, 1.943, 1.102}},
+        {"TiO2", {3.457, 2.802, 2.905}, {0.0001053, 0, 0.0006529}},
+        {"VC", {3.658, 2.753, 2.533}, {3.068, 2.199, 1.963}},
+        {"VN", {2.866, 2.119, 1.94}, {3.032, 2.056, 1.616}},
+        {"W", {4.371, 3.3, 2.998}, {3.501, 2.605, 2.273}},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (!strcmp(all[i].name, name)) {
+            memcpy(eta, all[i].eta, sizeof all[i].eta);
+            memcpy(k, all[i].k, sizeof all[i].k);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Reads what a metal is made of: a name, or eta and k. Those metals whose constants Mitsuba does not have reflect as tables
+   of import.c say, by Schlick's approximation. */
 static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
 {
-    double eta[3] = {0}, k[3] = {0}, rgb[3];
+    double rgb[3];
     KOKSMA__TRY(mean_of_metal(r, n, m));
     bool is_constant = true;
     const char *name = text(r, n, "material", property(r, n, "eta") ? "" : "none");
-    if (*name && !koksma__import_metal(name, rgb)) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "metal '%s' is replaced by chromium", name));
-        koksma__import_metal("Cr", rgb);
-    } else if (!*name) {
-        KOKSMA__TRY(constant(r, n, "eta", 0, &is_constant, eta));
-        KOKSMA__TRY(constant(r, n, "k", 1, &is_constant, k));
-        if (is_constant) {
-            koksma__import_fresnel(eta, k, rgb);
-        } else {
-            KOKSMA__TRY(koksma__import_unknown(
-                r->im, n->place, "a metal whose eta or k varies or is in a file is replaced by chromium"));
-            koksma__import_metal("Cr", rgb);
+    m->has_index = !*name || find_conductor(name, m->eta, m->k);
+    if (!*name) {
+        KOKSMA__TRY(constant(r, n, "eta", 0, &is_constant, m->eta));
+        KOKSMA__TRY(constant(r, n, "k", 1, &is_constant, m->k));
+    } else if (!m->has_index && koksma__import_metal(name, rgb)) {
+        for (int i = 0; i < 3; i++) {
+            m->colour.rgb[i] *= rgb[i];
         }
+        return strcmp(name, "none") != 0
+                   ? koksma__import_unknown(r->im, n->place, "metal '%s' has Schlick's reflectance", name)
+                   : KOKSMA_OK;
     }
-    for (int i = 0; i < 3; i++) {
-        m->colour.rgb[i] *= rgb[i];
+    if (!m->has_index || !is_constant) {
+        KOKSMA__TRY(
+            m->has_index
+                ? koksma__import_unknown(r->im, n->place,
+                                         "a metal whose eta or k varies or is in a file is replaced by chromium")
+                : koksma__import_unknown(r->im, n->place, "metal '%s' is replaced by chromium", name));
+        m->has_index = find_conductor("Cr", m->eta, m->k);
     }
     return KOKSMA_OK;
 }

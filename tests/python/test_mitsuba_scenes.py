@@ -235,6 +235,18 @@ class Agreement(unittest.TestCase):
             with self.subTest(material=name):
                 self.of_text(scene(ROOM + PANEL + ball(bsdf)))
 
+    def test_metals(self):
+        """By name, which has constants in RGB, and by numbers and samples; smooth, and as facets."""
+        gold = '<string name="material" value="Au"/>'
+        odd = rgb("eta", "2.9, 0.4, 1.4") + rgb("k", "3.1, 2.4, 0.6") + rgb("specular_reflectance", "0.9, 1, 0.8")
+        samples = "".join(f'<spectrum name="{name}" value="400:{a}, 550:{b}, 700:{c}"/>' for name, a, b, c in (("eta", 1.7, .5, .2), ("k", 1.9, 2.4, 4)))
+        for name, bsdf in (("smooth gold", f'<bsdf type="conductor">{gold}</bsdf>'), ("smooth", f'<bsdf type="conductor">{odd}</bsdf>'),
+                           ("samples", f'<bsdf type="conductor">{samples}</bsdf>'),
+                           ("copper", f'<bsdf type="roughconductor">{GGX}<string name="material" value="Cu"/><float name="alpha" value="0.1"/></bsdf>'),
+                           ("rough", f'<bsdf type="roughconductor">{GGX}{odd}<float name="alpha" value="0.4"/></bsdf>')):
+            with self.subTest(metal=name):
+                self.of_text(scene(ROOM + PANEL + ball(bsdf)), floor=5e-3 if name == "samples" else 1e-4)  # the observer is a fit here
+
     def test_lights(self):
         for name, light in (
                 ("a square that reflects", rectangle(diffuse("0.9") + emitter("5, 4, 3"), turn("x", 90), move(y=2.2))),

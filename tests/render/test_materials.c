@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Materials against their formulas in double precision. */
+#include <complex.h>
+
 #include "render/materials/materials.h"
 
 #include "core/random.h"
@@ -62,6 +64,37 @@ static void sharp_highlights_have_their_height(void **state)
     }
 }
 
+/* Fresnel's amplitudes with a complex index N and the complex cosine C inside: rs = (c - N C) / (c + N C), rp = (N c - C) /
+   (N c + C); the reflectance is the mean of their squares. */
+static void conductors_reflect_by_fresnels_equations(void **state)
+{
+    static const double cosines[] = {1, 0.9, 0.5, 1.0 / 7, 0.01};
+    (void)state;
+    for (size_t i = 0; i < 500; i++) {
+        koksma__material smooth = {.bsdf = &koksma__bsdf_conductor};
+        for (int k = 0; k < 3; k++) {
+            koksma__material_value(&smooth, "eta")[k] = uniform(0.01, i % 2 ? 1 : 8);
+            koksma__material_value(&smooth, "k")[k] = i % 5 ? uniform(0, 10) : 0;
+            koksma__material_value(&smooth, "tint")[k] = uniform(0, 1);
+        }
+        const koksma__shading_material material = koksma__shading_material_of(&smooth);
+        const double c = cosines[i % 5];
+        const koksma__surface s = {
+            .material = &material, .n = {0, 0, 1}, .out = {(float)sqrt(1 - c * c), 0, (float)c}};
+        koksma__scatter to;
+        assert_true(material.bsdf->sample(&s, KOKSMA__LOBE_SPECULAR, (const float[2]){0, 0}, 0, &to));
+        for (int k = 0; k < 3; k++) {
+            const double complex n =
+                koksma__material_value(&smooth, "eta")[k] + I * koksma__material_value(&smooth, "k")[k];
+            const double complex inside = csqrt(1 - (1 - c * c) / (n * n));
+            const double rs = cabs((c - n * inside) / (c + n * inside)),
+                         rp = cabs((n * c - inside) / (n * c + inside));
+            assert_float_equal((double)to.weight[k],
+                               koksma__material_value(&smooth, "tint")[k] * (rs * rs + rp * rp) / 2, 2e-5);
+        }
+    }
+}
+
 /* A point light on the mirrored way, at 45 degrees: D = 1 / (pi a^2), G2 = 1 / (2 lambda + 1). The geometry is exact
    in floats but for the camera's rounding, and the middle of the pixel is its only sample. */
 static void pictures_of_highlights(void **state)
@@ -112,6 +145,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sharp_highlights_have_their_height),
+        cmocka_unit_test(conductors_reflect_by_fresnels_equations),
         cmocka_unit_test(pictures_of_highlights),
         cmocka_unit_test(every_roughness_is_finite),
     };
