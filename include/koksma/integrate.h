@@ -107,19 +107,25 @@ typedef struct koksma_integration_row {
     double mean, sd; /* mean and standard deviation of the estimates; sd is NaN with one set */
     double rmse;     /* root mean square of estimate minus integral; with one set the absolute error. If the integral
                         is not known, rmse is set to sd, which estimates it if the estimates are unbiased */
-    /* 95 % confidence interval of rmse (delta method on its logarithm, Student's t), or NaN with one set */
+    /* 95 % confidence interval of rmse by chi-squared, with degrees of freedom from the kurtosis and the skewness of
+       the errors; NaN with one set */
     double low, high;
     double gain; /* variance / n / rmse^2: how many times as many random points would be needed for this error, or NaN
                     if the variance is not known or the error is only rounding */
+    bool
+        approximate; /* whether the interval may hold rmse less often than in 93 % of cases: there are fewer than 16 sets,
+                         or their errors are so skewed or heavy-tailed that the variance of their squares is more than
+                         twice that of normal errors. False with one set */
 } koksma_integration_row;
 
 /* The slope of log rmse against log n by least squares, with its 95 % interval. With several trials the standard
-   error comes from their spread, as in koksma_joint_line; with one set it comes from the residuals. The fit leaves
-   out sizes whose rmse is only rounding: below 2^-44 of the integral, of the largest estimate or of the root of the
-   variance. All numbers are NaN if fewer than three sizes are left. */
+   error comes from those of log rmse and from the correlations of the squared errors at different sizes; with one set
+   it comes from the residuals. The fit leaves out sizes whose rmse is only rounding: below 2^-44 of the integral, of
+   the largest estimate or of the root of the variance. All numbers are NaN if fewer than three sizes are left. */
 typedef struct koksma_integration_slope {
     size_t count; /* number of sizes used */
     double value, standard_error, low, high;
+    bool approximate; /* as that of a row, by the mean over the sizes, for any number of sets */
 } koksma_integration_slope;
 
 typedef struct koksma_integration {

@@ -73,7 +73,7 @@ class Component:
         Numbered from 0.
     sensitivity : Sensitivity
         Of these axes; sensitivity.component is the share of this part in the variance.
-    rmse, low, high : float
+    rmse, low, high, approximate : float, float, float, bool
         The error of the mean of this part over the sets of the largest n, with its interval, as in Integration. Set by set the
         errors of all components add up to that of the function (those of three coordinates and more among them, which are not
         listed). NaN unless the function is a spec of a product of functions of one coordinate.
@@ -86,6 +86,7 @@ class Component:
     rmse: float
     low: float
     high: float
+    approximate: bool
     part: float
 
 
@@ -103,12 +104,17 @@ class Integration:
     rmse, low, high : ndarray of shape (k,)
         Root mean square of estimate minus integral, and its 95 % interval. With one trial the absolute error. Where the
         integral is not known, the standard deviation of the estimates.
+    approximate : ndarray of shape (k,)
+        Whether the interval may hold in less than 93 % of cases: with fewer than 16 trials, and if the errors are much more
+        skewed or heavy-tailed than normal ones.
     mean, sd : ndarray of shape (k,)
         Of the estimates.
     gain : ndarray of shape (k,)
         How many times more random points give this error; NaN if the variance is not known.
     slope, slope_error, slope_low, slope_high : float
         Of log rmse against log n, its standard error and 95 % interval; NaN with fewer than three sizes.
+    slope_approximate : bool
+        As `approximate`, by the mean over the sizes, for any number of trials.
     slope_sizes : int
         How many sizes the slope is of: all but those whose error is only rounding.
     integral, variance : float
@@ -124,6 +130,7 @@ class Integration:
     rmse: npt.NDArray[np.float64]
     low: npt.NDArray[np.float64]
     high: npt.NDArray[np.float64]
+    approximate: npt.NDArray[np.bool_]
     mean: npt.NDArray[np.float64]
     sd: npt.NDArray[np.float64]
     gain: npt.NDArray[np.float64]
@@ -131,17 +138,23 @@ class Integration:
     slope_error: float
     slope_low: float
     slope_high: float
+    slope_approximate: bool
     slope_sizes: int
     integral: float
     variance: float
     components: Tuple[Component, ...] = ()
 
+    def _slope_interval(self) -> str:
+        return f"{'about ' * self.slope_approximate}{self.slope_low:.3f} to {self.slope_high:.3f}"
+
     def _repr_html_(self) -> str:
         from ._display import number, table
 
-        errors = zip(self.sizes, self.rmse, self.low, self.high, self.gain)
-        slope = "" if math.isnan(self.slope) else f"; slope {self.slope:.3f} ({self.slope_low:.3f} to {self.slope_high:.3f})"
-        page = table(("n", "rmse", "low", "high", "gain"), [(int(n), *map(float, row)) for n, *row in errors],
+        errors = zip(self.sizes, self.rmse, self.low, self.high, self.approximate, self.gain)
+        slope = "" if math.isnan(self.slope) else f"; slope {self.slope:.3f} ({self._slope_interval()})"
+        page = table(("n", "rmse", "low", "high", "interval", "gain"),
+                     [(int(n), *map(float, (rmse, low, high)), "approximate" if about else "", float(gain))
+                      for n, rmse, low, high, about, gain in errors],
                      f"{self.integrand} by {self.pattern}, {self.trials} set{'s' * (self.trials != 1)}{slope}")
         if not self.components:
             return page
@@ -152,7 +165,7 @@ class Integration:
 
     def __repr__(self) -> str:
         several = "" if len(self.sizes) == 1 else f"..{self.sizes[-1]}"
-        slope = "" if math.isnan(self.slope) else f", slope {self.slope:.3f} ({self.slope_low:.3f} to {self.slope_high:.3f})"
+        slope = "" if math.isnan(self.slope) else f", slope {self.slope:.3f} ({self._slope_interval()})"
         return f"Integration({self.integrand!r}, {self.pattern!r}, n={self.sizes[0]}{several}: rmse {self.rmse[-1]:.3g}{slope})"
 
 
@@ -322,7 +335,8 @@ def _components(handle: c_void_p, function: Function, source: Union[str, PointAr
         share = _sensitivity(handle, function, chosen, samples, seed, threads, raised)
         row = _component_error(handle, chosen, source, largest, threads) if isinstance(function, str) else None
         error, low, high = (row.rmse, row.low, row.high) if row else (math.nan,) * 3
-        found.append(Component(chosen, share, error, low, high, error * error / (rmse * rmse) if rmse else math.nan))
+        part = error * error / (rmse * rmse) if rmse else math.nan
+        found.append(Component(chosen, share, error, low, high, row is not None and row.approximate, part))
     return tuple(found)
 
 
@@ -410,11 +424,12 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
         rows = result.rows[:len(sizes)]
         components = _components(handle, function, source, sizes, seed, trials, rows[int(np.argmax(sizes))].rmse, samples, threads,
                                  raised) if each else ()
-    columns = {key: np.array([getattr(row, key) for row in rows]) for key in ("rmse", "low", "high", "mean", "sd", "gain")}
+    columns = {key: np.array([getattr(row, key) for row in rows])
+               for key in ("rmse", "low", "high", "approximate", "mean", "sd", "gain")}
     return Integration(name, canonical(source) if isinstance(source, str) else "points", dim, rows[0].trials, np.array(sizes), **columns,
                        slope=result.slope.value, slope_error=result.slope.standard_error, slope_low=result.slope.low,
-                       slope_high=result.slope.high, slope_sizes=result.slope.count, integral=integral, variance=variance,
-                       components=components)
+                       slope_high=result.slope.high, slope_approximate=result.slope.approximate, slope_sizes=result.slope.count,
+                       integral=integral, variance=variance, components=components)
 
 
 def _pattern(pattern: Any) -> str:

@@ -158,11 +158,12 @@ class IntegralFacts(Structure):
 
 class IntegrationRow(Structure):
     _fields_ = [("n", c_size_t), ("trials", c_uint64), ("mean", c_double), ("sd", c_double), ("rmse", c_double),
-                ("low", c_double), ("high", c_double), ("gain", c_double)]
+                ("low", c_double), ("high", c_double), ("gain", c_double), ("approximate", c_bool)]
 
 
 class IntegrationSlope(Structure):
-    _fields_ = [("count", c_size_t), ("value", c_double), ("standard_error", c_double), ("low", c_double), ("high", c_double)]
+    _fields_ = [("count", c_size_t), ("value", c_double), ("standard_error", c_double), ("low", c_double), ("high", c_double),
+                ("approximate", c_bool)]
 
 
 class Integration(Structure):

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Errors of integration over trials and sizes. With e_t the error of trial t and T the number of trials, the RMSE is
- * the root of the mean of e_t^2 over the trials. Its confidence interval is computed for log rmse by the delta
- * method, log rmse +- t_{T-1} sd(e^2) / (2 sqrt(T) mean(e^2)), because squared errors have a skewed distribution and
- * the lower bound must be positive. The slope of the RMSE is half the slope of the mean squared errors, with the
- * error that koksma_joint_line gives.
+ * the root of the mean of e_t^2 over the trials; stats/mean_square.c has its interval. The slope of the RMSE is half the
+ * slope of the mean squared errors. Its standard error follows from those of their logarithms and from the correlations
+ * over the trials (stats/joint.c); Student's t has T - 1 degrees of freedom.
  *
  * Each set (one trial at one size) is an independent job. If there are fewer jobs than threads, the jobs run one
  * after the other, each on all threads; the bits are the same either way.
@@ -16,6 +15,8 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "integrands/integrands.h"
+#include "stats/joint.h"
+#include "stats/mean_square.h"
 
 enum { MOST_TRIALS = 1000000 };
 
@@ -55,24 +56,19 @@ static double squared(double estimate, double value, const koksma_tally *tally)
     return isnan(value) ? error * error * tally->count / (tally->count - 1) : error * error;
 }
 
-static koksma_integration_row row_of(const koksma_integration_options *o, const double *estimates, size_t size,
-                                     double value, double variance)
+static koksma_integration_row row_of(const koksma_integration_options *o, size_t size, const koksma_tally *tally,
+                                     const koksma__mean_square *square, double variance)
 {
-    const koksma_tally tally = tally_of(o, estimates, size);
-    koksma_tally squares = {0};
-    for (uint64_t t = 0; t < o->trials; t++) {
-        koksma_tally_add(&squares, squared(estimates[t * o->n_sizes + size], value, &tally));
-    }
-    const double n = (double)o->sizes[size], half = koksma_tally_interval(&squares) / (2 * squares.mean);
-    koksma_integration_row row = {.n = o->sizes[size],
-                                  .trials = o->trials,
-                                  .mean = tally.mean,
-                                  .sd = koksma_tally_sd(&tally),
-                                  .rmse = sqrt(squares.mean),
-                                  .gain = variance / n / squares.mean};
-    row.low = squares.mean > 0 ? row.rmse * exp(-half) : row.rmse + 0 * half;
-    row.high = squares.mean > 0 ? row.rmse * exp(half) : row.rmse + 0 * half;
-    return row;
+    const size_t n = o->sizes[size];
+    return (koksma_integration_row){.n = n,
+                                    .trials = o->trials,
+                                    .mean = tally->mean,
+                                    .sd = koksma_tally_sd(tally),
+                                    .rmse = sqrt(square->value),
+                                    .low = sqrt(square->low),
+                                    .high = sqrt(square->high),
+                                    .gain = variance / (double)n / square->value,
+                                    .approximate = square->approximate};
 }
 
 /* Returns the threshold below which errors count as rounding: 2^-44 of the largest among the integral, the values of
@@ -86,36 +82,46 @@ static double rounding(const koksma_integration_options *o, const double *estima
     return 0x1p-44 * scale;
 }
 
-/* Fits the slope to the mean squared errors. Mean squared errors that may consist only of rounding errors are set to
-   NaN, and the fit ignores them. */
-static void fit_slope(double value, const koksma_integration_options *o, const double *estimates, double least,
-                      koksma_integration *out)
+/* The spread over the trials of the squared errors at all sizes. */
+static koksma_joint joint_of(const koksma_integration_options *o, const double *estimates, double value,
+                             const koksma_tally *tallies)
 {
-    double squares[KOKSMA_MAX_SIZES], sizes[KOKSMA_MAX_SIZES], means[KOKSMA_MAX_SIZES];
-    koksma_tally tallies[KOKSMA_MAX_SIZES];
     koksma_joint joint = {0};
-    koksma_line line;
-    for (size_t i = 0; i < o->n_sizes; i++) {
-        const double rmse = out->rows[i].rmse;
-        tallies[i] = tally_of(o, estimates, i);
-        sizes[i] = (double)o->sizes[i];
-        means[i] = rmse > least ? rmse * rmse : (double)NAN;
-    }
+    double squares[KOKSMA_MAX_SIZES];
     for (uint64_t t = 0; t < o->trials; t++) {
         for (size_t i = 0; i < o->n_sizes; i++) {
             squares[i] = squared(estimates[t * o->n_sizes + i], value, &tallies[i]);
         }
         koksma_joint_add(&joint, o->n_sizes, squares);
     }
-    koksma_integration_slope *s = &out->slope;
-    *s = (koksma_integration_slope){0, NAN, NAN, NAN, NAN};
-    if (koksma_joint_line(&joint, o->n_sizes, sizes, means, &line)) {
-        const size_t degrees = o->trials > 1 ? (size_t)o->trials - 1 : line.count - 2;
+    return joint;
+}
+
+/* Fits the slope to the mean squared errors. Those that may consist only of rounding errors are set to NaN, and the fit
+   ignores them. */
+static void fit_slope(const koksma_integration_options *o, const koksma_joint *joint,
+                      const koksma__mean_square *squares, double least, koksma_integration_slope *s)
+{
+    double sizes[KOKSMA_MAX_SIZES], means[KOKSMA_MAX_SIZES], errors[KOKSMA_MAX_SIZES], spread = 0;
+    koksma_line line;
+    for (size_t i = 0; i < o->n_sizes; i++) {
+        const bool fits = sqrt(squares[i].value) > least;
+        sizes[i] = (double)o->sizes[i];
+        means[i] = fits ? squares[i].value : (double)NAN;
+        errors[i] = squares[i].log_error;
+        spread += fits ? squares[i].relative_variance : 0;
+    }
+    *s = (koksma_integration_slope){0, NAN, NAN, NAN, NAN, false};
+    if (koksma_joint_line(joint, o->n_sizes, sizes, means, &line)) {
+        const bool trials = o->trials > 1;
+        const double half = koksma_student_975(trials ? (size_t)o->trials - 1 : line.count - 2);
         s->count = line.count;
         s->value = line.slope / 2;
-        s->standard_error = line.slope_error / 2;
-        s->low = s->value - koksma_student_975(degrees) * s->standard_error;
-        s->high = s->value + koksma_student_975(degrees) * s->standard_error;
+        s->standard_error =
+            (trials ? koksma__joint_error(joint, o->n_sizes, sizes, means, errors) : line.slope_error) / 2;
+        s->low = s->value - half * s->standard_error;
+        s->high = s->value + half * s->standard_error;
+        s->approximate = trials && !(spread / (double)line.count <= KOKSMA__TOO_SPREAD);
     }
 }
 
@@ -125,11 +131,16 @@ koksma_status koksma_integration_summary(double value, double variance, const ko
     KOKSMA__REQUIRE(options, estimates, out);
     KOKSMA__TRY(check_options(options));
     const double least = rounding(options, estimates, value, variance);
+    koksma_tally tallies[KOKSMA_MAX_SIZES];
+    koksma__mean_square squares[KOKSMA_MAX_SIZES];
     for (size_t i = 0; i < options->n_sizes; i++) {
-        out->rows[i] = row_of(options, estimates, i, value, variance);
+        tallies[i] = tally_of(options, estimates, i);
+        squares[i] = koksma__mean_square_of(estimates + i, options->trials, options->n_sizes, value);
+        out->rows[i] = row_of(options, i, &tallies[i], &squares[i], variance);
         out->rows[i].gain = out->rows[i].rmse > least ? out->rows[i].gain : (double)NAN;
     }
-    fit_slope(value, options, estimates, least, out);
+    const koksma_joint joint = joint_of(options, estimates, value, tallies);
+    fit_slope(options, &joint, squares, least, &out->slope);
     return KOKSMA_OK;
 }
 

@@ -4,9 +4,9 @@
  * comes from the covariance of a trial's values at different n (delta method); with one trial it comes from the
  * residuals.
  */
-#include <math.h>
+#include "stats/joint.h"
 
-#include <koksma/series.h>
+#include <math.h>
 
 #include "core/status.h"
 
@@ -37,12 +37,24 @@ void koksma_joint_add(koksma_joint *joint, size_t n, const double *values)
  * mean over the T trials at size i, the slope is sum_i w_i log m_i with w_i = (x_i - x') / sum (x_i - x')^2, so that
  * to first order its variance over trials is
  *
- *     sum_ik w_i w_k S_ik/(m_i m_k) / (T (T - 1)),
+ *     sum_ik w_i w_k C_ik,   C_ik = S_ik/(m_i m_k) / (T (T - 1)),
  *
  * where S_ik is the sum over the trials of the products of the deviations from m_i and m_k: the infinitesimal jackknife
- * (Efron 1982, chapter 6).
+ * (Efron 1982, chapter 6). Where a caller knows the standard errors of the log m_i better, only the correlations of C
+ * are used.
  */
-static double error_of_trials(size_t n, const double *sizes, const double *means, const koksma_joint *joint)
+static double covariance(const koksma_joint *joint, const double *means, const double *log_errors, size_t i, size_t k)
+{
+    const double s = joint->spread[i][k];
+    if (!log_errors) {
+        return s / (means[i] * means[k]) / (joint->count * (joint->count - 1));
+    }
+    const double scale = sqrt(joint->spread[i][i]) * sqrt(joint->spread[k][k]);
+    return log_errors[i] * log_errors[k] * (i == k ? 1 : scale > 0 ? s / scale : 0);
+}
+
+double koksma__joint_error(const koksma_joint *joint, size_t n, const double *sizes, const double *means,
+                           const double *log_errors)
 {
     double weights[KOKSMA_MAX_SIZES], middle = 0, square = 0, count = 0, variance = 0;
     for (int pass = 0; pass < 2; pass++) {
@@ -54,17 +66,19 @@ static double error_of_trials(size_t n, const double *sizes, const double *means
             if (pass == 0) {
                 middle += (log(sizes[i]) - middle) / ++count;
             } else {
-                weights[i] = (log(sizes[i]) - middle) / means[i];
-                square += (log(sizes[i]) - middle) * (log(sizes[i]) - middle);
+                weights[i] = log(sizes[i]) - middle;
+                square += weights[i] * weights[i];
             }
         }
     }
     for (size_t i = 0; i < n; i++) {
         for (size_t k = 0; k < n; k++) {
-            variance += weights[i] != 0 && weights[k] != 0 ? weights[i] * weights[k] * joint->spread[i][k] : 0;
+            if (weights[i] != 0 && weights[k] != 0) {
+                variance += weights[i] * weights[k] * covariance(joint, means, log_errors, i, k);
+            }
         }
     }
-    return sqrt((variance < 0 ? 0 : variance) / (joint->count * (joint->count - 1))) / square;
+    return sqrt(variance < 0 ? 0 : variance) / square;
 }
 
 bool koksma_joint_line(const koksma_joint *joint, size_t n, const double *sizes, const double *means,
@@ -75,7 +89,7 @@ bool koksma_joint_line(const koksma_joint *joint, size_t n, const double *sizes,
         return false;
     }
     if (joint->count > 1) {
-        line->slope_error = error_of_trials(n, sizes, means, joint);
+        line->slope_error = koksma__joint_error(joint, n, sizes, means, NULL);
     }
     return true;
 }

@@ -21,9 +21,11 @@ static void random_points_have_gain_one(void **state)
     const koksma_run threads[] = {{.threads = 1}, {.threads = 3}};
     assert_ok(koksma_integration_errors(f, &pattern, &options, &threads[0], &one));
     assert_ok(koksma_integration_errors(f, &pattern, &options, &threads[1], &three));
-    assert_memory_equal(one.rows, three.rows, 4 * sizeof *one.rows);
-    assert_memory_equal(&one.slope, &three.slope, sizeof one.slope);
+    assert_memory_equal(&one.slope, &three.slope, offsetof(koksma_integration_slope, approximate));
+    assert_true(one.slope.approximate == three.slope.approximate);
     for (int i = 0; i < 4; i++) {
+        assert_memory_equal(&one.rows[i], &three.rows[i], offsetof(koksma_integration_row, approximate));
+        assert_true(one.rows[i].approximate == three.rows[i].approximate);
         assert_near(one.rows[i].gain, 1, 0.3);
         assert_true(one.rows[i].low < sqrt(f->variance / (double)one.rows[i].n) * 1.1);
         assert_true(one.rows[i].low < one.rows[i].rmse && one.rows[i].rmse < one.rows[i].high);

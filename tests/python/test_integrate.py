@@ -28,10 +28,12 @@ class Integrate(unittest.TestCase):
         said = rows("genz-gaussian:difficulty=3", "-p", SCRAMBLED, "-n", "16,64,256", "-d", "3", "-t", "8", "-s", "5")
         ours = koksma.integrate("genz-gaussian:difficulty=3", SCRAMBLED, [16, 64, 256], 3, trials=8, seed=5)
         for i, row in enumerate(said[:3]):
-            self.assertEqual([row[k] for k in ("n", "rmse", "low", "high", "mean", "sd", "gain")],
-                             [ours.sizes[i], ours.rmse[i], ours.low[i], ours.high[i], ours.mean[i], ours.sd[i], ours.gain[i]])
-        self.assertEqual([said[3][k] for k in ("slope", "standard_error", "low", "high", "sizes")],
-                         [ours.slope, ours.slope_error, ours.slope_low, ours.slope_high, ours.slope_sizes])
+            self.assertEqual([row[k] for k in ("n", "rmse", "low", "high", "approximate", "mean", "sd", "gain")],
+                             [ours.sizes[i], ours.rmse[i], ours.low[i], ours.high[i], ours.approximate[i], ours.mean[i], ours.sd[i], ours.gain[i]])
+        self.assertEqual([said[3][k] for k in ("slope", "standard_error", "low", "high", "approximate", "sizes")],
+                         [ours.slope, ours.slope_error, ours.slope_low, ours.slope_high, ours.slope_approximate, ours.slope_sizes])
+        self.assertTrue(all(ours.approximate))  # of 8 sets
+        self.assertFalse(any(koksma.integrate("x", "random", 16, trials=64).approximate))
         self.assertIn("genz-gaussian:difficulty=3", repr(ours))
 
     def test_callables_are_integrands(self):
@@ -107,6 +109,7 @@ class Integrate(unittest.TestCase):
                 for row, c in zip(errors, ours):
                     said = [row["axes"], *(math.nan if row[k] is None else row[k] for k in ("rmse", "low", "high", "part"))]
                     np.testing.assert_equal([list(c.axes), c.rmse, c.low, c.high, c.part], said)
+                    self.assertEqual(c.approximate, row["approximate"])
         self.assertEqual(koksma.integrate("exp", "random", 16).components, ())
 
     def test_components_by_their_definition(self):

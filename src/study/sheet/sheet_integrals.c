@@ -76,6 +76,7 @@ static void put_table(const koksma__sheet *sheet, const koksma_integration *resu
         d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 2, .fixed = true});
     koksma__doc_head_number(d, "gain", 3);
     koksma__doc_head_number(d, "sets", 9);
+    size_t approximate = 0;
     for (size_t k = 0; k < N_INTEGRANDS * sheet->n_samplers; k++) {
         const koksma_integration *r = &results[k];
         const koksma_integration_row *last = &r->rows[sheet->n_sizes - 1];
@@ -86,8 +87,18 @@ static void put_table(const koksma__sheet *sheet, const koksma_integration *resu
         koksma__doc_interval(d, (koksma__estimate){r->slope.value, r->slope.low, r->slope.high});
         koksma__doc_number(d, last->gain);
         koksma__doc_number(d, (double)last->trials);
+        approximate += last->approximate || r->slope.approximate;
     }
     koksma__doc_table_end(d);
+    if (approximate) {
+        koksma__doc_paragraph_begin(d);
+        koksma__doc_say(d,
+                        "Intervals of %zu of the %zu rows are approximate and may hold in less than 93 %% of cases: "
+                        "there are fewer than 16 sets, or their errors are much more skewed or heavy-tailed than "
+                        "normal ones (`koksma integrate` marks each).",
+                        approximate, (size_t)N_INTEGRANDS * sheet->n_samplers);
+        koksma__doc_paragraph_end(d);
+    }
 }
 
 static void put_commands(koksma__sheet *sheet, koksma__document *d)
