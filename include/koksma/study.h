@@ -382,8 +382,8 @@ typedef enum koksma_rank_decision {
     KOKSMA_RANK_WORSE, /* the error of the pattern is larger than that of row 0 */
 } koksma_rank_decision;
 
-/* One pattern of a ranking. Intervals are simultaneous: with 95 % probability all of them, over all patterns, pairs
-   and rounds, contain the true value. The intervals include the error of the reference. NaN marks a missing
+/* One pattern of a ranking. Intervals are simultaneous: with 95 % probability those of all means contain the true value,
+   and so do those of all relative differences. The intervals include the error of the reference. NaN marks a missing
    number. */
 typedef struct koksma_rank_row {
     size_t pattern;  /* index of the pattern in koksma_rank_options.patterns */
@@ -456,8 +456,8 @@ typedef struct koksma_ranking {
 /* Renders the scene with every pattern, trial by trial, and ranks the patterns by the error of the image: the
    mean over the trials of options->metric, by default the mean absolute error in luminance.
 
-   The sequence of work depends on the options, not on the machine. It has four parts: rounds of 8, 16, 32, ...
-   trials until the best pattern is decided; further rounds until the best pattern among those whose error is not
+   The sequence of work depends on the options, not on the machine. It has four parts: rounds of 8, 12, 16, 24,
+   32, ... trials until the best pattern is decided; further rounds until the best pattern among those whose error is not
    coherent (image.h) is decided; checks of these two patterns at half and twice the image size; further rounds
    until every pair of patterns is decided. A pair is decided after a round if the confidence interval of the ratio
    of its errors excludes 1, or lies within 2 % of 1 (equal). Decisions are final. With 96 % probability all

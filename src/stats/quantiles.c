@@ -44,9 +44,8 @@ static double beta_fraction(double a, double b, double x)
            f / a;
 }
 
-/* Returns P(T > t) of Student's t distribution for t > 0, or, with more than MANY degrees of freedom, P(Z > t) of the
-   normal distribution. */
-static double student_tail(double t, double degrees)
+/* With more than MANY degrees of freedom the tail is that of the normal distribution. */
+double koksma__student_tail(double t, double degrees)
 {
     if (degrees > MANY) {
         return 0.5 * erfc(t * sqrt(0.5));
@@ -61,12 +60,12 @@ double koksma__student_quantile(double p, double degrees)
     if (p <= 0.5) {
         return 0;
     }
-    while (student_tail(hi, degrees) > 1 - p && hi < 1e150) {
+    while (koksma__student_tail(hi, degrees) > 1 - p && hi < 1e150) {
         hi *= 2;
     }
     for (int i = 0; i < HALVINGS && hi - lo > 1e-12 * hi; i++) {
         const double middle = 0.5 * (lo + hi);
-        if (student_tail(middle, degrees) > 1 - p) {
+        if (koksma__student_tail(middle, degrees) > 1 - p) {
             lo = middle;
         } else {
             hi = middle;

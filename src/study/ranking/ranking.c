@@ -8,10 +8,10 @@
  *        coherent and the best three of all patterns. It runs until the best pattern whose error is not coherent is
  *        decided, and then until the best pattern is decided (only the latter if every error is coherent);
  *     3. the first contest again, until every pair of patterns is decided.
- * A time limit may end the ranking at any point; the rows then report what is known. Every decision is a function of
- * the options only (ranking_contest.c describes the treatment of patterns too slow for the time limit,
- * ranking_decisions.c the statistics): the speed of the machine affects how many decisions are taken, never their
- * outcome.
+ * A time limit may end the ranking at any point; the rows then report what is known. The speed of the machine affects
+ * how many decisions are taken (ranking_contest.c describes the treatment of patterns too slow for the time limit,
+ * ranking_decisions.c the statistics). It has no part in their outcome: the levels of a decision depend on the rounds
+ * and the decisions before it.
  *
  * Any decision is wrong with a probability of at most 5 %: 4 % for the first contest and 1/2 % for each check.
  */
@@ -194,7 +194,8 @@ static size_t trials_to_lead(const koksma__rank_table *table, bool *undecidable)
         const koksma__rank_errors *e = koksma__rank_latest(table, j);
         const koksma__rank_pair *pair = &table->pairs[best * table->n + j];
         if (e && j != best && !table->entrants[j].out && !pair->verdict) {
-            const size_t n = koksma__rank_trials_needed(koksma__rank_latest(table, best), e, table->level);
+            const size_t n =
+                koksma__rank_trials_needed(koksma__rank_latest(table, best), e, koksma__rank_pair_alpha(table));
             needed = n > needed ? n : needed;
             decidable = decidable && n;
             *undecidable = *undecidable || pair->hopeless;
@@ -293,7 +294,7 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
         row->decision = decision_of(table, i, first);
     }
     if (e.n) {
-        const koksma__estimate mean = koksma__rank_error(&e, table->level);
+        const koksma__estimate mean = koksma__rank_error(&e, koksma__rank_error_level(table));
         row->mean = mean.value;
         row->low = mean.low;
         row->high = mean.high;
@@ -301,9 +302,10 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
         row->top_share = e.top_share;
     }
     if (e.n && best.n) {
-        const koksma__estimate q = i == first      ? (koksma__estimate){1, 1, 1}
-                                   : row->position ? koksma__rank_compare(table, i, first)
-                                                   : koksma__rank_quotient(&e, &best, table->level);
+        const koksma__estimate q = i == first ? (koksma__estimate){1, 1, 1}
+                                   : row->position
+                                       ? koksma__rank_compare(table, i, first)
+                                       : koksma__rank_quotient(&e, &best, koksma__rank_error_level(table));
         row->behind = q.value - 1;
         row->behind_low = q.low - 1;
         row->behind_high = isinf(q.high) ? (double)NAN : q.high - 1;

@@ -224,8 +224,9 @@ static koksma_status do_batch(batch *b)
 
 static koksma_status do_round(koksma__contest *c, int round, const size_t *active, size_t n_active)
 {
-    const size_t end = (size_t)FIRST << round;
-    batch b = {.contest = c, .active = active, .n_active = n_active, .first = round ? end / 2 : 0};
+    const size_t end = koksma__rank_trials(round);
+    batch b = {
+        .contest = c, .active = active, .n_active = n_active, .first = round ? koksma__rank_trials(round - 1) : 0};
     b.first_round = round == 0;
     b.errors = b.first_round ? NULL : malloc(n_active * BATCH * ERRORS * sizeof *b.errors);
     koksma_status status =
@@ -384,7 +385,7 @@ koksma_status koksma__contest_init(koksma__contest *c, const koksma_rank_options
                            .n = n,
                            .contestants = calloc(n, sizeof *c->contestants)};
     pthread_mutex_init(&c->lock, NULL);
-    while (c->max_rounds < KOKSMA__RANK_ROUNDS && (size_t)FIRST << c->max_rounds <= most) {
+    while (c->max_rounds < KOKSMA__RANK_ROUNDS && koksma__rank_trials(c->max_rounds) <= most) {
         c->max_rounds++;
     }
     KOKSMA__REQUIRE_MEMORY(c->contestants, n * sizeof *c->contestants);

@@ -2,17 +2,26 @@
 /*
  * The decisions of a ranking. A pair of patterns is judged after each round by the interval of the quotient of their
  * mean errors. The pair is equal ("same") when the interval lies within 1/1.02 .. 1.02 (two one-sided tests,
- * Schuirmann 1987), different when the interval excludes 1, and undecided otherwise. When the half-widths are below
- * 1 %, every pair is either equal or different.
+ * Schuirmann 1987), different when the interval excludes 1, and undecided otherwise.
  *
- * All conclusions of a ranking, of all pairs and rounds, hold simultaneously with probability 1 - alpha (Bonferroni):
- * with n (n + 1) / 2 pairs and single patterns and 14 rounds, each bound errs with probability
- *     level = alpha / 14 / (n (n + 1) / 2) / 2.
- * A decision about a pair can be wrong by at most two bounds: where the means are equal, by either bound of the
- * difference; where they differ, by the bound that allows "same" and by the bound that allows the wrong order.
- * Sharper procedures exist, but Holm's (1979) gives no intervals, and Tukey's needs equal variances and makes
- * intervals only 3 % narrower for seven patterns. The level uses the number of rounds of the longest possible
- * ranking, so that no decision depends on the time or the number of trials allowed.
+ * All decisions of a ranking hold together with probability 1 - alpha. A pair's share of alpha is alpha / m with the
+ * number m of pairs that are not decided to be different: what those no longer need goes to the others (Holm 1979; in
+ * rounds: Maurer & Bretz 2013). Pairs decided to be the same still count, since each of them could have been decided to be
+ * different. The share is spent over the rounds in proportion to the information (Lan & DeMets 1983): after a round with
+ * the relative standard error s of the difference, sqrt(S / s) of it is spent, with S = .35 %, at which half-widths are
+ * 1 % and nearly all pairs are decided. So each bound that says "different" errs after a round with probability
+ *
+ *     differ = (alpha / m) / 2  min(1, 1.2 (sqrt(S / s) - sqrt(S / s_before))).
+ *
+ * Rounds share their trials and pairs their patterns, so that Bonferroni's inequality counts wrong decisions more than
+ * once; the factor 1.2, which simulations show to be allowed, makes up for a part of that. A round spends at least 2 %, so
+ * that no pair is left without a test. A bound that says "same" errs with probability
+ *
+ *     same = (alpha / m) / 4.
+ *
+ * It can be wrong only of means that differ by about 2 % or more, and only in the two or three rounds after which half-
+ * widths fit into 2 % and "different" is not yet decided; a wrong order is no longer likely there. The levels depend on
+ * no limit of time or trials. docs/findings/ranking-decisions.md has the simulations by tests/study/ranking/test_ranking_power.c.
  *
  * Each bound is the lower bound of a contrast theta = x A - y B of the mean errors A and B of independent trials:
  *     theta - bias  -  t(level, nu) sqrt(x^2 s_A^2 / n + y^2 s_B^2 / n + v)  -  |bias|
@@ -42,15 +51,19 @@
 
 /* A pair is declared hopeless only from 128 trials on: with fewer trials, much of the estimated variance v of the
    reference (see above) is noise of the trials. */
-enum { SURE_ROUND = 4 };
+enum { SURE_ROUND = 8 };
+
+#define SURE_ERROR 0.0035 /* S, 1.2, 2 % and 1/4 of the head of this file */
+#define OVERLAP 1.2
+#define LEAST_PART 0.02
+#define SAME_PART 0.25
 
 /* The run is asked after so many pairs, each of which takes some tens of microseconds. */
 enum { ASKED = 1024 };
 
-double koksma__rank_level(double alpha, size_t n_patterns)
+size_t koksma__rank_trials(int round)
 {
-    const double comparisons = 0.5 * (double)n_patterns * (double)(n_patterns + 1);
-    return alpha / (2 * KOKSMA__RANK_ROUNDS * comparisons);
+    return (size_t)(round % 2 ? 3 * KOKSMA__RANK_FIRST_ROUND / 2 : KOKSMA__RANK_FIRST_ROUND) << (round / 2);
 }
 
 /* ---- One contrast --------------------------------------------------------------------------------------- */
@@ -93,14 +106,35 @@ static double half_width(const contrast *c, double level)
            fabs(c->bias);
 }
 
-/* The lower bound of the contrast x A - y B; -infinity if a pattern has fewer than two trials. */
-static double lower(const koksma__rank_errors *a, double x, const koksma__rank_errors *b, double y, double level)
+/* Whether the lower bound of the contrast x A - y B is above 0 or, if `zero_too`, not below 0. It is -infinity if a
+   pattern has fewer than two trials. */
+static bool is_above(const koksma__rank_errors *a, double x, const koksma__rank_errors *b, double y, double level,
+                     bool zero_too)
 {
     if (a->n < 2 || (b && b->n < 2)) {
-        return -INFINITY;
+        return false;
     }
     const contrast c = contrast_of(a, x, b, y);
-    return c.value - half_width(&c, level);
+    const double excess = c.value - fabs(c.bias);
+    return c.error > 0 ? excess > 0 && koksma__student_tail(excess / c.error, fmin(c.degrees, 1e12)) < level
+                       : excess > 0 || (zero_too && !(excess < 0));
+}
+
+/* ---- Levels --------------------------------------------------------------------------------------------- */
+
+/* The part of a pair's share of alpha that is spent when its errors are a and b. */
+static double spent(const koksma__rank_errors *a, const koksma__rank_errors *b)
+{
+    const double error = contrast_of(a, 1, b, 1).error, sure = SURE_ERROR * (a->mean + b->mean) / 2;
+    return error > sure ? sqrt(sure / error) : 1;
+}
+
+koksma__rank_levels koksma__rank_levels_of(double alpha, const koksma__rank_errors *a, const koksma__rank_errors *b,
+                                           bool first)
+{
+    const double part = spent(a, b) - (first ? 0 : spent(a - 1, b - 1));
+    return (koksma__rank_levels){.differ = alpha / 2 * fmin(OVERLAP * fmax(part, LEAST_PART), 1),
+                                 .same = alpha * SAME_PART};
 }
 
 /* ---- Intervals and verdicts ----------------------------------------------------------------------------- */
@@ -120,16 +154,16 @@ koksma__estimate koksma__rank_error(const koksma__rank_errors *a, double level)
 static double least_quotient(const koksma__rank_errors *a, const koksma__rank_errors *b, double level)
 {
     double lo = 0, hi = 1;
-    if (!(lower(a, 1, b, 0, level) > 0)) {
+    if (!is_above(a, 1, b, 0, level, false)) {
         return 0;
     }
-    while (lower(a, 1, b, hi, level) > 0 && hi < 1e12) {
+    while (is_above(a, 1, b, hi, level, false) && hi < 1e12) {
         lo = hi;
         hi *= 2;
     }
     for (int i = 0; i < 200 && hi - lo > 1e-7 * hi; i++) {
         const double middle = 0.5 * (lo + hi);
-        if (lower(a, 1, b, middle, level) > 0) {
+        if (is_above(a, 1, b, middle, level, false)) {
             lo = middle;
         } else {
             hi = middle;
@@ -141,7 +175,8 @@ static double least_quotient(const koksma__rank_errors *a, const koksma__rank_er
 koksma__estimate koksma__rank_quotient(const koksma__rank_errors *a, const koksma__rank_errors *b, double level)
 {
     const double mean_a = contrast_of(a, 1, NULL, 0).value, mean_b = contrast_of(b, 1, NULL, 0).value;
-    if (!koksma__compare(mean_a, mean_b) && koksma__rank_judge(a, b, level) == KOKSMA__RANK_SAME &&
+    const koksma__rank_levels levels = {level, level};
+    if (!koksma__compare(mean_a, mean_b) && koksma__rank_judge(a, b, levels) == KOKSMA__RANK_SAME &&
         !(mean_a > 0)) { /* both errors are 0 */
         return (koksma__estimate){1, 1, 1};
     }
@@ -159,23 +194,27 @@ koksma__estimate koksma__rank_both(koksma__estimate first, koksma__estimate seco
     return low <= high ? (koksma__estimate){fmin(fmax(second.value, low), high), low, high} : second;
 }
 
-koksma__rank_verdict koksma__rank_judge(const koksma__rank_errors *a, const koksma__rank_errors *b, double level)
+koksma__rank_verdict koksma__rank_judge(const koksma__rank_errors *a, const koksma__rank_errors *b,
+                                        koksma__rank_levels levels)
 {
-    if (lower(a, KOKSMA__RANK_EQUAL, b, 1, level) >= 0 && lower(b, KOKSMA__RANK_EQUAL, a, 1, level) >= 0) {
+    if (is_above(a, KOKSMA__RANK_EQUAL, b, 1, levels.same, true) &&
+        is_above(b, KOKSMA__RANK_EQUAL, a, 1, levels.same, true)) {
         return KOKSMA__RANK_SAME;
     }
-    return lower(b, 1, a, 1, level) > 0   ? KOKSMA__RANK_LESS
-           : lower(a, 1, b, 1, level) > 0 ? KOKSMA__RANK_MORE
-                                          : KOKSMA__RANK_OPEN;
+    return is_above(b, 1, a, 1, levels.differ, false)   ? KOKSMA__RANK_LESS
+           : is_above(a, 1, b, 1, levels.differ, false) ? KOKSMA__RANK_MORE
+                                                        : KOKSMA__RANK_OPEN;
 }
 
-size_t koksma__rank_trials_needed(const koksma__rank_errors *a, const koksma__rank_errors *b, double level)
+size_t koksma__rank_trials_needed(const koksma__rank_errors *a, const koksma__rank_errors *b, double alpha)
 {
-    koksma__rank_errors later_a = *a, later_b = *b;
-    size_t n = KOKSMA__RANK_FIRST_ROUND;
-    for (int round = 0; round < KOKSMA__RANK_ROUNDS; round++, n *= 2) {
-        later_a.n = later_b.n = n;
-        if (n >= a->n && koksma__rank_judge(&later_a, &later_b, level)) {
+    koksma__rank_errors later_a[] = {*a, *a}, later_b[] = {*b, *b}; /* after a round and the next */
+    for (int round = 0; round < KOKSMA__RANK_ROUNDS; round++) {
+        const size_t n = koksma__rank_trials(round);
+        later_a[0].n = later_b[0].n = round ? koksma__rank_trials(round - 1) : n;
+        later_a[1].n = later_b[1].n = n;
+        if (n >= a->n && koksma__rank_judge(&later_a[1], &later_b[1],
+                                            koksma__rank_levels_of(alpha, &later_a[1], &later_b[1], !round))) {
             return n;
         }
     }
@@ -187,7 +226,7 @@ size_t koksma__rank_trials_needed(const koksma__rank_errors *a, const koksma__ra
 koksma_status koksma__rank_table_init(koksma__rank_table *table, size_t n, double alpha)
 {
     *table = (koksma__rank_table){.n = n,
-                                  .level = koksma__rank_level(alpha, n),
+                                  .alpha = alpha,
                                   .entrants = calloc(n, sizeof *table->entrants),
                                   .pairs = calloc(n * n, sizeof *table->pairs),
                                   .leader = KOKSMA__RANK_NOBODY,
@@ -208,32 +247,67 @@ const koksma__rank_errors *koksma__rank_latest(const koksma__rank_table *table, 
     return e->n_rounds ? &e->rounds[e->n_rounds - 1] : NULL;
 }
 
-static void judge_pair(koksma__rank_table *table, size_t i, size_t j)
+double koksma__rank_pair_alpha(const koksma__rank_table *table)
 {
-    const koksma__rank_entrant *a = &table->entrants[i], *b = &table->entrants[j];
-    koksma__rank_pair *pair = &table->pairs[i * table->n + j], *mirrored = &table->pairs[j * table->n + i];
-    for (; !pair->verdict && pair->judged < a->n_rounds && pair->judged < b->n_rounds; pair->judged++) {
-        pair->round = pair->judged;
-        pair->verdict = koksma__rank_judge(&a->rounds[pair->round], &b->rounds[pair->round], table->level);
-        pair->hopeless = !pair->verdict && pair->round >= SURE_ROUND &&
-                         !koksma__rank_trials_needed(&a->rounds[pair->round], &b->rounds[pair->round], table->level);
+    size_t equal = 0;
+    for (size_t i = 0; i < table->n; i++) {
+        for (size_t j = i + 1; j < table->n && !table->entrants[i].out; j++) {
+            const koksma__rank_verdict verdict = table->pairs[i * table->n + j].verdict;
+            equal += !table->entrants[j].out && (verdict == KOKSMA__RANK_OPEN || verdict == KOKSMA__RANK_SAME);
+        }
     }
+    return table->alpha / (double)(equal ? equal : 1);
+}
+
+double koksma__rank_error_level(const koksma__rank_table *table)
+{
+    return table->alpha / (5 * (double)table->n);
+}
+
+static int last_common_round(const koksma__rank_table *table, size_t i, size_t j)
+{
+    const int a = table->entrants[i].n_rounds, b = table->entrants[j].n_rounds;
+    return (a < b ? a : b) - 1;
+}
+
+/* Judges an open pair after the last round that both patterns have completed. Returns whether it is decided now. */
+static bool judge_pair(koksma__rank_table *table, size_t i, size_t j, double alpha)
+{
+    koksma__rank_pair *pair = &table->pairs[i * table->n + j], *mirrored = &table->pairs[j * table->n + i];
+    const int round = last_common_round(table, i, j);
+    if (pair->verdict || round < 0 || table->entrants[i].out || table->entrants[j].out) {
+        return false;
+    }
+    const koksma__rank_errors *a = &table->entrants[i].rounds[round], *b = &table->entrants[j].rounds[round];
+    pair->round = round;
+    pair->alpha = alpha;
+    pair->verdict = koksma__rank_judge(a, b, koksma__rank_levels_of(alpha, a, b, !round));
+    pair->hopeless = !pair->verdict && round >= SURE_ROUND && !koksma__rank_trials_needed(a, b, alpha);
     *mirrored = *pair;
     mirrored->verdict = pair->verdict == KOKSMA__RANK_LESS   ? KOKSMA__RANK_MORE
                         : pair->verdict == KOKSMA__RANK_MORE ? KOKSMA__RANK_LESS
                                                              : pair->verdict;
+    return pair->verdict;
+}
+
+/* The interval of the quotient of a pair's errors after a round. */
+static koksma__estimate quotient_after(const koksma__rank_table *table, size_t i, size_t j, int round)
+{
+    const koksma__rank_errors *a = &table->entrants[i].rounds[round], *b = &table->entrants[j].rounds[round];
+    const double alpha = table->pairs[i * table->n + j].alpha;
+    return koksma__rank_quotient(a, b, koksma__rank_levels_of(alpha, a, b, !round).differ);
 }
 
 koksma__estimate koksma__rank_compare(const koksma__rank_table *table, size_t i, size_t j)
 {
-    const koksma__rank_entrant *a = &table->entrants[i], *b = &table->entrants[j];
+    static const koksma__estimate same = {1, 1 / KOKSMA__RANK_EQUAL, KOKSMA__RANK_EQUAL};
     const koksma__rank_pair *pair = &table->pairs[i * table->n + j];
-    const int last = (a->n_rounds < b->n_rounds ? a->n_rounds : b->n_rounds) - 1;
-    const koksma__estimate latest = koksma__rank_quotient(&a->rounds[last], &b->rounds[last], table->level);
-    return !pair->verdict || pair->round == last
-               ? latest
-               : koksma__rank_both(
-                     koksma__rank_quotient(&a->rounds[pair->round], &b->rounds[pair->round], table->level), latest);
+    const int last = last_common_round(table, i, j);
+    koksma__estimate e = quotient_after(table, i, j, last);
+    if (pair->verdict && pair->round != last) {
+        e = koksma__rank_both(quotient_after(table, i, j, pair->round), e);
+    }
+    return pair->verdict == KOKSMA__RANK_SAME ? koksma__rank_both(same, e) : e;
 }
 
 bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present)
@@ -298,17 +372,27 @@ static size_t find_leader(const koksma__rank_table *table, koksma__rank_goal goa
     return leader;
 }
 
-koksma_status koksma__rank_decide(koksma__rank_table *table, const koksma_run *run)
+/* Judges the open pairs once. *decided: whether one of them is decided now. */
+static koksma_status judge_pairs(koksma__rank_table *table, const koksma_run *run, bool *decided)
 {
+    const double alpha = koksma__rank_pair_alpha(table);
+    *decided = false;
     for (size_t i = 0, pair = 0; i < table->n; i++) {
         for (size_t j = i + 1; j < table->n; j++, pair++) {
             if (pair % ASKED == ASKED - 1) {
                 KOKSMA__TRY(koksma__ask(run));
             }
-            if (!table->entrants[i].out && !table->entrants[j].out) {
-                judge_pair(table, i, j);
-            }
+            *decided |= judge_pair(table, i, j, alpha);
         }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__rank_decide(koksma__rank_table *table, const koksma_run *run)
+{
+    bool decided = true;
+    while (decided) { /* what these pairs no longer need of alpha may decide others */
+        KOKSMA__TRY(judge_pairs(table, run, &decided));
     }
     if (table->leader == KOKSMA__RANK_NOBODY) {
         table->leader = find_leader(table, KOKSMA__RANK_FIND_LEADER);

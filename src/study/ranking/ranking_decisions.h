@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The statistics of a ranking, without any rendering: what may be concluded from the errors of patterns after rounds
- * of 8, 16, 32, ... trials. ranking_decisions.c describes the method and why all conclusions hold simultaneously.
+ * of 8, 12, 16, 24, 32, ... trials. ranking_decisions.c describes the method and why all decisions hold together.
  */
 #ifndef KOKSMA_STUDY_RANKING_RANKING_DECISIONS_H
 #define KOKSMA_STUDY_RANKING_RANKING_DECISIONS_H
@@ -15,8 +15,8 @@
 
 enum {
     KOKSMA__RANK_REPLICATES = 16, /* number of replicates of the reference */
-    KOKSMA__RANK_FIRST_ROUND = 8, /* trials of a pattern after round 0; each round doubles them */
-    KOKSMA__RANK_ROUNDS = 14,     /* 8 to 65,536 trials */
+    KOKSMA__RANK_FIRST_ROUND = 8, /* trials of a pattern after round 0; two rounds double them */
+    KOKSMA__RANK_ROUNDS = 27,     /* 8 to 65,536 trials */
     KOKSMA__RANK_NOBODY = 0x7fffffff
 };
 
@@ -41,9 +41,19 @@ typedef enum koksma__rank_verdict {
     KOKSMA__RANK_SAME, /* the means are within 2 % of each other */
 } koksma__rank_verdict;
 
-/* The probability with which each bound of each comparison of n_patterns patterns may err after each round, such
-   that the probability of any error is at most alpha. */
-double koksma__rank_level(double alpha, size_t n_patterns);
+/* The number of a pattern's trials after a round: 8, 12, 16, 24, 32, 48, ... */
+size_t koksma__rank_trials(int round);
+
+/* The probabilities with which each bound of a pair may err after a round: differ, a bound that excludes equality; same,
+   a bound that excludes a difference of more than 2 %. */
+typedef struct koksma__rank_levels {
+    double differ, same;
+} koksma__rank_levels;
+
+/* The levels of a pair after a round, of its share of the probability that any decision is wrong. a, b: the errors after
+   the round, in arrays that have those after the round before in front of them, unless it is the first. */
+koksma__rank_levels koksma__rank_levels_of(double alpha, const koksma__rank_errors *a, const koksma__rank_errors *b,
+                                           bool first);
 
 /* koksma__rank_error: the interval of a pattern's mean error, corrected for the reference's own error, whose
    uncertainty widens the interval. koksma__rank_quotient: the interval of the quotient of two mean errors. Each
@@ -56,20 +66,22 @@ koksma__estimate koksma__rank_quotient(const koksma__rank_errors *a, const koksm
 koksma__estimate koksma__rank_both(koksma__estimate first, koksma__estimate second);
 
 /* The decision about two patterns whose errors are a and b. */
-koksma__rank_verdict koksma__rank_judge(const koksma__rank_errors *a, const koksma__rank_errors *b, double level);
+koksma__rank_verdict koksma__rank_judge(const koksma__rank_errors *a, const koksma__rank_errors *b,
+                                        koksma__rank_levels levels);
 
-/* The smallest number of trials among 8, 16, 32, ... that would decide the pair if its means and variances remained
-   unchanged; 0 if none up to KOKSMA_MAX_RANK_TRIALS would, because the reference is too noisy or the difference too
-   small. */
-size_t koksma__rank_trials_needed(const koksma__rank_errors *a, const koksma__rank_errors *b, double level);
+/* The smallest number of trials of a round that would decide the pair with this share of alpha if its means and variances
+   remained unchanged; 0 if none up to KOKSMA_MAX_RANK_TRIALS would, because the reference is too noisy or the difference
+   too small. */
+size_t koksma__rank_trials_needed(const koksma__rank_errors *a, const koksma__rank_errors *b, double alpha);
 
 /* ---- A whole ranking ------------------------------------------------------------------------------------ */
 
 /* A decision about a pair and the round after which it was taken. */
 typedef struct koksma__rank_pair {
     koksma__rank_verdict verdict;
-    int round, judged; /* judged: number of rounds so far after which the pair was judged */
-    bool hopeless;     /* the pair is open, and no possible number of trials would decide it */
+    int round;     /* the round after which it was taken, or the last after which the open pair was judged */
+    double alpha;  /* the pair's share of the table's alpha then */
+    bool hopeless; /* the pair is open, and no possible number of trials would decide it */
 } koksma__rank_pair;
 
 typedef struct koksma__rank_entrant {
@@ -82,7 +94,7 @@ typedef struct koksma__rank_entrant {
 
 typedef struct koksma__rank_table {
     size_t n;
-    double level;
+    double alpha; /* the probability that any decision is wrong */
     koksma__rank_entrant *entrants;
     koksma__rank_pair *pairs; /* pair (i, j) at i * n + j */
     /* the pattern decided to be the best, which never changes; KOKSMA__RANK_NOBODY before the decision */
@@ -103,13 +115,18 @@ typedef enum koksma__rank_goal {
 koksma_status koksma__rank_table_init(koksma__rank_table *table, size_t n, double alpha);
 void koksma__rank_table_fini(koksma__rank_table *table);
 
-/* Takes the decisions that the complete rounds allow. Each decision depends only on the pair and its round. So the
-   order in which rounds were completed has no effect, and later rounds revoke no decision. A call that `run` (may be
+/* Takes the decisions that the complete rounds allow. A decision depends on the pair's round and on the number of pairs
+   that are open then. Later rounds revoke no decision. A call that `run` (may be
    NULL) ends has taken some of them. Errors: INTERRUPTED. */
 koksma_status koksma__rank_decide(koksma__rank_table *table, const koksma_run *run);
 
+/* koksma__rank_pair_alpha: the share that each open pair has of the table's alpha. koksma__rank_error_level: the level of
+   the bounds of a pattern's mean error, whose intervals hold together with a probability of about 1 - alpha. */
+double koksma__rank_pair_alpha(const koksma__rank_table *table);
+double koksma__rank_error_level(const koksma__rank_table *table);
+
 /* The quotient of the errors of i and j after the last round that both completed, clamped to the interval of the
-   round that decided the pair. i and j must each have completed a round. */
+   round that decided the pair, and to 1/1.02 .. 1.02 if they are the same. i and j must each have completed a round. */
 koksma__estimate koksma__rank_compare(const koksma__rank_table *table, size_t i, size_t j);
 
 /* koksma__rank_matters: whether the goal needs another round of the pair. koksma__rank_reached: whether the goal is

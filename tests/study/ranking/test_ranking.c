@@ -86,7 +86,7 @@ static outcome rank_world(const world *w, int rounds, double alpha)
     for (int round = 0; round < rounds; round++) {
         for (size_t p = 0; p < w->n; p++) {
             koksma__rank_entrant *e = &table.entrants[p];
-            e->rounds[e->n_rounds++] = errors_of(w, p, (size_t)KOKSMA__RANK_FIRST_ROUND << round);
+            e->rounds[e->n_rounds++] = errors_of(w, p, koksma__rank_trials(round));
         }
         assert_ok(koksma__rank_decide(&table, NULL));
     }
@@ -121,7 +121,7 @@ static void wrong_decisions_are_rare(void **state)
                                  .spread = noisy ? 0.02 : 0.15,
                                  .reference = noisy ? 1.2 : 0.1,
                                  .seed = seed + 1000 * s};
-                wrong += rank_world(&w, 3, 0.2).wrong > 0;
+                wrong += rank_world(&w, 5, 0.2).wrong > 0;
             }
             if (wrong >= 18) {
                 fail_msg("case %zu, %s reference: %zu of 40 rankings decide wrongly", s, noisy ? "noisy" : "good",
@@ -137,12 +137,12 @@ static void clear_cases_are_decided(void **state)
     (void)state;
     static const double scale[] = {1.5, 1, 2, 1.25}, equal[] = {1, 1};
     const world w = {.n = 4, .scale = scale, .spread = 0.05, .reference = 0.1, .seed = 3};
-    const outcome o = rank_world(&w, 3, 0.04);
+    const outcome o = rank_world(&w, 5, 0.04);
     assert_int_equal(o.wrong, 0);
     assert_int_equal(o.decided, 6);
     assert_int_equal(o.leader, 1);
     const world same = {.n = 2, .scale = equal, .spread = 0.005, .reference = 0, .seed = 4};
-    assert_int_equal(rank_world(&same, 9, 0.04).decided, 1);
+    assert_int_equal(rank_world(&same, 17, 0.04).decided, 1);
 }
 
 /* A reference that is as noisy as what it judges leaves a small difference open, whatever the number of trials. */
@@ -152,10 +152,10 @@ static void noisy_references_decide_nothing(void **state)
     static const double scale[] = {1, 1.03};
     const world w = {.n = 2, .scale = scale, .spread = 0.01, .reference = 4, .seed = 5};
     const koksma__rank_errors a = errors_of(&w, 0, 256), b = errors_of(&w, 1, 256);
-    const double level = koksma__rank_level(0.04, 2);
-    assert_int_equal(koksma__rank_judge(&a, &b, level), KOKSMA__RANK_OPEN);
-    assert_int_equal(koksma__rank_trials_needed(&a, &b, level), 0);
-    const koksma__estimate q = koksma__rank_quotient(&a, &b, level);
+    const koksma__rank_levels levels = koksma__rank_levels_of(0.04, &a, &b, true);
+    assert_int_equal(koksma__rank_judge(&a, &b, levels), KOKSMA__RANK_OPEN);
+    assert_int_equal(koksma__rank_trials_needed(&a, &b, 0.04), 0);
+    const koksma__estimate q = koksma__rank_quotient(&a, &b, levels.differ);
     assert_true(q.low < 1 / 1.03 && q.high > 1 / 1.03);
 }
 
@@ -184,10 +184,64 @@ static void intervals_by_hand(void **state)
     assert_near(e.value, 2, 1e-15);
     assert_near(e.low, 2 - half, 1e-6);
     assert_near(e.high, 2 + half, 1e-6);
-    assert_int_equal(koksma__rank_judge(&a, &b, level), KOKSMA__RANK_MORE);
-    assert_int_equal(koksma__rank_judge(&b, &a, level), KOKSMA__RANK_LESS);
-    /* 28 bounds in each of 14 rounds for 7 patterns and their 21 pairs */
-    assert_near(koksma__rank_level(0.05, 7), 0.05 / (2 * 14 * 28), 1e-18);
+    const koksma__rank_levels levels = {level, level};
+    assert_int_equal(koksma__rank_judge(&a, &b, levels), KOKSMA__RANK_MORE);
+    assert_int_equal(koksma__rank_judge(&b, &a, levels), KOKSMA__RANK_LESS);
+}
+
+/* The parts of alpha that a pair's rounds spend: by the root of the information, at most all of it and a fifth, and 2 % a
+   round when nothing is left. Each "different" has two bounds. */
+static void levels_by_hand(void **state)
+{
+    (void)state;
+    koksma__rank_errors a[20], b[20];
+    double sum = 0;
+    for (int round = 0; round < 20; round++) {
+        const size_t n = koksma__rank_trials(round);
+        a[round] = b[round] = exact(1, 0.1, n);
+        const double information = 0.0035 / (0.1 * sqrt(2.0 / (double)n)),
+                     before = round ? 0.0035 / (0.1 * sqrt(2.0 / (double)koksma__rank_trials(round - 1))) : 0;
+        const double part = fmax(sqrt(fmin(information, 1)) - sqrt(fmin(before, 1)), 0.02);
+        const koksma__rank_levels levels = koksma__rank_levels_of(0.05, &a[round], &b[round], !round);
+        assert_near(levels.differ, 0.025 * 1.2 * part, 1e-15);
+        assert_near(levels.same, 0.0125, 1e-15);
+        sum += information < 1 ? 2 * levels.differ : 0;
+    }
+    assert_true(sum > 0.05 && sum < 1.2 * 0.05);
+    const koksma__rank_errors sure = exact(1, 1e-6, 8);
+    assert_near(koksma__rank_levels_of(0.05, &sure, &sure, true).differ, 0.025, 0);
+    const size_t trials[] = {8, 12, 16, 24, 32, 48, 64};
+    for (int round = 0; round < 7; round++) {
+        assert_int_equal(koksma__rank_trials(round), trials[round]);
+    }
+    assert_int_equal(koksma__rank_trials(KOKSMA__RANK_ROUNDS - 1), KOKSMA_MAX_RANK_TRIALS);
+}
+
+/* What pairs that are decided to be different no longer need goes to the others. With exact means a pair is decided by
+   its difference; the others are alike. */
+static void shares_of_decided_pairs_go_to_others(void **state)
+{
+    (void)state;
+    koksma__rank_table table;
+    const double means[] = {1, 1, 1.005, 2};
+    assert_ok(koksma__rank_table_init(&table, 4, 0.06));
+    assert_near(koksma__rank_pair_alpha(&table), 0.06 / 6, 1e-15);
+    for (size_t i = 0; i < 4; i++) {
+        table.entrants[i].rounds[table.entrants[i].n_rounds++] = exact(means[i], i == 0 ? 0.4 : 0, 8);
+    }
+    assert_ok(koksma__rank_decide(&table, NULL));
+    assert_int_equal(table.pairs[1 * 4 + 3].verdict, KOKSMA__RANK_LESS);
+    assert_int_equal(table.pairs[1 * 4 + 2].verdict, KOKSMA__RANK_SAME);
+    assert_int_equal(table.pairs[0 * 4 + 1].verdict, KOKSMA__RANK_OPEN);
+    assert_int_equal(table.pairs[0 * 4 + 3].verdict, KOKSMA__RANK_LESS);
+    assert_near(koksma__rank_pair_alpha(&table), 0.06 / 3, 1e-15); /* 0 and 1, 0 and 2 are open, 1 and 2 the same */
+    assert_near(table.pairs[0 * 4 + 1].alpha, 0.06 / 3, 1e-15);
+    const koksma__estimate same = koksma__rank_compare(&table, 2, 1), wide = koksma__rank_compare(&table, 0, 1);
+    assert_true(same.low >= 1 / 1.02 && same.high <= 1.02);
+    assert_true(wide.low < 0.8 && wide.high > 1.2);
+    table.entrants[3].out = true; /* what cannot be ranked has no share, and no decision to lose */
+    assert_near(koksma__rank_pair_alpha(&table), 0.06 / 3, 1e-15);
+    koksma__rank_table_fini(&table);
 }
 
 /* The jackknife removes a bias of b/k and knows the deviation of a mean. */
@@ -214,13 +268,14 @@ static void equal_errors_are_equal(void **state)
     (void)state;
     const koksma__rank_errors zero = exact(0, 0, 8), one = exact(1, 0, 8), more = exact(1.0199, 0, 8),
                               most = exact(1.0201, 0, 8), single = exact(1, NAN, 1);
-    assert_int_equal(koksma__rank_judge(&zero, &zero, 1e-3), KOKSMA__RANK_SAME);
+    const koksma__rank_levels levels = {1e-3, 1e-3};
+    assert_int_equal(koksma__rank_judge(&zero, &zero, levels), KOKSMA__RANK_SAME);
     assert_near(koksma__rank_quotient(&zero, &zero, 1e-3).value, 1, 0);
-    assert_int_equal(koksma__rank_judge(&one, &one, 1e-3), KOKSMA__RANK_SAME);
-    assert_int_equal(koksma__rank_judge(&one, &more, 1e-3), KOKSMA__RANK_SAME);
-    assert_int_equal(koksma__rank_judge(&one, &most, 1e-3), KOKSMA__RANK_LESS);
-    assert_int_equal(koksma__rank_judge(&one, &single, 1e-3), KOKSMA__RANK_OPEN);
-    assert_int_equal(koksma__rank_judge(&zero, &one, 1e-3), KOKSMA__RANK_LESS);
+    assert_int_equal(koksma__rank_judge(&one, &one, levels), KOKSMA__RANK_SAME);
+    assert_int_equal(koksma__rank_judge(&one, &more, levels), KOKSMA__RANK_SAME);
+    assert_int_equal(koksma__rank_judge(&one, &most, levels), KOKSMA__RANK_LESS);
+    assert_int_equal(koksma__rank_judge(&one, &single, levels), KOKSMA__RANK_OPEN);
+    assert_int_equal(koksma__rank_judge(&zero, &one, levels), KOKSMA__RANK_LESS);
 }
 
 /* The number of trials that is foretold is the smallest that decides if nothing changes. */
@@ -228,12 +283,17 @@ static void trials_are_foretold(void **state)
 {
     (void)state;
     const koksma__rank_errors a = exact(1, 0.05, 8), b = exact(1.03, 0.05, 8);
-    const size_t n = koksma__rank_trials_needed(&a, &b, 1e-3);
-    const koksma__rank_errors enough_a = exact(1, 0.05, n), enough_b = exact(1.03, 0.05, n),
-                              few_a = exact(1, 0.05, n / 2), few_b = exact(1.03, 0.05, n / 2);
+    const size_t n = koksma__rank_trials_needed(&a, &b, 0.01);
+    koksma__rank_errors rounds_a[16], rounds_b[16];
     assert_true(n > 8 && n <= 256);
-    assert_true(koksma__rank_judge(&enough_a, &enough_b, 1e-3) == KOKSMA__RANK_LESS);
-    assert_true(koksma__rank_judge(&few_a, &few_b, 1e-3) == KOKSMA__RANK_OPEN);
+    for (int round = 0; koksma__rank_trials(round) <= n; round++) {
+        const size_t trials = koksma__rank_trials(round);
+        rounds_a[round] = exact(1, 0.05, trials);
+        rounds_b[round] = exact(1.03, 0.05, trials);
+        const koksma__rank_levels levels = koksma__rank_levels_of(0.01, &rounds_a[round], &rounds_b[round], !round);
+        assert_int_equal(koksma__rank_judge(&rounds_a[round], &rounds_b[round], levels),
+                         trials < n ? KOKSMA__RANK_OPEN : KOKSMA__RANK_LESS);
+    }
 }
 
 /* ---- Coherent errors ------------------------------------------------------------------------------------ */
@@ -723,6 +783,8 @@ int main(void)
         cmocka_unit_test(clear_cases_are_decided),
         cmocka_unit_test(noisy_references_decide_nothing),
         cmocka_unit_test(intervals_by_hand),
+        cmocka_unit_test(levels_by_hand),
+        cmocka_unit_test(shares_of_decided_pairs_go_to_others),
         cmocka_unit_test(references_by_hand),
         cmocka_unit_test(equal_errors_are_equal),
         cmocka_unit_test(trials_are_foretold),
