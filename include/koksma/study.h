@@ -384,7 +384,7 @@ typedef enum koksma_rank_decision {
 
 /* One pattern of a ranking. Intervals are simultaneous: with 95 % probability those of all means contain the true value,
    and so do those of all relative differences. The intervals include the error of the reference. NaN marks a missing
-   number. */
+   number; an interval that is not known is NaN at both ends. */
 typedef struct koksma_rank_row {
     size_t pattern;  /* index of the pattern in koksma_rank_options.patterns */
     size_t position; /* 1 + the number of patterns that are decided to have less error; 0: not ranked */

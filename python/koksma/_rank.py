@@ -25,7 +25,7 @@ _CHECKS = ("unchecked", "confirmed", "overturned", "unsettled")
 
 @dataclass(frozen=True)
 class Ranked:
-    """A pattern of a ranking. Intervals (low, high) hold together for all patterns with 95 %; NaN: none."""
+    """A pattern of a ranking. Intervals (low, high) hold together for all patterns with 95 %; (NaN, NaN): none."""
     pattern: str
     position: Optional[int]  #: 1 + the number of patterns that are decided to leave less error; None: not ranked
     state: str  #: ranked, too-slow or refused

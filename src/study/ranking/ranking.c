@@ -108,6 +108,15 @@ static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHE
     return n;
 }
 
+/* Stores the excess of a quotient over 1 with its interval, which is NaN at both ends if one of them is not known. */
+static void put_behind(koksma__estimate q, double *behind, double *low, double *high)
+{
+    const bool known = isfinite(q.low) && isfinite(q.high);
+    *behind = q.value - 1;
+    *low = known ? q.low - 1 : (double)NAN;
+    *high = known ? q.high - 1 : (double)NAN;
+}
+
 /* The result of a check of contestant i: whether `best`, the contestant that was decided to be the best at the
    checked size, is i. */
 static koksma_rank_check_result conclude(const koksma__contest *c, size_t i, size_t best)
@@ -119,9 +128,7 @@ static koksma_rank_check_result conclude(const koksma__contest *c, size_t i, siz
         const koksma__estimate q = koksma__rank_compare(&c->table, i, best);
         result.pattern = c->contestants[best].pattern;
         result.coherent = c->contestants[best].coherence.coherent;
-        result.behind = q.value - 1;
-        result.behind_low = q.low - 1;
-        result.behind_high = q.high - 1;
+        put_behind(q, &result.behind, &result.behind_low, &result.behind_high);
     }
     return result;
 }
@@ -306,9 +313,7 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
                                    : row->position
                                        ? koksma__rank_compare(table, i, first)
                                        : koksma__rank_quotient(&e, &best, koksma__rank_error_level(table));
-        row->behind = q.value - 1;
-        row->behind_low = q.low - 1;
-        row->behind_high = isinf(q.high) ? (double)NAN : q.high - 1;
+        put_behind(q, &row->behind, &row->behind_low, &row->behind_high);
     }
 }
 

@@ -440,7 +440,7 @@ static koksma_status judge(search *s, koksma_scene_gain *g)
     g->settled = ranking.settled;
     g->gain = own ? -a->behind : 1 - 1 / (1 + b->behind);
     g->low = own ? -a->behind_high : 1 - 1 / (1 + b->behind_low);
-    g->high = own ? -a->behind_low : 1 - (b->behind_high == b->behind_high ? 1 / (1 + b->behind_high) : 0);
+    g->high = own ? -a->behind_low : 1 - 1 / (1 + b->behind_high);
     return KOKSMA_OK;
 }
 

@@ -776,6 +776,58 @@ static void undecidable_only_after_many_trials(void **state)
     assert_true(more.settled && !more.undecidable && !more.needed_trials && more.trials >= good.needed_trials / 4);
 }
 
+/* Images of one value, whose size differs between trials by factors of e^2 and more; the reference is almost
+   0. */
+static koksma_status render_wild(void *context, const koksma_rank_picture *picture, const koksma_run *run,
+                                 koksma_image *image)
+{
+    (void)run;
+    const bool reference = !strcmp(picture->pattern, "zero");
+    const double size = strlen(picture->pattern) + exp(*(const double *)context * normal(picture->seed, 8, 0));
+    const koksma_status status = koksma_image_init(image, picture->width, picture->height, 1);
+    for (int i = 0; !status && i < picture->width * picture->height; i++) {
+        image->pixels[i] =
+            (float)(reference ? 1e-9 * normal(picture->seed, 9, (uint64_t)i) : size * (i % 2 ? 1 : -1));
+    }
+    return status;
+}
+
+/* An interval has both ends or none: where trials vary too much for a quotient there is none, rather than one that begins
+   at -100 %. */
+static void intervals_have_both_ends(void **state)
+{
+    (void)state;
+    const char *patterns[] = {"a", "bb", "ccc"};
+    size_t none = 0, some = 0;
+    for (int k = 0; k < 24; k++) {
+        double spread = k % 2 ? 6 : 0.5;
+        char scene[8];
+        koksma_rank_row rows[3];
+        koksma_ranking r;
+        snprintf(scene, sizeof scene, "%d", k); /* other seeds */
+        const koksma_rank_options options = {.scene = scene,
+                                             .patterns = patterns,
+                                             .n_patterns = 3,
+                                             .spp = 1,
+                                             .width = 2,
+                                             .height = 2,
+                                             .max_trials = 8,
+                                             .one_size = true,
+                                             .render = render_wild,
+                                             .render_context = &spread,
+                                             .reference = "zero"};
+        assert_ok(koksma_rank_patterns(&options, NULL, rows, &r));
+        for (int i = 0; i < 3; i++) {
+            assert_true(isfinite(rows[i].behind_low) == isfinite(rows[i].behind_high));
+            assert_true(isnan(rows[i].behind_low) == isnan(rows[i].behind_high));
+            assert_true(isfinite(rows[i].low) && isfinite(rows[i].high));
+            none += isnan(rows[i].behind_low);
+            some += rows[i].behind_low < rows[i].behind && rows[i].behind < rows[i].behind_high;
+        }
+    }
+    assert_true(none > 12 && some > 12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -801,6 +853,7 @@ int main(void)
         cmocka_unit_test(patterns_that_cannot_serve),
         cmocka_unit_test(sizes_are_part_of_the_question),
         cmocka_unit_test(undecidable_only_after_many_trials),
+        cmocka_unit_test(intervals_have_both_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
