@@ -12,9 +12,9 @@
  *
  * A vectorised pass over all corners (far_corners) gives the star discrepancy and a list of the corners whose local
  * discrepancy is near it. L-BFGS uses only the listed corners, about 1 % of all corners, and ignores changes of
- * ranks; the next pass checks the result. Three of four searches are a walk from the best set. The other searches are
- * walks from the best of DRAWS sets of points {i a + s} (fractional parts); a new walk starts after STALE kicks
- * (random changes) without a gain. A kick exchanges a coordinate of two points so that a listed box with too many
+ * ranks; the next pass checks the result. A search begins with a descent from near the best set. Three of four searches
+ * walk on from there. The other searches then walk from the best of DRAWS sets of points {i a + s} (fractional parts);
+ * a new walk starts after STALE kicks (random changes) without a gain. A kick exchanges a coordinate of two points so that a listed box with too many
  * points loses one, or a box with too few gains one, because no other exchange can help; one kick in five (with
  * keep=net every kick) replaces a point by a random one. The walk accepts the result of a descent if its star
  * discrepancy exceeds that of the walk's current set by at most a threshold.
@@ -33,10 +33,12 @@
 enum { MAX_N = 1024, ITERATIONS = 20, DRAWS = 16, STALE = 60, CAPACITY = 1 << 18, LANES = 32 };
 
 /* A corner. at[k]: the point with the same coordinate k (n: none, the coordinate is 1). count: the number of points in
-   its box. sign: 1 for the closed box, which may have too many points; -1 for the open box, which may have too few. */
+   its box. sign: 1 for the closed box, which may have too many points; -1 for the open box, which may have too few.
+   difference: n times its local discrepancy when it was listed. */
 typedef struct corner {
     uint16_t at[3];
     int16_t count, sign;
+    float difference;
 } corner;
 
 typedef struct job {
@@ -47,7 +49,9 @@ typedef struct job {
     float *z;                /* the sorted coordinates along the third axis, followed by 1 and by zeros */
     int16_t *open, *closed;  /* for the current i: numbers of points with rank below i (closed: at most i) by x and
                                 ranks below j and k by y and z */
-    corner *corners, *kept;  /* kept: the corners listed for the walk's current set */
+    double value;            /* of the best set of the search so far, which is in `result` */
+    koksma_points *result;
+    corner *corners, *kept; /* kept: the corners listed for the walk's current set */
     size_t listed, n_kept;
     void *memory;
 } job;
@@ -105,45 +109,58 @@ static koksma_status sort(job *j, const double *xs)
     return KOKSMA_OK;
 }
 
-/* Lists those corners (X_i, Y_b, any Z) whose local discrepancy times n is above `limit`, and raises *largest to the
-   largest such product. Returns false if the list is full. */
-static bool list_row(job *j, size_t i, size_t b, int16_t sign, double limit, double *largest)
+/* Raises the limit until a quarter of the full list is free, and removes the corners that are not above it. */
+static void thin(job *j, double *limit)
+{
+    while (j->listed > CAPACITY / 4 * 3) {
+        size_t left = 0;
+        *limit *= 1.02;
+        for (size_t l = 0; l < j->listed; l++) {
+            j->corners[left] = j->corners[l];
+            left += j->corners[l].difference > *limit;
+        }
+        j->listed = left;
+    }
+}
+
+/* Lists those corners (X_i, Y_b, any Z) whose local discrepancy times n is above *limit, and raises *largest to the
+   largest such product. The limit is raised if the list is full. */
+static void list_row(job *j, size_t i, size_t b, int16_t sign, double *limit, double *largest)
 {
     const size_t n = j->n, columns = (n + 1 + LANES - 1) / LANES * LANES;
     const int16_t *counts = sign > 0 ? j->closed + (b + 1) * j->stride + 1 : j->open + b * j->stride;
     const double area = (double)n * j->x[i] * j->x[n + 1 + b];
     const float rounding = (float)n * 0x1p-21F;
     const size_t found = koksma__kernels()->far_corners(columns, counts, j->z, sign, (float)(sign * area),
-                                                        fmaxf(0, (float)limit - rounding), j->found);
+                                                        fmaxf(0, (float)*limit - rounding), j->found);
     for (size_t f = 0; f < found; f++) {
         const size_t c = j->found[f];
         const double difference = sign * (counts[c] - area * j->x[2 * (n + 1) + c]);
         *largest = fmax(*largest, difference);
         if (j->listed == CAPACITY) {
-            return false;
+            thin(j, limit);
         }
         j->corners[j->listed++] =
             (corner){{(uint16_t)(i < n ? j->order[i] : n), (uint16_t)(b < n ? j->order[n + b] : n),
                       (uint16_t)(c < n ? j->order[2 * n + c] : n)},
                      counts[c],
-                     sign};
+                     sign,
+                     (float)difference};
     }
-    return true;
 }
 
 /* Lists the corners whose local discrepancy is above `limit`; *value receives the largest local discrepancy. The limit
-   is raised if there are too many corners, and lowered if there are none. */
+   is raised during the pass if there are too many corners; if there are none, another pass is made with half of it. */
 static koksma_status list(job *j, koksma__descent *d, double limit, double *value)
 {
     const size_t n = j->n;
     const koksma_status status = sort(j, d->points.xs);
     *value = 0;
-    for (bool fits = false; !status && (!fits || j->listed == 0); limit *= fits ? 0.5 : 1.05) {
+    j->listed = 0;
+    for (limit *= (double)n; !status && j->listed == 0; limit *= 0.5) {
         memset(j->open, 0, 2 * (n + 2) * j->stride * sizeof(int16_t));
-        j->listed = 0;
         *value = 0;
-        fits = true;
-        for (size_t i = 0; i <= n && fits; i++) {
+        for (size_t i = 0; i <= n; i++) {
             KOKSMA__TRY(koksma__ask(d->run));
             if (i > 0) {
                 count(j, i - 1, j->open);
@@ -151,9 +168,9 @@ static koksma_status list(job *j, koksma__descent *d, double limit, double *valu
             if (i < n) {
                 count(j, i, j->closed);
             }
-            for (size_t b = 0; b <= n && fits; b++) {
-                fits =
-                    list_row(j, i, b, 1, limit * (double)n, value) && list_row(j, i, b, -1, limit * (double)n, value);
+            for (size_t b = 0; b <= n; b++) {
+                list_row(j, i, b, 1, &limit, value);
+                list_row(j, i, b, -1, &limit, value);
             }
         }
         d->work += pow((double)n + 1, 3) / 12 + (double)j->listed;
@@ -282,6 +299,15 @@ static koksma_status descend_near(job *j, koksma__descent *d, double value)
     return status;
 }
 
+/* Keeps a set that is better than all sets of the search so far. */
+static void keep_better(job *j, const koksma__descent *d, double value)
+{
+    if (value < j->value) {
+        j->value = value;
+        memcpy(j->result->xs, d->points.xs, d->count * sizeof(double));
+    }
+}
+
 /* Descends to targets below the value as long as that helps: the first target is far below the value if `cut` is
    infinite (a start), and a little below it otherwise (after a kick). *lowest receives the least value, and `best` its
    set. Ends early if the value stays above `cut`. */
@@ -291,6 +317,7 @@ static koksma_status follow(job *j, koksma__descent *d, double cut, double *best
     const size_t n_shares = sizeof shares / sizeof *shares, first = cut < HUGE_VAL ? 2 : 0;
     double value;
     koksma_status status = list(j, d, fmin(*lowest, cut) * (2 * shares[first] - 1), &value);
+    keep_better(j, d, status ? HUGE_VAL : value);
     *lowest = value;
     memcpy(best, d->points.xs, d->count * sizeof(double));
     for (size_t k = first;
@@ -301,6 +328,7 @@ static koksma_status follow(job *j, koksma__descent *d, double cut, double *best
         k = value >= *lowest * (1 - 1e-4) ? k + 1 : k > first + 1 ? k - 1 : first;
         if (!status && value < *lowest) {
             *lowest = value;
+            keep_better(j, d, value);
             memcpy(best, d->points.xs, d->count * sizeof(double));
         } else if (!status && value > 1.05 * *lowest && k < n_shares) {
             memcpy(d->points.xs, best, d->count * sizeof(double));
@@ -321,24 +349,40 @@ static koksma_status keep_corners(job *j, koksma__descent *d, const double *at, 
     return status;
 }
 
-/* Walks until the budget is used up. `points` has the best set; each better set replaces it. */
-static koksma_status wander(koksma_keep keep, koksma__descent *d, job *j, koksma__stream *random, double value,
-                            double *best, koksma_points *points)
+/* Moves all coordinates by up to a random reach, at most half of the spacing 1/n, within their intervals. */
+static void jitter(koksma__descent *d, koksma__stream *random)
 {
+    const double u = koksma__next_unit(random), reach = fmin(0.5 / (double)d->points.n, d->length) * u * u;
+    for (size_t c = 0; c < d->count; c++) {
+        const double x = d->points.xs[c] + reach * (2 * koksma__next_unit(random) - 1);
+        d->points.xs[c] = fmin(fmax(x, d->low[c]), d->low[c] + d->length);
+    }
+}
+
+/* Walks until the budget is used up. Each search begins with a descent from near the best set, which may be one of a
+   pattern. */
+static koksma_status wander(koksma_keep keep, koksma__descent *d, job *j, koksma__stream *random, double *best)
+{
+    const koksma_points *points = j->result;
+    const double value = j->value;
     const bool anew = koksma__next_below(random, 4) == 0;
     const double threshold = 1 + 0.01 * koksma__next_unit(random);
     const size_t bytes = d->count * sizeof(double);
-    double *at = best + d->count, current = anew ? HUGE_VAL : value, lowest;
+    double *at = best + d->count, current = HUGE_VAL, lowest;
     memcpy(at, points->xs, bytes);
-    koksma_status status = anew ? KOKSMA_OK : keep_corners(j, d, at, value);
-    for (int stale = 0; !status && d->work < d->budget; stale++) {
-        if (anew && (current == HUGE_VAL || stale > STALE)) {
+    koksma_status status = KOKSMA_OK;
+    for (int stale = 0, round = 0; !status && d->work < d->budget; stale++, round++) {
+        if (anew && (round == 1 || stale > STALE)) {
             stale = 0;
             current = HUGE_VAL;
             status = start(j, d, points, keep, best, value, random);
         } else {
             memcpy(d->points.xs, at, bytes);
-            kick(j, d, keep, random);
+            if (round == 0) {
+                jitter(d, random);
+            } else {
+                kick(j, d, keep, random);
+            }
         }
         lowest = value;
         status = status ? status : follow(j, d, current * threshold, best, &lowest);
@@ -347,10 +391,6 @@ static koksma_status wander(koksma_keep keep, koksma__descent *d, job *j, koksma
             current = lowest;
             memcpy(at, best, bytes);
             status = keep_corners(j, d, at, current);
-        }
-        if (!status && lowest < value) {
-            value = lowest;
-            memcpy(points->xs, best, bytes);
         }
     }
     return status;
@@ -376,7 +416,9 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
             d.context = &j;
             d.run = run;
             d.budget = fmax(1.5e7 + 6e5 * (double)n, 5 * pow((double)n + 1, 3));
-            status = wander(o->keep, &d, &j, &random, value, best, points);
+            j.value = value;
+            j.result = points;
+            status = wander(o->keep, &d, &j, &random, best);
             koksma__descent_fini(&d);
         }
     }
