@@ -28,7 +28,7 @@ typedef struct job {
     double weights[MOST_PROJECTIONS];
     koksma_processes ranks;
     double *power; /* --power: the target at each frequency; NULL: minimise a measure */
-    double first;  /* the value of the initial set */
+    double first;  /* the value of the initial set; NaN before it is measured */
     bool stream;   /* whether the set is written to a stream, once */
     char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
 } job;
@@ -38,8 +38,10 @@ typedef struct job {
 static koksma_status write_best(const job *j, const koksma_optimum *best)
 {
     char comment[KOKSMA_MAX_SPEC + 256];
-    snprintf(comment, sizeof comment, "optimised for %s\nvalue %.17g\nseed %llu\nsteps %llu\nkoksma %s", j->name,
-             best->value, (unsigned long long)j->options.seed, (unsigned long long)best->last_gain, koksma_version());
+    const bool partial = best->last_gain > best->steps;
+    snprintf(comment, sizeof comment, "optimised for %s\nvalue %.17g\nseed %llu\nsteps %llu%s\nkoksma %s", j->name,
+             best->value, (unsigned long long)j->options.seed, (unsigned long long)best->last_gain,
+             partial ? ", the last not completed: --steps does not give this set" : "", koksma_version());
     const char *path = cli_text(j->arguments, "output", NULL);
     return j->ranks.rank > 0                         ? KOKSMA_OK
            : j->options.keep == KOKSMA_KEEP_SEQUENCE ? koksma_net_write(path, &best->points, comment)
@@ -50,11 +52,11 @@ static bool progress(void *context, const koksma_optimum *best)
 {
     job *j = context;
     const double now_s = cli_seconds();
-    if (best->steps == 0 || best->last_gain > j->last_gain) {
+    if (j->first != j->first || best->last_gain > j->last_gain) {
+        j->first = j->first != j->first ? best->value : j->first;
         j->last_gain = best->last_gain;
         j->gained_s = now_s;
         j->written = j->stream ? KOKSMA_OK : write_best(j, best);
-        j->first = best->steps == 0 ? best->value : j->first;
     }
     char bound[48] = "";
     if (best->lower == best->lower) {
@@ -340,7 +342,8 @@ static int run(const cli_arguments *arguments)
     koksma_spec measure;
     koksma_points from = {0};
     koksma_optimum best = {0};
-    job j = {.arguments = arguments, .measure = &measure, .options = {.progress = progress, .context = &j}};
+    job j = {
+        .arguments = arguments, .measure = &measure, .first = NAN, .options = {.progress = progress, .context = &j}};
     if (cli_text(arguments, "scene", NULL)) {
         return cli_optimise_scene(arguments);
     }
@@ -393,8 +396,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out with --from FILE)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
-    {0, "from", "FILE",
-     "the initial set: a file, PATTERN or SPEC@N (default: latin-hypercube; with --keep net or sequence: sobol)"},
+    {0, "from", "FILE", "the initial set: a file, PATTERN or SPEC@N (default: the best that a listed pattern makes)"},
     {0, "keep", "none|latin|net|sequence",
      "a structure of the initial set that the search preserves (default: none)"},
     {0, "projections", "0+1,0+2,..|pairs",
@@ -438,12 +440,18 @@ const cli_command cli_command_optimise = {
         "and minimises all other measures. Equal arguments with --steps give equal sets, on any number of threads. "
         "In a step eight searches start from the best set, and the best of their results is taken. Each is a fixed "
         "amount of work, which grows with n and DIM: on one thread a step takes from tenths of a second to many "
-        "minutes. If a time limit or Ctrl-C ends the search, the step in progress is dropped. The printed row has "
-        "the number of steps that were done; --steps with this number gives the same set. FILE\n"
+        "minutes. If a time limit or Ctrl-C ends the search, the best set of the step in progress counts, too. The "
+        "printed row has the number of steps that were completed; --steps with this number gives the same set, "
+        "unless "
+        "last_gain is larger: then the set is of the step that was not completed. FILE\n"
         "holds the best set of this search from when the initial set is measured: after Ctrl-C (exit code 130) or a "
         "kill, --from FILE continues it. A search without --from FILE begins anew, and its first set replaces FILE.\n"
         "A stream (-, a pipe, a device) gets the best set once, at the end or after Ctrl-C. With -o - the table is "
         "not printed; comments above the points have the value, the seed and the steps.\n"
+        "\n"
+        "Without --from the search starts from the best set of the listed patterns by this measure: no result is "
+        "worse "
+        "than a pattern, record included. With a time limit random patterns get an eighth of it.\n"
         "\n"
         "--keep latin permutes the coordinates on each axis; --keep net moves each coordinate only within its "
         "interval of length 1/n. --keep sequence changes the generator matrices of a digital sequence in base 2;\n"

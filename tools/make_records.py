@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes src/patterns/data/records.csv, the sets of the pattern record: make_records.py PROGRAM FOLDER
 
-FOLDER has sets that `koksma optimise MEASURE -n N [-d D] --seed S --steps K -o FOLDER/ANY.txt` wrote. Of each measure, dim and n
-the best is kept, with its seed and steps, from which that command makes it again. A set that is there already stays if it is not
-worse. Coordinates are rounded to whole numbers of units of 10^-12, and the values are those that PROGRAM measures of the rounded
+FOLDER has sets that `koksma optimise MEASURE -n N [-d D] --from latin-hypercube --seed S --steps K -o FOLDER/ANY.txt` wrote.
+Of each measure, dim and n the best is kept, with its seed and steps, from which that command makes it again. A set that is there
+already stays if it is not worse. Coordinates are rounded to whole numbers of units of 10^-12, and the values are those that PROGRAM measures of the rounded
 sets.
 """
 import glob
@@ -27,8 +27,8 @@ OPENEVOLVE = {40: .033127, 50: .027842, 60: .023363, 80: .018192, 100: .015038, 
               900: .002957, 940: .002889, 980: .002803, 1020: .00245}
 
 HEAD = """# The sets of the pattern record, made by tools/make_records.py of sets that `koksma optimise` found: `koksma optimise MEASURE -n N
-# -d DIM --seed SEED --steps STEPS` makes one (steps 0: an earlier form of the search did). published 0: no published value was at
-# hand. Coordinates are in units of 10^-12, point by point.
+# -d DIM --from latin-hypercube --seed SEED --steps STEPS` makes one (steps 0: an earlier form of the search did). published 0: no
+# published value was at hand. Coordinates are in units of 10^-12, point by point.
 measure,dim,n,value,published,source,seed,steps,coordinates
 """
 

@@ -35,12 +35,14 @@ typedef enum koksma_keep {
 /* The best point set that a search has found so far. */
 typedef struct koksma_optimum {
     koksma_points points;
-    double value;       /* value of the measure by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE the geometric mean that
+    double value;   /* value of the measure by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE the geometric mean that
                            the search minimises */
-    double lower;       /* lower bound of the measure over all sets of n points in this dimension, or NaN if no bound
+    double lower;   /* lower bound of the measure over all sets of n points in this dimension, or NaN if no bound
                            is known */
-    uint64_t steps;     /* number of steps done */
-    uint64_t last_gain; /* number of the step that found these points; 0: they are the first set */
+    uint64_t steps; /* number of steps done */
+    uint64_t
+        last_gain; /* number of the step that found these points; 0: they are the first set; steps + 1: a step that
+                           the time limit or keep_going ended found them, and no number of steps gives them again */
     const char *method; /* name of the search method, as in `koksma list methods` */
 } koksma_optimum;
 
@@ -60,8 +62,9 @@ typedef struct koksma_optimise_options {
     size_t n; /* 1 or more */
     int dim;
     const koksma_points *first; /* the first set, n points of dim coordinates. If it is NULL, the search starts from
-                                   n Latin hypercube points, or with KOKSMA_KEEP_NET and KOKSMA_KEEP_SEQUENCE from
-                                   the first n points of the Sobol' sequence */
+                                   the best of the sets that the listed patterns make with default parameters and
+                                   this seed, if they have the structure to keep; so no result is worse than a listed
+                                   pattern. KOKSMA_KEEP_LATIN also tries these sets with coordinates (i + 1/2)/n */
     koksma_keep keep;
     uint64_t seed;
     uint64_t steps; /* number of steps; 0: search until the time limit passes or progress returns false */
@@ -95,7 +98,7 @@ typedef struct koksma_method {
     /* Replaces `points`, the best set so far with the given value, by another candidate. The result depends only on
        the arguments (of the options: n, dim, keep and the projections); several threads call the function at
        once. It asks run->keep_going often, on the thread that called it, and fails with INTERRUPTED if that returns
-       false; the points are then of no use. */
+       false; `points` then has the best set that it has found so far, or is as before. */
     koksma_status (*search)(const koksma_spec *measure, const koksma_optimise_options *options, uint64_t seed,
                             double value, const koksma_run *run, koksma_points *points);
 } koksma_method;
@@ -106,9 +109,9 @@ KOKSMA_API const koksma_method *koksma_method_find(const char *name);
 
 /* Searches for points with a small value of a measure (a large value if the measure is a distance). Allocates out.
      measure  a measure whose answer is KOKSMA_ANSWER_EXACT, or NULL if options->power is set
-     run      the time limit and keep_going end the search within a step, whose work is then lost: out is as after the
-              step before. The first set is made and measured without a time limit; if that takes longer, or the limit
-              passes in the first step, no step is done
+     run      the time limit and keep_going end the search within a step; out then has the best set found so far, also
+              in that step. A Latin hypercube (with KOKSMA_KEEP_NET and KOKSMA_KEEP_SEQUENCE Sobol' points) or the
+              given first set is made and measured without a time limit
    Errors: ARGUMENT (a bad option or measure), N, DIM, MEMORY, INTERRUPTED (run->keep_going returned false; out then
    has the best set so far, or is zeroed if the first set had not been made and measured). */
 KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
@@ -139,8 +142,9 @@ typedef struct koksma_record {
     double value;       /* value of the measure for this set */
     double published;   /* best published value that we know, with its published digits; 0: we know none */
     const char *source; /* source of the published value: a key of docs/references.bib, or "-" */
-    uint64_t seed;      /* `koksma optimise MEASURE -n N -d DIM --seed SEED --steps STEPS` makes the set */
-    uint64_t steps;     /* 0: an earlier version of the search made the set, and no command reproduces it */
+    uint64_t
+        seed; /* `koksma optimise MEASURE -n N -d DIM --from latin-hypercube --seed SEED --steps STEPS` makes the set */
+    uint64_t steps; /* 0: an earlier version of the search made the set, and no command reproduces it */
 } koksma_record;
 
 /* Returns record i, sorted by measure and n, or NULL past the last record. */

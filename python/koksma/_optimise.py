@@ -20,7 +20,8 @@ _KEEP = ("none", "latin", "net", "sequence")
 
 @dataclass(frozen=True, eq=False)
 class Optimum:
-    """The best set of a search. Equal seed and steps give it again; last_gain is the step that found it. lower: no set
+    """The best set of a search. Equal seed and steps give it again, unless last_gain, the step that found it, is
+    steps + 1: a step that the time limit or progress ended. lower: no set
     has a smaller value; NaN where no bound is known."""
 
     points: PointArray
@@ -39,8 +40,8 @@ class Optimum:
 @dataclass(frozen=True)
 class Record:
     """The best known set of n points by a measure, which the pattern "record" has. published: the best published value, from
-    `source`; None: none is known. optimise(measure, n, dim, seed=seed, steps=steps) makes the set; seed and steps None: no call
-    does."""
+    `source`; None: none is known. optimise(measure, start=generate("latin-hypercube", n, dim, seed=seed), seed=seed,
+    steps=steps) found the set; seed and steps None: an earlier version did."""
 
     measure: str
     n: int
@@ -130,7 +131,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Opt
     n, dim : int
         dim is 2 where it is left out.
     start : array_like of shape (n, dim), optional
-        The first set; n and dim may then be left out. None: the library's own.
+        The first set; n and dim may then be left out. None: the best set that a listed pattern makes.
     keep : {"none", "latin", "net", "sequence"}
         "latin" changes only which coordinates go together; "net" leaves each in its interval of length 1/n; "sequence"
         changes the generator matrices of a digital sequence in base 2, and the value is the geometric mean of the measure over
@@ -147,7 +148,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Opt
     steps : int
         Of a fixed amount of work; equal steps and seed give equal sets. 0: until time_limit.
     time_limit : float, optional
-        In seconds. It ends the search within a step, whose work is lost; the first set is made and measured in any case.
+        In seconds. It ends the search within a step, whose best set counts; a first set is made and measured in any case.
     threads : int
         0: one for each processor.
     progress : callable, optional

@@ -94,7 +94,7 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
 {
     double *step = d->steps - d->count;
     const size_t n = d->count;
-    double square = 0, next = 0;
+    double square = INFINITY, next = 0;
     koksma_status status = value_at(d, &square);
     double mark = square;
     d->kept = 0;

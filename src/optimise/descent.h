@@ -44,8 +44,9 @@ koksma_status koksma__descent_start(koksma__descent *d, const koksma_points *bes
    is i / n + s. */
 void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random);
 
-/* Descends from d->points in at most the given number of iterations. On return d->points has the best points found, and
-   *least their value. Errors: those of the function, INTERRUPTED. */
+/* Descends from d->points in at most the given number of iterations. On return, also after INTERRUPTED, d->points has the
+   best points found, and *least their value (infinite: not even the first was computed). Errors: those of the
+   function, INTERRUPTED. */
 koksma_status koksma__descend(koksma__descent *d, int iterations, double *least);
 
 #endif

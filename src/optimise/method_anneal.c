@@ -220,6 +220,15 @@ static void shuffle(job *j, double *xs)
     }
 }
 
+/* Keeps the points of a descent, which may have been interrupted, if they are better than the best set so far. */
+static void keep_better(const koksma__descent *d, double square, double *least, koksma_points *best)
+{
+    if (square < *least) {
+        *least = square;
+        memcpy(best->xs, d->points.xs, d->count * sizeof(double));
+    }
+}
+
 typedef struct measured {
     const koksma_spec *measure;
     const koksma_optimise_options *options;
@@ -282,12 +291,13 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     d.context = &context;
     d.run = run;
     const bool again = koksma__next_below(&j.random, 2) == 0;
-    double square;
+    double square = INFINITY, least = value * value;
     memcpy(d.points.xs, points->xs, d.count * sizeof(double));
     if (!again) {
         shuffle(&j, d.points.xs);
     }
     status = koksma__descend(&d, SETTLE, &square);
+    keep_better(&d, square, &least, points);
     double threshold = status ? 0 : FIRST * fmin(square, value * value) * (double)(n * n);
     for (int round = 0; round < ROUNDS + COLD && !status; round++, threshold *= FALL) {
         if (round < WARM && again) {
@@ -297,17 +307,17 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
         if (!status) {
             status = propose(&j, d.points.xs, round < ROUNDS ? threshold : 0, run);
             status = status ? status : koksma__descend(&d, FIT, &square);
+            keep_better(&d, status ? INFINITY : square, &least, points);
         }
     }
     status = status ? status : koksma__descend(&d, KOKSMA__ITERATIONS, &square);
+    keep_better(&d, status ? INFINITY : square, &least, points);
     d.cost = (double)(n * d.count);
     d.work = 0;
     d.budget = POLISH;
     status = status ? status : improve(&j, &d, &square);
     status = status ? status : koksma__descend(&d, KOKSMA__ITERATIONS, &square);
-    if (!status && square < value * value) {
-        memcpy(points->xs, d.points.xs, d.count * sizeof(double));
-    }
+    keep_better(&d, status ? INFINITY : square, &least, points);
     koksma__descent_fini(&d);
     free(j.memory);
     return status;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* descent: for measures with a gradient, L-BFGS of the square of the measure from many starts (descent.c). */
+#include <math.h>
 #include <string.h>
 
 #include "optimise/descent.h"
@@ -35,11 +36,11 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     d.context = &j;
     d.run = run;
     while (!status && d.work < d.budget) {
-        double square;
+        double square = INFINITY;
         status = koksma__descent_start(&d, points, o->keep, &random);
         d.goal = best;
         status = status ? status : koksma__descend(&d, KOKSMA__ITERATIONS, &square);
-        if (!status && square < best) {
+        if (square < best) { /* also of a descent that is interrupted */
             best = square;
             memcpy(points->xs, d.points.xs, d.count * sizeof(double));
         }

@@ -82,28 +82,37 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     const double tolerance = 0.02 * koksma__next_unit(&random);
     const double sign = measure->measure->larger_is_better ? -1 : 1;
     unsigned m = 0;
-    double current = sign * log(value), after;
-    koksma_points next;
+    double current = sign * log(value), best = current, after;
+    koksma_points walk = {0}, next; /* the walk's sequence, and the next one; `points` keeps the best one */
     koksma_status status = koksma_points_init(&next, points->n, points->dim);
+    status = status ? status : koksma_points_init(&walk, points->n, points->dim);
+    if (!status) {
+        memcpy(walk.xs, points->xs, bytes);
+    }
     while (points->n >> (m + 1)) {
         m++;
     }
     const bool anew = koksma__next(&random) % 4 == 0;
     for (size_t i = 0; !status && anew && i < 8 * m * (size_t)points->dim; i++) {
-        move(points, m, &random);
+        move(&walk, m, &random);
         current = INFINITY;
         status = koksma__ask(run);
     }
     for (int i = 0; i < MOVES && !status; i++) {
-        memcpy(next.xs, points->xs, bytes);
+        memcpy(next.xs, walk.xs, bytes);
         move(&next, m, &random);
         status = koksma__search_value(measure, o, &next, run, &after);
         after = sign * log(after);
         if (!status && after <= current + tolerance * (1 - (double)(i + 1) / MOVES)) {
             current = after;
+            memcpy(walk.xs, next.xs, bytes);
+        }
+        if (!status && after < best) {
+            best = after;
             memcpy(points->xs, next.xs, bytes);
         }
     }
+    koksma_points_fini(&walk);
     koksma_points_fini(&next);
     return status;
 }

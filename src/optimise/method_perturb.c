@@ -53,18 +53,26 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
 {
     koksma__stream random = {.seed = seed};
     const size_t dim = (size_t)points->dim, bytes = dim * sizeof(double);
+    koksma_points walk; /* the walk's set; `points` keeps the best one */
     const double tolerance = 0.01 * koksma__next_unit(&random) * value;
     const double sign = measure->measure->larger_is_better ? -1 : 1;
-    double current = sign * value, before[2 * KOKSMA_MAX_DIM];
-    koksma_status status = KOKSMA_OK;
+    double current = sign * value, best = current, before[2 * KOKSMA_MAX_DIM];
+    koksma_status status = koksma_points_init(&walk, points->n, points->dim);
+    if (!status) {
+        memcpy(walk.xs, points->xs, points->n * bytes);
+    }
     for (int m = 0; m < MOVES && !status; m++) {
-        double *a = points->xs + koksma__next_below(&random, points->n) * dim,
-               *b = points->xs + koksma__next_below(&random, points->n) * dim, after = 0;
+        double *a = walk.xs + koksma__next_below(&random, points->n) * dim,
+               *b = walk.xs + koksma__next_below(&random, points->n) * dim, after = 0;
         memcpy(before, a, bytes);
         memcpy(before + dim, b, bytes);
-        move(points, o->keep, &random, a, b);
-        status = koksma__search_value(measure, o, points, run, &after);
+        move(&walk, o->keep, &random, a, b);
+        status = koksma__search_value(measure, o, &walk, run, &after);
         after *= sign;
+        if (!status && after < best) {
+            best = after;
+            memcpy(points->xs, walk.xs, points->n * bytes);
+        }
         if (after <= current + tolerance * (1 - (double)(m + 1) / MOVES)) {
             current = after;
         } else {
@@ -72,6 +80,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
             memcpy(b, before + dim, bytes);
         }
     }
+    koksma_points_fini(&walk);
     return status;
 }
 

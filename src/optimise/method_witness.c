@@ -101,20 +101,30 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     koksma__stream random = {.seed = seed};
     const size_t bytes = points->n * (size_t)points->dim * sizeof(double);
     const double tolerance = 0.01 * koksma__next_unit(&random) * value;
-    koksma_points next;
+    koksma_points walk = {0}, next; /* the walk's set, and the next one; `points` keeps the best one */
     koksma_value at, after;
+    double best = value;
     koksma_status status = koksma_points_init(&next, points->n, points->dim);
+    status = status ? status : koksma_points_init(&walk, points->n, points->dim);
     status = status ? status : koksma_evaluate(measure, points, run, &at);
+    if (!status) {
+        memcpy(walk.xs, points->xs, bytes);
+    }
     for (int m = 0; m < MOVES && !status; m++) {
-        memcpy(next.xs, points->xs, bytes);
+        memcpy(next.xs, walk.xs, bytes);
         move(&next, &at.witness, &random);
         status = koksma__ask(run);
         status = status ? status : koksma_evaluate(measure, &next, run, &after);
         if (!status && after.value <= at.value + tolerance * (1 - (double)(m + 1) / MOVES)) {
             at = after;
+            memcpy(walk.xs, next.xs, bytes);
+        }
+        if (!status && after.value < best) {
+            best = after.value;
             memcpy(points->xs, next.xs, bytes);
         }
     }
+    koksma_points_fini(&walk);
     koksma_points_fini(&next);
     return status;
 }

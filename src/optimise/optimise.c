@@ -6,9 +6,12 @@
  * computes are not used. Several processes can share a run: process r of p makes the searches r, r + p, r + 2 p, ... of
  * each step. The processes exchange the results after each step, so that all continue from the same best set.
  *
+ * Without a first set the search starts from the best of the listed patterns (start.c).
+ *
  * The searches of a step, and the measures that they call, ask their run often. On the thread that called
- * koksma_optimise it asks the caller and looks at the clock; other threads see the answer. A step that ends early is
- * dropped as a whole: which of its searches were done depends on the threads.
+ * koksma_optimise it asks the caller and looks at the clock; other threads see the answer. Searches of a step that ends
+ * early return the best sets that they have so far. Which of them had begun depends on the threads and the clock, so
+ * that no number of steps gives such a set again: its last_gain is the number of the step that was not completed.
  */
 #include <koksma/optimise.h>
 
@@ -27,9 +30,10 @@
 #include "optimise/methods.h"
 #include "optimise/radial_power.h"
 #include "optimise/sequence.h"
+#include "optimise/start.h"
 #include "optimise/value.h"
 
-enum { SEARCHES = 8, MOST_PROCESSES = 1024 };
+enum { SEARCHES = 8, MOST_PROCESSES = 1024, RANDOM_SHARE = 8 };
 
 /* Searches ask the caller and the clock at most once in so many seconds. */
 static const double PACE_S = 0.02;
@@ -39,13 +43,16 @@ typedef struct step {
     const koksma_optimise_options *options;
     const koksma_method *method;
     const koksma_optimum *best;
-    double *found; /* results of SEARCHES searches */
-    size_t piece;  /* number of doubles in the result of one search */
+    koksma_optimum *first; /* receives the first set */
+    double *found;         /* results of SEARCHES searches */
+    size_t piece;          /* number of doubles in the result of one search */
     const koksma_run *run;
-    double start_s, end_s;     /* end_s: when the step in progress is late; infinite before the first step */
-    pthread_t caller;          /* the thread that called koksma_optimise */
-    double fraction;           /* of the step in progress, as koksma__parallel has reported it */
-    koksma__pacing pacing;     /* of the caller's thread while it searches */
+    double start_s, end_s; /* end_s: when the step in progress is late; infinite before the first set is measured */
+    double measured_s;     /* how long it took to measure the first set */
+    double ended_s;        /* when the run was found late or stopped */
+    pthread_t caller;      /* the thread that called koksma_optimise */
+    double fraction;       /* of the step in progress, as koksma__parallel has reported it */
+    koksma__pacing pacing; /* of the caller's thread while it searches */
     atomic_bool late, stopped; /* the time limit has passed; the caller wants to end the call */
 } step;
 
@@ -74,6 +81,9 @@ static bool keep_going(void *context, double fraction)
                         : limit_s > 0 ? (now_s - s->start_s) / limit_s
                                       : 0;
     s->fraction = fraction;
+    if (!s->stopped && !s->late) {
+        s->ended_s = now_s;
+    }
     if (!koksma__keep_going(s->run, fmin(done, 1))) {
         atomic_store(&s->stopped, true);
     } else if (now_s >= s->end_s) {
@@ -91,6 +101,27 @@ static bool search_goes_on(void *context, double fraction)
                                                     : !atomic_load(&s->stopped) && !atomic_load(&s->late);
 }
 
+/* The keep_going callback for measuring a set after the end of the run: it may take twice the time that the first set
+   took. */
+static bool within_grace(void *context, double fraction)
+{
+    (void)fraction;
+    const step *s = context;
+    return koksma__now_s() < s->ended_s + 2 * s->measured_s + PACE_S;
+}
+
+/* Measures what a search had found when it was interrupted. *value is infinite if that is nothing, or cannot be measured
+   in time. */
+static void measure_partial(step *s, const koksma_points *points, double *value)
+{
+    const koksma_run run = {.threads = 1, .keep_going = within_grace, .context = s};
+    const size_t bytes = (s->piece - 1) * sizeof(double);
+    if (!memcmp(points->xs, s->best->points.xs, bytes) ||
+        evaluate(s->measure, s->options, points, &run, value) != KOKSMA_OK) {
+        *value = INFINITY;
+    }
+}
+
 static koksma_status search(void *context, size_t block)
 {
     step *s = context;
@@ -101,8 +132,13 @@ static koksma_status search(void *context, size_t block)
     const uint64_t seed = koksma__random_seed(s->options->seed, best->steps * SEARCHES + i, 1);
     koksma_points points = {best->points.n, best->points.dim, piece(s, i) + 1};
     memcpy(points.xs, best->points.xs, (s->piece - 1) * sizeof(double));
-    const koksma_status status = s->method->search(s->measure, s->options, seed, best->value, &run, &points);
-    return status ? status : evaluate(s->measure, s->options, &points, &run, piece(s, i));
+    koksma_status status = s->method->search(s->measure, s->options, seed, best->value, &run, &points);
+    status = status ? status : evaluate(s->measure, s->options, &points, &run, piece(s, i));
+    if (status == KOKSMA_INTERRUPTED) {
+        measure_partial(s, &points, piece(s, i));
+        koksma__fail_interrupted();
+    }
+    return status;
 }
 
 static koksma_status exchange(const koksma_processes *others, void *pieces, size_t count, size_t bytes)
@@ -127,33 +163,42 @@ static koksma_status agree(const koksma_processes *others, bool *going)
     return KOKSMA_OK;
 }
 
-/* Runs one step: the share of this process in the searches 0 to SEARCHES - 1. A better result replaces the best
-   set. If the time limit passes in any of the processes, none of them does the step. */
+/* Takes the best result of the searches of a step if it is better than the best set. */
+static void take_best(step *s, koksma_optimum *best, bool done)
+{
+    const double sign = s->measure->measure->larger_is_better ? -1 : 1;
+    best->steps += done;
+    for (size_t i = 0; i < SEARCHES; i++) {
+        if (*piece(s, i) < sign * best->value) {
+            best->value = sign * *piece(s, i);
+            best->last_gain = best->steps + !done;
+            memcpy(best->points.xs, piece(s, i) + 1, (s->piece - 1) * sizeof(double));
+        }
+    }
+}
+
+/* Runs one step: the share of this process in the searches 0 to SEARCHES - 1. If the time limit passes in any of the
+   processes, the step does not count as done in any of them. */
 static koksma_status take_step(step *s, koksma_optimum *best)
 {
     const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = keep_going, .context = s};
     const koksma_processes *others = s->options->processes;
     const size_t size = others ? (size_t)others->size : 1, rank = others ? (size_t)others->rank : 0;
+    for (size_t i = 0; i < SEARCHES; i++) {
+        *piece(s, i) = INFINITY;
+    }
     koksma_status status = koksma__parallel(&run, (SEARCHES - rank + size - 1) / size, search, s);
+    const bool stopped = status == KOKSMA_INTERRUPTED && s->stopped;
     bool done = !status;
-    status = status == KOKSMA_INTERRUPTED && !s->stopped ? KOKSMA_OK : status;
+    status = status == KOKSMA_INTERRUPTED && !stopped ? KOKSMA_OK : status;
     status = status ? status : agree(others, &done);
-    if (!status && done && size > 1) {
+    if (!status && size > 1) {
         status = exchange(others, s->found, SEARCHES, s->piece * sizeof(double));
     }
-    if (status || !done) {
-        return status;
+    if (!status || (stopped && size == 1)) {
+        take_best(s, best, done);
     }
-    const double sign = s->measure->measure->larger_is_better ? -1 : 1;
-    best->steps++;
-    for (size_t i = 0; i < SEARCHES; i++) {
-        if (*piece(s, i) < sign * best->value) {
-            best->value = sign * *piece(s, i);
-            best->last_gain = best->steps;
-            memcpy(best->points.xs, piece(s, i) + 1, (s->piece - 1) * sizeof(double));
-        }
-    }
-    return KOKSMA_OK;
+    return status;
 }
 
 /* Returns a lower bound of the value (NAN: none is known): the projections of n points on an axis have a star
@@ -167,19 +212,75 @@ static double lower_bound(const koksma_spec *measure, const koksma_optimise_opti
                                                                                      : (double)NAN;
 }
 
-static koksma_status first_set(const koksma_optimise_options *o, const koksma_run *run, koksma_points *points)
+/* Measures a set from which the search could start; the best one becomes the first set. All processes leave out a set
+   that one of them could not measure in time. */
+static koksma_status consider(void *context, const koksma_points *points)
 {
-    koksma_spec spec;
-    if (o->first) {
-        memcpy(points->xs, o->first->xs, o->n * (size_t)o->dim * sizeof(double));
-        return KOKSMA_OK;
-    }
+    step *s = context;
+    koksma_optimum *best = s->first;
+    const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = search_goes_on, .context = s};
+    const double sign = s->measure->measure->larger_is_better ? -1 : 1;
+    double value;
     const koksma_status status =
-        koksma_pattern_spec(o->keep == KOKSMA_KEEP_NET || o->keep == KOKSMA_KEEP_SEQUENCE ? "sobol"
-                            : o->power && o->keep == KOKSMA_KEEP_NONE                     ? "gaussian-blue-noise"
-                                                                                          : "latin-hypercube",
-                            &spec);
-    return status ? status : koksma_generate(&spec, o->seed, run, points);
+        points ? evaluate(s->measure, s->options, points, &run, &value) : koksma__fail_interrupted();
+    bool going = !status;
+    if (status && (status != KOKSMA_INTERRUPTED || s->stopped)) {
+        return status;
+    }
+    KOKSMA__TRY(agree(s->options->processes, &going));
+    if (!going) {
+        return koksma__fail_interrupted();
+    }
+    if (value < sign * best->value) {
+        best->value = sign * value;
+        memcpy(best->points.xs, points->xs, (s->piece - 1) * sizeof(double));
+    }
+    return KOKSMA_OK;
+}
+
+/* Looks for a better first set among the listed patterns: until the time limit passes, and for an eighth of it among
+   the random patterns, of which some take long. */
+static koksma_status look_for_better(step *s)
+{
+    const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = search_goes_on, .context = s};
+    const double end_s = s->end_s;
+    koksma_status status = KOKSMA_OK;
+    for (int random = 0; random < 2 && !status; random++) {
+        s->end_s = random ? fmin(end_s, koksma__now_s() + s->run->time_limit_s / RANDOM_SHARE) : end_s;
+        s->end_s = s->run->time_limit_s > 0 ? s->end_s : end_s;
+        status = koksma__search_starts(s->measure, s->options, random, &run, consider, s);
+        status = status == KOKSMA_INTERRUPTED && !s->stopped ? KOKSMA_OK : status;
+        s->late = s->late && koksma__now_s() >= end_s;
+        s->pacing.stopped = s->late || s->stopped;
+    }
+    s->end_s = end_s;
+    return status;
+}
+
+/* Makes and measures the first set without a time limit, and then, if the caller has given none, looks for a better
+   one. */
+static koksma_status find_first(step *s, koksma_optimum *out)
+{
+    const koksma_optimise_options *o = s->options;
+    const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = search_goes_on, .context = s};
+    koksma_status status = KOKSMA_OK;
+    if (o->first) {
+        memcpy(out->points.xs, o->first->xs, (s->piece - 1) * sizeof(double));
+    } else {
+        status = koksma__search_default(o, s->run, &out->points);
+    }
+    status = status || o->keep != KOKSMA_KEEP_SEQUENCE ? status : koksma__sequence_check(&out->points);
+    const double begin_s = koksma__now_s();
+    status = status ? status : evaluate(s->measure, o, &out->points, &run, &out->value);
+    if (status) {
+        return status;
+    }
+    out->value = s->measure->measure->larger_is_better ? -out->value : out->value;
+    out->method = s->method->name;
+    s->measured_s = koksma__now_s() - begin_s;
+    s->end_s = s->run->time_limit_s > 0 ? s->start_s + s->run->time_limit_s : (double)INFINITY;
+    s->first = out;
+    return o->first || o->power ? KOKSMA_OK : look_for_better(s);
 }
 
 static koksma_status check(const koksma_spec *measure, const koksma_optimise_options *o, const koksma_method **method)
@@ -213,12 +314,14 @@ static koksma_status run_steps(step *s, koksma_optimum *best)
 {
     const koksma_optimise_options *o = s->options;
     koksma_status status = KOKSMA_OK;
-    bool going = !o->progress || o->progress(o->context, best);
+    bool going = (!o->progress || o->progress(o->context, best)) && koksma__now_s() < s->end_s;
     status = agree(o->processes, &going);
-    s->end_s = s->run->time_limit_s > 0 ? s->start_s + s->run->time_limit_s : (double)INFINITY;
     while (!status && going && (o->steps == 0 || best->steps < o->steps)) {
         const uint64_t before = best->steps;
         status = take_step(s, best);
+        if (best->last_gain > best->steps && o->progress) {
+            o->progress(o->context, best); /* the step was not completed: the search ends in any case */
+        }
         going = !status && best->steps > before && (!o->progress || o->progress(o->context, best)) &&
                 koksma__now_s() < s->end_s;
         status = status ? status : agree(o->processes, &going);
@@ -247,25 +350,16 @@ koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_
               .end_s = INFINITY,
               .caller = pthread_self(),
               .pacing = {.keep_going = keep_going, .context = &s, .interval_s = PACE_S}};
-    const koksma_run first = {.threads = koksma__threads(s.run), .keep_going = search_goes_on, .context = &s};
     *out = (koksma_optimum){.lower = lower_bound(measure, options)};
     koksma_status status = check(measure, options, &s.method);
     status = status ? status : koksma_points_init(&out->points, options->n, options->dim);
     status = status ? status : koksma__evaluate_check("koksma_optimise", measure, &out->points);
-    s.found = status ? NULL : malloc(SEARCHES * s.piece * sizeof(double));
+    s.found = status ? NULL : calloc(SEARCHES, s.piece * sizeof(double));
     if (!status && !s.found) {
         status = koksma__fail_memory(SEARCHES * s.piece * sizeof(double));
     }
-    status = status ? status : first_set(options, s.run, &out->points);
-    if (!status && options->keep == KOKSMA_KEEP_SEQUENCE) {
-        status = koksma__sequence_check(&out->points);
-    }
-    status = status ? status : evaluate(measure, options, &out->points, &first, &out->value);
-    if (!status) {
-        out->value = measure->measure->larger_is_better ? -out->value : out->value;
-        out->method = s.method->name;
-        status = run_steps(&s, out);
-    }
+    status = status ? status : find_first(&s, out);
+    status = status ? status : run_steps(&s, out);
     free(s.found);
     /* before the first set is measured there is no result to keep */
     if (status && (status != KOKSMA_INTERRUPTED || !out->method)) {

@@ -657,9 +657,9 @@ static bool until_steps(void *context, double fraction)
     return going;
 }
 
-/* Every method, interrupted within a step, leaves the set of the steps before, as if these had been asked
-   for. */
-static void a_step_that_is_interrupted_is_dropped(void **state)
+/* Every method, interrupted within a step, leaves a set that is at least as good as the one of the steps before, which is
+   the same if nothing was gained since. */
+static void a_step_that_is_interrupted_loses_nothing(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
@@ -680,12 +680,110 @@ static void a_step_that_is_interrupted_is_dropped(void **state)
         options.progress = NULL;
         options.steps = cut.steps;
         koksma_optimum whole = optimised(searches[i].measure, options, 1);
-        assert_true(cut.value == whole.value && cut.last_gain == whole.last_gain);
-        assert_memory_equal(cut.points.xs, whole.points.xs,
-                            whole.points.n * (size_t)whole.points.dim * sizeof(double));
+        assert_near(cut.value, kept_value(searches[i].measure, &cut.points, options.keep), 1e-14);
+        if (cut.last_gain > cut.steps) {
+            assert_true(cut.last_gain == cut.steps + 1);
+            assert_true(spec.measure->larger_is_better ? cut.value > whole.value : cut.value < whole.value);
+        } else {
+            assert_true(cut.value == whole.value && cut.last_gain == whole.last_gain);
+            assert_memory_equal(cut.points.xs, whole.points.xs,
+                                whole.points.n * (size_t)whole.points.dim * sizeof(double));
+        }
         koksma_optimum_fini(&whole);
         koksma_optimum_fini(&cut);
     }
+}
+
+static bool until_calls(void *context, double fraction)
+{
+    (void)fraction;
+    size_t *left = context;
+    *left -= *left > 0;
+    return *left > 0;
+}
+
+/* Every method, interrupted after k questions for growing k, returns a set with the structure of the first one that is
+   never worse, and better before the search is over. */
+static void interrupted_searches_return_what_they_have(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
+        const koksma_keep keep = searches[i].keep;
+        const char *pattern = keep == KOKSMA_KEEP_NET || keep == KOKSMA_KEEP_SEQUENCE ? "sobol" : "latin-hypercube";
+        const char *measure = searches[i].measure;
+        koksma_points from = test_points(pattern, searches[i].n, searches[i].dim, 3), points = {0};
+        const koksma_optimise_options options = {.n = from.n, .dim = from.dim, .keep = keep};
+        const double before = kept_value(measure, &from, keep), sign = strcmp(measure, "min-distance") ? 1 : -1;
+        const size_t bytes = from.n * (size_t)from.dim * sizeof(double);
+        koksma_spec spec;
+        bool gained = false;
+        koksma_status status = KOKSMA_INTERRUPTED;
+        assert_ok(koksma_measure_spec(measure, &spec));
+        assert_ok(koksma_points_init(&points, from.n, from.dim));
+        for (size_t calls = 1; status && !gained; calls *= 2) {
+            size_t left = calls;
+            const koksma_run run = {.threads = 1, .keep_going = until_calls, .context = &left};
+            memcpy(points.xs, from.xs, bytes);
+            status = koksma_method_find(searches[i].method)->search(&spec, &options, 4, before, &run, &points);
+            assert_true(!status || status == KOKSMA_INTERRUPTED);
+            const double after = kept_value(measure, &points, keep);
+            assert_true(!status || sign * after <= sign * before + 1e-12);
+            gained = status && sign * after < sign * before - 1e-9;
+            expect_kept(&from, &points, keep);
+        }
+        if (!gained) {
+            fail_msg("%s of %zu points: %s keeps nothing of a search that is interrupted", measure, from.n,
+                     searches[i].method);
+        }
+        koksma_points_fini(&points);
+        koksma_points_fini(&from);
+    }
+}
+
+static bool first_only(void *context, const koksma_optimum *best)
+{
+    (void)context, (void)best;
+    return false;
+}
+
+/* Without a first set no result is worse than the set of any pattern of the table that makes n points. */
+static void expect_no_better_pattern(const koksma_measure *m, size_t n, int dim)
+{
+    const koksma_optimise_options options = {.n = n, .dim = dim, .seed = 7, .progress = first_only};
+    koksma_points points;
+    koksma_spec spec, measure;
+    koksma_optimum best;
+    koksma_value value;
+    assert_ok(koksma_measure_spec(m->name, &measure));
+    assert_ok(koksma_points_init(&points, n, dim));
+    assert_ok(koksma_optimise(&measure, &options, NULL, &best));
+    for (size_t i = 0; koksma_pattern_at(i); i++) {
+        const koksma_pattern *p = koksma_pattern_at(i);
+        if (!p->operand && !koksma_pattern_spec(p->name, &spec) && !koksma_generate(&spec, 7, NULL, &points)) {
+            assert_ok(koksma_evaluate(&measure, &points, NULL, &value));
+            if (m->larger_is_better ? value.value > best.value : value.value < best.value) {
+                fail_msg("%s of %zu points, %d dimensions: %g, but %s has %g", m->name, n, dim, best.value, p->name,
+                         value.value);
+            }
+        }
+    }
+    koksma_optimum_fini(&best);
+    koksma_points_fini(&points);
+}
+
+static void no_listed_pattern_is_better(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {16, 9, 8};
+    size_t n = 0;
+    for (size_t i = 0; koksma_measure_at(i); i++) {
+        const koksma_measure *m = koksma_measure_at(i);
+        for (int dim = m->min_dim; dim <= 3 && dim <= m->max_dim && m->answer == KOKSMA_ANSWER_EXACT; dim++, n++) {
+            const bool binary = !strcmp(m->name, "t-value"); /* takes powers of its base, which is 2 */
+            expect_no_better_pattern(m, sizes[test_repeats(binary ? 2 : n % 3, 0)], dim);
+        }
+    }
+    assert_true(n > 40);
 }
 
 /* Searches whose steps take seconds to hours, or that have one value or gradient that does. */
@@ -734,8 +832,9 @@ static void steps_end_when_asked(void **state)
                 fail_msg("%s of %zu points: %g s of processor time to end a step",
                          options.power ? "power" : spec.measure->name, from.n, took_s);
             }
-            assert_true(best.steps == 0);
-            assert_memory_equal(best.points.xs, from.xs, from.n * (size_t)from.dim * sizeof(double));
+            assert_true(best.steps == 0 && best.last_gain < 2);
+            assert_true(best.last_gain ||
+                        !memcmp(best.points.xs, from.xs, from.n * (size_t)from.dim * sizeof(double)));
             koksma_optimum_fini(&best);
             caller = (struct asker){.steps = 1, .asked = clock()};
             run.time_limit_s = 1e-3;
@@ -759,7 +858,9 @@ int main(void)
         cmocka_unit_test(target_powers),
         cmocka_unit_test(profiles_of_targets),
         cmocka_unit_test(ends_when_asked),
-        cmocka_unit_test(a_step_that_is_interrupted_is_dropped),
+        cmocka_unit_test(a_step_that_is_interrupted_loses_nothing),
+        cmocka_unit_test(interrupted_searches_return_what_they_have),
+        cmocka_unit_test(no_listed_pattern_is_better),
         cmocka_unit_test(steps_end_when_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

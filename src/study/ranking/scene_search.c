@@ -306,7 +306,8 @@ static koksma_status make_set(const search *s, size_t c, koksma_points *out)
     static const uint64_t projections[] = {1, 2, 3};
     const size_t kind = c % 3;
     double weights[3], factors[3] = {1, 1, 1};
-    koksma_spec measure;
+    koksma_spec measure, latin;
+    koksma_points first = {0};
     koksma_optimum best = {0};
     koksma_status status = koksma_measure_spec(kernels[kind].measure, &measure);
     if (!status && c >= 3) {
@@ -315,8 +316,13 @@ static koksma_status make_set(const search *s, size_t c, koksma_points *out)
     for (int k = 0; k < 3; k++) {
         weights[k] = factors[k] * s->out->shares[k] / (k < 2 ? kernels[kind].line : kernels[kind].plane);
     }
+    /* from a random set, since candidates that start from one good set would be alike */
+    status = status ? status : koksma_points_init(&first, (size_t)s->options->spp, 2);
+    status = status ? status : koksma_pattern_spec("latin-hypercube", &latin);
+    status = status ? status : koksma_generate(&latin, s->options->seed * 1000 + c, &s->run, &first);
     const koksma_optimise_options o = {.n = (size_t)s->options->spp,
                                        .dim = 2,
+                                       .first = &first,
                                        .seed = s->options->seed * 1000 + c,
                                        .steps = 1,
                                        .projections = projections,
@@ -328,6 +334,7 @@ static koksma_status make_set(const search *s, size_t c, koksma_points *out)
         best.points = (koksma_points){0};
     }
     koksma_optimum_fini(&best);
+    koksma_points_fini(&first);
     return status;
 }
 
