@@ -12,6 +12,7 @@
 #include "core/spec.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
+#include "patterns/shared/file_sets.h"
 #include "patterns/shared/modify.h"
 
 /* Checks the parts of a spec that do not depend on the dimension: the path and the modifiers. */
@@ -86,7 +87,10 @@ static koksma_status generate(const koksma_spec *spec, const koksma_pattern *p, 
     KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
     KOKSMA__TRY(p->runs_code ? check_permission(spec, p, run) : KOKSMA_OK);
     const char kept = koksma__call_begin();
-    KOKSMA__TRY(koksma__call_end(kept, p->generate(seed, &args, out), "koksma_pattern.generate"));
+    const bool of_file = koksma__names_path(p) && !p->runs_code;
+    KOKSMA__TRY(koksma__call_end(kept,
+                                 of_file ? koksma__file_points(p, seed, &args, out) : p->generate(seed, &args, out),
+                                 "koksma_pattern.generate"));
     koksma__modify(spec->modifiers, seed, out);
     return KOKSMA_OK;
 }

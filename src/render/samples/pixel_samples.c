@@ -20,6 +20,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/shared/file_names.h"
+#include "patterns/shared/file_sets.h"
 #include "render/samples/float_sets.h"
 #include "render/samples/sampler.h"
 #include "render/samples/use_patterns.h"
@@ -65,14 +66,17 @@ enum { SETS_A_LOOK = 16 };
 
 /* Calls generate() for the set of a pixel and, before every SETS_A_LOOK-th set, keep_going: a slow pattern takes ten
    milliseconds per set and does not call keep_going itself, and the sets of all pixels that are drawn together take
-   minutes. */
+   minutes. As often it is asked whether the file of a pattern has changed. */
 static koksma_status generate_next(const koksma_spec *spec, uint64_t seed, size_t n, int dim,
                                    koksma__sample_scratch *room, double *xs)
 {
     if (++room->sets % SETS_A_LOOK == 0 && !koksma__keep_going(room->run, 0)) {
         return koksma__fail_interrupted();
     }
-    return generate(spec, seed, n, dim, room->run, xs);
+    const bool trusted = koksma__trust_files(room->sets % SETS_A_LOOK != 1);
+    const koksma_status status = generate(spec, seed, n, dim, room->run, xs);
+    koksma__trust_files(trusted);
+    return status;
 }
 
 /* Expands numbers to pairs (x, 0) in place, beginning with the last number. */

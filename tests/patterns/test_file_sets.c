@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Point sets of patterns that read files are read once by a process: a pattern of this test whose operand is the path of
+ * a file counts how often it is asked, for any number of sets, threads and pixels, behind a random modifier; and it is
+ * asked again when its file has changed.
+ */
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "rendering.h"
+
+static const char path[] = "file-sets.txt";
+static atomic_size_t asked;
+
+/* The points of a file with one number: (x, x) and its multiples on the torus. */
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    (void)seed;
+    double x = 0;
+    FILE *file = fopen(args->path, "r");
+    asked++;
+    if (!file || fscanf(file, "%lf", &x) != 1) {
+        return KOKSMA_MISSING;
+    }
+    fclose(file);
+    for (size_t c = 0; c < out->n * (size_t)out->dim; c++) {
+        out->xs[c] = fmod(x * (double)(c / (size_t)out->dim + 1), 1);
+    }
+    return KOKSMA_OK;
+}
+
+static const koksma_pattern counting = {.name = "counting",
+                                        .title = "counts how often it is asked",
+                                        .cite = "-",
+                                        .min_dim = 1,
+                                        .max_dim = 8,
+                                        .claims = KOKSMA_CLAIM_DETERMINISTIC,
+                                        .generate = generate,
+                                        .operand = "PATH"};
+
+/* Writes the file as of `age` seconds ago. */
+static void write_file(double x, time_t age)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "%.3f\n", x);
+    assert_int_equal(fclose(file), 0);
+    const struct timespec times[2] = {{.tv_sec = time(NULL) - age}, {.tv_sec = time(NULL) - age}};
+    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+}
+
+static koksma_spec spec_of(bool shifted)
+{
+    koksma_spec spec;
+    assert_ok(koksma_pattern_spec(shifted ? "regular:shift=1" : "regular", &spec));
+    spec.pattern = &counting;
+    memset(spec.params, 0, sizeof spec.params);
+    memcpy(spec.path, path, sizeof path);
+    return spec;
+}
+
+static void *many_sets(void *unused)
+{
+    const koksma_spec spec = spec_of(true);
+    double xs[32];
+    koksma_points points = {16, 2, xs};
+    for (uint64_t seed = 0; seed < 500; seed++) {
+        if (koksma_generate(&spec, seed, NULL, &points)) {
+            return &asked;
+        }
+    }
+    return unused;
+}
+
+static void threads_share_the_sets(void **state)
+{
+    (void)state;
+    enum { THREADS = 4 };
+    pthread_t threads[THREADS];
+    write_file(0.125, 1000);
+    asked = 0;
+    for (int t = 0; t < THREADS; t++) {
+        assert_int_equal(pthread_create(&threads[t], NULL, many_sets, NULL), 0);
+    }
+    for (int t = 0; t < THREADS; t++) {
+        void *failed;
+        assert_int_equal(pthread_join(threads[t], &failed), 0);
+        assert_null(failed);
+    }
+    assert_true(asked >= 1 && asked <= THREADS); /* all may begin before the first has read */
+}
+
+/* A file that has changed is read anew, of equal size and name, too; other n and dimensions are other sets. */
+static void changed_files_are_read_anew(void **state)
+{
+    (void)state;
+    const koksma_spec spec = spec_of(false);
+    double xs[64];
+    for (int k = 1; k < 5; k++) {
+        const double x = k / 8.0;
+        write_file(x, 1000 - k);
+        asked = 0;
+        for (int again = 0; again < 3; again++) {
+            for (size_t n = 1; n <= 8; n++) {
+                for (int dim = 1; dim <= 8; dim += 7) {
+                    koksma_points points = {n, dim, xs};
+                    assert_ok(koksma_generate(&spec, 0, NULL, &points));
+                    assert_true(xs[0] == x && xs[n * (size_t)dim - 1] == fmod(x * (double)n, 1));
+                }
+            }
+        }
+        assert_int_equal(asked, 16);
+    }
+    write_file(0.75, -1000); /* written so late that a later change could have the same time */
+    koksma_points points = {1, 1, xs};
+    for (asked = 0; asked < 3;) {
+        const size_t before = asked;
+        assert_ok(koksma_generate(&spec, 0, NULL, &points));
+        assert_true(asked == before + 1 && xs[0] == 0.75);
+    }
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_MISSING);
+}
+
+/* More sets than are kept, and more coordinates: each is right, whichever are kept. */
+static void the_table_is_bounded(void **state)
+{
+    (void)state;
+    enum { LONG = 1 << 20 };
+    const koksma_spec spec = spec_of(false);
+    double *xs = malloc(8 * LONG * sizeof *xs);
+    assert_non_null(xs);
+    write_file(0.125, 1000);
+    asked = 0;
+    for (size_t round = 0; round < 2; round++) {
+        for (size_t n = 1; n <= 200; n++) {
+            koksma_points points = {n, 1, xs};
+            assert_ok(koksma_generate(&spec, 0, NULL, &points));
+            assert_true(xs[n - 1] == fmod(0.125 * (double)n, 1));
+        }
+        for (int dim = 1; dim <= 8; dim++) {
+            koksma_points points = {LONG, dim, xs};
+            assert_ok(koksma_generate(&spec, 0, NULL, &points));
+            assert_true(xs[(size_t)LONG * (size_t)dim - 1] == fmod(0.125 * LONG, 1));
+        }
+    }
+    assert_true(asked > 208); /* 36 MiB times 8 bytes and 200 sets do not fit */
+    free(xs);
+    assert_int_equal(remove(path), 0);
+}
+
+/* The number of reads of a picture does not grow with its pixels: random modifiers, one set and groups. */
+static size_t reads_of_a_picture(int side)
+{
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image;
+    write_file(0.125, 1000);
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options_init(&options, scene);
+    options.pattern = spec_of(true);
+    options.spp = 4;
+    options.width = options.height = side;
+    asked = 0;
+    assert_ok(koksma_render(scene, &options, &(koksma_run){.threads = 2}, &image));
+    koksma_image_fini(&image);
+    koksma_scene_close(scene);
+    return asked;
+}
+
+static void pictures_read_a_file_once(void **state)
+{
+    (void)state;
+    assert_in_range(reads_of_a_picture(8), 1, 8);
+    assert_in_range(reads_of_a_picture(64), 1, 8);
+    assert_int_equal(remove(path), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_share_the_sets),
+        cmocka_unit_test(changed_files_are_read_anew),
+        cmocka_unit_test(the_table_is_bounded),
+        cmocka_unit_test(pictures_read_a_file_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
