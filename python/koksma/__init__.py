@@ -10,6 +10,8 @@
 Points are NumPy arrays of shape (n, dim) over the memory that the library itself fills. Equal arguments give equal
 bits, the same as the program's. What fails raises koksma.Error with the library's own line.
 """
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 try:
     import numpy as _numpy  # noqa: F401
 except ModuleNotFoundError:
@@ -18,7 +20,6 @@ except ModuleNotFoundError:
 from ._compare import Comparison, MetricValue, compare, metrics
 from ._datasheet import Datasheet, datasheet
 from ._display import load_ipython_extension, unload_ipython_extension
-from ._engine import Engine
 from ._images import ImageGroup, study_images
 from ._integrate import Component, Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
 from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, MissingError, OutOfMemoryError,
@@ -49,3 +50,18 @@ __all__ = [
     "render", "scenes", "sensitivity", "spectrum", "study_images", "trials", "verify", "version", "warp_points",
     "warps", "write", "write_image",
 ]
+
+if _TYPE_CHECKING:
+    from ._engine import Engine
+else:
+    def __getattr__(name: str) -> object:
+        """Engine on first use: its base is a class of scipy, which takes most of a second to import."""
+        if name != "Engine":
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from ._engine import Engine
+
+        globals()[name] = Engine
+        return Engine
+
+    def __dir__() -> "list[str]":
+        return sorted({*globals(), *__all__})

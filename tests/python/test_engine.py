@@ -32,6 +32,32 @@ def usable(specs):
     return good
 
 
+class OnUse(unittest.TestCase):
+    """scipy takes most of a second to import: koksma imports it when Engine is used first."""
+
+    def fresh(self, code):
+        return subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout.split()
+
+    def test_import_leaves_scipy_alone(self):
+        loaded = "print([m for m in sys.modules if m.split('.')[0] == 'scipy'])"
+        self.assertEqual(self.fresh(f"import sys, koksma; 'Engine' in dir(koksma); {loaded}"), ["[]"])
+        self.assertEqual(self.fresh("import koksma; print('Engine' in dir(koksma), 'Engine' in koksma.__all__, hasattr(koksma, 'Engin'))"),
+                         ["True", "True", "False"])
+
+    def test_all_ways_to_it_are_one_class(self):
+        code = ("import koksma; from koksma import *; from koksma import Engine as E; import koksma._engine as e, pickle; "
+                "print(Engine is E is koksma.Engine is e.Engine is type(pickle.loads(pickle.dumps(E('sobol', 2, seed=1)))))")
+        self.assertEqual(self.fresh(code), ["True"])
+
+    @unittest.skipIf(WITHOUT_SCIPY, "of scipy's class")
+    def test_it_is_one_of_scipys(self):
+        try:
+            from scipy.stats.qmc import QMCEngine
+        except ImportError:
+            self.skipTest("scipy is not installed")
+        self.assertIsInstance(Engine("sobol", 2), QMCEngine)
+
+
 class Engines(unittest.TestCase):
     def test_some_of_each_kind(self):
         self.assertGreaterEqual(len(usable(SEQUENCES)), 3)
