@@ -702,8 +702,8 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
 
 static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    return measure->measure == &koksma__measure_star && o->dim == 2 && o->n <= MAX_N && o->keep == KOKSMA_KEEP_NONE &&
-                   !o->n_projections
+    return measure->measure == &koksma__measure_star && !(measure->params[0] > 0) && o->dim == 2 && o->n <= MAX_N &&
+                   o->keep == KOKSMA_KEEP_NONE && !o->n_projections
                ? 10
                : 0;
 }

@@ -429,8 +429,8 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
 
 static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    return measure->measure == &koksma__measure_star && o->dim == 3 && o->n <= MAX_N && !o->n_projections &&
-                   (o->keep == KOKSMA_KEEP_NONE || o->keep == KOKSMA_KEEP_NET)
+    return measure->measure == &koksma__measure_star && !(measure->params[0] > 0) && o->dim == 3 && o->n <= MAX_N &&
+                   !o->n_projections && (o->keep == KOKSMA_KEEP_NONE || o->keep == KOKSMA_KEEP_NET)
                ? 10
                : 0;
 }

@@ -203,11 +203,11 @@ static koksma_status take_step(step *s, koksma_optimum *best)
 
 /* Returns a lower bound of the value (NAN: none is known): the projections of n points on an axis have a star
    discrepancy of at least 1/(2n) and an extreme discrepancy of at least 1/n, and the discrepancies of the points
-   themselves are no smaller. On a grid, the boxes of `extreme` can miss all of it. */
+   themselves are no smaller. On a grid, the boxes of either can miss all of it. */
 static double lower_bound(const koksma_spec *measure, const koksma_optimise_options *o)
 {
     return o->keep == KOKSMA_KEEP_SEQUENCE || o->n_projections                       ? (double)NAN
-           : measure->measure == &koksma__measure_star                               ? 0.5 / (double)o->n
+           : measure->measure == &koksma__measure_star && measure->params[0] == 0    ? 0.5 / (double)o->n
            : measure->measure == &koksma__measure_extreme && measure->params[0] == 0 ? 1 / (double)o->n
                                                                                      : (double)NAN;
 }

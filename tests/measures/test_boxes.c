@@ -107,6 +107,21 @@ static double brute_extreme_grid(const koksma_points *p, int m)
     return best;
 }
 
+/* Over the corners of a grid of m x m, with the points on the sides counted (Shirley 1991, table 5.6's note). */
+static double brute_star_grid(const koksma_points *p, int m)
+{
+    double best = 0;
+    for (int code = 0; code < (m + 1) * (m + 1); code++) {
+        const double x = (double)(code % (m + 1)) / m, y = (double)(code / (m + 1)) / m;
+        size_t inside = 0;
+        for (size_t i = 0; i < p->n; i++) {
+            inside += p->xs[2 * i] <= x && p->xs[2 * i + 1] <= y;
+        }
+        best = fmax(best, fabs((double)inside / (double)p->n - x * y));
+    }
+    return best;
+}
+
 /* The integral of (count/n - x y z)^2 over the cells between neighbouring levels, in each of which count is fixed. */
 static double brute_l2_star(const koksma_points *p)
 {
@@ -152,6 +167,16 @@ static double brute_grid4(const koksma_points *p)
     return brute_extreme_grid(p, 4);
 }
 
+static double brute_corners9(const koksma_points *p)
+{
+    return brute_star_grid(p, 9);
+}
+
+static double brute_corners4(const koksma_points *p)
+{
+    return brute_star_grid(p, 4);
+}
+
 static void compare_sets(const char *measure, twin *brute, int dim, size_t max_n, int sets, double bound)
 {
     for (int s = 0; s < sets; s++) {
@@ -187,6 +212,13 @@ static void extreme_grid_equals_brute_force(void **state)
     compare_sets("extreme:grid=4", brute_grid4, 2, 12, 1500, 1e-15);
 }
 
+static void star_grid_equals_brute_force(void **state)
+{
+    (void)state;
+    compare_sets("star:grid=9", brute_corners9, 2, 12, 600, 1e-15);
+    compare_sets("star:grid=4", brute_corners4, 2, 12, 1500, 1e-15);
+}
+
 static void l2_star_equals_its_integral(void **state)
 {
     (void)state;
@@ -213,8 +245,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(star_equals_brute_force),         cmocka_unit_test(extreme_equals_brute_force),
-        cmocka_unit_test(extreme_grid_equals_brute_force), cmocka_unit_test(l2_star_equals_its_integral),
-        cmocka_unit_test(witness_shows_the_value),
+        cmocka_unit_test(extreme_grid_equals_brute_force), cmocka_unit_test(star_grid_equals_brute_force),
+        cmocka_unit_test(l2_star_equals_its_integral),     cmocka_unit_test(witness_shows_the_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
