@@ -203,7 +203,9 @@ const cli_command cli_command_compare = {
         "warning appears if the 0.1 % of the pixels with the largest error (fireflies) have at least half of the "
         "total error; --json has this fraction, and the value without these pixels (..._robust). 0.1 % is rounded "
         "down: images of fewer than 1000 pixels have no such pixels, and no warning. FLIP estimates the error that a "
-        "viewer sees at ppd pixels per degree of visual angle (67 for 3840 pixels on 0.7 m, seen from 0.7 m).\n"
+        "viewer sees at ppd pixels per degree of visual angle (67 for 3840 pixels on 0.7 m, seen from 0.7 m). "
+        "grain is the part of the root mean square error at frequencies below 0.05 cycles a pixel, without the "
+        "mean.\n"
         "coherence: the peak of the error's power spectrum divided by its mean (by the mean of frequencies as high "
         "if\n"
         "that is larger, so that blue noise counts as noise), averaged over the images. For white\n"
@@ -212,7 +214,7 @@ const cli_command cli_command_compare = {
         "and frequency_y cycles a pixel (--json). Every pixel must be a finite number.\n",
     .examples = "koksma compare ball.exr reference.exr\n"
                 "koksma compare ball.exr reference.exr -o difference.png\n"
-                "koksma compare ball.exr reference.exr -m relmse:epsilon=0.001,hdr-flip\n",
+                "koksma compare ball.exr reference.exr -m grain,relmse:epsilon=0.001,hdr-flip\n",
     .options = options,
     .run = run,
 };

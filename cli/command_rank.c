@@ -374,7 +374,8 @@ static const cli_option options[] = {
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
     {'m', "metric", "METRIC",
-     "error metric by which patterns are ranked: mae (default), rmse, relmse, smape, ldr-flip or hdr-flip, with "
+     "error metric by which patterns are ranked: mae (default), rmse, relmse, smape, grain, ldr-flip or hdr-flip, "
+     "with "
      "parameters"},
     {0, "time-limit", "S", "time limit in seconds for all rankings together; 0: no limit (default: 60)"},
     CLI_UNKNOWN_OPTION,

@@ -112,7 +112,7 @@ static void all_metrics_are_errors(void **state)
         koksma_metric_text(&spec, text);
         assert_string_equal(text, m->name);
     }
-    assert_true(n >= 6);
+    assert_true(n >= 7);
     release(&p);
 }
 
@@ -135,6 +135,33 @@ static void pointwise_metrics_are_their_formulas(void **state)
     expect("mae", &p, error.mean, 1e-15);
     expect("rmse", &p, error.rmse, 1e-15);
     release(&p);
+}
+
+/* Waves of amplitude A have a mean square of A^2 / 2 at their frequency alone: those below 0.05 cycles a pixel are grain,
+   and neither those above nor the mean. */
+static void grain_is_the_power_of_coarse_waves(void **state)
+{
+    (void)state;
+    static const struct {
+        int width, height, u, v;
+        double below, share;
+    } waves[] = {{128, 96, 3, 0, 0.05, 1}, {128, 96, 0, 4, 0.05, 1}, {128, 96, 4, 3, 0.05, 1},
+                 {128, 96, 6, 4, 0.05, 0}, {128, 96, 7, 0, 0.05, 0}, {128, 96, 40, 30, 0.05, 0},
+                 {61, 47, 2, 1, 0.05, 1},  {61, 47, 2, 2, 0.05, 0},  {61, 47, 12, 9, 0.4, 1},
+                 {64, 1, 3, 0, 0.05, 1}};
+    for (size_t i = 0; i < sizeof waves / sizeof *waves; i++) {
+        pair p = make(waves[i].width, waves[i].height, 1);
+        char text[32];
+        for (int k = 0; k < waves[i].width * waves[i].height; k++) {
+            const double turn = (double)waves[i].u * (k % waves[i].width) / waves[i].width +
+                                (double)waves[i].v * (k / waves[i].width) / waves[i].height;
+            p.reference.pixels[k] = 1;
+            p.image.pixels[k] = (float)(1.25 + 0.5 * cos(2 * M_PI * turn + 1));
+        }
+        snprintf(text, sizeof text, "grain:below=%g", waves[i].below);
+        expect(text, &p, waves[i].share * 0.5 / sqrt(2), 1e-6);
+        release(&p);
+    }
 }
 
 /* 3000 pixels, of error 0.01 and three of 1: the 0.1 % are three, and carry 3 / (3 + 29.97) of the absolute error, and
@@ -219,6 +246,7 @@ static void bits_go_by_revision(void **state)
         {"rmse", 0, 0x1.0c88e29e1d7b3p-4, 0x1.0c2b26c7eef6cp-4, 0x1.c060324440b1ap-9},
         {"relmse", 0, 0x1.25324a149368dp-5, 0x1.1fcc89720c0a5p-5, 0x1.38d53eb2988e8p-6},
         {"smape", 0, 0x1.3519649b96513p-4, 0x1.3339ad1d65397p-4, 0x1.babf7ed1e853ap-8},
+        {"grain", 0, 0x1.fa83d5d72accep-8, 0x1.f9ac4875b48b8p-8, 0x1.07455e8f55582p-8},
         {"ldr-flip", 0, 0x1.ea8284ed34d9fp-4, 0x1.e95bd060e2acdp-4, 0x1.8ed653d05c95ep-9},
         {"hdr-flip", 0, 0x1.a8ad895ff267ep-4, 0x1.a6b79cfa83945p-4, 0x1.5c121ec58d69bp-8},
     };
@@ -260,9 +288,13 @@ static void wrong_input_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_metrics_are_errors),      cmocka_unit_test(pointwise_metrics_are_their_formulas),
-        cmocka_unit_test(few_pixels_are_set_apart),    cmocka_unit_test(flip_of_constant_images_is_closed),
-        cmocka_unit_test(flip_is_that_of_its_authors), cmocka_unit_test(wrong_input_is_refused),
+        cmocka_unit_test(all_metrics_are_errors),
+        cmocka_unit_test(pointwise_metrics_are_their_formulas),
+        cmocka_unit_test(grain_is_the_power_of_coarse_waves),
+        cmocka_unit_test(few_pixels_are_set_apart),
+        cmocka_unit_test(flip_of_constant_images_is_closed),
+        cmocka_unit_test(flip_is_that_of_its_authors),
+        cmocka_unit_test(wrong_input_is_refused),
         cmocka_unit_test(bits_go_by_revision),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
