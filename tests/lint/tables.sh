@@ -34,7 +34,7 @@ for table in $(files 'src/*.def' 'cli/*.def' 'include/*.def'); do
     */patterns.def | */measures.def | */integrands.def | */warps.def | */filters.def | */metrics.def | */pipelines.def | */materials.def | */lights.def | */shapes.def | */adaptive.def | */formats.def | \
       */commands.def | */methods.def | */sections.def) grep -nE '^[A-Z]+\([^)]*,' "$table" && complain "$table: lines of more than a name" ;;
     */kernels.def | */batch.def | */file_kinds.def | */palette.def | */keys.def) ;;
-    */properties.def | */claims.def | */curves.def | */questions.def) ;;
+    */properties.def | */claims.def | */curves.def | */questions.def | */conclusions.def) ;;
     *) complain "$table: a table that tests/lint/tables.sh doesn't know" ;;
   esac
 done

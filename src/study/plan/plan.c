@@ -234,9 +234,9 @@ static koksma_status check_ids(const koksma__json_node *root, const char *key)
 
 static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
 {
-    static const char *const keys[] = {"comment",       "name",    "title",  "about",   "order",
-                                       "discrepancies", "images",  "tables", "figures", "questions",
-                                       "metric",        "metrics", NULL};
+    static const char *const keys[] = {"comment",       "name",    "title",       "about",   "order",
+                                       "discrepancies", "images",  "tables",      "figures", "questions",
+                                       "metric",        "metrics", "conclusions", NULL};
     koksma_status status = koksma__json_only(root, keys);
     status = status ? status : koksma__plan_text(root, "name", true, &p->name);
     status = status ? status : koksma__plan_text(root, "title", true, &p->title);
@@ -258,6 +258,9 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     status = status ? status
                     : koksma__plan_list(root, "questions", false, sizeof *p->questions, koksma__plan_question, trials,
                                         (void **)&p->questions, &p->n_questions);
+    status = status ? status
+                    : koksma__plan_list(root, "conclusions", false, sizeof *p->conclusions, koksma__plan_conclusion,
+                                        trials, (void **)&p->conclusions, &p->n_conclusions);
     static const char *const with_ids[] = {"tables", "figures", "questions"};
     for (size_t i = 0; !status && !trials->stored && i < sizeof with_ids / sizeof *with_ids; i++) {
         status = check_ids(root, with_ids[i]);
@@ -267,6 +270,7 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
                          "the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
     status = status ? status : koksma__plan_check_tables(root, trials, p);
     status = status ? status : koksma__plan_check_figures(root, trials, p);
+    status = status ? status : koksma__plan_check_conclusions(root, trials, p);
     status = status ? status : koksma__plan_set_metrics(root, p);
     return status ? status : koksma__plan_own(p);
 }

@@ -87,8 +87,9 @@ typedef struct koksma__table_row {
     size_t n_published;
     /* printed mean, SD and maximum; in a table over several n, the mean for each n */
     koksma__printed published[KOKSMA__TABLE_PRINTED];
-    /* exponent of n that theory predicts for the row's pattern; NaN: unknown */
-    double rate;
+    /* exponent of n that theory predicts for the row's pattern, and the factor by which its mean is then that of random
+       points; NaN: unknown */
+    double rate, of_random;
 } koksma__table_row;
 
 /* A note on why a published cell differs from the computed one. */
@@ -142,6 +143,9 @@ enum {
     KOKSMA__ASKED_BY_NAME = 8
 };
 
+/* Flags of a kind of conclusion, beside the first two above: which further members it needs. */
+enum { KOKSMA__NEEDS_TABLES = 16, KOKSMA__NEEDS_BY = 32, KOKSMA__NEEDS_AGAINST = 64, KOKSMA__NEEDS_METRIC = 128 };
+
 /* A kind of question that the report answers from blocks of the plan; each is a line of questions.def. */
 typedef struct koksma__question_kind {
     const char *name;
@@ -168,6 +172,27 @@ typedef struct koksma__question {
     koksma__scene_group *groups;
 } koksma__question;
 
+/* A kind of conclusion; each is a line of conclusions.def. */
+typedef struct koksma__conclusion_kind {
+    const char *name;
+    unsigned fields;
+} koksma__conclusion_kind;
+
+/* All kinds of conclusions, ended by an entry whose name is NULL (plan_conclusions.c). */
+extern const koksma__conclusion_kind koksma__conclusion_kinds[];
+
+/* What a paper concludes, and where its test is. studies/README.md has the meaning of the members by kind. */
+typedef struct koksma__conclusion {
+    size_t part;  /* index of the part (of a joined plan) that has this conclusion */
+    char *says;   /* the conclusion in words */
+    char *remark; /* words that follow the result, or NULL */
+    const koksma__conclusion_kind *kind;
+    koksma__texts tables, by;        /* ids of tables */
+    koksma__texts patterns, against; /* canonical specs */
+    char *images, *discrepancies;    /* ids of blocks, or NULL */
+    char *metric;                    /* canonical spec, or NULL */
+} koksma__conclusion;
+
 /* One of the plans that were joined into one. Its tables and questions refer only to its own blocks. */
 typedef struct koksma__plan_part {
     char *title;
@@ -185,9 +210,10 @@ typedef struct koksma__plan {
     /* order of the patterns, and the metric that ranks them; set while the plan is parsed and then moved to its part */
     char *order, *metric;
     koksma__texts metrics; /* further metrics that the plan names; used only while the plan is parsed */
-    size_t n_parts, n_discrepancies, n_images, n_tables, n_figures, n_questions;
+    size_t n_parts, n_discrepancies, n_images, n_tables, n_figures, n_questions, n_conclusions;
     koksma__plan_part *parts;
     koksma__question *questions;
+    koksma__conclusion *conclusions;
     koksma__discrepancy_block *discrepancies;
     koksma__image_block *images;
     koksma__table *tables;

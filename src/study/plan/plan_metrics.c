@@ -61,7 +61,7 @@ static koksma_status add(koksma__texts *to, const char *metric)
 static koksma_status set_block(const koksma__plan *plan, koksma__image_block *block)
 {
     const koksma_metric *metric;
-    const size_t named = 1 + plan->metrics.n + plan->n_questions;
+    const size_t named = 1 + plan->metrics.n + plan->n_questions + plan->n_conclusions;
     size_t n = 0;
     while (koksma_metric_at(n)) {
         n++;
@@ -78,6 +78,11 @@ static koksma_status set_block(const koksma__plan *plan, koksma__image_block *bl
     }
     for (size_t i = 0; !status && i < plan->n_questions; i++) {
         status = plan->questions[i].metric ? add(&block->metrics, plan->questions[i].metric) : KOKSMA_OK;
+    }
+    for (size_t i = 0; !status && i < plan->n_conclusions; i++) {
+        const koksma__conclusion *c = &plan->conclusions[i];
+        const bool is_of_block = c->metric && c->images && block->id && !strcmp(c->images, block->id);
+        status = is_of_block ? add(&block->metrics, c->metric) : KOKSMA_OK;
     }
     return status;
 }

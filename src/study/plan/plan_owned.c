@@ -84,6 +84,9 @@ static void shift(const koksma__plan *p, koksma__plan *q)
     for (size_t i = 0; i < q->n_questions; i++) {
         q->questions[i].part += p->n_parts;
     }
+    for (size_t i = 0; i < q->n_conclusions; i++) {
+        q->conclusions[i].part += p->n_parts;
+    }
 }
 
 koksma_status koksma__plan_append(koksma__plan *p, koksma__plan *q)
@@ -103,6 +106,7 @@ koksma_status koksma__plan_append(koksma__plan *p, koksma__plan *q)
     JOIN(tables);
     JOIN(figures);
     JOIN(questions);
+    JOIN(conclusions);
 #undef JOIN
     koksma__plan_fini(q);
     return status;
@@ -135,6 +139,15 @@ static void free_table(koksma__table *t)
         free(t->notes[n].reason);
     }
     KOKSMA__FREE(t->n.at, t->rows, t->notes, t->id, t->title, t->scene, t->measure, t->also);
+}
+
+static void free_conclusion(koksma__conclusion *c)
+{
+    koksma__texts *const lists[] = {&c->tables, &c->by, &c->patterns, &c->against};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        koksma__texts_fini(lists[i]);
+    }
+    KOKSMA__FREE(c->says, c->remark, c->images, c->discrepancies, c->metric);
 }
 
 static void free_image_block(koksma__image_block *b)
@@ -183,6 +196,9 @@ void koksma__plan_fini(koksma__plan *p)
         }
         free(p->questions[i].groups);
     }
+    for (size_t i = 0; i < p->n_conclusions; i++) {
+        free_conclusion(&p->conclusions[i]);
+    }
     for (size_t i = 0; i < p->n_parts; i++) {
         free(p->parts[i].title);
         free(p->parts[i].about);
@@ -190,8 +206,8 @@ void koksma__plan_fini(koksma__plan *p)
         free(p->parts[i].metric);
     }
     koksma__texts_fini(&p->metrics);
-    KOKSMA__FREE(p->parts, p->questions, p->discrepancies, p->images, p->tables, p->figures, p->name, p->title,
-                 p->about, p->order, p->metric);
+    KOKSMA__FREE(p->parts, p->questions, p->conclusions, p->discrepancies, p->images, p->tables, p->figures, p->name,
+                 p->title, p->about, p->order, p->metric);
     *p = (koksma__plan){0};
 }
 

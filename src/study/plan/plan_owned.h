@@ -23,6 +23,10 @@ bool koksma__texts_have(const koksma__texts *texts, const char *text);
 
 bool koksma__wholes_have(const koksma__wholes *wholes, long long value);
 
+/* The table of a part with this id, and the row of a table with this pattern; NULL: none. */
+const koksma__table *koksma__plan_table_of(const koksma__plan *plan, size_t part, const char *id);
+const koksma__table_row *koksma__plan_row_of(const koksma__table *table, const char *pattern);
+
 /* Whether the block evaluates this measure on n points of this pattern in dim dimensions, without a warp. */
 bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
                               long long n, long long dim);

@@ -69,12 +69,13 @@ static koksma_status parse_published(const koksma__json_node *node, koksma__tabl
 static koksma_status parse_row(const koksma__json_node *node, koksma__spec_parser parser, bool stored,
                                koksma__table_row *r)
 {
-    static const char *const keys[] = {"comment", "pattern", "label", "published", "rate", NULL};
-    r->rate = NAN;
+    static const char *const keys[] = {"comment", "pattern", "label", "published", "rate", "of-random", NULL};
+    r->rate = r->of_random = NAN;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_pattern(node, "pattern", parser, true, stored, &r->pattern);
     status = status ? status : koksma__plan_text(node, "label", true, &r->label);
     status = status ? status : koksma__json_get_number(node, "rate", false, -10, 0, &r->rate);
+    status = status ? status : koksma__json_get_number(node, "of-random", false, 0, 100, &r->of_random);
     return status ? status : parse_published(node, r);
 }
 

@@ -256,11 +256,33 @@ void koksma__doc_paragraph_begin(koksma__document *d)
     koksma__json_begin_array(&d->json, "text");
 }
 
+void koksma__doc_verdict_begin(koksma__document *d, koksma__answer_kind kind)
+{
+    static const char *const names[] = {[KOKSMA__ANSWER_UNDECIDED] = "undecided",
+                                        [KOKSMA__ANSWER_DECIDED] = "decided",
+                                        [KOKSMA__ANSWER_HOLDS] = "holds",
+                                        [KOKSMA__ANSWER_PARTLY] = "partly",
+                                        [KOKSMA__ANSWER_FAILS] = "fails"};
+    begin_block(d, "paragraph", NULL);
+    koksma__json_write_text(&d->json, "answer", names[kind]);
+    koksma__json_begin_array(&d->json, "text");
+}
+
 void koksma__doc_answer_begin(koksma__document *d, bool decided)
 {
-    begin_block(d, "paragraph", NULL);
-    koksma__json_write_text(&d->json, "answer", decided ? "decided" : "undecided");
-    koksma__json_begin_array(&d->json, "text");
+    koksma__doc_verdict_begin(d, decided ? KOKSMA__ANSWER_DECIDED : KOKSMA__ANSWER_UNDECIDED);
+}
+
+void koksma__doc_words_begin(koksma__document *words)
+{
+    *words = (koksma__document){.json.in_html = true};
+}
+
+void koksma__doc_words_append(koksma__document *d, koksma__document *words)
+{
+    end_run(words);
+    end_run(d);
+    koksma__doc_append(d, words);
 }
 
 void koksma__doc_metric_begin(koksma__document *d, const char *metric)

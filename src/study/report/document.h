@@ -61,6 +61,19 @@ void koksma__doc_paragraph_end(koksma__document *d);
 /* Begins a paragraph that answers the question of its section, which the page also shows in its overview. decided:
    whether the data decide the question. */
 void koksma__doc_answer_begin(koksma__document *d, bool decided);
+/* The same for a conclusion that is tested. */
+typedef enum koksma__answer_kind {
+    KOKSMA__ANSWER_UNDECIDED,
+    KOKSMA__ANSWER_DECIDED,
+    KOKSMA__ANSWER_HOLDS,
+    KOKSMA__ANSWER_PARTLY,
+    KOKSMA__ANSWER_FAILS
+} koksma__answer_kind;
+void koksma__doc_verdict_begin(koksma__document *d, koksma__answer_kind kind);
+/* Words that are written before those in front of them: begin them in a document of their own, write them with
+   koksma__doc_say, and append them to the open words of d. */
+void koksma__doc_words_begin(koksma__document *words);
+void koksma__doc_words_append(koksma__document *d, koksma__document *words);
 /* Begins a paragraph that names the metric of the image errors in its section. metric: its canonical spec. */
 void koksma__doc_metric_begin(koksma__document *d, const char *metric);
 /* Begins a paragraph that warns of doubtful or missing numbers. */

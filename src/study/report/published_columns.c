@@ -103,10 +103,24 @@ void koksma__published_say_z(koksma__document *d, const koksma__z_sums *z)
 {
     if (z->count > 1) {
         const double k = (double)z->count, limit = koksma__chi_squared_quantile(0.95, k);
-        koksma__doc_paragraph(d,
-                              "The %zu values of z together: their sum divided by √%zu is %+.1f (by chance between "
-                              "-2 and +2 in 95 %% of tables; otherwise the means deviate to one side), and the sum "
-                              "of their squares is %.1f (by chance below %.1f in 95 %%).",
-                              z->count, z->count, z->sum / sqrt(k), z->squares, limit);
+        const bool one_side = koksma__z_deviates(z), spread = z->squares > limit;
+        koksma__doc_paragraph(
+            d,
+            "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by "
+            "chance between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one "
+            "side), and the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
+            z->count, one_side || spread ? "fail" : "pass", z->count, z->sum / sqrt(k), one_side ? "fails" : "passes",
+            z->squares, spread ? "fails" : "passes", limit);
     }
+}
+
+bool koksma__z_deviates(const koksma__z_sums *z)
+{
+    return z->count > 1 && fabs(z->sum) > 1.96 * sqrt((double)z->count);
+}
+
+bool koksma__z_fails(const koksma__z_sums *z)
+{
+    return koksma__z_deviates(z) ||
+           (z->count > 1 && z->squares > koksma__chi_squared_quantile(0.95, (double)z->count));
 }

@@ -38,6 +38,11 @@ typedef struct koksma__z_sums {
 /* Adds the z-value of a cell to the sums, unless the cell differs for a known reason. */
 void koksma__published_add_z(koksma__z_sums *sums, const koksma__verdict *verdict, const koksma__cell *cell);
 
+/* Whether the means deviate to one side, or the values of z fail any of the two tests: the sum over root of their number, and
+   the sum of squares, each at 5 %. */
+bool koksma__z_deviates(const koksma__z_sums *sums);
+bool koksma__z_fails(const koksma__z_sums *sums);
+
 /* Writes a paragraph on the z-values of a table together, if there are two or more. */
 void koksma__published_say_z(koksma__document *d, const koksma__z_sums *sums);
 

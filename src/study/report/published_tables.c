@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "stats/slopes.h"
 #include "stats/statistics.h"
 #include "study/plan/plan_owned.h"
 #include "study/report/means.h"
@@ -148,9 +149,16 @@ koksma__verdict koksma__table_judge(const koksma__table *t, const koksma__table_
 
 double koksma__table_printed_slope(const koksma__table *t, const koksma__table_row *row)
 {
-    const size_t last = t->n.n - 1;
-    return log(row->published[last].value / row->published[0].value) /
-           log((double)t->n.at[last] / (double)t->n.at[0]);
+    double x[KOKSMA__TABLE_PRINTED];
+    koksma__summary means[KOKSMA__TABLE_PRINTED];
+    for (size_t i = 0; i < t->n.n; i++) {
+        if (!(row->published[i].value > 0)) {
+            return NAN;
+        }
+        x[i] = (double)t->n.at[i];
+        means[i] = koksma__exactly(row->published[i].value);
+    }
+    return koksma__trend_of(x, means, t->n.n).slope.value;
 }
 
 /* ---- The public interface -------------------------------------------------------------------------------- */

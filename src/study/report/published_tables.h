@@ -47,8 +47,8 @@ koksma__verdict koksma__table_judge(const koksma__table *table, const koksma__ta
    otherwise 0. */
 size_t koksma__table_note(const koksma__table *table, const char *pattern, long long n, int statistic);
 
-/* The log-log slope between the first and the last published number of a row in a table over several n; NaN if one
-   of them is missing. */
+/* The log-log slope of the published numbers of a row in a table over several n, by least squares as ours; NaN if one of
+   them is missing. */
 double koksma__table_printed_slope(const koksma__table *table, const koksma__table_row *row);
 
 /* *most: the largest number of sets that a pattern of the table has; *differ: whether the patterns that are not

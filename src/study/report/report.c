@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "study/report/export.h"
+#include "study/report/mean_coherence.h"
 #include "study/report/page.h"
 #include "study/report/report.h"
 
@@ -125,6 +126,7 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
     KOKSMA__FAIL_IF(!study->store, KOKSMA_ARGUMENT, "a study without a folder has no report");
     koksma__study_forget_files(study);
     koksma_status status = build(study, run, &d);
+    koksma__mean_coherence_forget(study);
     status = status ? status : koksma__page_write(study->folder, KOKSMA__PAGE_STUDY, d.json.text);
     koksma__json_writer_fini(&d.json);
     return status;

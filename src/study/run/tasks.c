@@ -52,6 +52,14 @@ uint64_t koksma__task_seed(const koksma__task *t, long long trial)
     return koksma__hash_end(koksma__hash_more(t->key, digits, koksma__csv_whole((uint64_t)trial, digits)));
 }
 
+koksma__task koksma__task_with(const koksma__task *task, const char *pattern)
+{
+    koksma__task other = *task;
+    other.pattern = pattern;
+    other.key = key_of(&other);
+    return other;
+}
+
 static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
 {
     tasks->wanted += task->trials;

@@ -76,6 +76,9 @@ koksma__series koksma__task_series(const koksma__task *task, size_t k, char name
 /* The seed of a job: a hash of its key, or the number in the name of the job's file. */
 uint64_t koksma__task_seed(const koksma__task *task, long long trial);
 
+/* The same task with another pattern, and so with other seeds; it shares the lists of `task`, and is not closed. */
+koksma__task koksma__task_with(const koksma__task *task, const char *pattern);
+
 /* Writes the name of a job, such as "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417". */
 enum { KOKSMA__JOB_NAME = KOKSMA_MAX_SPEC + KOKSMA__VARIANT_TEXT + 128 };
 void koksma__task_name(const koksma_study *study, const koksma__task *task, long long trial,

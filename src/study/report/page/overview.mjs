@@ -4,7 +4,7 @@
 import { element } from "../../../../explorer/page/dom.mjs";
 import { filterTables, plain, unique, words } from "./tables.mjs";
 
-const mostAnswers = 8, levels = 3;
+const mostAnswers = 8, levels = 3, marks = { decided: "✓", holds: "✓", partly: "(✓)", fails: "✗" };
 
 // Gives every section an anchor, the id of its heading.
 export function addAnchors(content) {
@@ -15,8 +15,9 @@ export function addAnchors(content) {
 }
 
 // The section whose heading is the question of an answer: the innermost section that contains the answer or, in the section
-// "questions", the section at the level below it, or below its plan.
+// "questions", the section at the level below it, or below its plan. Conclusions have their paper.
 function questionOf(path) {
+  if (path.at(-1)?.id === "conclusions" && path.length > 1) return path.at(-2); // the plan, whose heading is the paper
   if (path[0]?.id !== "questions") return path.at(-1);
   return path[plain(path[1]?.heading ?? []).startsWith("Results:") ? 2 : 1] ?? path[0];
 }
@@ -31,10 +32,10 @@ function verdict(answers) {
   for (const question of questions) {
     const mine = answers.filter(a => a.question === question), link = element("a", { href: `#${question.anchor}` }, plain(question.heading));
     list.append(element("dt", {}, link), ...mine.slice(0, mostAnswers).map(({ block }) =>
-      element("dd", { class: block.answer }, element("span", { class: "mark" }, block.answer === "decided" ? "✓" : "?"), " ", ...words(block.text))));
+      element("dd", { class: block.answer }, element("span", { class: "mark" }, marks[block.answer] ?? "?"), " ", ...words(block.text))));
     if (mine.length > mostAnswers) list.append(element("dd", {}, element("a", { href: `#${question.anchor}` }, `${mine.length - mostAnswers} more`)));
   }
-  const decided = answers.filter(a => a.block.answer === "decided").length;
+  const decided = answers.filter(a => a.block.answer !== "undecided").length;
   const sure = `The data decide ${decided} of ${answers.length} answers. Intervals and decisions have 95 % confidence.`;
   return element("section", { id: "verdict", "aria-label": "What came out" }, element("h2", {}, "What came out"), list, element("p", {}, sure));
 }

@@ -56,8 +56,8 @@ function verdictMark(cell, withNumber) {
   if (cell.verdict === "new" || cell.verdict === "waiting") return cell.verdict === "new" ? "new" : "not yet";
   const signed = (v, digits) => /[1-9]/.test(v.toFixed(digits)) ? `${v < 0 ? "" : "+"}${v.toFixed(digits)}` : (0).toFixed(digits); // no -0.0
   const number = cell.z === undefined ? `${signed(100 * cell.change, 0)} %` : `z = ${signed(cell.z, 1)}`;
-  const mark = cell.verdict === "explained" ? `note ${cell.note}` : cell.verdict === "unexplained" ? "✗" : "✓";
-  const name = { explained: "note", unexplained: "bad" }[cell.verdict] ?? "good";
+  const mark = cell.verdict === "fitted" ? "fitted" : cell.verdict === "explained" ? `note ${cell.note}` : cell.verdict === "unexplained" ? "✗" : "✓";
+  const name = { fitted: "note", explained: "note", unexplained: "bad" }[cell.verdict] ?? "good";
   return element("span", { class: name, title: number }, withNumber ? `${mark} ${number}` : mark);
 }
 

@@ -139,9 +139,14 @@ static void say_verdict(koksma__document *d, const verdict *all)
                     "_x_ alone use the first coordinates.",
                     "*");
     koksma__doc_paragraph_end(d);
-    koksma__doc_answer_begin(d, true);
-    koksma__doc_say(d, "%zu of %zu errors are within the bound; the closest, at %.0f %% of it, is that of %s. ",
+    koksma__doc_answer_begin(d, !all->beyond);
+    koksma__doc_say(d, "%zu of %zu errors are within the bound; the closest, at %.0f %% of it, is that of %s.",
                     all->cases - all->beyond, all->cases, 100 * all->closest, all->where);
+    koksma__doc_paragraph_end(d);
+    if (!all->infinite && !all->no_use) {
+        return;
+    }
+    koksma__doc_paragraph_begin(d);
     if (all->infinite) {
         koksma__doc_say(d,
                         "The edge of an object in a picture is seldom parallel to an axis. If it is not, the "

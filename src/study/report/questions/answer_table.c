@@ -5,7 +5,7 @@
  * first. A sentence reports whether the best pattern differs from all others in that column, by the intervals of the
  * differences, which hold together at 95 % (Bonferroni). If the best pattern does not differ from some other, the
  * sentence says how many trials might separate the two. A table of images has the numbers of samples at which a
- * pattern's error is in visible bands (coherence_rows.h), and the sentence names the best pattern without bands.
+ * pattern's error is in visible bands (mean_coherence.h), and the sentence names the best pattern without bands.
  * Below it a second table compares the images with the largest number of samples by all metrics of the block.
  */
 #include <math.h>
@@ -14,7 +14,7 @@
 
 #include "core/status.h"
 #include "stats/quantiles.h"
-#include "study/report/coherence_rows.h"
+#include "study/report/mean_coherence.h"
 #include "study/report/means.h"
 #include "study/report/questions/topic.h"
 
@@ -175,9 +175,10 @@ static void say_standing(koksma__document *d, const subject *c, const standing *
 }
 
 static koksma_status coherence_of(koksma_study *study, const subject *c, size_t pattern, size_t k,
-                                  koksma__row_coherence *out)
+                                  koksma_coherence_values *out)
 {
-    return koksma__image_coherence(study, c->image, c->scene, c->variant, c->patterns->at[pattern], c->n->at[k], out);
+    const koksma__image_mean of = {c->image, c->scene, c->variant, c->patterns->at[pattern], c->n->at[k]};
+    return koksma__mean_coherence(study, &of, out);
 }
 
 /* Writes the cell with the numbers of samples at which a pattern's error is in bands, such as "4, 16 samples". */
@@ -187,10 +188,10 @@ static koksma_status add_bands(koksma_study *study, koksma__document *d, const s
     char text[512] = "";
     size_t length = 0, known = 0;
     for (size_t k = 0; !status && k < c->n->n; k++) {
-        koksma__row_coherence coherence;
+        koksma_coherence_values coherence;
         status = coherence_of(study, c, pattern, k, &coherence);
-        known += coherence.mean.n > 0;
-        if (koksma__in_bands(&coherence) && length < sizeof text) {
+        known += coherence.images > 0;
+        if (coherence.coherent && length < sizeof text) {
             length +=
                 (size_t)snprintf(text + length, sizeof text - length, "%s%lld", length ? ", " : "", c->n->at[k]);
         }
@@ -209,10 +210,10 @@ static koksma_status say_bands(koksma_study *study, koksma__document *d, const s
     koksma_status status = KOKSMA_OK;
     size_t i = 0, known = 0;
     for (; !status && i < s->known; i++) {
-        koksma__row_coherence coherence;
+        koksma_coherence_values coherence;
         status = coherence_of(study, c, s->by[i], c->n->n - 1, &coherence);
-        known += coherence.mean.n > 0;
-        if (!koksma__in_bands(&coherence)) {
+        known += coherence.images > 0;
+        if (!coherence.coherent) {
             break;
         }
     }

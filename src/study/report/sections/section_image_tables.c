@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "study/report/coherence_rows.h"
+#include "study/report/mean_coherence.h"
 #include "study/report/means.h"
 #include "study/report/published_columns.h"
 #include "study/report/report.h"
@@ -65,8 +65,7 @@ static void add_columns(koksma__document *d, const koksma__image_block *block)
     koksma__doc_column(
         d, &(koksma__column){
                .name = "verdict", .title = "mean within 25 %", .group = group, .type = KOKSMA__COLUMN_VERDICT});
-    koksma__doc_head_number(d, "coherence", 3);
-    koksma__doc_head(d, "in bands");
+    koksma__bands_columns(d);
     if (block->n_references > 1) {
         snprintf(group, sizeof group, "against %lld × %lld %s samples (%s)", last->replicates, last->spp,
                  last->pattern, last->name);
@@ -93,13 +92,13 @@ static koksma_status add_row(koksma_study *study, koksma__document *d, const kok
     const koksma__image_block *block = koksma__table_images(study, t);
     const koksma__table_row *row = &t->rows[r];
     koksma__cell cell, last = {0};
-    koksma__row_coherence coherence;
+    koksma_coherence_values coherence;
+    const koksma__image_mean images = {block, t->scene, "", row->pattern, t->n.at[0]};
     koksma_status status = koksma__table_image(study, t, &block->references[0], row->pattern, &cell);
     if (!status) {
         status = koksma__table_image(study, t, &block->references[block->n_references - 1], row->pattern, &last);
     }
-    status =
-        status ? status : koksma__image_coherence(study, block, t->scene, "", row->pattern, t->n.at[0], &coherence);
+    status = status ? status : koksma__mean_coherence(study, &images, &coherence);
     if (status) {
         return status;
     }
@@ -109,8 +108,7 @@ static koksma_status add_row(koksma_study *study, koksma__document *d, const kok
     koksma__published_row(d, t, row);
     add_cell(d, &cell);
     koksma__published_verdict(d, &verdict);
-    koksma__doc_number(d, coherence.mean.n ? coherence.mean.mean : (double)NAN);
-    koksma__doc_text(d, koksma__bands_text(&coherence));
+    koksma__bands_cells(d, &coherence);
     if (block->n_references > 1) {
         add_cell(d, &last);
     }
@@ -140,7 +138,7 @@ static void say_changes(koksma__document *d, const koksma__table *t, const row_m
     }
     koksma__doc_say(d, "Best to worst against the converged reference: ");
     for (size_t r = 0; r < t->n_rows; r++) {
-        koksma__doc_say(d, "%s%s", t->rows[means->order[1][r]].label, r + 1 < t->n_rows ? ", " : ". ");
+        koksma__doc_say(d, "%s%s", t->rows[means->order[1][r]].label, r + 1 < t->n_rows ? "; " : ". ");
     }
     if (isfinite(low) && isfinite(high)) {
         const bool differ = memcmp(means->order[0], means->order[1], t->n_rows * sizeof *means->order[0]) != 0;
@@ -244,7 +242,7 @@ static void say_order(const koksma__report_scope *scope, koksma__document *d, co
     koksma__doc_say(d, "Best to worst over the %zu tables, by mean rank against the paper's reference: ", tables);
     for (size_t r = 0; r < first->n_rows; r++) {
         koksma__doc_say(d, "%s (%.4g)%s", first->rows[order[r]].label, ranks[order[r]] / (double)tables,
-                        r + 1 < first->n_rows ? ", " : ".");
+                        r + 1 < first->n_rows ? "; " : ".");
     }
     if (koksma__plan_of(scope)->order) {
         koksma__doc_say(d, " The overall order that the paper's text gives: %s.", koksma__plan_of(scope)->order);
@@ -283,7 +281,11 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     koksma__doc_paragraph(d,
                           "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
                           "are 95 %% intervals of means over trials. A maximum is the error of one pixel; maxima get "
-                          "no verdict.");
+                          "no verdict. Coherence is the peak of the mean power spectrum of the errors of the first "
+                          "%d trials over its mean: white noise stays below the next column in 97.5 %% of cases, and "
+                          "an error above 99.5 %% of noise is in bands or another pattern that the eye sees "
+                          "(section _Pictures_).",
+                          KOKSMA__SPECTRUM_TRIALS);
     for (const koksma__table *t = next_table(scope, &i); !status && t; t = next_table(scope, &i)) {
         status = add_table(scope->study, d, t);
     }

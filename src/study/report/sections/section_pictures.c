@@ -12,6 +12,7 @@
 
 #include "core/status.h"
 #include "study/report/error_spectrum.h"
+#include "study/report/mean_coherence.h"
 #include "study/report/means.h"
 #include "study/report/report.h"
 #include "study/run/references.h"
@@ -20,9 +21,6 @@
 /* The largest size in bytes of all floats in a report, before base64, and the largest number of patterns that are
    shown for a scene. */
 enum { MOST_BYTES = 24 << 20, MAX_SHOWN = 24 };
-
-/* The number of trials over which the spectrum of the error is averaged, for its chart and for the coherence. */
-enum { SPECTRUM_TRIALS = 8 };
 
 static bool is_shown(const koksma__report_scope *scope)
 {
@@ -45,18 +43,6 @@ static size_t first_served(const koksma__image_block *block)
     return p;
 }
 
-/* Renders the picture of a trial of a task. */
-static koksma_status render(const koksma__task *t, long long trial, const koksma_run *run, koksma_image *out)
-{
-    const koksma__picture picture = {.pattern = t->pattern,
-                                     .variant = t->variant,
-                                     .spp = t->n,
-                                     .width = t->width,
-                                     .height = t->height,
-                                     .seed = koksma__task_seed(t, trial)};
-    return koksma__study_render(t->scene, &picture, run, out);
-}
-
 /* ---- Spectra of the error ---------------------------------------------------------------------------------- */
 
 /* Adds the mean spectrum of the errors of a task's first trials as a series, and computes their coherence. */
@@ -66,9 +52,9 @@ static koksma_status add_spectrum(koksma__document *d, const koksma__task *t, co
     koksma__error_spectrum spectrum = {0};
     koksma_coherence coherence;
     koksma_status status = koksma_coherence_init(&coherence, reference->width, reference->height);
-    for (long long trial = 0; !status && trial < t->trials && trial < SPECTRUM_TRIALS; trial++) {
+    for (long long trial = 0; !status && trial < t->trials && trial < KOKSMA__SPECTRUM_TRIALS; trial++) {
         koksma_image image;
-        status = render(t, trial, run, &image);
+        status = koksma__task_picture(t, trial, run, &image);
         if (!status) {
             status = koksma__spectrum_add(&spectrum, &image, reference);
             status = status ? status : koksma_coherence_add(&coherence, &image, reference);
@@ -135,12 +121,11 @@ static koksma_status add_spectra(koksma__document *d, const koksma__task *first,
     snprintf(title, sizeof title,
              "Spectrum of the image error: %.200s, %lld sample%s a pixel, mean over rings and %d trial%s", name,
              first->n, koksma__plural((double)first->n),
-             first->trials < SPECTRUM_TRIALS ? (int)first->trials : SPECTRUM_TRIALS,
+             first->trials < KOKSMA__SPECTRUM_TRIALS ? (int)first->trials : KOKSMA__SPECTRUM_TRIALS,
              koksma__plural((double)first->trials));
     koksma__doc_chart_begin(d, &(koksma__chart){title, "cycles a pixel", "power", false, true, 0});
     for (size_t p = 0; !status && p < n; p++) {
-        koksma__task task = *first;
-        task.pattern = patterns->at[p];
+        const koksma__task task = koksma__task_with(first, patterns->at[p]);
         status = is_served(first->image, p) ? add_spectrum(d, &task, reference, run, &values[p]) : KOKSMA_OK;
     }
     koksma__doc_end(d);
@@ -158,14 +143,13 @@ static koksma_status are_done(koksma_study *study, const koksma__task *first, si
     koksma_status status = KOKSMA_OK;
     *done = true;
     for (size_t p = 0; !status && *done && p < n; p++) {
-        koksma__task task = *first;
+        const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
         char name[KOKSMA__REFERENCE_NAME];
         koksma__result *results = NULL;
         size_t found = 0;
         if (!is_served(first->image, p)) {
             continue;
         }
-        task.pattern = first->image->patterns.at[p];
         const koksma__series series = koksma__task_series(&task, first->image->n_references, name);
         status = koksma__series_results(study, &series, trials, &results, &found);
         free(results);
@@ -182,13 +166,12 @@ static koksma_status add_pictures(koksma__document *d, const koksma__task *first
     koksma__doc_pictures_begin(d, first->scene->name, first->width, first->height);
     koksma__doc_picture(d, reference, "reference");
     for (size_t p = 0; !status && p < n; p++) {
-        koksma__task task = *first;
+        const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
         koksma_image image;
         if (!is_served(first->image, p)) {
             continue;
         }
-        task.pattern = first->image->patterns.at[p];
-        status = render(&task, 0, run, &image);
+        status = koksma__task_picture(&task, 0, run, &image);
         if (!status) {
             koksma__doc_picture(d, &image, task.pattern);
             *used += 4 * (size_t)image.width * (size_t)image.height * (size_t)image.channels;
@@ -205,7 +188,7 @@ static koksma_status add_scene(const koksma__report_scope *scope, koksma__docume
     koksma_study *study = scope->study;
     const koksma__texts *patterns = &first->image->patterns;
     const size_t shown = patterns->n < MAX_SHOWN ? patterns->n : MAX_SHOWN;
-    const long long trials = first->trials < SPECTRUM_TRIALS ? first->trials : SPECTRUM_TRIALS;
+    const long long trials = first->trials < KOKSMA__SPECTRUM_TRIALS ? first->trials : KOKSMA__SPECTRUM_TRIALS;
     koksma__reference_image *reference = &study->references[first->references[first->n_series - 1]];
     bool done;
     koksma_status status = koksma__reference_find(study, reference, &done);

@@ -4,9 +4,8 @@
  * published numbers, our mean (with the verdict on the published mean), SD and largest of 100, and the means of a
  * second measure. A table over several numbers of points (Mitchell 1992) has two or three rows per pattern: the
  * published means, our means with their verdicts, and our means of a second measure. Each of these rows ends with
- * its log-log slope, which is computed from the first and the last published mean, or from our means by least
- * squares over all columns (koksma__trend_of), and with the exponent that theory predicts. A chart of the means
- * follows.
+ * its log-log slope, computed by least squares over all columns (koksma__trend_of) of published means and of ours alike,
+ * and with what theory predicts: the exponent, and the multiple of random points' mean. A chart of the means follows.
  */
 #include <math.h>
 #include <stdio.h>
@@ -138,6 +137,7 @@ static void add_size_columns(koksma__document *d, const koksma__table *t)
         d, &(koksma__column){
                .name = "slope", .title = "slope 95 %", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3, .fixed = true});
     koksma__doc_head_number(d, "theory", 3);
+    koksma__doc_head_number(d, "× random", 2);
 }
 
 static void begin_line(sizes_table *s, const koksma__table_row *row, const char *values)
@@ -159,6 +159,7 @@ static void add_printed_line(sizes_table *s, const koksma__table_row *row)
     }
     koksma__doc_interval(s->document, (koksma__estimate){slope, slope, slope});
     koksma__doc_number(s->document, row->rate);
+    koksma__doc_number(s->document, row->of_random);
 }
 
 /* Adds a row with our means of a measure. own: whether it is the table's first measure, whose means get verdicts and
@@ -244,10 +245,14 @@ static void say_means(koksma__document *d, const koksma__table *t, size_t sets, 
     koksma__doc_paragraph(
         d,
         published
-            ? "Published means are over 100 sets, ours over %s%zu. A slope is computed from the first and the last "
-              "published mean, and from our means by least squares; _theory_ is the known exponent of the pattern."
-            : "Means are over %s%zu sets. A slope is computed from them by least squares; _theory_ is the known "
-              "exponent of the pattern.",
+            ? "Published means are over 100 sets, ours over %s%zu. Slopes are least squares over all columns; "
+              "_theory_ "
+              "is the exponent of the pattern for large N, which a slope over these columns need not have reached, "
+              "and "
+              "_× random_ the known factor of its mean there to that of random points."
+            : "Means are over %s%zu sets. Slopes are least squares over all columns; _theory_ is the exponent of the "
+              "pattern for large N, which a slope over these columns need not have reached, and _× random_ the known "
+              "factor of its mean there to that of random points.",
         differ ? "up to " : "", sets);
 }
 
