@@ -125,6 +125,7 @@ typedef struct koksma__light {
    orthographic camera it starts at eye + x right + y down and has the direction forward. */
 typedef struct koksma__camera {
     double eye[3], forward[3], right[3], down[3]; /* unit vectors */
+    double shift[2];                              /* film coordinates of the middle of the image */
     double fov_rad;                               /* vertical field of view */
     double height; /* the height that the image of an orthographic camera shows; 0: the camera is perspective */
     /* lens_radius 0: a pinhole; the plane of focus is perpendicular to forward */

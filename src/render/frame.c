@@ -34,15 +34,16 @@ static koksma__batch_camera make_camera(const koksma__camera *from, int width, i
     const double step = koksma__pixel_size(from, height);
     for (int k = 0; k < 3; k++) {
         const double right = step * from->right[k], down = step * from->down[k];
+        const double shift = from->shift[0] * from->right[k] + from->shift[1] * from->down[k];
         c.eye[k] = (float)from->eye[k];
         if (from->height > 0) {
             c.base[k] = (float)from->forward[k];
-            origins[0][k] = (float)(-0.5 * width * right - 0.5 * height * down);
+            origins[0][k] = (float)(shift - 0.5 * width * right - 0.5 * height * down);
             origins[1][k] = (float)right;
             origins[2][k] = (float)down;
             continue;
         }
-        c.base[k] = (float)(from->forward[k] - 0.5 * width * right - 0.5 * height * down);
+        c.base[k] = (float)(from->forward[k] + shift - 0.5 * width * right - 0.5 * height * down);
         c.step_x[k] = (float)right;
         c.step_y[k] = (float)down;
     }

@@ -50,7 +50,9 @@ static bool same_bytes(const entry *a, const entry *b)
 
 static bool same_use(const koksma__image_use *a, const koksma__image_use *b)
 {
-    return a->part == b->part && a->upside_down == b->upside_down && !memcmp(a->tint, b->tint, sizeof a->tint);
+    return a->part == b->part && a->upside_down == b->upside_down && !memcmp(a->tint, b->tint, sizeof a->tint) &&
+           a->average == b->average && a->border == b->border && !memcmp(a->plus, b->plus, sizeof a->plus) &&
+           !memcmp(&a->gamma, &b->gamma, sizeof a->gamma);
 }
 
 /* A failure does not depend on the tint. */
@@ -186,15 +188,36 @@ void koksma__scene_images_fini(koksma_scene *scene)
 
 /* ---- Reading ---------------------------------------------------------------------------------------------- */
 
-/* Multiplies the pixels by a colour; a grey image becomes a colour image if necessary. */
-static koksma_status tint(koksma_image *image, const double colour[3])
+static bool is_grey(const double colour[3])
 {
+    return colour[0] == colour[1] && colour[0] == colour[2];
+}
+
+/* Applies gamma and the mean of the channels. */
+static void change_levels(koksma_image *image, const koksma__image_use *use)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
+    for (size_t i = 0; use->gamma > 0 && i < n * channels; i++) {
+        image->pixels[i] = (float)pow(fmax((double)image->pixels[i], 0), use->gamma);
+    }
+    for (size_t i = 0; use->average && channels == 3 && i < n; i++) {
+        const float *from = image->pixels + 3 * i;
+        image->pixels[i] = (float)(((double)from[0] + (double)from[1] + (double)from[2]) / 3);
+    }
+    image->channels = use->average ? 1 : image->channels;
+}
+
+/* Multiplies the pixels by a colour and adds another; a grey image becomes a colour image if necessary. */
+static koksma_status tint(koksma_image *image, const koksma__image_use *use)
+{
+    const double *colour = use->tint, *plus = use->plus;
     const size_t n = (size_t)image->width * (size_t)image->height;
-    if (colour[0] == 1 && colour[1] == 1 && colour[2] == 1) {
+    const bool adds = plus[0] != 0 || plus[1] != 0 || plus[2] != 0;
+    if (is_grey(colour) && colour[0] == 1 && !adds) {
         return KOKSMA_OK;
     }
     koksma_image grey = *image;
-    if (grey.channels == 1 && (colour[0] != colour[1] || colour[0] != colour[2])) {
+    if (grey.channels == 1 && !(is_grey(colour) && is_grey(plus))) {
         const koksma_status status = koksma_image_init(image, grey.width, grey.height, 3);
         for (size_t i = 0; !status && i < 3 * n; i++) {
             image->pixels[i] = grey.pixels[i / 3];
@@ -206,8 +229,28 @@ static koksma_status tint(koksma_image *image, const double colour[3])
     }
     const size_t channels = (size_t)image->channels;
     for (size_t i = 0; i < n * channels; i++) {
-        image->pixels[i] = (float)((double)image->pixels[i] * colour[i % channels]);
+        const double value = (double)image->pixels[i] * colour[i % channels] + plus[i % channels];
+        image->pixels[i] = (float)(adds ? fmax(value, 0) : value);
     }
+    return KOKSMA_OK;
+}
+
+/* Puts a frame around the image whose pixels are what black became. */
+static koksma_status add_border(koksma_image *image, const koksma__image_use *use)
+{
+    const koksma_image inner = *image;
+    const size_t width = (size_t)inner.width, channels = (size_t)inner.channels, row = (width + 2) * channels;
+    KOKSMA__FAIL_IF(inner.width > KOKSMA_MAX_IMAGE_SIDE - 2 || inner.height > KOKSMA_MAX_IMAGE_SIDE - 2,
+                    KOKSMA_MALFORMED, "%d x %d pixels leave no room for a black border", inner.width, inner.height);
+    KOKSMA__TRY(koksma_image_init(image, inner.width + 2, inner.height + 2, inner.channels));
+    for (size_t i = 0; i < row * ((size_t)inner.height + 2); i++) {
+        image->pixels[i] = (float)fmax(use->plus[i % channels], 0);
+    }
+    for (size_t y = 0; y < (size_t)inner.height; y++) {
+        memcpy(image->pixels + (y + 1) * row + channels, inner.pixels + y * width * channels,
+               width * channels * sizeof *inner.pixels);
+    }
+    free(inner.pixels);
     return KOKSMA_OK;
 }
 
@@ -234,11 +277,14 @@ static koksma_status decode(entry *e, const char *name, const unsigned char *byt
         return KOKSMA_OK;
     }
     status = koksma__image_check(&e->image, name);
-    status = status ? status : tint(&e->image, e->use.tint);
+    if (!status) {
+        change_levels(&e->image, &e->use);
+    }
+    status = status ? status : tint(&e->image, &e->use);
     if (!status && e->use.upside_down) {
         swap_rows(&e->image);
     }
-    return status;
+    return status || !e->use.border ? status : add_border(&e->image, &e->use);
 }
 
 /* Reads the image of the entry, or finds it. Failures that another attempt would repeat are kept. */

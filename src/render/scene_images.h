@@ -6,14 +6,17 @@
 #include "image/registry.h"
 #include "render/description.h"
 
-/* How an image is read: which part of it, multiplied by which colour, and whether its last row becomes the first. */
+/* How an image is read: which part of it, and what its levels v become: first v^gamma (0: they stay), then, if `average`,
+   the mean of the channels, then tint v + plus, where negative levels become 0 if `plus` is not 0. If upside_down, its
+   last row becomes the first. If `border`, a frame of one pixel, which was black, is put around it. */
 typedef struct koksma__image_use {
     koksma__image_part part;
     double tint[3];
-    bool upside_down;
+    bool upside_down, average, border;
+    double plus[3], gamma;
 } koksma__image_use;
 
-#define KOKSMA__PLAIN_IMAGE ((koksma__image_use){KOKSMA__IMAGE_COLOURS, {1, 1, 1}, false})
+#define KOKSMA__PLAIN_IMAGE ((koksma__image_use){.part = KOKSMA__IMAGE_COLOURS, .tint = {1, 1, 1}})
 
 /* Reads the image in a file that the scene names, or finds it if it was read for the same use before. An image of
    which the file has no such part has no pixels. Errors: those of koksma__image_read; MALFORMED (a number in it is not

@@ -206,16 +206,17 @@ static koksma_status leave_out(koksma__import *im, koksma__text_place place, kok
                : koksma__import_unknown(im, place, "%s; it is left out", koksma_error_text());
 }
 
-/* Finds an image of a scene; *out is NULL if it is left out. */
-static koksma_status find_image(koksma__import *im, koksma__text_place place, const char *path, koksma_image **out)
+/* Finds the image of a colour; *out is NULL if it is left out. */
+static koksma_status find_image(koksma__import *im, koksma__text_place place, const koksma__import_colour *c,
+                                koksma_image **out)
 {
-    koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+    koksma__image_use use = c->has_use ? c->use : KOKSMA__PLAIN_IMAGE;
     use.upside_down = im->rows_down;
     *out = NULL;
     if (im->only_checks) {
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma__scene_image(im->scene, path, &use, out);
+    const koksma_status status = koksma__scene_image(im->scene, c->image, &use, out);
     return status ? leave_out(im, place, status) : KOKSMA_OK;
 }
 
@@ -225,7 +226,8 @@ koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, 
     if (*c->image) {
         koksma_image *image;
         KOKSMA__TRY(koksma__import_spend(im, place, im->scene->n_images / 8));
-        KOKSMA__TRY(find_image(im, place, c->image, &image));
+        c->use.border = false; /* the mean is that of the image */
+        KOKSMA__TRY(find_image(im, place, c, &image));
         *c->image = 0;
         if (!image) {
             return KOKSMA_OK;
@@ -245,6 +247,20 @@ koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, 
     return koksma__import_unknown(im, place, "%s is replaced by its mean colour", what);
 }
 
+/* Maps the unit square to the part of an image within its border of one pixel. */
+static void map_within_border(const koksma_image *image, koksma__mapping *mapping)
+{
+    const double sides[2] = {image->width, image->height};
+    for (int k = 0; k < 2; k++) {
+        float *row = mapping->matrix + 3 * k;
+        for (int i = 0; i < 3; i++) {
+            row[i] = (float)(((double)row[i] * (sides[k] - 2) + (i == 2)) / sides[k]);
+        }
+        mapping->wrap[k] = KOKSMA__WRAP_CLAMP;
+    }
+    mapping->moved = true;
+}
+
 static koksma_status set_colour(koksma__import *im, koksma__text_place place, const koksma__import_colour *from,
                                 koksma__material *m)
 {
@@ -255,9 +271,12 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
     m->checker = from->is_checker;
     m->period = from->period;
     m->mapping = from->is_checker ? from->mapping : m->mapping;
-    KOKSMA__TRY(*from->image ? find_image(im, place, from->image, &m->image) : KOKSMA_OK);
+    KOKSMA__TRY(*from->image ? find_image(im, place, from, &m->image) : KOKSMA_OK);
     if (m->image) {
         m->mapping = from->mapping;
+        if (from->has_use && from->use.border) {
+            map_within_border(m->image, &m->mapping);
+        }
         koksma__material_mean(im->scene, m);
     }
     return m->image && from->image_scale != 1 ? koksma__import_unknown(im, place, "an image's scale is ignored")
@@ -429,8 +448,23 @@ static koksma_status check_turn(koksma__text_place place, const double matrix[12
     return KOKSMA_OK;
 }
 
-koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
-                                 const double scale[3], const double matrix[12])
+/* What pbrt-v4 (ImageInfiniteLight) takes for the illuminance of an octahedral map. */
+static double map_illuminance(const koksma_image *image)
+{
+    const size_t width = (size_t)image->width, n = width * (size_t)image->height;
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double u = fabs(2 * ((double)(i % width) + 0.5) / image->width - 1);
+        const double v = fabs(2 * ((double)(i / width) + 0.5) / image->height - 1);
+        const double near = u + v < 1 ? u + v : 1; /* 1: on the horizon or below it */
+        sum += (1 - near * near) * koksma__luminance(image, i);
+    }
+    return 2 * M_PI * sum / (double)n;
+}
+
+/* illuminance 0: the scale stays. */
+static koksma_status add_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
+                             double illuminance, const double scale[3], const double matrix[12])
 {
     char full[KOKSMA__MAX_PATH];
     koksma_image image = {0}, turned = {0};
@@ -448,6 +482,10 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
         KOKSMA__TRY(leave_out(im, place, status));
         return koksma__import_light(im, place, &light);
     }
+    const double own = illuminance > 0 ? map_illuminance(&image) : 0;
+    for (int k = 0; own > 0 && k < 3; k++) {
+        light.radiance[k] *= illuminance / own;
+    }
     status = koksma__import_invert(matrix, inverse)
                  ? check_turn(place, matrix)
                  : koksma__import_fail(place, "the matrix of an environment has no inverse");
@@ -458,6 +496,18 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
     koksma_image_fini(&image);
     koksma_image_fini(&turned);
     return status ? status : koksma__import_light(im, place, &light);
+}
+
+koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
+                                 const double scale[3], const double matrix[12])
+{
+    return add_sky(im, place, name, octahedral, 0, scale, matrix);
+}
+
+koksma_status koksma__import_lit_sky(koksma__import *im, koksma__text_place place, const char *name,
+                                     double illuminance, const double scale[3], const double matrix[12])
+{
+    return add_sky(im, place, name, true, illuminance, scale, matrix);
 }
 
 koksma_status koksma__import_spot(koksma__text_place place, const double direction[3], double inner_deg,

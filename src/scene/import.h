@@ -11,6 +11,7 @@
 #include "meshes/mesh_serialized.h"
 #include "meshes/names.h"
 #include "render/description.h"
+#include "render/scene_images.h"
 #include "scene/import_spectrum.h"
 
 /* A position in a text, for messages. */
@@ -55,8 +56,10 @@ typedef struct koksma__import {
 typedef struct koksma__import_colour {
     double rgb[3];
     char image[KOKSMA__MAX_PATH]; /* path of the image; "": no image */
-    koksma__mapping mapping;      /* how the image is mapped */
-    double image_scale;           /* factor of the image; only its mean colour can have another one than 1 */
+    bool has_use;                 /* the image is read for `use`; otherwise for KOKSMA__PLAIN_IMAGE */
+    koksma__image_use use;
+    koksma__mapping mapping; /* how the image is mapped */
+    double image_scale;      /* factor of the image; only its mean colour can have another one than 1 */
     bool is_checker;
     double second[3], period;
 } koksma__import_colour;
@@ -174,6 +177,11 @@ koksma_status koksma__import_spot(koksma__text_place place, const double directi
    multiplied by `scale`; `matrix` transforms the image's directions to the scene's. */
 koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
                                  const double scale[3], const double matrix[12]);
+
+/* The same for an octahedral map that gets another factor, `illuminance` divided by what pbrt takes for the illuminance
+   of its upper half, z > 0: 2 pi times the mean over all pixels of luminance times cosine, twice the integral. */
+koksma_status koksma__import_lit_sky(koksma__import *im, koksma__text_place place, const char *name,
+                                     double illuminance, const double scale[3], const double matrix[12]);
 
 /* Sets the camera. The columns of the matrix are the direction to the right (times `right`, 1 or -1), the direction
    up (whose length scales an orthographic camera's height), the direction ahead and the position; `lens` gives the

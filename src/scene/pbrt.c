@@ -26,6 +26,7 @@
 #include "scene/import_limits.h"
 #include "scene/import_shapes.h"
 #include "scene/import_text.h"
+#include "scene/pbrt_names.h"
 #include "scene/pbrt_values.h"
 
 enum { MOST_INCLUDED = 16, MOST_STATES = 1024 };
@@ -34,6 +35,8 @@ enum { START = 1, END = 2 };
 
 typedef struct graphics {
     double matrix[2][12]; /* at the start and at the end of the motion */
+    size_t n_attributes;  /* the attributes that count here are the first ones of all */
+    double power;         /* of the light that the shapes that follow are; 0: its radiance is given */
     unsigned active;      /* which of the two matrices the directives change: START, END or both */
     koksma__import_surface surface;
     char outside[256]; /* name of the medium outside the shapes that follow */
@@ -48,6 +51,11 @@ typedef struct named_medium {
     char name[256];
     double absorption[3], scattering[3], g;
 } named_medium;
+
+typedef struct medium_use {
+    char name[256];
+    koksma__text_place place;
+} medium_use;
 
 typedef struct object {
     char name[256];
@@ -68,6 +76,12 @@ typedef struct reader {
     koksma__names space_names, object_names;
     object *open;    /* the object to which shapes are added, or NULL */
     double times[2]; /* when motions start and end */
+    koksma__pbrt_attribute *attributes;
+    size_t n_attributes;
+    /* The names of media: those that are made, and where those that are used are first used. */
+    koksma__names medium_names;
+    medium_use *medium_uses;
+    size_t n_medium_uses;
     koksma__pbrt_parameters *parameters;
     koksma__pbrt_mistake mistake;
     bool used[KOKSMA__MAX_PBRT_PARAMETERS]; /* of the parameters */
@@ -76,6 +90,9 @@ typedef struct reader {
     koksma__text_place camera_place;
     char camera_medium[256];
     double camera[2][12], fov_deg, lens_radius, focus_distance, shutter[2];
+    /* the film's width and height in pixels, the part of it that is the picture, and its sensitivity */
+    double film[2], crop[4], iso, exposure_time;
+    bool in_world;
     bool orthographic, has_window;
     double window[4]; /* the screen window: x from [0] to [1], y from [2] to [3] */
     /* aspect ratio (width / height) of the screen window if the file has no `window`; 0: that of the image */
@@ -278,6 +295,9 @@ static koksma_status pop(reader *r, source *s, bool matrix_alone)
         r->now.active = from->active;
     } else {
         r->now = *from;
+        while (r->n_attributes > r->now.n_attributes) {
+            free(r->attributes[--r->n_attributes].parameter.numbers);
+        }
     }
     return KOKSMA_OK;
 }
@@ -302,6 +322,7 @@ static koksma_status take_reverse(reader *r, source *s)
 static koksma_status take_world(reader *r, source *s)
 {
     r->now.active = START | END;
+    r->in_world = true;
     return take_identity(r, s);
 }
 
@@ -379,7 +400,8 @@ static koksma_status take_shape(reader *r, source *s)
         KOKSMA__TRY(koksma__import_unknown(r->im, item.place, "a light within an object is dark"));
     }
     memcpy(form, koksma__import_identity, sizeof form);
-    KOKSMA__TRY(koksma__pbrt_shape(&r->values, type, r->parameters, &item, form, &is_there));
+    KOKSMA__TRY(
+        koksma__pbrt_shape(&r->values, type, r->parameters, r->now.power, r->now.matrix[0], &item, form, &is_there));
     koksma__matrix_multiply(r->now.matrix[0], form, item.matrix);
     if (is_there && moves(r->now.matrix[0], r->now.matrix[1])) {
         memcpy(item.motion.before, form, sizeof form);
@@ -397,6 +419,7 @@ static koksma_status take_area_light(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     surface->emits = true;
     surface->two_sided = koksma__pbrt_flag(r->parameters, "twosided", false);
+    r->now.power = koksma__pbrt_number(r->parameters, "power", 0);
     return koksma__pbrt_emission(&r->values, r->parameters, "L", surface->radiance);
 }
 
@@ -405,6 +428,22 @@ static void move_point(const double m[12], const double p[3], double w, double o
 {
     for (int k = 0; k < 3; k++) {
         out[k] = koksma__dot(m + 4 * k, p) + w * m[4 * k + 3];
+    }
+}
+
+/* Scales a light's colour so that it has the power or illuminance that the parameters give. */
+static void scale_light(const koksma__pbrt_parameters *p, const char *type, double rgb[3])
+{
+    const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
+    const double given = koksma__pbrt_number(p, far || around ? "illuminance" : "power", 0);
+    double own = far ? 1 : around ? M_PI : 2 * TURN;
+    if (!strcmp(type, "spot")) { /* full within the inner cone, half on average between the cones */
+        const double outer = koksma__pbrt_number(p, "coneangle", 30);
+        const double inner = outer - koksma__pbrt_number(p, "conedeltaangle", 5);
+        own = TURN * (1 - (cos(inner * TURN / 360) + cos(outer * TURN / 360)) / 2);
+    }
+    for (int k = 0; given > 0 && own > 0 && k < 3; k++) {
+        rgb[k] *= given / own;
     }
 }
 
@@ -424,9 +463,11 @@ static koksma_status take_light(reader *r, source *s)
     koksma__pbrt_point(p, "from", from);
     koksma__pbrt_point(p, "to", to);
     if (around && *koksma__pbrt_word(p, "filename", "")) {
-        return koksma__import_sky(r->im, p->place, koksma__pbrt_word(p, "filename", ""), true, light.radiance,
-                                  r->now.matrix[0]);
+        const double illuminance = koksma__pbrt_number(p, "illuminance", 0);
+        return koksma__import_lit_sky(r->im, p->place, koksma__pbrt_word(p, "filename", ""), illuminance,
+                                      light.radiance, r->now.matrix[0]);
     }
+    scale_light(p, type, light.radiance);
     if (around) {
         light.kind = &koksma__light_environment;
         light.visible = true;
@@ -453,6 +494,14 @@ static koksma_status take_light(reader *r, source *s)
     return koksma__import_light(r->im, p->place, &light);
 }
 
+/* What the film makes of radiance, in pbrt-v4: the time for which the shutter is open, or the film's own exposure time of
+   earlier versions, times its sensitivity. Lights, which come after the film and the camera, get this factor. */
+static void set_exposure(reader *r)
+{
+    const double open = r->shutter[1] - r->shutter[0];
+    r->values.exposure = (r->exposure_time > 0 ? r->exposure_time : open) * r->iso / 100;
+}
+
 static koksma_status take_camera(reader *r, source *s)
 {
     char type[64];
@@ -467,6 +516,9 @@ static koksma_status take_camera(reader *r, source *s)
         !koksma__import_invert(r->now.matrix[1], r->camera[1])) {
         return koksma__import_fail(p->place, "the camera's matrix has no inverse");
     }
+    if (r->in_world) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "a Camera after WorldBegin, which pbrt refuses"));
+    }
     r->has_camera = true;
     r->camera_place = p->place;
     snprintf(r->camera_medium, sizeof r->camera_medium, "%s", r->now.outside);
@@ -475,6 +527,7 @@ static koksma_status take_camera(reader *r, source *s)
     r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
     r->shutter[0] = koksma__pbrt_number(p, "shutteropen", 0);
     r->shutter[1] = koksma__pbrt_number(p, "shutterclose", 1);
+    set_exposure(r);
     const koksma__pbrt_parameter *window = koksma__pbrt_find_typed(p, "screenwindow", "float");
     r->has_window = window && window->n == 4;
     if (window && !r->has_window) {
@@ -487,13 +540,29 @@ static koksma_status take_camera(reader *r, source *s)
     return name_space(r, p->place, "camera", r->camera[0], r->camera[1]);
 }
 
-/* Whether the film has a crop that is not the whole film. */
-static bool is_cropped(const koksma__pbrt_parameters *p, const char *name, const char *type, double width,
-                       double height)
+/* Reads the part of the film that is the picture, in pixels: x from [0] to [1], y from [2] to [3]. A crop window is in
+   fractions of the film, whose pixels are rounded upwards, and has priority over bounds in pixels, as in pbrt. */
+static koksma_status take_crop(const koksma__pbrt_parameters *p, const double sides[2], double crop[4])
 {
-    const koksma__pbrt_parameter *crop = koksma__pbrt_find_typed(p, name, type);
-    const double whole[4] = {0, width, 0, height};
-    return crop && (crop->n != 4 || memcmp(crop->numbers, whole, sizeof whole) != 0);
+    const koksma__pbrt_parameter *window = koksma__pbrt_find_typed(p, "cropwindow", "float"),
+                                 *bounds = koksma__pbrt_find_typed(p, "pixelbounds", "integer"),
+                                 *from = window ? window : bounds;
+    if (from && from->n != 4) {
+        return koksma__import_fail(p->place, "%s: it is four numbers: x from, x to, y from, y to", from->name);
+    }
+    for (int i = 0; i < 4; i++) {
+        const double *v = from ? from->numbers + i / 2 * 2 : NULL, side = sides[i / 2];
+        crop[i] = i % 2 ? side : 0;
+        if (window) {
+            const double at = i % 2 ? fmax(v[0], v[1]) : fmin(v[0], v[1]);
+            crop[i] = (double)ceilf((float)side * (float)fmin(fmax(at, 0), 1));
+        } else if (bounds) {
+            crop[i] = fmin(fmax(v[i % 2], 0), side);
+        }
+    }
+    return crop[0] < crop[1] && crop[2] < crop[3]
+               ? KOKSMA_OK
+               : koksma__import_fail(p->place, "%s: no pixel of the film is in it", from->name);
 }
 
 static koksma_status take_film(reader *r, source *s)
@@ -508,13 +577,20 @@ static koksma_status take_film(reader *r, source *s)
         return koksma__import_fail(p->place, "a film of %g x %g pixels; each side must be 1 to %d", width, height,
                                    KOKSMA_MAX_IMAGE_SIDE);
     }
-    r->im->scene->width = (int)width;
-    r->im->scene->height = (int)height;
-    if (is_cropped(p, "cropwindow", "float", 1, 1) || is_cropped(p, "pixelbounds", "integer", width, height)) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "a film's crop is ignored"));
+    r->film[0] = width;
+    r->film[1] = height;
+    KOKSMA__TRY(take_crop(p, r->film, r->crop));
+    r->im->scene->width = (int)(r->crop[1] - r->crop[0]);
+    r->im->scene->height = (int)(r->crop[3] - r->crop[2]);
+    if (r->in_world) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "a Film after WorldBegin, which pbrt refuses"));
     }
-    return koksma__pbrt_find(p, "iso") || koksma__pbrt_find(p, "exposuretime") || koksma__pbrt_find(p, "sensor")
-               ? koksma__import_unknown(r->im, p->place, "the film's sensor is ignored: brightness is radiance")
+    r->iso = koksma__pbrt_number(p, "iso", 100);
+    r->exposure_time = koksma__pbrt_number(p, "exposuretime", 0);
+    set_exposure(r);
+    const char *sensor = koksma__pbrt_word(p, "sensor", "cie1931");
+    return strcmp(sensor, "cie1931")
+               ? koksma__import_unknown(r->im, p->place, "the sensor '%.40s' is replaced by 'cie1931'", sensor)
                : KOKSMA_OK;
 }
 
@@ -566,6 +642,26 @@ static koksma_status take_options(reader *r, source *s)
     return take_nothing(r, s);
 }
 
+/* An integrator that shows something else than the light of the scene is named. */
+static koksma_status take_integrator(reader *r, source *s)
+{
+    char type[256];
+    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
+    KOKSMA__TRY(take_nothing(r, s));
+    return strcmp(type, "ambientocclusion") && strcmp(type, "function")
+               ? KOKSMA_OK
+               : koksma__import_unknown(r->im, r->parameters->place,
+                                        "integrator '%s' is ignored: the picture shows the scene's light", type);
+}
+
+static koksma_status take_option(reader *r, source *s)
+{
+    KOKSMA__TRY(take_nothing(r, s));
+    return koksma__pbrt_flag(r->parameters, "forcediffuse", false)
+               ? koksma__import_unknown(r->im, r->parameters->place, "option 'forcediffuse' is ignored")
+               : KOKSMA_OK;
+}
+
 static koksma_status take_colour_space(reader *r, source *s)
 {
     char name[256];
@@ -576,12 +672,46 @@ static koksma_status take_colour_space(reader *r, source *s)
                : KOKSMA_OK;
 }
 
+/* Remembers the first use of a medium, which may be made later. */
+static koksma_status use_medium(reader *r, koksma__text_place place, const char *name)
+{
+    for (size_t i = 0; i < r->n_medium_uses; i++) {
+        if (!strcmp(r->medium_uses[i].name, name)) {
+            return KOKSMA_OK;
+        }
+    }
+    KOKSMA__TRY(koksma__import_spend(r->im, place, r->n_medium_uses));
+    KOKSMA__TRY(koksma__import_hold(r->im, place, sizeof(medium_use)));
+    medium_use *to = *name ? koksma__add_one(&r->medium_uses, &r->n_medium_uses, sizeof *to) : NULL;
+    KOKSMA__TRY(to || !*name ? KOKSMA_OK : KOKSMA_MEMORY);
+    if (to) {
+        *to = (medium_use){.place = place};
+        snprintf(to->name, sizeof to->name, "%s", name);
+    }
+    return KOKSMA_OK;
+}
+
+/* Fails if a medium is used and nowhere made, as in pbrt. */
+static koksma_status check_media(const reader *r)
+{
+    size_t ignored;
+    for (size_t i = 0; i < r->n_medium_uses; i++) {
+        const medium_use *u = &r->medium_uses[i];
+        if (!koksma__names_find(&r->medium_names, u->name, strlen(u->name), &ignored)) {
+            return koksma__import_fail(u->place, "no medium '%s'", u->name);
+        }
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status take_medium(reader *r, source *s)
 {
     const koksma__pbrt_parameters *p = r->parameters;
     named_medium medium = {.g = 0};
     KOKSMA__TRY(koksma__pbrt_text(s, medium.name, sizeof medium.name));
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    KOKSMA__TRY(koksma__import_hold(r->im, p->place, KOKSMA__HELD_WITH_NAME));
+    KOKSMA__TRY(koksma__names_put(&r->medium_names, medium.name, strlen(medium.name), 1));
     if (strcmp(koksma__pbrt_word(p, "type", ""), "homogeneous") != 0 || koksma__pbrt_find(p, "preset") ||
         koksma__pbrt_find(p, "Le")) {
         return koksma__import_unknown(r->im, p->place,
@@ -607,16 +737,46 @@ static koksma_status take_interface(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
     KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(s, outside, sizeof outside) : KOKSMA_OK);
     memcpy(r->now.outside, outside, sizeof outside);
+    KOKSMA__TRY(use_medium(r, s->place, inside));
+    KOKSMA__TRY(use_medium(r, s->place, outside));
     return (*inside && strcmp(inside, outside) != 0) || (r->has_camera && strcmp(outside, r->camera_medium) != 0)
                ? koksma__import_unknown(r->im, s->place,
                                         "media of shapes are ignored: the camera's medium is everywhere")
                : KOKSMA_OK;
 }
 
+/* Keeps parameters for the directives of a target that follow, until the AttributeEnd. */
 static koksma_status take_attribute(reader *r, source *s)
 {
-    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "Attribute is ignored"));
-    return take_options(r, s);
+    static const char *const targets[][2] = {{"shape", "Shape"},
+                                             {"light", "LightSource"},
+                                             {"material", "Material"},
+                                             {"medium", "MakeNamedMedium"},
+                                             {"texture", "Texture"}};
+    char target[16];
+    const koksma__pbrt_parameters *p = r->parameters;
+    size_t which = 0;
+    KOKSMA__TRY(koksma__pbrt_text(s, target, sizeof target));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    while (which < sizeof targets / sizeof *targets && strcmp(targets[which][0], target) != 0) {
+        which++;
+    }
+    if (which == sizeof targets / sizeof *targets) {
+        return koksma__import_fail(
+            p->place, "Attribute: '%s' is not a target; shape, light, material, medium and texture are", target);
+    }
+    KOKSMA__TRY(koksma__pbrt_name_parameters(r->im, targets[which][1], NULL, p, false));
+    for (size_t i = 0; i < p->n; i++) {
+        KOKSMA__TRY(koksma__import_hold(r->im, p->place,
+                                        sizeof *r->attributes + p->items[i].n * sizeof *p->items[i].numbers));
+        koksma__pbrt_attribute *to = koksma__add_one(&r->attributes, &r->n_attributes, sizeof *to);
+        KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+        memcpy(to->target, target, sizeof to->target);
+        KOKSMA__TRY(koksma__pbrt_parameter_copy(&p->items[i], &to->parameter));
+    }
+    r->now.n_attributes = r->n_attributes;
+    r->parameters->n_inherited = p->n; /* they are judged */
+    return KOKSMA_OK;
 }
 
 /* ---- Files ------------------------------------------------------------------------------------------------- */
@@ -648,50 +808,55 @@ static koksma_status take_include(reader *r, source *s)
     return status;
 }
 
+/* Where a directive has its kind: nowhere, in the first or third text after its name, or in its parameter "type". */
+typedef enum kind_place { NONE, FIRST, THIRD, TYPE } kind_place;
+
 static const struct {
     const char *name;
     koksma_status (*take)(reader *r, source *s);
-    bool describes; /* the parameters describe the scene, so that each unused one gives a warning */
-} directives[] = {{"ActiveTransform", take_active, false},
-                  {"AreaLightSource", take_area_light, true},
-                  {"Accelerator", take_options, false},
-                  {"Attribute", take_attribute, false},
-                  {"AttributeBegin", push, false},
-                  {"AttributeEnd", take_attribute_end, false},
-                  {"Camera", take_camera, true},
-                  {"ColorSpace", take_colour_space, false},
-                  {"ConcatTransform", take_concat, false},
-                  {"CoordSysTransform", take_coordinate_transform, false},
-                  {"CoordinateSystem", take_coordinate_system, false},
-                  {"Film", take_film, false},
-                  {"Identity", take_identity, false},
-                  {"Import", take_include, false},
-                  {"Include", take_include, false},
-                  {"Integrator", take_options, false},
-                  {"LightSource", take_light, true},
-                  {"LookAt", take_look_at, false},
-                  {"MakeNamedMaterial", take_make_material, true},
-                  {"MakeNamedMedium", take_medium, true},
-                  {"Material", take_material, true},
-                  {"MediumInterface", take_interface, false},
-                  {"NamedMaterial", take_named_material, false},
-                  {"ObjectBegin", take_object_begin, false},
-                  {"ObjectEnd", take_object_end, false},
-                  {"ObjectInstance", take_instance, false},
-                  {"Option", take_nothing, false},
-                  {"PixelFilter", take_options, false},
-                  {"ReverseOrientation", take_reverse, false},
-                  {"Rotate", take_rotate, false},
-                  {"Sampler", take_options, false},
-                  {"Scale", take_scale, false},
-                  {"Shape", take_shape, true},
-                  {"Texture", take_texture, true},
-                  {"Transform", take_transform, false},
-                  {"TransformBegin", push, false},
-                  {"TransformEnd", take_transform_end, false},
-                  {"TransformTimes", take_times, false},
-                  {"Translate", take_translate, false},
-                  {"WorldBegin", take_world, false}};
+    kind_place kind;
+    bool describes;     /* the parameters describe the scene, so that each unused one gives a warning */
+    const char *target; /* of the attributes that it inherits; or "" */
+} directives[] = {{"ActiveTransform", take_active, NONE, false, ""},
+                  {"AreaLightSource", take_area_light, FIRST, true, "light"},
+                  {"Accelerator", take_options, FIRST, false, ""},
+                  {"Attribute", take_attribute, NONE, false, ""},
+                  {"AttributeBegin", push, NONE, false, ""},
+                  {"AttributeEnd", take_attribute_end, NONE, false, ""},
+                  {"Camera", take_camera, FIRST, true, ""},
+                  {"ColorSpace", take_colour_space, NONE, false, ""},
+                  {"ConcatTransform", take_concat, NONE, false, ""},
+                  {"CoordSysTransform", take_coordinate_transform, NONE, false, ""},
+                  {"CoordinateSystem", take_coordinate_system, NONE, false, ""},
+                  {"Film", take_film, FIRST, true, ""},
+                  {"Identity", take_identity, NONE, false, ""},
+                  {"Import", take_include, NONE, false, ""},
+                  {"Include", take_include, NONE, false, ""},
+                  {"Integrator", take_integrator, FIRST, false, ""},
+                  {"LightSource", take_light, FIRST, true, "light"},
+                  {"LookAt", take_look_at, NONE, false, ""},
+                  {"MakeNamedMaterial", take_make_material, TYPE, true, "material"},
+                  {"MakeNamedMedium", take_medium, TYPE, true, "medium"},
+                  {"Material", take_material, FIRST, true, "material"},
+                  {"MediumInterface", take_interface, NONE, false, ""},
+                  {"NamedMaterial", take_named_material, NONE, false, ""},
+                  {"ObjectBegin", take_object_begin, NONE, false, ""},
+                  {"ObjectEnd", take_object_end, NONE, false, ""},
+                  {"ObjectInstance", take_instance, NONE, false, ""},
+                  {"Option", take_option, NONE, false, ""},
+                  {"PixelFilter", take_options, FIRST, false, ""},
+                  {"ReverseOrientation", take_reverse, NONE, false, ""},
+                  {"Rotate", take_rotate, NONE, false, ""},
+                  {"Sampler", take_options, FIRST, false, ""},
+                  {"Scale", take_scale, NONE, false, ""},
+                  {"Shape", take_shape, FIRST, true, "shape"},
+                  {"Texture", take_texture, THIRD, true, "texture"},
+                  {"Transform", take_transform, NONE, false, ""},
+                  {"TransformBegin", push, NONE, false, ""},
+                  {"TransformEnd", take_transform_end, NONE, false, ""},
+                  {"TransformTimes", take_times, NONE, false, ""},
+                  {"Translate", take_translate, NONE, false, ""},
+                  {"WorldBegin", take_world, NONE, false, ""}};
 
 /* The number of warnings so far; a warning that occurs at several places counts once for each place. */
 static size_t count_unknown(const reader *r)
@@ -703,27 +868,56 @@ static size_t count_unknown(const reader *r)
     return n;
 }
 
-/* Warns about the parameters of a directive that nothing has looked up, except those that have no effect on the
-   pictures that Koksma makes. */
-static koksma_status name_unused(reader *r, const char *directive)
+/* Finds the kind of a directive in the texts after its name; "" if it has none. */
+static void find_kind(source s, kind_place where, char kind[64])
 {
-    static const struct {
-        const char *name, *value; /* value NULL: any */
-    } harmless[] = {{"type", NULL},          {"S", NULL},        {"faceIndices", NULL}, {"filter", NULL},
-                    {"maxanisotropy", NULL}, {"wrap", "repeat"}, {"encoding", "sRGB"},  {"mapping", "uv"},
-                    {"invert", "false"}};
-    const koksma__pbrt_parameters *p = r->parameters;
-    for (size_t i = 0; i < p->n; i++) {
-        bool named = r->used[i];
-        for (size_t k = 0; k < sizeof harmless / sizeof *harmless; k++) {
-            named |= !strcmp(p->items[i].name, harmless[k].name) &&
-                     (!harmless[k].value || !strcmp(p->items[i].text, harmless[k].value));
+    koksma__pbrt_token t = {.kind = KOKSMA__PBRT_END};
+    *kind = 0;
+    for (int i = 0; i < (where == FIRST ? 1 : where == THIRD ? 3 : 0); i++) {
+        if (koksma__pbrt_token_next(&s, &t) || t.kind != KOKSMA__PBRT_TEXT) {
+            return;
         }
-        KOKSMA__TRY(named ? KOKSMA_OK
-                          : koksma__import_unknown(r->im, p->place, "parameter '%s' of %s is ignored",
-                                                   p->items[i].name, directive));
     }
-    return KOKSMA_OK;
+    if (t.kind == KOKSMA__PBRT_TEXT) {
+        snprintf(kind, 64, "%.*s", t.length < 63 ? (int)t.length : 63, t.at);
+    }
+}
+
+/* Warns about a kind and about parameters that pbrt-v4 would refuse, whoever has read the directive, and about those that
+   nothing has looked up. n_before: the number of warnings before the directive; if there are more, these name its
+   replacement as a whole. */
+static koksma_status name_unread(reader *r, size_t number, const char *kind, size_t n_before)
+{
+    const char *directive = directives[number].name;
+    const koksma__pbrt_parameters *p = r->parameters;
+    for (size_t i = 0; directives[number].kind == TYPE && i < p->n; i++) {
+        kind = strcmp(p->items[i].name, "type") ? kind : p->items[i].text;
+    }
+    kind = *kind || !strstr(directive, "Material") ? kind : "none";
+    const bool silent = n_before == count_unknown(r);
+    if (directives[number].kind != NONE && silent && !koksma__pbrt_is_kind(directive, kind)) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "%s '%.40s' is not one of pbrt-v4", directive, kind));
+    }
+    return koksma__pbrt_name_parameters(r->im, directive, kind, p, directives[number].describes && silent);
+}
+
+/* Reads the directive number i, and names what is not read of it. */
+static koksma_status read_directive(reader *r, source *s, size_t i)
+{
+    const size_t before = count_unknown(r);
+    char kind[64];
+    memset(r->used, 0, sizeof r->used);
+    r->mistake.at = NULL;
+    s->directive = directives[i].name;
+    r->parameters->attributes = r->attributes;
+    r->parameters->n_attributes = r->n_attributes;
+    r->parameters->target = directives[i].target;
+    KOKSMA__TRY(*directives[i].target ? koksma__import_spend(r->im, s->place, r->n_attributes) : KOKSMA_OK);
+    find_kind(*s, directives[i].kind, kind);
+    koksma_status status = koksma__pbrt_end(r->parameters, directives[i].take(r, s));
+    status = status ? status : name_unread(r, i, kind, before);
+    koksma__pbrt_parameters_fini(r->parameters);
+    return status;
 }
 
 static koksma_status read_source(reader *r, source *s)
@@ -743,17 +937,7 @@ static koksma_status read_source(reader *r, source *s)
             return koksma__import_fail(s->place, "'%.*s' is not a directive of pbrt-v4",
                                        t.length < 40 ? (int)t.length : 40, t.at);
         }
-        const size_t before = directives[i].describes ? count_unknown(r) : 0;
-        memset(r->used, 0, sizeof r->used);
-        r->mistake.at = NULL;
-        s->directive = directives[i].name;
-        koksma_status status = koksma__pbrt_end(r->parameters, directives[i].take(r, s));
-        /* otherwise a warning names the replacement of the whole directive */
-        if (!status && directives[i].describes && before == count_unknown(r)) {
-            status = name_unused(r, directives[i].name);
-        }
-        koksma__pbrt_parameters_fini(r->parameters);
-        KOKSMA__TRY(status);
+        KOKSMA__TRY(read_directive(r, s, i));
     }
 }
 
@@ -769,13 +953,9 @@ static void default_window(reader *r, double aspect)
 /* Checks the shape of the screen window. Its coordinates -1 and 1 are at the edges of the angle of view. */
 static koksma_status check_window(reader *r, double aspect)
 {
-    const double *w = r->window, x = fabs(w[0] + w[1]), y = fabs(w[2] + w[3]), height = w[3] - w[2];
+    const double *w = r->window, height = w[3] - w[2];
     if (!(w[1] > w[0] && w[3] > w[2])) {
         return koksma__import_fail(r->camera_place, "the screen window is empty; it is x from, x to, y from, y to");
-    }
-    if (!r->orthographic && x + y > 1e-3 * height) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, r->camera_place,
-                                           "the screen window of a perspective camera is moved to the middle"));
     }
     return fabs((w[1] - w[0]) / height - aspect) > 1e-3 * aspect
                ? koksma__import_unknown(
@@ -810,7 +990,7 @@ static koksma_status set_motion(reader *r, double motion[3])
 /* Sets the camera. pbrt's angle of view is that of a screen window of -1 to 1. */
 static koksma_status set_camera(reader *r)
 {
-    const double aspect = (double)r->im->scene->width / r->im->scene->height, *w = r->window;
+    const double aspect = r->film[0] / r->film[1], *w = r->window;
     if (!r->has_camera) {
         return koksma__import_fail((koksma__text_place){r->im->path, 1}, "no Camera");
     }
@@ -820,14 +1000,22 @@ static koksma_status set_camera(reader *r)
     }
     KOKSMA__TRY(check_window(r, aspect));
     KOKSMA__TRY(set_motion(r, camera.motion));
+    /* what the film shows from top to bottom, and the middle of the picture from that of the window, to the right and up */
+    const double height = r->orthographic ? w[3] - w[2] : tan(r->fov_deg * TURN / 720) * (w[3] - w[2]);
+    const double part = (r->crop[3] - r->crop[2]) / r->film[1];
+    const double x = ((r->crop[0] + r->crop[1]) / 2 - r->film[0] / 2) * height / r->film[1];
+    const double y = (r->film[1] / 2 - (r->crop[2] + r->crop[3]) / 2) * height / r->film[1];
     if (r->orthographic) {
-        camera.height = w[3] - w[2];
+        camera.height = height * part;
         for (int k = 0; k < 3; k++) { /* moves the camera to the middle of the window */
             double *row = r->camera[0] + 4 * k;
-            row[3] += (w[0] + w[1]) / 2 * row[0] + (w[2] + w[3]) / 2 * row[1];
+            row[3] += ((w[0] + w[1]) / 2 + x) * row[0] + ((w[2] + w[3]) / 2 + y) * row[1];
         }
     } else {
-        camera.fov_rad = 2 * atan(tan(r->fov_deg * TURN / 720) * (w[3] - w[2]) / 2);
+        const double half = tan(r->fov_deg * TURN / 720);
+        camera.fov_rad = 2 * atan(height * part / 2);
+        camera.shift[0] = x + (w[0] + w[1]) / 2 * half;
+        camera.shift[1] = -y - (w[2] + w[3]) / 2 * half;
     }
     return koksma__import_camera(r->im, r->camera_place, r->camera[0], 1, &camera);
 }
@@ -873,8 +1061,15 @@ static koksma_status set_medium(reader *r)
 
 koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t size)
 {
-    reader r = {
-        .im = im, .values = {.im = im}, .now.surface.material = -2, .now.active = START | END, .times = {0, 1}};
+    reader r = {.im = im,
+                .values = {.im = im, .exposure = 1},
+                .shutter = {0, 1},
+                .iso = 100,
+                .film = {1280, 720},
+                .crop = {0, 1280, 0, 720},
+                .now.surface.material = -2,
+                .now.active = START | END,
+                .times = {0, 1}};
     source s = {.at = text, .end = text + size, .place = {im->path, 1}};
     im->scene->width = 1280;
     im->scene->height = 720;
@@ -882,18 +1077,24 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     KOKSMA__REQUIRE_MEMORY(r.parameters, sizeof *r.parameters);
     r.parameters->place = s.place;
     r.parameters->used = r.used;
+    r.parameters->target = "";
     r.parameters->mistake = &r.mistake;
     koksma_status status = take_identity(&r, &s);
     status = status ? status : name_space(&r, s.place, "world", r.now.matrix[0], r.now.matrix[1]);
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);
     status = status ? status : read_source(&r, &s);
+    status = status ? status : check_media(&r);
     status = status ? status : set_camera(&r);
     status = status ? status : set_medium(&r);
     status = status ? status : set_shutter(&r);
     for (size_t i = 0; i < r.n_objects; i++) {
         free(r.objects[i].items);
     }
-    KOKSMA__FREE(r.objects, r.spaces, r.media, r.stack, r.parameters);
+    for (size_t i = 0; i < r.n_attributes; i++) {
+        free(r.attributes[i].parameter.numbers);
+    }
+    KOKSMA__FREE(r.objects, r.spaces, r.media, r.stack, r.parameters, r.attributes, r.medium_uses);
+    koksma__names_fini(&r.medium_names);
     koksma__names_fini(&r.space_names);
     koksma__names_fini(&r.object_names);
     koksma__pbrt_scene_fini(&r.values);

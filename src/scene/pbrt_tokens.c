@@ -169,6 +169,8 @@ static koksma_status take_text(koksma__pbrt_source *s, const koksma__pbrt_token 
     if (!p->n_texts++) {
         memcpy(p->text, t->at, t->length);
         p->text[t->length] = 0;
+    } else if (p->n_texts == 2) {
+        snprintf(p->second, sizeof p->second, "%.*s", (int)t->length, t->at);
     }
     return KOKSMA_OK;
 }
@@ -224,23 +226,60 @@ static koksma_status take_values(koksma__pbrt_source *s, koksma__pbrt_parameter 
                              : KOKSMA_OK;
 }
 
+/* Adds a parameter without name and values. */
+static koksma_status add(const koksma__pbrt_source *s, koksma__pbrt_parameters *to, koksma__pbrt_parameter **out)
+{
+    if (to->n == KOKSMA__MAX_PBRT_PARAMETERS) {
+        return koksma__import_fail(s->place, "more than %d parameters", KOKSMA__MAX_PBRT_PARAMETERS);
+    }
+    koksma__pbrt_parameter *p = *out = &to->items[to->n++];
+    *p->type = *p->name = *p->text = *p->second = 0;
+    p->numbers = NULL;
+    p->n = p->n_texts = 0;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__pbrt_parameter_copy(const koksma__pbrt_parameter *from, koksma__pbrt_parameter *out)
+{
+    *out = *from;
+    out->numbers = from->n ? malloc(from->n * sizeof *out->numbers) : NULL;
+    if (from->n && !out->numbers) {
+        out->n = 0;
+        return koksma__fail_memory(from->n * sizeof *out->numbers);
+    }
+    if (from->n) {
+        memcpy(out->numbers, from->numbers, from->n * sizeof *out->numbers);
+    }
+    return KOKSMA_OK;
+}
+
+/* Takes the attributes of the directive's target. A parameter of the directive's own comes later, and so has priority. */
+static koksma_status inherit(const koksma__pbrt_source *s, koksma__pbrt_parameters *out)
+{
+    koksma__pbrt_parameter *p;
+    for (size_t i = 0; i < out->n_attributes; i++) {
+        if (!strcmp(out->attributes[i].target, out->target)) {
+            KOKSMA__TRY(add(s, out, &p));
+            KOKSMA__TRY(koksma__pbrt_parameter_copy(&out->attributes[i].parameter, p));
+        }
+    }
+    out->n_inherited = out->n;
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__pbrt_parameters_read(koksma__pbrt_source *s, koksma__pbrt_parameters *out)
 {
     koksma__pbrt_token t;
     out->n = 0;
     out->place = s->place;
+    KOKSMA__TRY(inherit(s, out));
     for (;;) {
+        koksma__pbrt_parameter *p;
         KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
         if (t.kind != KOKSMA__PBRT_TEXT) {
             return KOKSMA_OK;
         }
-        if (out->n == KOKSMA__MAX_PBRT_PARAMETERS) {
-            return koksma__import_fail(s->place, "more than %d parameters", KOKSMA__MAX_PBRT_PARAMETERS);
-        }
-        koksma__pbrt_parameter *p = &out->items[out->n++];
-        *p->type = *p->name = *p->text = 0;
-        p->numbers = NULL;
-        p->n = p->n_texts = 0;
+        KOKSMA__TRY(add(s, out, &p));
         KOKSMA__TRY(take_name(s, p));
         p->line = s->place.line;
         KOKSMA__TRY(take_values(s, p));
@@ -252,7 +291,7 @@ void koksma__pbrt_parameters_fini(koksma__pbrt_parameters *parameters)
     for (size_t i = 0; i < parameters->n; i++) {
         free(parameters->items[i].numbers);
     }
-    parameters->n = 0;
+    parameters->n = parameters->n_inherited = 0;
 }
 
 const koksma__pbrt_parameter *koksma__pbrt_find(const koksma__pbrt_parameters *p, const char *name)

@@ -31,10 +31,17 @@ typedef struct koksma__pbrt_source {
    "false"). There is at least one value, and each is of the parameter's type. */
 typedef struct koksma__pbrt_parameter {
     char type[24], name[40], text[1024];
+    char second[256]; /* the second text; "": there is none */
     double *numbers;
     size_t n, n_texts;
     unsigned long line;
 } koksma__pbrt_parameter;
+
+/* A parameter that an Attribute directive gives to all directives of this target ("shape", "light", ...) that follow. */
+typedef struct koksma__pbrt_attribute {
+    char target[16];
+    koksma__pbrt_parameter parameter;
+} koksma__pbrt_attribute;
 
 /* The first parameter that is read as something that its type is not. */
 typedef struct koksma__pbrt_mistake {
@@ -44,8 +51,11 @@ typedef struct koksma__pbrt_mistake {
 
 typedef struct koksma__pbrt_parameters {
     koksma__pbrt_parameter items[KOKSMA__MAX_PBRT_PARAMETERS];
-    size_t n;
-    bool *used; /* for each parameter, whether koksma__pbrt_find has found it; or NULL */
+    size_t n, n_inherited; /* the first n_inherited come from Attribute directives */
+    const koksma__pbrt_attribute *attributes;
+    size_t n_attributes;
+    const char *target; /* "": the directive inherits no attributes */
+    bool *used;         /* for each parameter, whether koksma__pbrt_find has found it; or NULL */
     koksma__pbrt_mistake *mistake;
     koksma__text_place place;
 } koksma__pbrt_parameters;
@@ -59,9 +69,12 @@ koksma_status koksma__pbrt_token_peek(koksma__pbrt_source *source, koksma__pbrt_
 koksma_status koksma__pbrt_text(koksma__pbrt_source *source, char *out, size_t size);
 koksma_status koksma__pbrt_numbers(koksma__pbrt_source *source, size_t n, double *out);
 
-/* Reads all parameters up to the next directive. Errors: MALFORMED (an unknown type, no value, a value of another type,
+/* Reads all parameters up to the next directive, after those that the directive inherits. Errors: MALFORMED (an unknown type, no value, a value of another type,
    not three numbers for each point, ...). Call koksma__pbrt_parameters_fini even after an error. */
 koksma_status koksma__pbrt_parameters_read(koksma__pbrt_source *source, koksma__pbrt_parameters *out);
+
+/* Copies a parameter with its numbers. Error: MEMORY. */
+koksma_status koksma__pbrt_parameter_copy(const koksma__pbrt_parameter *from, koksma__pbrt_parameter *out);
 void koksma__pbrt_parameters_fini(koksma__pbrt_parameters *parameters);
 
 /* Finds a parameter by its name; NULL if there is none. Of two with one name the last one counts, as in pbrt. */

@@ -12,10 +12,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
+#include "core/c_locale.h"
 #include "core/capacity.h"
 #include "meshes/mesh_loop.h"
 #include "render/fields.h"
+#include "render/materials/materials.h"
 #include "scene/import_limits.h"
 #include "scene/import_shapes.h"
 #include "scene/import_spectrum.h"
@@ -174,18 +177,11 @@ static koksma_status find_colour(koksma__pbrt_scene *scene, const koksma__pbrt_p
 koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
                                     double rgb[3])
 {
-    static const char *const unknown[] = {"power", "illuminance", "portal", "alpha"};
     koksma__import_colour colour;
     KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__EMISSION, false, &colour));
     KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "a light's texture", KOKSMA__EMISSION, &colour));
     for (int k = 0; k < 3; k++) {
-        rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
-    }
-    for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
-        const koksma__pbrt_parameter *found = koksma__pbrt_find(p, unknown[i]);
-        if (found && !(koksma__pbrt_is(found, "bool") && !strcmp(found->text, "false"))) {
-            KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "a light's '%s' is ignored", unknown[i]));
-        }
+        rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1) * scene->exposure;
     }
     return KOKSMA_OK;
 }
@@ -224,22 +220,32 @@ static void mean_of(const koksma__import_colour *a, const koksma__import_colour 
     }
 }
 
-/* Reads how an image is mapped: (u, v) are scaled, then moved. The wrap mode "black" is not supported; a warning
-   names it as an unused parameter. */
-static koksma_status set_mapping(const koksma__pbrt_parameters *p, koksma__mapping *to)
+static koksma_status check_mapping(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p)
 {
+    const char *mapping = koksma__pbrt_word(p, "mapping", "uv");
+    return strcmp(mapping, "uv") ? koksma__import_unknown(scene->im, p->place,
+                                                          "a texture's mapping '%.40s' is replaced by 'uv'", mapping)
+                                 : KOKSMA_OK;
+}
+
+/* Reads how an image is mapped: (u, v) are scaled, then moved; and what lies beyond it. */
+static koksma_status set_mapping(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p,
+                                 koksma__import_colour *c)
+{
+    koksma__mapping *to = &c->mapping;
     const double scale[2] = {koksma__pbrt_number(p, "uscale", 1), koksma__pbrt_number(p, "vscale", 1)};
     const double move[2] = {koksma__pbrt_number(p, "udelta", 0), koksma__pbrt_number(p, "vdelta", 0)};
-    const koksma__pbrt_parameter *wrap = NULL;
+    const char *wrap = koksma__pbrt_word(p, "wrap", "repeat");
     KOKSMA__TRY(koksma__import_check_uv(p->place, scale, 2));
     KOKSMA__TRY(koksma__import_check_uv(p->place, move, 2));
-    for (size_t i = 0; i < p->n; i++) {
-        wrap = !strcmp(p->items[i].name, "wrap") ? &p->items[i] : wrap;
-    }
-    if (wrap && !strcmp(wrap->text, "clamp")) {
-        koksma__pbrt_find(p, "wrap");
+    KOKSMA__TRY(check_mapping(scene, p));
+    if (!strcmp(wrap, "clamp")) {
         to->wrap[0] = to->wrap[1] = KOKSMA__WRAP_CLAMP;
+    } else if (strcmp(wrap, "repeat") && strcmp(wrap, "black")) {
+        KOKSMA__TRY(
+            koksma__import_unknown(scene->im, p->place, "a texture's wrap '%.40s' is replaced by 'repeat'", wrap));
     }
+    c->use.border = !strcmp(wrap, "black");
     to->nearest = !strcmp(koksma__pbrt_word(p, "filter", ""), "point");
     to->moved = scale[0] != 1 || scale[1] != 1 || move[0] != 0 || move[1] != 0;
     for (int k = 0; k < 2; k++) {
@@ -260,6 +266,109 @@ static koksma_status read_constant(koksma__pbrt_scene *scene, const koksma__pbrt
     return find_texture_colour(scene, p, "value", 1, is_float, &to->colour);
 }
 
+/* Reads what the levels of an image mean: only of PNG the encoding can be chosen; JPEG is sRGB; other files hold linear
+   numbers. A level v becomes scale v, or 1 - scale v if it is inverted, and at least 0. */
+static koksma_status set_levels(const koksma__pbrt_parameters *p, bool is_float, koksma__import_colour *c)
+{
+    const char *encoding = koksma__pbrt_word(p, "encoding", "sRGB"), *dot = strrchr(c->image, '.');
+    const double scale = koksma__pbrt_number(p, "scale", 1);
+    const bool invert = koksma__pbrt_flag(p, "invert", false), png = dot && !strcasecmp(dot, ".png");
+    c->has_use = true;
+    c->use.part = KOKSMA__IMAGE_SRGB;
+    c->use.average = is_float;
+    if (png && strcmp(encoding, "sRGB")) {
+        char *end = NULL;
+        c->use.part = KOKSMA__IMAGE_NUMBERS;
+        c->use.gamma = strncmp(encoding, "gamma ", 6) ? 0 : koksma__strtod(encoding + 6, &end);
+        if (strcmp(encoding, "linear") && !(end && !*end && c->use.gamma > 0 && c->use.gamma < 100)) {
+            return koksma__import_fail(p->place, "encoding: '%.40s' is not sRGB, linear or gamma X", encoding);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        c->use.tint[k] = invert ? -scale : scale;
+        c->use.plus[k] = invert;
+    }
+    return KOKSMA_OK;
+}
+
+/* Whether levels of an image that are at least 0 stay so when they are multiplied by a colour. */
+static bool is_positive(const double rgb[3])
+{
+    return rgb[0] >= 0 && rgb[1] >= 0 && rgb[2] >= 0;
+}
+
+/* Turns a colour, image or checkerboard c into (1 - amount) c + amount other, if `other` is one colour; without `other`
+   into (1 - amount) c. */
+static void blend_colour(koksma__import_colour *c, const double amount[3], const double *other)
+{
+    for (int k = 0; k < 3; k++) {
+        const double keep = 1 - amount[k], more = other ? amount[k] * other[k] : 0;
+        c->rgb[k] = keep * c->rgb[k] + more;
+        c->second[k] = keep * c->second[k] + more;
+        c->use.tint[k] *= keep;
+        c->use.plus[k] = keep * c->use.plus[k] + more;
+    }
+}
+
+static bool is_one_colour(const koksma__import_colour *c)
+{
+    return !*c->image && !c->is_checker;
+}
+
+/* Blends two textures by an amount that does not vary: exactly if at most one of them is an image, and if checkerboards
+   have squares of one size. */
+static koksma_status blend(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, double amount,
+                           koksma__import_colour *c, koksma__import_colour *other)
+{
+    const double share[3] = {amount, amount, amount}, rest[3] = {1 - amount, 1 - amount, 1 - amount};
+    if (amount <= 0 || amount >= 1) {
+        *c = amount <= 0 ? *c : *other;
+        return KOKSMA_OK;
+    }
+    const bool checkers = c->is_checker && other->is_checker && !memcmp(&c->period, &other->period, sizeof c->period);
+    if (!is_one_colour(c) && !is_one_colour(other) && !checkers) {
+        KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, other));
+    }
+    if (is_one_colour(other)) {
+        blend_colour(c, share, other->rgb);
+    } else if (is_one_colour(c)) {
+        const koksma__import_colour first = *c;
+        *c = *other;
+        blend_colour(c, rest, first.rgb);
+    } else {
+        blend_colour(c, share, NULL);
+        for (int k = 0; k < 3; k++) {
+            c->rgb[k] += amount * other->rgb[k];
+            c->second[k] += amount * other->second[k];
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Reads a mix: (1 - amount) tex1 + amount tex2. With an amount that varies, it is exact between two colours. */
+static koksma_status read_mix(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool is_float,
+                              koksma__import_colour *c)
+{
+    koksma__import_colour second, amount;
+    KOKSMA__TRY(find_texture_colour(scene, p, "tex1", 0, is_float, c));
+    KOKSMA__TRY(find_texture_colour(scene, p, "tex2", 1, is_float, &second));
+    KOKSMA__TRY(find_texture_colour(scene, p, "amount", 0.5, true, &amount));
+    if (!is_one_colour(&amount) && is_one_colour(c) && is_one_colour(&second)) {
+        const koksma__import_colour first = *c;
+        *c = amount;
+        for (int k = 0; k < 3; k++) {
+            const double step = second.rgb[k] - first.rgb[k];
+            c->rgb[k] = first.rgb[k] + step * amount.rgb[k];
+            c->second[k] = first.rgb[k] + step * amount.second[k];
+            c->use.tint[k] *= step;
+            c->use.plus[k] = first.rgb[k] + step * amount.use.plus[k];
+        }
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "the amount of a mix", KOKSMA__REFLECTANCE, &amount));
+    return blend(scene, p, amount.rgb[0], c, &second);
+}
+
 /* Reads the product of two textures, of which the second is of type "float". A product has no order: one colour times a
    checkerboard is a checkerboard. */
 static koksma_status read_scaled(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool is_float,
@@ -268,19 +377,23 @@ static koksma_status read_scaled(koksma__pbrt_scene *scene, const koksma__pbrt_p
     koksma__import_colour by;
     KOKSMA__TRY(find_texture_colour(scene, p, "tex", 1, is_float, c));
     KOKSMA__TRY(find_texture_colour(scene, p, "scale", 1, true, &by));
-    if (!*c->image && !c->is_checker && (by.is_checker || koksma__import_is_white(c))) {
+    if (is_one_colour(c)) {
         const koksma__import_colour first = *c;
         *c = by;
         by = first;
     }
     KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "the scale of a texture", KOKSMA__UNBOUNDED, &by));
+    if (*c->image && !is_positive(by.rgb)) {
+        return koksma__import_unknown(scene->im, p->place,
+                                      "an image times a negative colour is replaced by the image");
+    }
     for (int k = 0; k < 3; k++) {
         c->rgb[k] *= by.rgb[k];
         c->second[k] *= by.rgb[k];
+        c->use.tint[k] *= by.rgb[k];
+        c->use.plus[k] *= by.rgb[k];
     }
-    return *c->image && !koksma__import_is_white(&by)
-               ? koksma__import_unknown(scene->im, p->place, "an image times a colour is replaced by the image alone")
-               : KOKSMA_OK;
+    return KOKSMA_OK;
 }
 
 static koksma_status read_checkerboard(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool is_float,
@@ -291,6 +404,7 @@ static koksma_status read_checkerboard(koksma__pbrt_scene *scene, const koksma__
     KOKSMA__TRY(find_texture_colour(scene, p, "tex2", 0, is_float, &second));
     KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, c));
     KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, &second));
+    KOKSMA__TRY(check_mapping(scene, p));
     c->is_checker = true;
     memcpy(c->second, second.rgb, sizeof c->second);
     const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
@@ -309,11 +423,12 @@ static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, b
     koksma__import_colour first, second, *c = &to->colour;
     if (!strcmp(kind, "imagemap")) {
         KOKSMA__TRY(koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image));
-        KOKSMA__TRY(set_mapping(p, &c->mapping));
+        KOKSMA__TRY(set_mapping(scene, p, c));
         c->image_scale = 1;
-        return koksma__pbrt_number(p, "scale", 1) != 1
-                   ? koksma__import_unknown(scene->im, p->place, "an image's scale is ignored")
-                   : KOKSMA_OK;
+        return set_levels(p, is_float, c);
+    }
+    if (!strcmp(kind, "mix")) {
+        return read_mix(scene, p, is_float, c);
     }
     if (!strcmp(kind, "constant")) {
         return read_constant(scene, p, is_float, to);
@@ -477,6 +592,64 @@ static const material_kind kinds[] = {
     {"none", -1, NULL, "", NULL},
     {"", -1, NULL, "", NULL}};
 
+/* Blends material b into a; returns false if no single material scatters as both together do. A material's light is
+   linear in its albedos and in Schlick's reflectance along the normal, but in no other parameter. */
+static bool blend_materials(koksma__material *a, const koksma__material *b, double amount)
+{
+    const bool same_squares = !a->checker || !b->checker || !memcmp(&a->period, &b->period, sizeof a->period);
+    koksma__material with = *b, both = *a;
+    const bool reflects =
+        a->bsdf == &koksma__bsdf_mirror || a->bsdf == &koksma__bsdf_ggx || a->bsdf == &koksma__bsdf_utah;
+    if (a->bsdf != b->bsdf || a->image || b->image || !same_squares) {
+        return false;
+    }
+    double *from = reflects ? koksma__material_value(&with, "reflectance") : NULL;
+    double *to = reflects ? koksma__material_value(&both, "reflectance") : NULL;
+    for (int k = 0; reflects && k < 3; k++) {
+        to[k] += amount * (from[k] - to[k]);
+        from[k] = to[k];
+    }
+    if (memcmp(with.values, both.values, sizeof with.values) != 0) {
+        return false;
+    }
+    *a = both;
+    for (int k = 0; k < 6; k++) {
+        a->albedo[k / 3][k % 3] += amount * (b->albedo[k / 3][k % 3] - a->albedo[k / 3][k % 3]);
+    }
+    a->period = b->checker ? b->period : a->period;
+    a->checker |= b->checker;
+    return true;
+}
+
+/* Reads a mix, whose surface is of the second material with the probability `amount`. */
+static koksma_status mix_materials(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, int *out)
+{
+    const koksma__pbrt_parameter *both = koksma__pbrt_find_typed(p, "materials", "string");
+    koksma__import_colour share;
+    int second;
+    if (!both || both->n_texts != 2) {
+        return koksma__import_fail(p->place, "materials: a mix has the names of two materials");
+    }
+    KOKSMA__TRY(koksma__pbrt_find_material(scene, p->place, both->text, out));
+    KOKSMA__TRY(koksma__pbrt_find_material(scene, p->place, both->second, &second));
+    KOKSMA__TRY(find_texture_colour(scene, p, "amount", 0.5, true, &share));
+    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "the amount of a mix", KOKSMA__REFLECTANCE, &share));
+    const double amount = share.rgb[0];
+    if (amount <= 0 || amount >= 1 || *out == second) {
+        *out = amount <= 0 ? *out : second;
+        return KOKSMA_OK;
+    }
+    if (*out >= 0 && second >= 0) {
+        koksma__material mixed = scene->im->scene->materials[*out];
+        if (blend_materials(&mixed, &scene->im->scene->materials[second], amount)) {
+            return koksma__import_keep_material(scene->im, p->place, &mixed, out);
+        }
+    }
+    *out = amount < 0.5 ? *out : second;
+    return koksma__import_unknown(scene->im, p->place,
+                                  "a mix of different materials is replaced by the one with the larger share");
+}
+
 koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
                                     int *out)
 {
@@ -484,9 +657,7 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
     const material_kind *found = &other;
     koksma__import_material m = {.ior = 1.5};
     if (!strcmp(type, "mix")) {
-        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material 'mix' is replaced by its first material"));
-        const koksma__pbrt_parameter *both = koksma__pbrt_find_typed(p, "materials", "string");
-        return koksma__pbrt_find_material(scene, p->place, both ? both->text : "", out);
+        return mix_materials(scene, p, out);
     }
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
@@ -576,6 +747,31 @@ static koksma_status take_indices(const koksma__pbrt_parameters *p, const koksma
     return KOKSMA_OK;
 }
 
+/* Gives a mesh the texture coordinates that pbrt's triangles and bilinear patches have by default: (0, 0), (1, 0), (1, 1)
+   at the corners of each triangle; (0, 0), (1, 0), (0, 1), (1, 1) at the four of a patch, which is two triangles here, from
+   its first corner to the second and fourth, and to the fourth and third. Corners no longer share vertices. */
+static koksma_status add_default_uv(bool quads, koksma__mesh *mesh)
+{
+    static const float corners[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
+    const size_t n = 3 * mesh->n_triangles;
+    koksma__mesh out = {0};
+    koksma_status status = koksma__mesh_init(n, mesh->n_triangles, mesh->normals != NULL, true, &out);
+    for (size_t i = 0; !status && i < n; i++) {
+        const size_t from = mesh->indices[i];
+        memcpy(out.vertices + 3 * i, mesh->vertices + 3 * from, 3 * sizeof *out.vertices);
+        if (mesh->normals) {
+            memcpy(out.normals + 3 * i, mesh->normals + 3 * from, 3 * sizeof *out.normals);
+        }
+        memcpy(out.uvs + 2 * i, corners[quads && i / 3 % 2][i % 3], 2 * sizeof *out.uvs);
+        out.indices[i] = (uint32_t)i;
+    }
+    koksma__mesh_fini(status ? &out : mesh);
+    if (!status) {
+        *mesh = out;
+    }
+    return status;
+}
+
 static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv, bool quads, koksma__mesh *mesh)
 {
     const koksma__pbrt_parameter *points = koksma__pbrt_find_typed(p, "P", "point3 point"),
@@ -628,8 +824,15 @@ static koksma_status divide(koksma__pbrt_scene *scene, const koksma__pbrt_parame
     return KOKSMA_OK;
 }
 
+/* Whether a surface has an image or a checkerboard. */
+static bool is_textured(const koksma__import *im, const koksma__import_surface *surface)
+{
+    const koksma__material *m = surface->material < 0 ? NULL : &im->scene->materials[surface->material];
+    return m && (m->image || m->checker);
+}
+
 static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool quads, bool divided,
-                               int *out)
+                               const koksma__import_surface *surface, int *out)
 {
     koksma__mesh mesh = {0};
     const char *const pairs = "point2 float";
@@ -638,6 +841,9 @@ static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_par
                                                                : "";
     koksma_status status = fill_mesh(p, uv, quads, &mesh);
     status = status || !divided ? status : divide(scene, p, &mesh);
+    if (!status && (!*uv || divided) && is_textured(scene->im, surface) && !koksma__mesh_check(&mesh)) {
+        status = add_default_uv(quads, &mesh);
+    }
     if (status) {
         koksma__mesh_fini(&mesh);
         return status;
@@ -670,8 +876,55 @@ static koksma_status take_shape_alpha(koksma__import *im, const koksma__pbrt_par
     return KOKSMA_OK;
 }
 
-koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
-                                 koksma__import_item *item, double matrix[12], bool *is_there)
+/* The area of one of pbrt's shapes: of a triangle, or of a patch of a bilinear mesh, in a mesh of which each has a power of
+   its own. If they differ, as many emit evenly here as they all have power: the mean area, and a warning. */
+static koksma_status area_of_faces(koksma__pbrt_scene *scene, koksma__text_place place, const koksma__mesh *mesh,
+                                   const double placed[12], bool quads, double *out)
+{
+    const size_t each = quads ? 2 : 1, n = mesh->n_triangles / each;
+    double smallest = INFINITY, largest = 0, sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        double area = 0;
+        float corners[9];
+        for (size_t k = 0; k < each; k++) {
+            area += koksma__placed_triangle(mesh, placed, each * i + k, corners);
+        }
+        smallest = fmin(smallest, area);
+        largest = fmax(largest, area);
+        sum += area;
+    }
+    *out = n ? sum / (double)n : 0;
+    return largest > 1.001 * smallest
+               ? koksma__import_unknown(
+                     scene->im, place,
+                     "a light's power, which pbrt gives to each face, is spread evenly over faces of "
+                     "different areas")
+               : KOKSMA_OK;
+}
+
+/* Scales a light's radiance so that it has this power. */
+static koksma_status set_power(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
+                               double power, const double placed[12], koksma__import_item *item)
+{
+    const double radius = koksma__pbrt_number(p, "radius", 1);
+    double area = 0;
+    if (item->form == KOKSMA__FORM_MESH) {
+        KOKSMA__TRY(area_of_faces(scene, p->place, &scene->im->scene->meshes[item->mesh], placed,
+                                  !strcmp(type, "bilinearmesh"), &area));
+    } else if (item->form == KOKSMA__FORM_CYLINDER) {
+        area = TURN * radius * (koksma__pbrt_number(p, "zmax", 1) - koksma__pbrt_number(p, "zmin", -1));
+    } else {
+        area = (item->form == KOKSMA__FORM_DISK ? M_PI : 2 * TURN) * radius * radius;
+    }
+    for (int k = 0; k < 3; k++) {
+        const double sides = item->surface.two_sided ? 2 : 1;
+        item->surface.radiance[k] *= area > 0 ? power / (sides * M_PI * area) : 0;
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status make_shape(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
+                                koksma__import_item *item, double matrix[12], bool *is_there)
 {
     const double radius = koksma__pbrt_number(p, "radius", 1);
     koksma__import *im = scene->im;
@@ -703,12 +956,20 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
         status = koksma__import_mesh_file(im, p->place, koksma__pbrt_word(p, "filename", ""), -1,
                                           (koksma__mesh_rules){0}, &item->mesh);
     } else if (!strcmp(type, "trianglemesh") || !strcmp(type, "bilinearmesh")) {
-        status = triangles(scene, p, *type == 'b', false, &item->mesh);
+        status = triangles(scene, p, *type == 'b', false, &item->surface, &item->mesh);
     } else if (!strcmp(type, "loopsubdiv")) {
-        status = triangles(scene, p, false, true, &item->mesh);
+        status = triangles(scene, p, false, true, &item->surface, &item->mesh);
     } else {
         status = koksma__import_unknown(im, p->place, "shape '%s' is left out", type);
     }
     *is_there = item->mesh >= 0;
     return status;
+}
+
+koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
+                                 double power, const double placed[12], koksma__import_item *item, double matrix[12],
+                                 bool *is_there)
+{
+    KOKSMA__TRY(make_shape(scene, type, p, item, matrix, is_there));
+    return *is_there && item->surface.emits && power > 0 ? set_power(scene, type, p, power, placed, item) : KOKSMA_OK;
 }

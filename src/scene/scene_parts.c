@@ -163,8 +163,8 @@ static void look(const koksma_scene *scene, const box *b, double start, double e
         const double at[2] = {koksma__dot(d, camera->right), koksma__dot(d, camera->down)};
         behind += z <= 0;
         for (int k = 0; k < 2; k++) {
-            low[k] = fmin(low[k], (1 + (at[k] - blur) / far / half[k]) / 2);
-            high[k] = fmax(high[k], (1 + (at[k] + blur) / far / half[k]) / 2);
+            low[k] = fmin(low[k], (1 + ((at[k] - blur) / far - camera->shift[k]) / half[k]) / 2);
+            high[k] = fmax(high[k], (1 + ((at[k] + blur) / far - camera->shift[k]) / half[k]) / 2);
         }
     }
     const bool whole = endless || (behind % 16 && !parallel);

@@ -237,7 +237,7 @@ def materials(bench):
     bench.counts("meshes without texture coordinates", "s.xml", mitsuba(checker, mesh * n), placements=n, meshes=1, materials=2)
     bench.counts("meshes of pbrt without texture coordinates", "s.pbrt",
                  PBRT + 'Texture "t" "spectrum" "checkerboard" "rgb tex1" [.2 .2 .2] Material "diffuse" "texture reflectance" "t"\n'
-                 + f'Shape "trianglemesh" {triangle}\n' * n, placements=n, materials=3)  # and the one before any Material
+                 + f'Shape "trianglemesh" {triangle}\n' * n, placements=n, materials=2)  # and the one before any Material
     bench.counts("equal BSDFs", "s.xml", mitsuba('<shape type="sphere"><bsdf type="plastic"/></shape>' * n), shapes=n, materials=1)
     bench.counts("equal materials", "s.pbrt", PBRT + 'Material "conductor" Shape "sphere"\n' * n, shapes=n, materials=2)
     spheres = [f'Material "diffuse" "float reflectance" {(i + 1) / 2048} Shape "sphere"\n' for i in range(n)]
