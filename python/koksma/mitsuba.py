@@ -20,12 +20,20 @@ The default pattern, Owen-scrambled Sobol' points by hashing, is computed for ea
 Of every other pattern `sets` sets of two-dimensional points are made beforehand; a use takes one of them at random, in an
 order of its own (Kensler's permutation). One number is the first coordinate of two.
 
+In "scalar_..." variants Mitsuba gives a sampler no seed but a number for each pixel, seed * width * height + block *
+block_size^2 + i. The numbers of the last blocks reach into those of the next seed, so that neighbouring seeds share pixels,
+with Mitsuba's own samplers as well. There register() makes Integrator.render hand the seed to our sampler and render with
+seed 0: the number is that of the pixel, and the seed is part of each domain's key and of that of the prepared sets. For
+Mitsuba's own samplers a Renderer multiplies seeds until the numbers of neighbouring ones no longer meet.
+
 Needs Mitsuba 3.7 or later. Variants "llvm_..." take an LLVM library that Dr.Jit finds: Mitsuba 3.9 needs 17 or later
 (Debian: libllvm19 and DRJIT_LIBLLVM_PATH). The "scalar_..." variants work, slowly.
 """
 from __future__ import annotations
 
+import functools
 import os
+import threading
 import time
 from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union
 
@@ -50,6 +58,7 @@ OWEN_SOBOL = "sobol:scramble=hash-owen,shuffle=1"
 _FOR_POINT, _FOR_SHUFFLE = 2, 3  # purposes of random words, as in sampler.h
 _WORD = 0xFFFFFFFF
 _classes: Dict[str, Any] = {}  # sampler classes by variant
+_making = threading.Lock()  # held by the thread that makes the sets of a scalar variant's image; the others wait for them
 
 
 # ---- Random words and domains: sampler.h, for numbers of Python and arrays of Dr.Jit -----------------------------------
@@ -156,12 +165,15 @@ def _sampler_class(variant: str) -> Any:
                 raise ArgumentError(f"sets must be 1 to {1 << 20}, not {sets}")
             self.pattern, self.base_seed, self.sets = canonical(pattern), base_seed, sets
             self._key: Optional[Tuple[int, int]] = None
+            self.image_seed = 0  # scalar variants: the seed of the image, which render sets
+            self._made: Dict[Tuple[int, int], Tuple[Any, Any]] = {}  # scalar variants: the sets, shared by the threads
 
         def _like(self) -> Any:
             props = mi.Properties()
             props["sample_count"] = self.sample_count()
             other = KoksmaSampler(props)
             other._take(self.pattern, self.base_seed, self.sets)
+            other.image_seed, other._made = self.image_seed, self._made
             return other
 
         def fork(self) -> Any:
@@ -178,29 +190,40 @@ def _sampler_class(variant: str) -> Any:
         def seed(self, seed: Any, wavefront_size: int = _WORD) -> None:
             mi.Sampler.seed(self, seed, wavefront_size)
             self.run_seed = seed
-            of_run = int(seed[0]) if hasattr(seed, "__len__") else int(seed)
-            self._prepare(of_run)
+            given = int(seed[0]) if hasattr(seed, "__len__") else int(seed)
+            of_image = given if jit else self.image_seed
+            self._prepare(of_image)
             if jit:
                 lane = dr.arange(mi.UInt32, wavefront_size)
                 self.index = lane % mi.UInt32(self.sample_count())
-                self.domain = _domain_of_pixel(self.base_seed << 32 | of_run, lane // mi.UInt32(self.sample_count()))
-            else:  # the seed is another one for each pixel
-                self.index = 0
-                self.domain = _domain_of_pixel(self.base_seed, of_run)
+                pixel = lane // mi.UInt32(self.sample_count())
+            else:  # the number of a pixel
+                self.index, pixel = 0, given
+            self.domain = _domain_of_pixel(self.base_seed << 32 | of_image, pixel)
             self.use = dr.zeros(mi.UInt32, wavefront_size) if jit else 0
 
         def _prepare(self, seed: int) -> None:
-            """Makes the sets of points, again in each run of a wavefront: independent runs have independent sets."""
-            n = self.sample_count()
-            key = (n, seed if jit else 0)
+            """Makes the sets of points, again for each seed: independent images have independent sets."""
+            key = (self.sample_count(), seed)
             if self.pattern == OWEN_SOBOL or self._key == key:
                 return
-            first = _words((self.base_seed & _WORD, key[1]), _FOR_POINT, (0, 0), 0)
+            if jit:
+                self.xs, self.ys = map(mi.UInt32, self._make(*key))
+            else:
+                with _making:
+                    if key not in self._made:
+                        made = tuple(column.tolist() for column in self._make(*key))
+                        self._made.clear()
+                        self._made[key] = made
+                    self.xs, self.ys = self._made[key]
+            self._key = key
+
+        def _make(self, n: int, seed: int) -> Tuple[npt.NDArray[np.uint32], npt.NDArray[np.uint32]]:
+            first = _words((self.base_seed & _WORD, seed), _FOR_POINT, (0, 0), 0)
             start = first[0] << 31  # room for the seeds of the sets
             points = np.concatenate([generate(self.pattern, n, 2, start + s) for s in range(self.sets)])
             fractions = np.floor(points * 2.0 ** 32).astype(np.uint32)
-            self.xs, self.ys = (mi.UInt32(fractions[:, k].copy()) if jit else fractions[:, k].tolist() for k in range(2))
-            self._key = key
+            return fractions[:, 0].copy(), fractions[:, 1].copy()
 
         def advance(self) -> None:
             if jit:
@@ -244,6 +267,27 @@ def _sampler_class(variant: str) -> Any:
     return KoksmaSampler
 
 
+def _hand_over_seeds() -> None:
+    """Scalar variants: Integrator.render gives our sampler the image's seed, and Mitsuba the seed 0 (above)."""
+    plain = mi.Integrator.render
+    ours = _classes[mi.variant()]
+    rendering: List[Any] = []  # samplers of renders that are under way
+
+    @functools.wraps(plain)
+    def render(self: Any, scene: Any, sensor: Any = 0, seed: Any = 0, *arguments: Any, **options: Any) -> Any:
+        sampler = (scene.sensors()[sensor] if isinstance(sensor, int) else sensor).sampler()
+        if not isinstance(sampler, ours) or any(other is sampler for other in rendering):  # integrators in Python come here again, with seed 0
+            return plain(self, scene, sensor, seed, *arguments, **options)
+        sampler.image_seed = int(seed) & _WORD
+        rendering.append(sampler)
+        try:
+            return plain(self, scene, sensor, 0, *arguments, **options)
+        finally:
+            rendering.remove(sampler)
+
+    mi.Integrator.render = render
+
+
 def register(name: str = "koksma") -> None:
     """Registers the sampler plug-in for the variant that is set. Call it again after mi.set_variant.
 
@@ -256,11 +300,14 @@ def register(name: str = "koksma") -> None:
         raise ArgumentError("no variant of Mitsuba is set: call mi.set_variant(\"llvm_ad_rgb\") before")
     if variant not in _classes:
         _classes[variant] = _sampler_class(variant)
+        if not dr.is_jit_v(mi.Float):
+            _hand_over_seeds()
     mi.register_sampler(name, _classes[variant])
 
 
 # ---- Rankings ------------------------------------------------------------------------------------------------------
 
+_BLOCK = 32  # the side of Mitsuba's largest blocks of pixels, if the integrator has no block_size
 _KEPT = 16  # scenes that a Renderer keeps: one for each sampler, as a round of a ranking goes through them all
 OWN = ("independent", "stratified", "multijitter", "orthogonal", "ldsampler")  #: Mitsuba's own samplers
 
@@ -290,6 +337,7 @@ class Renderer:
         register()
         self.scene: Union[str, Dict[str, Any]] = scene if isinstance(scene, dict) else os.fspath(scene)
         self._loaded: Dict[Any, Any] = {}
+        self._blocks: Tuple[int, int] = (_BLOCK, 1)  # an integrator's block_size, and passes over a picture at most
 
     def load(self, pattern: str, spp: int, size: Optional[Tuple[int, int]] = None) -> Any:
         """The scene with a sampler of its sensors, and with a size of its films, other than in its file."""
@@ -300,6 +348,7 @@ class Renderer:
             state = mi.parser.parse_dict(config, self.scene) if given else mi.parser.parse_file(config, self.scene)
             mi.parser.transform_all(config, state)
             self._set(state, pattern, spp, size)
+            self._blocks = self._blocks_of(state, spp)
             scenes = mi.parser.instantiate(config, state)
             while len(self._loaded) >= _KEPT:  # scenes are large
                 del self._loaded[next(iter(self._loaded))]
@@ -325,11 +374,30 @@ class Renderer:
             elif node.type == mi.ObjectType.Film and size:
                 node.props["width"], node.props["height"] = size
 
+    @staticmethod
+    def _blocks_of(state: Any, spp: int) -> Tuple[int, int]:
+        side, passes = _BLOCK, 1
+        for node in state.nodes:
+            if node.type == mi.ObjectType.Integrator:
+                side = max(side, int(node.props.get("block_size", 0)))
+                passes = max(passes, -(-spp // (int(node.props.get("samples_per_pass", spp)) or spp)))
+        return 1 << (side - 1).bit_length(), passes
+
+    def _spread(self, scene: Any, seed: int) -> int:
+        """The seed for one of Mitsuba's own samplers in a scalar variant: a multiple, by which the numbers of the pixels of
+        one seed, those of whole blocks, end before those of the next begin. Odd, so that no two seeds meet modulo 2^32."""
+        (width, height), (side, passes) = map(int, scene.sensors()[0].film().crop_size()), self._blocks
+        numbers = (width + side - 1) * (height + side - 1) * passes
+        return seed * (-(-numbers // (width * height)) | 1) & _WORD
+
     def __call__(self, asked: Asked) -> npt.NDArray[np.float32]:
         pattern, star, factor = asked.pattern.partition("*")
         spp = max(1, round(asked.spp * float(factor))) if star else asked.spp
         try:
-            image = np.array(mi.render(self.load(pattern, spp, asked.size), spp=spp, seed=asked.seed), dtype=np.float32)
+            scene, seed = self.load(pattern, spp, asked.size), asked.seed
+            if pattern in OWN and not dr.is_jit_v(mi.Float):
+                seed = self._spread(scene, seed)
+            image = np.array(mi.render(scene, spp=spp, seed=seed), dtype=np.float32)
         except RuntimeError as error:  # Dr.Jit's around the sampler's own
             reason: Optional[BaseException] = error
             while reason is not None and not isinstance(reason, (ArgumentError, UnsupportedError)):

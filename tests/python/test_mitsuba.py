@@ -51,6 +51,59 @@ def checker(pattern, spp):
     return scene
 
 
+class Signature(mi.SamplingIntegrator):
+    """A pixel's value is a mean over its samples of (x, y, x y): equal for two pixels only if they draw equal points."""
+
+    def sample(self, scene, sampler, ray, medium=None, active=True):
+        p = sampler.next_2d(active)
+        return mi.Color3f(p.x, p.y, p.x * p.y), mi.Bool(True), []
+
+
+mi.register_integrator("signature", Signature)
+
+
+def signatures(width, height, **integrator):
+    """A scene whose picture shows which points each pixel draws."""
+    return {"type": "scene", "integrator": {"type": "signature", **integrator}, "sensor": {"type": "perspective", "film": {
+        "type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"}}}}
+
+
+def shared_between(pictures):
+    """The largest number of pixels of one picture whose points another has, too."""
+    sets = [set(map(tuple, np.round(picture.reshape(-1, 3).astype(float), 6))) for picture in pictures]
+    return max(len(a & b) for i, a in enumerate(sets) for b in sets[:i])
+
+
+# films that are no multiple of a block, or smaller than one: width, height, samples, the integrator's properties
+FILMS = ((35, 33, 1, {}), (33, 5, 2, {}), (5, 7, 4, {}), (10, 12, 2, {"block_size": 8}), (16, 16, 1, {}))
+
+
+class Seeds(unittest.TestCase):
+    """Pictures of different seeds are independent: none of their pixels has the samples of one in another picture."""
+
+    def test_plug_in(self):
+        for width, height, spp, integrator in FILMS:
+            for pattern, sets in ((km.OWEN_SOBOL, 1), ("n-rooks", 32)):
+                with self.subTest(film=(width, height), pattern=pattern):
+                    scene = signatures(width, height, **integrator)
+                    scene["sensor"]["sampler"] = {"type": "koksma", "pattern": pattern, "sample_count": spp, "sets": sets}
+                    scene = mi.load_dict(scene)
+                    pictures = [np.array(mi.render(scene, spp=spp, seed=seed)) for seed in range(8)]
+                    self.assertEqual(shared_between(pictures), 0)
+                    if pattern == km.OWEN_SOBOL:  # nor has one of the same picture
+                        self.assertEqual(len(np.unique(pictures[0].reshape(-1, 3), axis=0)), width * height)
+                    again = np.array(scene.integrator().render(scene, scene.sensors()[0], 3, spp))
+                    np.testing.assert_array_equal(again, pictures[3])
+
+    def test_rankings(self):
+        """Likewise of Mitsuba's own samplers in rankings, whose seeds meet in scalar variants when they are handed on."""
+        for width, height, spp, integrator in FILMS:
+            for pattern in ("independent", "n-rooks"):
+                with self.subTest(film=(width, height), pattern=pattern):
+                    renderer = km.Renderer(signatures(width, height, **integrator))
+                    self.assertEqual(shared_between([renderer(koksma.Asked("", pattern, spp, None, s)) for s in range(8)]), 0)
+
+
 class Samplers(unittest.TestCase):
     def setUp(self):
         km.register()
