@@ -34,7 +34,7 @@ static void put_metrics(cli_rows *rows, const comparison *c, bool json)
         const koksma_metric_value *sum = &c->values[i];
         const double images = (double)c->images;
         const koksma_metric_value mean = {sum->value / images, sum->robust / images, sum->top_share / images,
-                                          sum->top};
+                                          sum->top, sum->caveat};
         if (i) {
             cli_row_number(rows, name, mean.value);
         }
@@ -44,7 +44,7 @@ static void put_metrics(cli_rows *rows, const comparison *c, bool json)
             snprintf(text, sizeof text, "%s_top_share", name);
             cli_row_number(rows, text, mean.top_share);
         }
-        cli_warn_of_few_pixels("compare", c->images > 1 ? "mean of the images" : "image", name, &mean);
+        cli_warn_of_value("compare", c->images > 1 ? "mean of the images" : "image", name, &mean);
     }
 }
 
@@ -120,6 +120,7 @@ static koksma_status add_metrics(comparison *c, const koksma_image *image)
             c->values[i].robust += value.robust;
             c->values[i].top_share += value.top_share;
             c->values[i].top = value.top;
+            c->values[i].caveat = value.caveat; /* of the reference: the same for all images */
         }
     }
     return status;

@@ -58,6 +58,14 @@ bool cli_one_metric(const cli_arguments *arguments, cli_metrics *metrics)
     return good && metrics->n == 1;
 }
 
+void cli_warn_of_value(const char *command, const char *subject, const char *metric, const koksma_metric_value *value)
+{
+    if (value->caveat) {
+        cli_say(command, "warning: %s: %s", metric, value->caveat);
+    }
+    cli_warn_of_few_pixels(command, subject, metric, value);
+}
+
 void cli_warn_of_few_pixels(const char *command, const char *subject, const char *metric,
                             const koksma_metric_value *value)
 {

@@ -21,6 +21,10 @@ bool cli_metrics_parse(const cli_arguments *arguments, bool once, cli_metrics *m
 /* Reads --metric as one metric, by default mae. Returns false after an error. */
 bool cli_one_metric(const cli_arguments *arguments, cli_metrics *metrics);
 
+/* Warns of a value's caveat, and as below. */
+void cli_warn_of_value(const char *command, const char *subject, const char *metric,
+                       const koksma_metric_value *value);
+
 /* Warns when few pixels carry most of the error. subject: the beginning of the message, such as a pattern's name. */
 void cli_warn_of_few_pixels(const char *command, const char *subject, const char *metric,
                             const koksma_metric_value *value);

@@ -138,6 +138,9 @@ typedef struct koksma_metric {
     bool in_all_studies;        /* true: cheap beside a render, so that studies evaluate it for every image */
     /* Computes the error of each pixel; `errors` receives width x height numbers. Returns OK or MEMORY. */
     koksma_status (*errors)(const koksma_metric_input *input, double *errors);
+    /* Returns how the value of such images differs from what users of the metric expect, or NULL; NULL if it never
+       does */
+    const char *(*caveat)(const koksma_metric_input *input);
 } koksma_metric;
 
 /* Returns metric i of the table, or the metric with this name, or NULL if there is none. */
@@ -160,9 +163,11 @@ KOKSMA_API void koksma_metric_text(const koksma_metric_spec *spec, char *text);
 
 typedef struct koksma_metric_value {
     double value;
-    double robust;    /* the value without the `top` pixels that have the largest error */
-    double top_share; /* fraction, 0 .. 1, of the summed error of all pixels that comes from the `top` pixels */
-    size_t top;       /* number of pixels that `robust` leaves out: 0.1 % of all, rounded down; 0 below 1000 */
+    double robust;      /* the value without the `top` pixels that have the largest error */
+    double top_share;   /* fraction, 0 .. 1, of the summed error of all pixels that comes from the `top` pixels */
+    size_t top;         /* number of pixels that `robust` leaves out: 0.1 % of all, rounded down; 0 below 1000 */
+    const char *caveat; /* what a user must know of the value, in words, such as where an implementation of the
+                           metric's authors gives another one; NULL: nothing. Valid as long as the library */
 } koksma_metric_value;
 
 /* If top_share is at least this number, a few pixels carry most of the error. */

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from ctypes import POINTER, byref, c_float, create_string_buffer
 from dataclasses import dataclass, field
-from typing import Any, Dict, Iterable, List, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -167,6 +167,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     target = as_image(reference)
     c_target, raw, error, values = view_image(target), s.Coherence(), s.ImageError(), s.CoherenceValues()
     errors: List[List[float]] = []
+    caveats: Dict[str, Optional[bytes]] = {}
     found: Dict[str, List[List[float]]] = {name: [] for name in specs}
     value = s.MetricValue()
     check(lab().koksma_coherence_init(byref(raw), target.shape[1], target.shape[0]))
@@ -179,6 +180,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
             for name, spec in specs.items():
                 check(lab().koksma_metric_evaluate(byref(spec), byref(c_image), byref(c_target), byref(value)))
                 found[name].append([value.value, value.robust, value.top_share])
+                caveats[name] = value.caveat  # of the reference: the same for all images
             errors.append([error.mean, error.sd, error.max, error.rmse])
         if not errors:
             raise ArgumentError("a comparison takes at least one image")
@@ -187,6 +189,9 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
         lab().koksma_coherence_fini(byref(raw))
     mean, sd, most, rmse = (sum(column) / len(errors) for column in zip(*errors))
     values_of = {name: MetricValue(*(sum(column) / len(errors) for column in zip(*rows))) for name, rows in found.items()}
+    for name, caveat in caveats.items():
+        if caveat:
+            warnings.warn(f"{name}: {caveat.decode()}", RuntimeWarning, stacklevel=2)
     for name, averaged in values_of.items():
         if averaged.top_share >= FEW_PIXELS:
             warnings.warn(f"0.1 % of the pixels carry {100 * averaged.top_share:.0f} % of the error; without them {name} is "

@@ -121,7 +121,7 @@ class MetricSpec(Structure):
 
 
 class MetricValue(Structure):
-    _fields_ = [("value", c_double), ("robust", c_double), ("top_share", c_double), ("top", c_size_t)]
+    _fields_ = [("value", c_double), ("robust", c_double), ("top_share", c_double), ("top", c_size_t), ("caveat", c_char_p)]
 
 
 class Coherence(Structure):

@@ -213,6 +213,24 @@ static void flip_of_constant_images_is_closed(void **state)
     release(&p);
 }
 
+/* A caveat where the reference's median is 0, for hdr-flip alone, the only metric that looks at a median. */
+static void metrics_warn_where_most_is_black(void **state)
+{
+    (void)state;
+    const koksma_metric *metric;
+    const int blacks[] = {0, WIDTH * HEIGHT / 2, WIDTH * HEIGHT / 2 + 1, WIDTH * HEIGHT};
+    for (size_t m = 0; (metric = koksma_metric_at(m)); m++) {
+        for (int b = 0; b < 4; b++) {
+            pair p = noisy();
+            for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) {
+                p.reference.pixels[i] = i < 3 * blacks[b] ? 0 : p.reference.pixels[i] + 0.1F;
+            }
+            assert_int_equal(evaluate(metric->name, &p).caveat != NULL, b > 1 && !strcmp(metric->name, "hdr-flip"));
+            release(&p);
+        }
+    }
+}
+
 static void flip_is_that_of_its_authors(void **state)
 {
     (void)state;
@@ -296,6 +314,7 @@ int main(void)
         cmocka_unit_test(flip_is_that_of_its_authors),
         cmocka_unit_test(wrong_input_is_refused),
         cmocka_unit_test(bits_go_by_revision),
+        cmocka_unit_test(metrics_warn_where_most_is_black),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

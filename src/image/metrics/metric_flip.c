@@ -22,7 +22,8 @@
  * exposures e from e0 = log2(x / largest luminance) to e1 = log2(x / median luminance) of the reference, where the
  * tone-mapper maps grey x to 0.85. The value of a pixel is its largest LDR-FLIP over all exposures. A median of 0, a
  * case that the paper leaves open, is replaced by the median of the pixels above 0; a black reference has only the
- * exposure e = 0.
+ * exposure e = 0. The authors' program (flip-evaluator 1.7) takes 2^-23 for such a median, which adds exposures up to
+ * 23 stops in which the image is white but for its black pixels, and refuses black references.
  *
  * ppd: pixels per degree = (distance / width of the monitor) x (pixels across the monitor) x pi / 180; the papers'
  * default is 67.02, for 3840 pixels across 0.7 m, seen from 0.7 m.
@@ -397,6 +398,21 @@ static void find_exposures(const double *reference, size_t n, const curve *t, do
     *last = dark < n ? koksma__log(x / median) / LN2 : 0;
 }
 
+/* A median of 0 is where find_exposures leaves the implementation of the paper's authors. */
+static const char *black_caveat(const koksma_metric_input *in)
+{
+    const size_t n = (size_t)in->width * (size_t)in->height;
+    size_t dark = 0;
+    for (size_t p = 0; p < n; p++) {
+        dark += !(KOKSMA__LUMINANCE(in->reference + 3 * p) > 0);
+    }
+    return dark <= n / 2 ? NULL
+           : dark == n
+               ? "the whole reference is black, so the exposure is 2^0 alone; the authors' flip-evaluator refuses it"
+               : "more than half of the reference is black, so the largest exposure follows from the median of "
+                 "the pixels above 0; the authors' flip-evaluator takes 2^-23, and gives much larger values";
+}
+
 static void expose(const double *in, size_t n, double scale, int tone_mapper, const curve *t, double *out)
 {
     for (size_t p = 0; p < 3 * n; p += 3) {
@@ -456,9 +472,13 @@ const koksma_metric koksma__metric_ldr_flip = {
 
 const koksma_metric koksma__metric_hdr_flip = {
     .name = "hdr-flip",
-    .title = "HDR-FLIP: the largest LDR-FLIP over a range of exposures; from 0 to 1",
+    .title =
+        "HDR-FLIP: the largest LDR-FLIP over a range of exposures; from 0 to 1. If more than half of the reference "
+        "is black, the median that sets the largest exposure is that of the pixels above 0; the authors' "
+        "flip-evaluator takes 2^-23 for it, exposes up to 23 stops further, and gives much larger values",
     .cite = "andersson2021",
     .params = hdr_params,
     .channels = 3,
     .errors = hdr_errors,
+    .caveat = black_caveat,
 };

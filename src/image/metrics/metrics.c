@@ -170,6 +170,7 @@ static koksma_status evaluate(const koksma_metric_spec *specs, size_t n, int cha
         status = koksma__call_end(kept, metric->errors(&in, errors), "koksma_metric.errors");
         if (!status) {
             out[m] = koksma__metric_pool(metric, errors, pixels);
+            out[m].caveat = metric->caveat ? metric->caveat(&in) : NULL;
         }
     }
     return status;
