@@ -84,6 +84,9 @@ static int put_row(const cli_arguments *arguments, const comparison *c)
 static koksma_status read_numbers(const char *path, koksma_image *image)
 {
     const koksma_status status = koksma_image_read(path, image);
+    if (!status && *koksma_image_remark()) {
+        cli_say("compare", "%s: warning: %s", path, koksma_image_remark());
+    }
     return status ? status : koksma_image_check_finite(image, path);
 }
 

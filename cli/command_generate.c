@@ -112,6 +112,9 @@ static koksma_status make_in(const cli_source *source, const target *t, uint64_t
     if (status) {
         return status;
     }
+    if (t->density && *koksma_image_remark()) {
+        cli_say("generate", "%s: warning: %s", t->density, koksma_image_remark());
+    }
     status = t->on     ? koksma_generate_on(&source->spec, seed, t->on, run, points)
              : t->size ? koksma_generate_rectangle(&source->spec, seed, t->width, t->height, t->density ? &map : NULL,
                                                    run, points)

@@ -37,18 +37,25 @@ KOKSMA_API void koksma_image_fini(koksma_image *image);
 /* Reads an image; recognises the format by the file's content; allocates out.
      EXR   the first part of the file; scan lines or tiles; channels R, G and B, or Y, or a single channel. Files
            with compression B44, B44A, DWAA or DWAB are read with half precision, and if they have a single channel,
-           its name must be Y
+           its name must be Y. Colours of other `chromaticities` than Rec. 709's are converted to those, by way of CIE
+           XYZ and without adaptation to another white
      PNG   1 to 16 bits, sRGB; if the file has a gAMA chunk but neither sRGB nor iCCP, its power law replaces the
            sRGB curve (1.0: linear)
-     PFM   Pf and PF in either byte order; the magnitude of the scale is ignored; extra bytes at the end are an error
+     PFM   Pf and PF in either byte order; the magnitude of the scale is ignored (koksma_image_remark); extra bytes at the end are an error
      JPEG  baseline or progressive, Huffman-coded, grey or colour, sRGB; a colour profile is not applied; a file that
            is cut short, that lacks a scan, in which the decoder sees damaged data, or that has more than 100 scans is an
            error
    Alpha and further channels are dropped; colours are not multiplied by alpha.
    Errors: MISSING, MALFORMED (also for valid files that this function cannot read: deep or subsampled EXR files,
+   those of a compression that is newer than the library,
    and files with B44 or DWA compression that have channels other than those above, or values above 65504),
    UNSUPPORTED (this build lacks the format), MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
+
+/* Returns what is odd about the image that this thread read last, as one line without the file's name: a PFM file whose
+   scale is neither 1 nor -1, which programs understand in different ways. "": nothing. The string is valid until the thread
+   reads another image. */
+KOKSMA_API const char *koksma_image_remark(void);
 
 /* Returns the name of image format i, or NULL past the last format.
      left_out  receives the name of the library that the format needs and this build lacks, or NULL if the format is

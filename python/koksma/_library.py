@@ -227,6 +227,7 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_image_init", image, c_int, c_int, c_int)
     _declare(library, None, "koksma_image_fini", image)
     _declare(library, c_int, "koksma_image_read", c_char_p, image)
+    _declare(library, c_char_p, "koksma_image_remark")
     _declare(library, c_int, "koksma_generate_density", POINTER(s.Spec), c_uint64, image, POINTER(s.Run), POINTER(s.Points))
     _declare(library, c_int, "koksma_generate_rectangle", POINTER(s.Spec), c_uint64, c_double, c_double, image, POINTER(s.Run),
              POINTER(s.Points))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import warnings
 from ctypes import byref, c_void_p, create_string_buffer, pointer
 from dataclasses import dataclass, field
 from typing import Any, Dict, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
@@ -381,6 +382,8 @@ def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
 def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:
     """Reads an image as linear light.
 
+    A warning names what is odd about the file: the scale of a PFM file that is not 1.
+
     Parameters
     ----------
     path : str or path
@@ -403,6 +406,8 @@ def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:
     """
     image = s.Image()
     check(lab().koksma_image_read(text(path, "path"), byref(image)))
+    if remark := lab().koksma_image_remark().decode():
+        warnings.warn(f"{os.fspath(path)}: {remark}", stacklevel=2)
     return adopt_image(image)
 
 

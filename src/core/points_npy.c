@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* NumPy's .npy, versions 1 to 3: little- or big-endian float32 and float64 arrays of shape (n, dim) or (n,), in C or
-   Fortran order. Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html */
+/* NumPy's .npy, versions 1 to 3: little- or big-endian arrays of shape (n, dim) or (n,), in C or Fortran order, of float16,
+   float32, float64, or integers. An unsigned integer of b bits is a fraction of 2^b, as in the tables of renderers; a
+   signed integer is that number, and so 0 or 1. Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html */
 #include "core/points_npy.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +17,7 @@ enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 2048, WRITTEN_AT_ONCE = 1 << 18 };
 typedef struct layout {
     size_t n, dim;
     size_t item_size;
+    char kind; /* NumPy's: f, u or i */
     bool big_endian, fortran_order;
 } layout;
 
@@ -81,13 +84,14 @@ static koksma_status parse_header(const char *name, const char *header, layout *
     if (!type || !order || !shape || *shape != '(') {
         return malformed(name, "descr, fortran_order or shape is missing");
     }
-    const bool typed = type[0] == '\'' && (type[1] == '<' || type[1] == '>');
-    const bool float64 = typed && !strncmp(type + 2, "f8'", 3), float32 = typed && !strncmp(type + 2, "f4'", 3);
-    if (!float64 && !float32) {
-        return malformed(name, "the type is not float32 or float64");
+    const bool typed = type[0] == '\'' && type[1] && strchr("<>|", type[1]) && type[2] && strchr("fui", type[2]) &&
+                       type[3] && strchr("1248", type[3]) && type[4] == '\'';
+    if (!typed || (type[1] == '|') != (type[3] == '1') || (type[2] == 'f' && type[3] == '1')) {
+        return malformed(name, "the type is not float16, float32, float64 or an integer");
     }
     out->big_endian = type[1] == '>';
-    out->item_size = float64 ? 8 : 4;
+    out->kind = type[2];
+    out->item_size = (size_t)(type[3] - '0');
     out->fortran_order = !strncmp(order, "True", 4);
     if (!out->fortran_order && strncmp(order, "False", 5) != 0) {
         return malformed(name, "fortran_order is neither True nor False");
@@ -116,11 +120,31 @@ static koksma_status read_header(FILE *stream, const char *name, layout *out)
     return parse_header(name, header, out);
 }
 
+/* The number with these 16 bits: a sign, 5 bits of exponent and 10 of mantissa (IEEE 754). */
+static double half_float(uint64_t bits)
+{
+    const int exponent = (int)(bits >> 10 & 31);
+    const double mantissa = (double)(bits & 1023), sign = bits >> 15 ? -1 : 1;
+    return exponent == 31 ? sign * (mantissa > 0 ? NAN : INFINITY)
+                          : sign * ldexp(exponent ? 1024 + mantissa : mantissa, (exponent ? exponent : 1) - 25);
+}
+
 static double decode(const unsigned char *bytes, const layout *l)
 {
     uint64_t bits = 0;
     for (size_t i = 0; i < l->item_size; i++) {
         bits = bits << 8 | bytes[l->big_endian ? i : l->item_size - 1 - i];
+    }
+    const int width = 8 * (int)l->item_size;
+    if (l->kind == 'u') {
+        return ldexp((double)bits, -width);
+    }
+    if (l->kind == 'i') { /* shifted, because the sign bit is the highest one of 64 then */
+        const uint64_t high = bits << (64 - width);
+        return high >> 63 ? -1 - (double)(~high >> (64 - width)) : (double)bits;
+    }
+    if (l->item_size == 2) {
+        return half_float(bits);
     }
     if (l->item_size == 4) {
         const uint32_t bits32 = (uint32_t)bits;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Reads and writes points as text: one point per line, with numbers as `%.17g`, after lines `# key value`. Reading
-   accepts blanks, commas and tabs between fields, comments from a # to the end of the line, and a CSV header. If there
+   accepts blanks, commas and tabs between fields, comments from a # to the end of the line, and a CSV header. A line with
+   nothing but a # ends a set in the files of UTK (utk-team/utk), which may hold several; one set is read, so that points
+   after such a line are an error. If there
    is a line `# n N` or `# dim D`, it must match the points. Test files with known values have another form: a preamble
    of lines `key number`, ended by a line `points`. Its lines `n N` and `dim D` must also match. */
 #include "core/points_text.h"
@@ -27,6 +29,7 @@ typedef struct reader {
     size_t line_number, length;
     uint64_t bytes; /* total length of all lines so far */
     bool header_seen;
+    size_t ended_at;  /* the line that ended the set; 0: none */
     bool in_preamble; /* true after a line `key number`, until the line `points` */
     size_t header_fields;
     unsigned long long promised_n, promised_dim; /* 0: nothing promised */
@@ -264,8 +267,13 @@ static koksma_status take_line(reader *r)
         return KOKSMA_OK;
     }
     if (*s == '#') {
+        const bool ends = r->points->dim && !*skip_blanks(s + 1);
+        r->ended_at = ends && !r->ended_at ? r->line_number : r->ended_at;
         return read_promise(r, s, "# %7[a-z] %23[0-9]%c");
     }
+    KOKSMA__FAIL_IF(r->ended_at, KOKSMA_MALFORMED,
+                    "%s: line %zu: the line '#' ends a set of %zu points, but more follow; put each set into a file",
+                    r->name, r->ended_at, r->points->n / (size_t)r->points->dim);
     cut_comment(s);
     koksma_status status = KOKSMA_OK;
     if (r->points->dim == 0 && !r->header_seen && take_preamble(r, s, &status)) {

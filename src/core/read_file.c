@@ -94,11 +94,28 @@ static koksma_status open_path(const char *path, koksma__file_kind kind, koksma_
     return status;
 }
 
+/* Fails if a file is a pointer of Git LFS, the text that stands for a file that was not fetched. Every kind of file may be
+   one, and to each reader it would be damaged in another way. */
+static koksma_status check_pointer(const char *path, int descriptor)
+{
+    static const char start[] = "version https://git-lfs.github.com/spec/";
+    char bytes[sizeof start - 1];
+    const bool is_pointer =
+        pread(descriptor, bytes, sizeof bytes, 0) == (ssize_t)sizeof bytes && !memcmp(bytes, start, sizeof bytes);
+    return is_pointer
+               ? koksma__fail(KOKSMA_MISSING,
+                              "%s: it is a Git LFS pointer, not the file itself: 'git lfs pull' fetches that", path)
+               : KOKSMA_OK;
+}
+
 koksma_status koksma__file_open(const char *path, koksma__file_kind kind, koksma__named by, FILE **stream)
 {
     int descriptor;
     *stream = by == KOKSMA__BY_USER && !strcmp(path, "-") ? stdin : NULL;
     koksma_status status = *stream ? KOKSMA_OK : open_path(path, kind, by, &descriptor);
+    if (!status && !*stream && (status = check_pointer(path, descriptor))) {
+        close(descriptor);
+    }
     if (!status && !*stream && !(*stream = fdopen(descriptor, "rb"))) {
         status = koksma__fail(KOKSMA_SYSTEM, "%s: can't be read: %s", path, strerror(errno));
         close(descriptor);

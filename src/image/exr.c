@@ -5,7 +5,14 @@
  *
  * OpenEXR takes time quadratic in the numbers of attributes and channels: 100,000 channels, in 2.4 MB, take a minute. So
  * both are counted, over all parts of a file, before OpenEXR sees the file. Films have some hundreds of channels.
+ *
+ * The attribute `chromaticities` says which colours red, green, blue and white are; without it they are those of Rec. 709,
+ * as everywhere here. Colours of others are converted: to CIE XYZ, and from there, without adaptation to another white.
+ * With P the columns (x/y, 1, (1-x-y)/y) of the primaries, RGB = (1,1,1) is the white of luminance 1, so that XYZ = P
+ * diag(s) RGB with P s = white (SMPTE RP 177).
  */
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "image/exr.h"
@@ -43,13 +50,29 @@ static size_t count_channels(const unsigned char *value, size_t size)
     return n;
 }
 
+/* What the header of the first part says: the place of its chromaticities, or NULL, and its compression. */
+typedef struct header {
+    const unsigned char *chromaticities;
+    int compression;
+} header;
+
+static void note_attribute(const char *name, const unsigned char *value, size_t size, header *out)
+{
+    if (!strcmp(name, "chromaticities") && size == 32) {
+        out->chromaticities = value;
+    } else if (!strcmp(name, "compression") && size == 1) {
+        out->compression = *value;
+    }
+}
+
 /* An attribute is name, type, size and value; an empty name ends a header, and an empty header ends the headers of a
    file of several parts (https://openexr.com/en/latest/OpenEXRFileLayout.html). At a size that is wrong counting ends,
    as reading does. */
-static koksma_status check_header(const unsigned char *bytes, size_t size)
+static koksma_status check_header(const unsigned char *bytes, size_t size, header *out)
 {
     const bool parts = size > 8 && (bytes[5] & 0x10);
     size_t attributes = 0, channels = 0;
+    bool first = true;
     for (size_t at = 8; at < size && bytes[at] && attributes <= MOST_ATTRIBUTES && channels <= MOST_CHANNELS;) {
         const size_t type = skip_text(bytes, size, at), length = skip_text(bytes, size, type);
         if (size - length < 4) {
@@ -59,10 +82,14 @@ static koksma_status check_header(const unsigned char *bytes, size_t size)
                              (size_t)bytes[length + 3] << 24;
         const size_t left = size - length - 4;
         attributes++;
+        if (first && value <= left) {
+            note_attribute((const char *)bytes + at, bytes + length + 4, value, out);
+        }
         channels += strcmp((const char *)bytes + type, "chlist") != 0
                         ? 0
                         : count_channels(bytes + length + 4, value < left ? value : left);
         at = value < left ? length + 4 + value : size;
+        first &= at < size && bytes[at];
         at += parts && at + 1 < size && !bytes[at];
     }
     if (attributes > MOST_ATTRIBUTES || channels > MOST_CHANNELS) {
@@ -72,12 +99,123 @@ static koksma_status check_header(const unsigned char *bytes, size_t size)
     return KOKSMA_OK;
 }
 
+/* ---- Colours ------------------------------------------------------------------------------------------- */
+
+/* The determinant of the matrix whose columns are a, b and c. */
+static double determinant(const double a[3], const double b[3], const double c[3])
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) +
+           c[0] * (a[1] * b[2] - a[2] * b[1]);
+}
+
+/* Solves a u + b v + c w = d by Cramer's rule; returns false if there is no solution. */
+static bool solve(double columns[3][3], const double d[3], double out[3])
+{
+    const double whole = determinant(columns[0], columns[1], columns[2]);
+    for (int k = 0; k < 3; k++) {
+        out[k] = determinant(k == 0 ? d : columns[0], k == 1 ? d : columns[1], k == 2 ? d : columns[2]) / whole;
+    }
+    return isfinite(out[0]) && isfinite(out[1]) && isfinite(out[2]);
+}
+
+/* The XYZ of red, green and blue (columns) from the chromaticities x, y of red, green, blue and white. The primaries'
+   columns are (x, y, 1 - x - y), which may have y = 0; their lengths follow from the white. */
+static bool to_xyz(const double xy[8], double columns[3][3])
+{
+    double white[3], lengths[3];
+    for (int k = 0; k < 4; k++) {
+        double *to = k < 3 ? columns[k] : white;
+        to[0] = xy[2 * k];
+        to[1] = xy[2 * k + 1];
+        to[2] = 1 - to[0] - to[1];
+    }
+    for (int k = 0; k < 3; k++) {
+        white[k] /= xy[7];
+    }
+    if (!solve(columns, white, lengths)) {
+        return false;
+    }
+    for (int k = 0; k < 9; k++) {
+        columns[k / 3][k % 3] *= lengths[k / 3];
+    }
+    return true;
+}
+
+static double float_at(const unsigned char *b)
+{
+    const uint32_t word = (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0];
+    float x;
+    memcpy(&x, &word, sizeof x);
+    return (double)x;
+}
+
+/* Converts the colours of an image with other primaries or white to those of Rec. 709; a grey image has none. */
+static koksma_status convert(const unsigned char *chromaticities, koksma_image *image)
+{
+    static const double rec709[8] = {0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290};
+    double xy[8], from[3][3], to[3][3], matrix[3][3];
+    bool same = true, usable = true;
+    for (int k = 0; k < 8; k++) {
+        xy[k] = float_at(chromaticities + 4 * k);
+        same &= fabs(xy[k] - rec709[k]) < 1e-4;
+    }
+    if (same || image->channels != 3) {
+        return KOKSMA_OK;
+    }
+    usable = to_xyz(xy, from) && to_xyz(rec709, to);
+    for (int k = 0; usable && k < 3; k++) {
+        usable = solve(to, from[k], matrix[k]);
+    }
+    KOKSMA__FAIL_IF(!usable, KOKSMA_MALFORMED, "as an EXR: its chromaticities are those of no colour space");
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
+        float *pixel = image->pixels + 3 * i;
+        const double r = (double)pixel[0], g = (double)pixel[1], b = (double)pixel[2];
+        for (int k = 0; k < 3; k++) {
+            pixel[k] = (float)(matrix[0][k] * r + matrix[1][k] * g + matrix[2][k] * b);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* ---- Reading and writing -------------------------------------------------------------------------------- */
+
+/* Names a compression that is newer than OpenEXR 3.3, of which the library here does not know the number. */
+static koksma_status fail_compression(int compression)
+{
+    static const char *const names[] = {"HTJ2K256", "HTJ2K32"}; /* 10 and 11, of OpenEXR 3.4 */
+    char name[40] = "of an unknown kind";
+    if (compression < 12) {
+        snprintf(name, sizeof name, "%s", names[compression - 10]);
+    }
+    return koksma__fail(
+        KOKSMA_MALFORMED,
+        "as an EXR: its compression, number %d, is %s, which the OpenEXR library of this build does not "
+        "read; write it with ZIP",
+        compression, name);
+}
+
+static koksma_status read_as(const unsigned char *bytes, size_t size, bool converts, koksma_image *out)
+{
+    header h = {.compression = 0};
+    KOKSMA__TRY(check_header(bytes, size, &h));
+    const void *functions;
+    koksma_status status = koksma__module_load(&module, &functions);
+    KOKSMA__TRY(status);
+    status = ((const koksma__exr_functions *)functions)->read(bytes, size, out);
+    if (status == KOKSMA_MALFORMED && h.compression >= 10) {
+        return fail_compression(h.compression);
+    }
+    return status || !converts || !h.chromaticities ? status : convert(h.chromaticities, out);
+}
+
 static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
 {
-    KOKSMA__TRY(check_header(bytes, size));
-    const void *functions;
-    const koksma_status status = koksma__module_load(&module, &functions);
-    return status ? status : ((const koksma__exr_functions *)functions)->read(bytes, size, out);
+    return read_as(bytes, size, true, out);
+}
+
+static koksma_status read_numbers(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    return read_as(bytes, size, false, out);
 }
 
 static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
@@ -93,5 +231,10 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
     return status ? status : ((const koksma__exr_functions *)functions)->write(layers, n, metadata, out);
 }
 
-const koksma__image_format koksma__format_exr = {
-    .name = "exr", .recognises = recognises, .read = read, .write = write, .has_layers = true, .module = &module};
+const koksma__image_format koksma__format_exr = {.name = "exr",
+                                                 .recognises = recognises,
+                                                 .read = read,
+                                                 .read_numbers = read_numbers,
+                                                 .write = write,
+                                                 .has_layers = true,
+                                                 .module = &module};

@@ -24,6 +24,8 @@ typedef struct koksma__image_format {
     /* NULL, or reads an image as `read` does, but always with sRGB's transfer function, whatever function the file
        states. */
     koksma_status (*read_srgb)(const unsigned char *bytes, size_t size, koksma_image *out);
+    /* NULL, or reads the numbers of the file, which `read` converts to other colours */
+    koksma_status (*read_numbers)(const unsigned char *bytes, size_t size, koksma_image *out);
     /* NULL, or reads the transparency as an image of one channel, 1 where a pixel is opaque; the image is empty if
        the file has no transparency. */
     koksma_status (*read_alpha)(const unsigned char *bytes, size_t size, koksma_image *out);
@@ -36,6 +38,9 @@ typedef struct koksma__image_format {
                              NULL; otherwise NULL */
     const koksma__module *module; /* the module that read and write load; NULL: none */
 } koksma__image_format;
+
+/* Sets the text of koksma_image_remark for the image that this thread reads. */
+void koksma__image_remark(const char *format, ...) KOKSMA_PRINTF(1, 2);
 
 #define FORMAT(name) extern const koksma__image_format koksma__format_##name;
 #include "image/formats.def"

@@ -2,7 +2,7 @@
 /*
  * Reads and writes PFM files: "Pf" or "PF", width, height, a scale whose sign gives the byte order (negative:
  * little-endian), one blank, then the pixels as floats, with the bottom row first. The scale's magnitude has no
- * agreed meaning and is ignored. Some writers end the header with blanks and CR LF. The first byte of the floats may
+ * agreed meaning (Mitsuba and OpenImageIO multiply by it, OpenCV and netpbm divide): it is ignored, with a remark. Some writers end the header with blanks and CR LF. The first byte of the floats may
  * look like a blank, so their start is computed from the end of the file.
  */
 #include <math.h>
@@ -72,6 +72,10 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     const double scale = koksma__strtod(scale_text, &end);
     KOKSMA__FAIL_IF(*end || !isfinite(scale) || scale == 0, KOKSMA_MALFORMED,
                     "line 3: the scale '%s' is not a number other than 0", scale_text);
+    if (fabs(scale) != 1) {
+        koksma__image_remark("the scale %s of the PFM file is ignored: some programs multiply by it, others divide",
+                             scale_text);
+    }
     const int channels = bytes[1] == 'F' ? 3 : 1;
     const size_t head = 2 + (size_t)used, left = size > head + 1 ? size - head - 1 : 0;
     KOKSMA__TRY(koksma__image_claim(width, height, channels, left, 0.25 / channels, out));

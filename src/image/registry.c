@@ -3,11 +3,13 @@
 #include "image/registry.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/atomic_file.h"
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"
@@ -77,6 +79,21 @@ static koksma_status find_format(const unsigned char *bytes, size_t size, const 
                 : koksma__fail(KOKSMA_MALFORMED, "empty");
 }
 
+static _Thread_local char remark[160];
+
+void koksma__image_remark(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    koksma__vsnprintf(remark, sizeof remark, format, arguments);
+    va_end(arguments);
+}
+
+const char *koksma_image_remark(void)
+{
+    return remark;
+}
+
 koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size)
 {
     const koksma__image_format *format;
@@ -89,6 +106,7 @@ koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, 
     const koksma__image_format *format;
     *out = (koksma_image){0};
     koksma_status status = find_format(bytes, size, &format);
+    *remark = 0;
     koksma__image_limit(kind == KOKSMA__FILE_TEXTURE ? KOKSMA__TEXTURE_PIXELS : KOKSMA_MAX_PIXELS);
     status = status ? status : format->read(bytes, size, out);
     if (status) {
@@ -114,12 +132,14 @@ koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, k
     *out = (koksma_image){0};
     KOKSMA__TRY(find_format(bytes, size, &format));
     koksma__image_limit(KOKSMA__TEXTURE_PIXELS);
+    *remark = 0;
     koksma_status status = KOKSMA_OK;
     if (part == KOKSMA__IMAGE_ALPHA) {
         status = format->read_alpha ? format->read_alpha(bytes, size, out) : KOKSMA_OK;
     } else {
         const bool srgb = part != KOKSMA__IMAGE_COLOURS && format->read_srgb;
-        status = (srgb ? format->read_srgb : format->read)(bytes, size, out);
+        const bool plain = part == KOKSMA__IMAGE_NUMBERS && format->read_numbers;
+        status = (srgb ? format->read_srgb : plain ? format->read_numbers : format->read)(bytes, size, out);
     }
     if (status) {
         free(out->pixels);

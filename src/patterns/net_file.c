@@ -11,7 +11,9 @@
  *                 (higher-order) nets have this format, too.
  *     # plattice  prime b, dimensions s, degree k and modulus Q(z), then one polynomial q(z) a line for each dimension;
  *                 polynomials are given by their values at z = b. Row l of column c of C is the coefficient of
- *                 z^-(l+c) in q/Q (Niederreiter 1992)
+ *                 z^-(l+c) in q/Q (Niederreiter 1992). All rows that fit into a double are used, 53 in base 2, where
+ *                 Niederreiter and LatNet Builder's own conversion to matrices stop after k: the first k digits of a
+ *                 point, on which its quality as a net depends, are the same
  *     # soboljk   lines "k degree a m_1 ... m_degree" from dimension k = 2 on; the matrix of dimension 1 is the
  *                 identity (Joe & Kuo 2008, whose own files begin with the line "d s a m_i" in place of "# soboljk")
  *
