@@ -99,7 +99,7 @@ static size_t number_of(const json_t *object, const char *key)
     return number;
 }
 
-static size_t line_of(const koksma__json_node *node)
+size_t koksma__json_line_of(const koksma__json_node *node)
 {
     const char *text = node->document->text;
     const json_t *value = node->document->root;
@@ -134,8 +134,8 @@ koksma_status koksma__json_fail(const koksma__json_node *node, const char *forma
     koksma__vsnprintf(reason, sizeof reason, format, arguments);
     va_end(arguments);
     const koksma__json *d = node->document;
-    return koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %zu: %s%s%s", d->kind, d->name, line_of(node), node->path,
-                        *node->path ? ": " : "", reason);
+    return koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %zu: %s%s%s", d->kind, d->name, koksma__json_line_of(node),
+                        node->path, *node->path ? ": " : "", reason);
 }
 
 koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status status)
@@ -299,6 +299,11 @@ koksma_status koksma__json_only(const koksma__json_node *node, const char *const
     return KOKSMA_OK;
 }
 
+bool koksma__json_is_object(const koksma__json_node *node)
+{
+    return json_is_object((const json_t *)node->value);
+}
+
 bool koksma__json_is_array(const koksma__json_node *node)
 {
     return json_is_array((const json_t *)node->value);
@@ -330,11 +335,38 @@ static koksma__json_node below(const koksma__json_node *parent, const json_t *va
     return out;
 }
 
+bool koksma__json_next(const koksma__json_node *object, void **at, const char **key, koksma__json_node *member)
+{
+    json_t *from = (json_t *)(uintptr_t)object->value;
+    *at = *at ? json_object_iter_next(from, *at) : json_object_iter(from);
+    if (!*at) {
+        return false;
+    }
+    *key = json_object_iter_key(*at);
+    *member = below(object, json_object_iter_value(*at), *key, 0);
+    return true;
+}
+
+/* Key i of an object, or NULL past the end, for suggestions; only the first keys count, because finding one takes time. */
+static const char *member_key_at(const void *object, size_t i)
+{
+    json_t *from = (json_t *)(uintptr_t)object;
+    void *at = json_object_iter(from);
+    for (size_t k = 0; at && k < i; k++) {
+        at = json_object_iter_next(from, at);
+    }
+    return at && i < 64 ? json_object_iter_key(at) : NULL;
+}
+
 koksma_status koksma__json_member(const koksma__json_node *node, const char *key, koksma__json_node *out)
 {
     const json_t *value = find(node->value, key);
     KOKSMA__JSON_FAIL_IF(!json_is_object((const json_t *)node->value), node, "it takes an object, {…}");
-    KOKSMA__JSON_FAIL_IF(!value, node, "field '%s' is missing", key);
+    if (!value) {
+        const char *closest = koksma_closest_name(key, member_key_at, node->value);
+        return closest ? koksma__json_fail(node, "field '%s' is missing; is '%s' meant?", key, closest)
+                       : koksma__json_fail(node, "field '%s' is missing", key);
+    }
     const koksma__json_node parent = *node;
     char other[KOKSMA__JSON_PATH];
     if (!json_object_get(parent.value, key) && other_spelling(key, other, sizeof other)) {

@@ -51,8 +51,16 @@ koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status 
 /* Fails unless node is an object whose keys are all among `keys`, which ends at NULL. */
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys);
 
+/* Finds the next member of an object, and its key: the first one if *at is NULL, which is set. Returns false after the last
+   one. The path of the member's node is not written; koksma__json_line_of finds its line. */
+bool koksma__json_next(const koksma__json_node *object, void **at, const char **key, koksma__json_node *member);
+
+/* The line of a value in its text, which is read up to it. */
+size_t koksma__json_line_of(const koksma__json_node *node);
+
 /* Returns whether an object has a member `key` that is itself an object. */
 bool koksma__json_is_object_at(const koksma__json_node *node, const char *key);
+bool koksma__json_is_object(const koksma__json_node *node);
 bool koksma__json_is_array(const koksma__json_node *node);
 bool koksma__json_is_text(const koksma__json_node *node);
 

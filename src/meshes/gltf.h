@@ -48,6 +48,8 @@ typedef struct koksma__gltf {
     bool *material_tinted; /* whether a mesh that is shown and has vertex colours uses the material; indexed like
                               material_used */
     size_t *beyond;        /* 1 + the largest index in an accessor of indices; 0: not computed yet */
+    koksma__names listed;  /* the extensions that the file says it uses */
+    size_t text_size;      /* of the JSON */
     size_t index_bytes;    /* of the accessors of indices whose `beyond` is computed */
 } koksma__gltf;
 

@@ -16,6 +16,7 @@
 #include "meshes/gltf_check.h"
 #include "meshes/gltf_materials.h"
 #include "meshes/gltf_meshes.h"
+#include "meshes/gltf_names.h"
 #include "meshes/gltf_nodes.h"
 
 typedef koksma__json_node field;
@@ -78,6 +79,7 @@ static koksma_status note_extensions(koksma__gltf *g)
         const field item = koksma__json_item(&list, i);
         const char *name = "";
         status = koksma__json_text(&item, &name);
+        status = status ? status : koksma__names_put(&g->listed, name, strlen(name), i);
         if (!status && !koksma__gltf_reads(name)) {
             const size_t used = strlen(unread->extension);
             snprintf(unread->extension + used, sizeof unread->extension - used, "%s%s", used ? ", " : "", name);
@@ -91,11 +93,12 @@ static koksma_status read_all(koksma__gltf *g)
 {
     koksma__unread *unread = &g->out->unread;
     field list;
-    koksma_status status = koksma__gltf_check(g);
+    koksma_status status = note_extensions(g);
+    status = status ? status : koksma__gltf_name_unknown(g);
+    status = status ? status : koksma__gltf_check(g);
     status = status ? status : make_arrays(g);
     status = status ? status : koksma__gltf_list(&g->root, "animations", &list, &unread->animations);
     unread->skins = g->n[KOKSMA__GLTF_SKINS];
-    status = status ? status : note_extensions(g);
     status = status ? status : koksma__gltf_load_buffers(g);
     status = status ? status : koksma__gltf_read_nodes(g);
     status = status ? status : koksma__gltf_read_meshes(g);
@@ -111,9 +114,11 @@ koksma_status koksma__gltf_read(const unsigned char *bytes, size_t size, koksma_
     koksma_status status = koksma__json_open("glTF", out->path, (const char *)text.bytes, text.size, &document);
     if (!status) {
         g.root = koksma__json_root(document);
+        g.text_size = text.size;
         status = read_all(&g);
     }
     koksma__json_close(document);
+    koksma__names_fini(&g.listed);
     KOKSMA__FREE(g.buffers, g.images, g.beyond, g.mesh_shown, g.material_used, g.material_tinted, g.shown.items);
     return status;
 }

@@ -89,6 +89,8 @@ typedef struct koksma__mesh_file {
     size_t n_vertices, n_triangles; /* numbers of vertices and of triangles in all meshes together */
     double yfov_rad, camera[12];    /* the camera; yfov_rad 0: there is none */
     koksma__unread unread;
+    koksma__unknown *unknown; /* names that the format does not have; the caller may take the list */
+    size_t n_unknown;
     koksma__list owned; /* blocks of memory that hold textures' bytes */
 } koksma__mesh_file;
 

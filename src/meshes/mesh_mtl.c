@@ -3,12 +3,13 @@
  * Reads OBJ's material files. A line is a keyword and its values; "newmtl NAME" begins the material of that name, or
  * continues it if it exists. The reader uses Kd (colour), Ke (emission), d and Tr (opaque or not), Pm and Pr
  * (metallic, roughness), map_Kd and map_Ke or map_emissive (textures, whose options are skipped), and ignores all
- * other keywords. A colour is one to three numbers; missing numbers are equal to the first. Format: Wavefront's
+ * other keywords of the format; what is not one of them is named. A colour is one to three numbers; missing numbers are equal to the first. Format: Wavefront's
  * "Advanced Visualizer Manual", section 2.3 (Pm, Pr and map_Ke: the PBR extension of 2013).
  */
 #include "meshes/mesh_mtl.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <strings.h>
 
@@ -90,9 +91,49 @@ static koksma_status take_colour(koksma__text *t, float out[3])
     return KOKSMA_OK;
 }
 
+/* The keywords of the format and of its extensions, without case: programs write map_Bump and map_bump. */
+static const char *const keywords[] = {
+    "newmtl", "Ka",       "Kd",       "Ks",        "Ke",       "Km",           "Ns",          "Ni",       "d",
+    "Tr",     "Tf",       "illum",    "sharpness", "map_Ka",   "map_Kd",       "map_Ks",      "map_Ke",   "map_Ns",
+    "map_Ni", "map_d",    "map_Tr",   "map_Tf",    "map_bump", "bump",         "disp",        "decal",    "refl",
+    "norm",   "map_disp", "map_refl", "map_aat",   "map_ao",   "map_emissive", "map_opacity", "map_norm", "Pr",
+    "Pm",     "Ps",       "Pc",       "Pcr",       "aniso",    "anisor",       "map_Pr",      "map_Pm",   "map_Ps",
+    "map_Pc", "map_Pcr",  "map_RMA",  "map_ORM",   NULL};
+
+static const char *keyword_at(const void *table, size_t i)
+{
+    return ((const char *const *)table)[i];
+}
+
+/* Names a word that the format does not have. */
+static koksma_status name_word(const koksma__text *t, const char *given, const char *what, const char *closest,
+                               koksma__mesh_file *f)
+{
+    char text[256];
+    snprintf(text, sizeof text, "'%s' is not %s of material files%s%s%s", given, what,
+             closest ? "; did you mean '" : "", closest ? closest : "", closest ? "'?" : "");
+    return koksma__unknown_count(f->unknown, f->n_unknown, text)
+               ? KOKSMA_OK
+               : koksma__unknown_add(&f->unknown, &f->n_unknown, t->path, (unsigned long)t->number, text);
+}
+
+static koksma_status name_keyword(const koksma__text *t, const char *word, size_t length, koksma__mesh_file *f)
+{
+    char given[48];
+    snprintf(given, sizeof given, "%.*s", length < 40 ? (int)length : 40, word);
+    for (size_t i = 0; keywords[i]; i++) {
+        /* a colour's keyword in other case is another word to every reader */
+        const bool map = strlen(keywords[i]) > 3;
+        if (map ? !strcasecmp(keywords[i], given) : !strcmp(keywords[i], given)) {
+            return KOKSMA_OK;
+        }
+    }
+    return name_word(t, given, "a keyword", koksma_closest_name(given, keyword_at, keywords), f);
+}
+
 /* Reads the file's name, which follows the options, as in "-s 2 1 image.png". The options -o, -s and -t have one to
    three numbers. */
-static koksma_status take_texture(koksma__text *t, koksma__file_texture *out)
+static koksma_status take_texture(koksma__text *t, koksma__mesh_file *f, koksma__file_texture *out)
 {
     static const struct {
         const char *name;
@@ -104,16 +145,23 @@ static koksma_status take_texture(koksma__text *t, koksma__file_texture *out)
     size_t length;
     float value;
     for (koksma__text after = *t; koksma__text_word(&after, &word, &length) && *word == '-'; after = *t) {
+        bool known = false;
         for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
             if (koksma__text_is(word, length, options[i].name)) {
                 const char *ignored;
                 size_t n;
+                known = true;
                 for (int k = 0; k < options[i].least; k++) {
                     koksma__text_word(&after, &ignored, &n);
                 }
                 for (int k = options[i].least; k < options[i].most && take_number(&after, &value); k++) {
                 }
             }
+        }
+        if (!known) {
+            char given[48];
+            snprintf(given, sizeof given, "%.*s", length < 40 ? (int)length : 40, word);
+            KOKSMA__TRY(name_word(t, given, "an option", NULL, f));
         }
         *t = after;
     }
@@ -136,7 +184,8 @@ static koksma_status take_one(koksma__text *t, float *out)
 }
 
 /* Reads the property of material m that a line sets. */
-static koksma_status take_property(koksma__text *t, const char *word, size_t length, koksma__file_material *m)
+static koksma_status take_property(koksma__text *t, const char *word, size_t length, koksma__mesh_file *f,
+                                   koksma__file_material *m)
 {
     float value = 1, glow[3];
     koksma_status status = KOKSMA_OK;
@@ -160,10 +209,10 @@ static koksma_status take_property(koksma__text *t, const char *word, size_t len
     } else if (koksma__text_is(word, length, "Pr")) {
         status = take_one(t, &m->roughness);
     } else if (length == 6 && !strncasecmp(word, "map_Kd", 6)) {
-        return take_texture(t, &m->colour_map);
+        return take_texture(t, f, &m->colour_map);
     } else if ((length == 6 && !strncasecmp(word, "map_Ke", 6)) ||
                (length == 12 && !strncasecmp(word, "map_emissive", 12))) {
-        return take_texture(t, &m->glow_map);
+        return take_texture(t, f, &m->glow_map);
     }
     return status;
 }
@@ -188,9 +237,10 @@ static koksma_status take_line(koksma__text *t, koksma__mtl_names *names, koksma
         *current = name->material;
         return KOKSMA_OK;
     }
+    KOKSMA__TRY(*word == '#' ? KOKSMA_OK : name_keyword(t, word, length, f));
     const bool known = *current < f->materials.n;
     const koksma_status status =
-        take_property(t, word, length, known ? koksma__file_material_at(f, *current) : &unnamed);
+        take_property(t, word, length, f, known ? koksma__file_material_at(f, *current) : &unnamed);
     free(unnamed.colour_map.name);
     free(unnamed.glow_map.name);
     return status;

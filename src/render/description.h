@@ -151,13 +151,6 @@ typedef struct koksma__scene_cache {
     void (*release)(void *made);
 } koksma__scene_cache;
 
-/* A feature of another renderer's scene that is not supported, and its replacement. */
-typedef struct koksma__unknown {
-    char file[64], text[256];
-    unsigned long line; /* line of the first occurrence in `file`; there are n occurrences */
-    size_t n;
-} koksma__unknown;
-
 struct koksma_scene {
     uint64_t hash;       /* of the texts, models and meshes; the readers add to it */
     uint64_t files_hash; /* of the images, and of the order of meshes; koksma__scene_hash joins both */
@@ -187,7 +180,7 @@ struct koksma_scene {
     bool moves;               /* some part of the scene depends on time */
     bool is_model;            /* the scene is a model file, whose materials were not written for this program */
     koksma__unread unread;    /* unsupported parts of a model file */
-    koksma__unknown *unknown; /* unsupported features of another renderer's scene */
+    koksma__unknown *unknown; /* unsupported features of another renderer's scene, unknown names in a model's file */
     size_t n_unknown;
     struct koksma__kept_image **images; /* owns all images (render/scene_images.h) */
     size_t n_images;

@@ -34,7 +34,7 @@ typedef struct koksma__kept_image {
     uint64_t counted; /* part of scene->image_bytes */
     koksma__image_use use;
     koksma_status status; /* of reading; `text` is the message, NULL without an error */
-    char *text;
+    char *text, remark[160];
     bool hashed, has_mean[2];
     uint64_t hash;
     double mean[2][3]; /* of the pixels, of the clamped pixels */
@@ -276,6 +276,9 @@ static koksma_status decode(entry *e, const char *name, const unsigned char *byt
     if (!e->image.pixels) {
         return KOKSMA_OK;
     }
+    if (*koksma_image_remark()) {
+        snprintf(e->remark, sizeof e->remark, "%s", koksma_image_remark());
+    }
     status = koksma__image_check(&e->image, name);
     if (!status) {
         change_levels(&e->image, &e->use);
@@ -285,6 +288,13 @@ static koksma_status decode(entry *e, const char *name, const unsigned char *byt
         swap_rows(&e->image);
     }
     return status || !e->use.border ? status : add_border(&e->image, &e->use);
+}
+
+koksma_status koksma__scene_image_remark(koksma_scene *scene, const char *name, const char *text)
+{
+    return koksma__unknown_count(scene->unknown, scene->n_unknown, text)
+               ? KOKSMA_OK
+               : koksma__unknown_add(&scene->unknown, &scene->n_unknown, name, 1, text);
 }
 
 /* Reads the image of the entry, or finds it. Failures that another attempt would repeat are kept. */
@@ -311,6 +321,7 @@ static koksma_status read_or_find(koksma_scene *scene, const char *name, entry *
         new->status = status;
         new->text = status ? strdup(koksma_error_text()) : NULL;
         status = status && !new->text ? koksma__fail_memory(1) : add(scene, new, &e);
+        status = status || !*new->remark ? status : koksma__scene_image_remark(scene, name, new->remark);
         if (status) {
             free(new->text);
             koksma_image_fini(&new->image);

@@ -275,6 +275,16 @@ bool koksma__scene_warning(const koksma_scene *scene, const koksma__integrator_f
     return found;
 }
 
+bool koksma__scene_unread(const koksma_scene *scene, char *text, size_t size)
+{
+    asked a = {0, text, size};
+    const bool found = of_unknown(scene, &a) || of_unread(&scene->unread, &a) || of_names(&scene->unread, &a);
+    if (found) {
+        koksma_text_escape(text, size);
+    }
+    return found;
+}
+
 bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
 {
     KOKSMA__REQUIRE_OR(false, scene, text);

@@ -9,4 +9,7 @@
 bool koksma__scene_warning(const koksma_scene *scene, const koksma__integrator_flags *flags, size_t i, char *text,
                            size_t size);
 
+/* Writes the first part of a scene that is not read; returns false if there is none. */
+bool koksma__scene_unread(const koksma_scene *scene, char *text, size_t size);
+
 #endif

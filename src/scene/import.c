@@ -28,7 +28,7 @@
 #include "render/scene_images.h"
 #include "scene/import_sky.h"
 
-enum { MOST_UNKNOWN = 256, MOST_STEPS = 1 << 26 };
+enum { MOST_STEPS = 1 << 26 };
 
 const double koksma__import_identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -65,28 +65,15 @@ koksma_status koksma__import_spend(koksma__import *im, koksma__text_place place,
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
 {
     koksma_scene *scene = im->scene;
-    koksma__unknown entry = {.n = 1, .line = place.line};
+    char text[256];
     va_list arguments;
     va_start(arguments, format);
-    koksma__vsnprintf(entry.text, sizeof entry.text, format, arguments);
+    koksma__vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     KOKSMA__TRY(koksma__import_spend(im, place, 16 + scene->n_unknown / 4));
-    const char *slash = strrchr(place.file, '/');
-    snprintf(entry.file, sizeof entry.file, "%s", slash ? slash + 1 : place.file);
-    for (size_t i = 0; i < scene->n_unknown; i++) {
-        if (!strcmp(scene->unknown[i].text, entry.text)) {
-            scene->unknown[i].n++;
-            return KOKSMA_OK;
-        }
-    }
-    if (scene->n_unknown == MOST_UNKNOWN) {
-        scene->unknown[MOST_UNKNOWN - 1].n++; /* the list is full: count this warning in the last entry */
-        return KOKSMA_OK;
-    }
-    koksma__unknown *to = koksma__add_one(&scene->unknown, &scene->n_unknown, sizeof *to);
-    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-    *to = entry;
-    return KOKSMA_OK;
+    return koksma__unknown_count(scene->unknown, scene->n_unknown, text)
+               ? KOKSMA_OK
+               : koksma__unknown_add(&scene->unknown, &scene->n_unknown, place.file, place.line, text);
 }
 
 bool koksma__import_is_full(const koksma__import *im)
@@ -477,6 +464,9 @@ static koksma_status add_sky(koksma__import *im, koksma__text_place place, const
     memcpy(light.radiance, scale, sizeof light.radiance);
     koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, &image);
     status = status ? status : koksma__image_check(&image, full);
+    if (!status && *koksma_image_remark()) {
+        KOKSMA__TRY(koksma__import_unknown(im, place, "%s", koksma_image_remark()));
+    }
     if (status) {
         koksma_image_fini(&image);
         KOKSMA__TRY(leave_out(im, place, status));

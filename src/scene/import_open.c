@@ -16,7 +16,7 @@
 
 /* A number in the hash by which stored studies find a scene; it is raised when a change of the code makes another
    scene from the same files. */
-enum { READER_REVISION = 7 };
+enum { READER_REVISION = 8 };
 
 static bool is_pbrt(const char *path)
 {

@@ -374,9 +374,14 @@ koksma_status koksma__model_read(const char *path, koksma__named by, koksma_scen
     if (!status) {
         scene->hash = file.hash;
         scene->unread = file.unread;
+        scene->unknown = file.unknown;
+        scene->n_unknown = file.n_unknown;
+        file.unknown = NULL;
         status = build_all(&build, has_camera);
         status = status ? koksma__fail_in(status, path) : KOKSMA_OK;
     }
+    status = koksma__unknown_explain(status, scene->unknown ? scene->unknown : file.unknown,
+                                     scene->unknown ? scene->n_unknown : file.n_unknown);
     free(build.meshes);
     free(build.glows);
     koksma__mesh_file_fini(&file);

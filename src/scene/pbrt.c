@@ -93,6 +93,8 @@ typedef struct reader {
     /* the film's width and height in pixels, the part of it that is the picture, and its sensitivity */
     double film[2], crop[4], iso, exposure_time;
     bool in_world;
+    size_t number; /* of the directive that is read */
+    char kind[64];
     bool orthographic, has_window;
     double window[4]; /* the screen window: x from [0] to [1], y from [2] to [3] */
     /* aspect ratio (width / height) of the screen window if the file has no `window`; 0: that of the image */
@@ -765,7 +767,7 @@ static koksma_status take_attribute(reader *r, source *s)
         return koksma__import_fail(
             p->place, "Attribute: '%s' is not a target; shape, light, material, medium and texture are", target);
     }
-    KOKSMA__TRY(koksma__pbrt_name_parameters(r->im, targets[which][1], NULL, p, false));
+    KOKSMA__TRY(koksma__pbrt_name_parameters(r->im, targets[which][1], NULL, p));
     for (size_t i = 0; i < p->n; i++) {
         KOKSMA__TRY(koksma__import_hold(r->im, p->place,
                                         sizeof *r->attributes + p->items[i].n * sizeof *p->items[i].numbers));
@@ -775,7 +777,6 @@ static koksma_status take_attribute(reader *r, source *s)
         KOKSMA__TRY(koksma__pbrt_parameter_copy(&p->items[i], &to->parameter));
     }
     r->now.n_attributes = r->n_attributes;
-    r->parameters->n_inherited = p->n; /* they are judged */
     return KOKSMA_OK;
 }
 
@@ -883,39 +884,66 @@ static void find_kind(source s, kind_place where, char kind[64])
     }
 }
 
-/* Warns about a kind and about parameters that pbrt-v4 would refuse, whoever has read the directive, and about those that
-   nothing has looked up. n_before: the number of warnings before the directive; if there are more, these name its
-   replacement as a whole. */
-static koksma_status name_unread(reader *r, size_t number, const char *kind, size_t n_before)
+/* The kind of the directive that is read: in its parameters, or what find_kind found. */
+static const char *kind_of(const reader *r)
 {
-    const char *directive = directives[number].name;
+    const char *kind = r->kind, *directive = directives[r->number].name;
     const koksma__pbrt_parameters *p = r->parameters;
-    for (size_t i = 0; directives[number].kind == TYPE && i < p->n; i++) {
+    for (size_t i = 0; directives[r->number].kind == TYPE && i < p->n; i++) {
         kind = strcmp(p->items[i].name, "type") ? kind : p->items[i].text;
     }
-    kind = *kind || !strstr(directive, "Material") ? kind : "none";
-    const bool silent = n_before == count_unknown(r);
-    if (directives[number].kind != NONE && silent && !koksma__pbrt_is_kind(directive, kind)) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "%s '%.40s' is not one of pbrt-v4", directive, kind));
+    return *kind || !strstr(directive, "Material") ? kind : "none";
+}
+
+/* Warns about parameters that pbrt-v4 would refuse, whoever reads the directive, before it is read. */
+static koksma_status judge_parameters(void *from)
+{
+    const reader *r = from;
+    const char *directive = directives[r->number].name, *kind = kind_of(r);
+    if (!strcmp(directive, "Attribute")) {
+        return KOKSMA_OK; /* take_attribute() knows whose parameters they are */
     }
-    return koksma__pbrt_name_parameters(r->im, directive, kind, p, directives[number].describes && silent);
+    if (directives[r->number].kind == TYPE && *kind && !koksma__pbrt_is_kind(directive, kind)) {
+        KOKSMA__TRY(
+            koksma__import_unknown(r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", directive, kind));
+    }
+    return koksma__pbrt_name_parameters(r->im, directive, kind, r->parameters);
+}
+
+/* Warns about a kind that pbrt-v4 does not have, and about parameters that nothing has looked up. n_before: the number of
+   warnings before the directive was read; if there are more, these name its replacement as a whole. */
+static koksma_status name_unread(reader *r, size_t n_before)
+{
+    const char *directive = directives[r->number].name, *kind = kind_of(r);
+    const bool silent = n_before == count_unknown(r);
+    if (directives[r->number].kind != NONE && silent && !koksma__pbrt_is_kind(directive, kind)) {
+        KOKSMA__TRY(
+            koksma__import_unknown(r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", directive, kind));
+    }
+    return directives[r->number].describes && silent ? koksma__pbrt_name_unused(r->im, directive, kind, r->parameters)
+                                                     : KOKSMA_OK;
 }
 
 /* Reads the directive number i, and names what is not read of it. */
 static koksma_status read_directive(reader *r, source *s, size_t i)
 {
-    const size_t before = count_unknown(r);
-    char kind[64];
+    const size_t before = count_unknown(r), listed = r->im->scene->n_unknown;
     memset(r->used, 0, sizeof r->used);
     r->mistake.at = NULL;
+    r->number = i;
     s->directive = directives[i].name;
     r->parameters->attributes = r->attributes;
     r->parameters->n_attributes = r->n_attributes;
     r->parameters->target = directives[i].target;
     KOKSMA__TRY(*directives[i].target ? koksma__import_spend(r->im, s->place, r->n_attributes) : KOKSMA_OK);
-    find_kind(*s, directives[i].kind, kind);
+    find_kind(*s, directives[i].kind, r->kind);
     koksma_status status = koksma__pbrt_end(r->parameters, directives[i].take(r, s));
-    status = status ? status : name_unread(r, i, kind, before);
+    if (directives[i].take == take_include) {
+        return status; /* its directives are done */
+    }
+    const koksma__unknown *list = r->im->scene->unknown;
+    status = koksma__unknown_explain(status, list, r->im->scene->n_unknown > listed ? listed + 1 : 0);
+    status = status ? status : name_unread(r, before);
     koksma__pbrt_parameters_fini(r->parameters);
     return status;
 }
@@ -1079,6 +1107,8 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     r.parameters->used = r.used;
     r.parameters->target = "";
     r.parameters->mistake = &r.mistake;
+    r.parameters->judge = judge_parameters;
+    r.parameters->reader = &r;
     koksma_status status = take_identity(&r, &s);
     status = status ? status : name_space(&r, s.place, "world", r.now.matrix[0], r.now.matrix[1]);
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);

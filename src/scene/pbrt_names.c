@@ -295,8 +295,21 @@ static verdict judge(const char *directive, const char *kind, const koksma__pbrt
     return best;
 }
 
+koksma_status koksma__pbrt_name_unused(koksma__import *im, const char *directive, const char *kind,
+                                       const koksma__pbrt_parameters *p)
+{
+    for (size_t i = p->n_inherited; i < p->n; i++) {
+        char nearest[40];
+        if (!p->used[i] && judge(directive, kind, &p->items[i], nearest) == KNOWN) {
+            KOKSMA__TRY(koksma__import_unknown(im, (koksma__text_place){p->place.file, p->items[i].line},
+                                               "parameter '%s' of %s is ignored", p->items[i].name, directive));
+        }
+    }
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__pbrt_name_parameters(koksma__import *im, const char *directive, const char *kind,
-                                           const koksma__pbrt_parameters *p, bool unused)
+                                           const koksma__pbrt_parameters *p)
 {
     for (size_t i = p->n_inherited; i < p->n; i++) {
         const koksma__pbrt_parameter *at = &p->items[i];
@@ -318,10 +331,6 @@ koksma_status koksma__pbrt_name_parameters(koksma__import *im, const char *direc
                                        at->text, *nearest ? "; did you mean '" : "", nearest, *nearest ? "'?" : "");
             break;
         case KNOWN:
-            status = unused && !p->used[i]
-                         ? koksma__import_unknown(im, place, "parameter '%s' of %s is ignored", at->name, directive)
-                         : KOKSMA_OK;
-            break;
         case WITHOUT_EFFECT:
             break;
         }

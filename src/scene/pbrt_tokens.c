@@ -277,7 +277,7 @@ koksma_status koksma__pbrt_parameters_read(koksma__pbrt_source *s, koksma__pbrt_
         koksma__pbrt_parameter *p;
         KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
         if (t.kind != KOKSMA__PBRT_TEXT) {
-            return KOKSMA_OK;
+            return out->judge ? out->judge(out->reader) : KOKSMA_OK;
         }
         KOKSMA__TRY(add(s, out, &p));
         KOKSMA__TRY(take_name(s, p));

@@ -57,6 +57,9 @@ typedef struct koksma__pbrt_parameters {
     const char *target; /* "": the directive inherits no attributes */
     bool *used;         /* for each parameter, whether koksma__pbrt_find has found it; or NULL */
     koksma__pbrt_mistake *mistake;
+    /* judges the parameters as soon as they are read, before anything uses them; or NULL */
+    koksma_status (*judge)(void *reader);
+    void *reader;
     koksma__text_place place;
 } koksma__pbrt_parameters;
 

@@ -276,13 +276,14 @@ static koksma_status set_levels(const koksma__pbrt_parameters *p, bool is_float,
     c->has_use = true;
     c->use.part = KOKSMA__IMAGE_SRGB;
     c->use.average = is_float;
+    char *end = NULL;
+    const double gamma = strncmp(encoding, "gamma ", 6) ? 0 : koksma__strtod(encoding + 6, &end);
+    if (strcmp(encoding, "sRGB") && strcmp(encoding, "linear") && !(end && !*end && gamma > 0 && gamma < 100)) {
+        return koksma__import_fail(p->place, "encoding: '%.40s' is not sRGB, linear or gamma X", encoding);
+    }
     if (png && strcmp(encoding, "sRGB")) {
-        char *end = NULL;
         c->use.part = KOKSMA__IMAGE_NUMBERS;
-        c->use.gamma = strncmp(encoding, "gamma ", 6) ? 0 : koksma__strtod(encoding + 6, &end);
-        if (strcmp(encoding, "linear") && !(end && !*end && c->use.gamma > 0 && c->use.gamma < 100)) {
-            return koksma__import_fail(p->place, "encoding: '%.40s' is not sRGB, linear or gamma X", encoding);
-        }
+        c->use.gamma = gamma;
     }
     for (int k = 0; k < 3; k++) {
         c->use.tint[k] = invert ? -scale : scale;
@@ -439,12 +440,13 @@ static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, b
     if (!strcmp(kind, "checkerboard") && koksma__pbrt_whole(p, "dimension", 2) == 2) {
         return read_checkerboard(scene, p, is_float, c);
     }
+    KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind));
     KOKSMA__TRY(find_texture_colour(scene, p, "tex1", 0.5, is_float, &first));
     KOKSMA__TRY(find_texture_colour(scene, p, "tex2", 0.5, is_float, &second));
     KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, &first));
     KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, &second));
     mean_of(&first, &second, c->rgb);
-    return koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *type, const char *kind,

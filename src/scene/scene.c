@@ -14,6 +14,7 @@
 #include "core/suggestion.h"
 #include "meshes/mesh_read.h"
 #include "render/scene_images.h"
+#include "render/scene_warnings.h"
 #include "scene/import_open.h"
 #include "scene/model.h"
 #include "scene/parse.h"
@@ -63,12 +64,6 @@ koksma_status koksma__scene_open_text(const char *name, const char *text, size_t
     return close_failed(koksma__scene_parse(name, text, size, *out), out);
 }
 
-static koksma_status open_model(const char *path, koksma__named by, koksma_scene **out)
-{
-    const koksma_status status = new_scene(out);
-    return status ? status : close_failed(koksma__model_parse(path, by, *out), out);
-}
-
 static _Thread_local bool refuses_unknown;
 
 bool koksma_scene_refuse_unknown(bool refuse)
@@ -78,17 +73,29 @@ bool koksma_scene_refuse_unknown(bool refuse)
     return before;
 }
 
+/* Closes a scene with unsupported parts and fails, if the options refuse it. */
+static koksma_status refuse_unknown(koksma_scene **out)
+{
+    char text[512];
+    if (!refuses_unknown || !koksma__scene_unread(*out, text, sizeof text)) {
+        return KOKSMA_OK;
+    }
+    return close_failed(koksma__fail(KOKSMA_MALFORMED, "%s; the options refuse scenes with unsupported parts", text),
+                        out);
+}
+
 static koksma_status open_import(const char *path, koksma__named by, koksma_scene **out)
 {
     const koksma_status status = new_scene(out);
     KOKSMA__TRY(status ? status : close_failed(koksma__import_open(path, by, *out), out));
-    if (refuses_unknown && (*out)->n_unknown) {
-        char text[512];
-        koksma_scene_unknown(*out, 0, text, sizeof text);
-        return close_failed(
-            koksma__fail(KOKSMA_MALFORMED, "%s; the options refuse scenes with unsupported parts", text), out);
-    }
-    return KOKSMA_OK;
+    return refuse_unknown(out);
+}
+
+static koksma_status open_model(const char *path, koksma__named by, koksma_scene **out)
+{
+    const koksma_status status = new_scene(out);
+    KOKSMA__TRY(status ? status : close_failed(koksma__model_parse(path, by, *out), out));
+    return refuse_unknown(out);
 }
 
 static bool is_path(const char *text)
