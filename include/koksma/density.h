@@ -52,8 +52,8 @@ KOKSMA_API koksma_status koksma_generate_density(const koksma_spec *spec, uint64
      map            NULL: uniform points; or an image that fills the rectangle and gives the density
      spec, out      as for koksma_generate_density
    Errors: those of koksma_generate_density. */
-KOKSMA_API koksma_status koksma_generate_rectangle(const koksma_spec *spec, uint64_t seed, double width, double height,
-                                                   const koksma_image *map, const koksma_run *run,
+KOKSMA_API koksma_status koksma_generate_rectangle(const koksma_spec *spec, uint64_t seed, double width,
+                                                   double height, const koksma_image *map, const koksma_run *run,
                                                    koksma_points *out);
 
 /* Generates points on the triangles of a model, uniform in area, in the coordinates of its file.

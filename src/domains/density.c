@@ -167,8 +167,8 @@ koksma_status koksma_generate_rectangle(const koksma_spec *spec, uint64_t seed, 
     const double least = fmin(width, height), most = fmax(width, height);
     KOKSMA__FAIL_IF(!(width > 0 && height > 0 && least >= 1e-100 && most <= 1e100 && most <= LONGEST * least),
                     KOKSMA_ARGUMENT,
-                    "a rectangle of %g x %g: width and height are above 0, and one is at most %d times the other", width,
-                    height, LONGEST);
+                    "a rectangle of %g x %g: width and height are above 0, and one is at most %d times the other",
+                    width, height, LONGEST);
     KOKSMA__TRY(map ? koksma_image_check_finite(map, "the density") : KOKSMA_OK);
     const double size[2] = {width, height};
     return generate(spec, seed, size, map, size, run, out);
