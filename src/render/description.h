@@ -92,13 +92,16 @@ typedef struct koksma__part_name {
     char name[64];
 } koksma__part_name;
 
-/* A homogeneous medium in the box from low to high, which may be infinite. Coefficients are per unit of length;
+/* A homogeneous medium in the box from low to high, which may be infinite; if it is in_shape, only where inverse maps to
+   the unit ball, or to the cube from -1 to 1 if it is not is_ball, which the box bounds. Coefficients are per unit of length;
    `phase` is the material of the medium's points: its parameter 0 is the mean cosine g, its albedo the
    single-scattering albedo. */
 typedef struct koksma__medium {
     bool is_there;
     double absorption[3], scattering[3];
     double low[3], high[3];
+    bool in_shape, is_ball;
+    double inverse[12];
     koksma__material phase;
 } koksma__medium;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A homogeneous medium in an axis-parallel box, or everywhere. Over the length s a ray keeps the fraction T(s) =
+ * A homogeneous medium in an axis-parallel box, in a ball or cube under a matrix, or everywhere. Over the length s a ray keeps the fraction T(s) =
  * exp(-(a + b) s) of its light, the transmittance, with the coefficients of absorption a and of scattering b, and
  * gains the light that the medium scatters into it (Pharr, Jakob & Humphreys, chapter 11):
  *
@@ -27,6 +27,7 @@
 
 #include "core/elementary.h"
 #include "core/status.h"
+#include "core/vector.h"
 #include "render/elementary.h"
 #include "render/lights/lights.h"
 #include "render/vector3.h"
@@ -68,20 +69,52 @@ typedef struct stretch {
     double first, length, speed;
 } stretch;
 
-static stretch stretch_of(const koksma__medium *m, const float o[3], const float d[3], double end)
+/* Narrows [*first, *last] to where o + t d is in a box. */
+static void cut_by_box(const double low[3], const double high[3], const double o[3], const double d[3], double *first,
+                       double *last)
 {
-    double first = 0, last = end, square = 0;
     for (int k = 0; k < 3; k++) {
-        const double at = (double)o[k], along = (double)d[k], low = m->low[k] - at, high = m->high[k] - at;
-        square += along * along;
-        if (along == 0) {
-            last = low > 0 || high < 0 ? 0 : last;
+        const double below = low[k] - o[k], above = high[k] - o[k];
+        if (d[k] == 0) {
+            *last = below > 0 || above < 0 ? 0 : *last;
             continue;
         }
-        first = fmax(first, (along > 0 ? low : high) / along);
-        last = fmin(last, (along > 0 ? high : low) / along);
+        *first = fmax(*first, (d[k] > 0 ? below : above) / d[k]);
+        *last = fmin(*last, (d[k] > 0 ? above : below) / d[k]);
     }
-    const double speed = sqrt(square);
+}
+
+/* The same for the unit ball: |q + (t - middle) d|^2 = 1, with the line's point q that is nearest to the centre. */
+static void cut_by_ball(const double o[3], const double d[3], double *first, double *last)
+{
+    const double square = koksma__dot(d, d), middle = -koksma__dot(o, d) / square;
+    double q[3];
+    for (int k = 0; k < 3; k++) {
+        q[k] = o[k] + middle * d[k];
+    }
+    const double rest = 1 - koksma__dot(q, q), reach = sqrt(fmax(rest, 0) / square);
+    *first = fmax(*first, middle - reach);
+    *last = rest > 0 ? fmin(*last, middle + reach) : 0;
+}
+
+static stretch stretch_of(const koksma__medium *m, const float origin[3], const float direction[3], double end)
+{
+    static const double low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
+    const double o[3] = {(double)origin[0], (double)origin[1], (double)origin[2]};
+    const double d[3] = {(double)direction[0], (double)direction[1], (double)direction[2]};
+    const double speed = sqrt(koksma__dot(d, d));
+    double first = 0, last = end, from[3], along[3];
+    for (int k = 0; m->in_shape && k < 3; k++) {
+        from[k] = koksma__dot(m->inverse + 4 * k, o) + m->inverse[4 * k + 3];
+        along[k] = koksma__dot(m->inverse + 4 * k, d);
+    }
+    if (!m->in_shape) {
+        cut_by_box(m->low, m->high, o, d, &first, &last);
+    } else if (m->is_ball) {
+        cut_by_ball(from, along, &first, &last);
+    } else {
+        cut_by_box(low, high, from, along, &first, &last);
+    }
     /* the length is limited to a finite number, so that a channel with the coefficient 0 has transmittance 1 at any
        length */
     return (stretch){first, last > first ? fmin((last - first) * speed, DBL_MAX) : 0, speed};

@@ -2,7 +2,7 @@
 /*
  * Reads scenes of Mitsuba 3 (Jakob et al. 2022), and names of Mitsuba 0.6 and 2 that have changed since. xml.c parses
  * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
- * shape first refers to it. One homogeneous medium is read, of the sensor or of a cube along the axes; volumes and motion
+ * shape first refers to it. One homogeneous medium is read, of the sensor, a cube or a sphere; volumes and motion
  * are not read. Of an integrator only the length of paths and whether lights are seen is read; samplers and filters are
  * ignored, because the program's own options choose them. Whatever no function takes or looks up is named at the end
  * (koksma__xml_name_unread). The file is long because all of Mitsuba's names are in one place.
@@ -50,8 +50,8 @@ typedef struct reader {
     int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
     bool *looked;   /* for each node: whether its properties were looked up */
     bool has_sensor;
-    const node *medium, *box; /* the only medium that is read, and the cube that bounds it; or NULL */
-    double low[3], high[3];   /* the bounds of `box`, if it is not NULL */
+    const node *medium, *filled; /* the only medium that is read, and the cube or sphere that it fills; or NULL */
+    koksma__medium region;       /* where `filled` is, if it is not NULL */
 } reader;
 
 /* ---- Properties -------------------------------------------------------------------------------------------- */
@@ -961,24 +961,27 @@ static const node *object_of(const reader *r, const node *c)
     return is(c, "alias") ? c : resolve(r, c);
 }
 
-/* Finds the bounds of a cube under a matrix; returns false if its edges are not along the axes. */
-static bool find_bounds(const double m[12], double low[3], double high[3])
+/* Sets the region of a medium to the cube or the ball under a matrix; returns false if it is too large, too thin or has no
+   inverse. A cube along the axes is a box. */
+static bool set_region(const double m[12], bool is_ball, koksma__medium *to)
 {
+    bool along_axes = !is_ball, fits = true;
     for (int k = 0; k < 3; k++) {
         const double *row = m + 4 * k, size = fabs(row[0]) + fabs(row[1]) + fabs(row[2]);
         const double largest = fmax(fmax(fabs(row[0]), fabs(row[1])), fabs(row[2]));
-        low[k] = row[3] - size;
-        high[k] = row[3] + size;
-        if (!(size > TINY && size - largest <= 1e-6 * size && fabs(low[k]) <= FAR && fabs(high[k]) <= FAR)) {
-            return false;
-        }
+        to->low[k] = row[3] - size;
+        to->high[k] = row[3] + size;
+        along_axes &= size - largest <= 1e-6 * size;
+        fits &= size > TINY && fabs(to->low[k]) <= FAR && fabs(to->high[k]) <= FAR;
     }
-    return true;
+    to->in_shape = !along_axes;
+    to->is_ball = is_ball;
+    return fits && koksma__import_invert(m, to->inverse);
 }
 
-/* Finds the only medium to read. If the first sensor has a medium, it is that one, bounded by the first cube along
-   the axes whose interior it fills, or without bounds if there is no such cube. Otherwise it is the first homogeneous
-   medium in a cube along the axes. */
+/* Finds the only medium to read. If the first sensor has a medium, it is that one, bounded by the first cube or sphere whose
+   interior it fills, or without bounds if there is none. Otherwise it is the first homogeneous medium in a cube or
+   sphere. */
 static koksma_status find_medium(reader *r, const node *root)
 {
     const node *child = first_of(r, root);
@@ -986,16 +989,20 @@ static koksma_status find_medium(reader *r, const node *root)
         child = next_of(r, child);
     }
     r->medium = child ? medium_of(r, object_of(r, child), NULL) : NULL;
-    for (child = first_of(r, root); child && !r->box; child = next_of(r, child)) {
+    for (child = first_of(r, root); child && !r->filled; child = next_of(r, child)) {
         const node *n = object_of(r, child);
-        const bool cube = is(n, "shape") && !strcmp(type_of(n), "cube");
-        const node *inside = cube ? medium_of(r, n, "interior") : NULL;
-        double m[12];
+        const bool is_ball = !strcmp(type_of(n), "sphere");
+        const node *inside =
+            is(n, "shape") && (is_ball || !strcmp(type_of(n), "cube")) ? medium_of(r, n, "interior") : NULL;
         if (inside && (!r->medium || inside == r->medium) && !strcmp(type_of(inside), "homogeneous")) {
-            KOKSMA__TRY(transform(r, n, "to_world", m));
-            if (find_bounds(m, r->low, r->high)) {
+            koksma__import_item item;
+            double form[12], to_world[12], m[12];
+            KOKSMA__TRY(form_of(r, n, &item, form));
+            KOKSMA__TRY(transform(r, n, "to_world", to_world));
+            koksma__matrix_multiply(to_world, form, m);
+            if (set_region(m, is_ball, &r->region)) {
                 r->medium = inside;
-                r->box = n;
+                r->filled = n;
             }
         }
     }
@@ -1028,10 +1035,9 @@ static koksma_status name_media(reader *r, const node *n, int material)
     if (inside && strcmp(type_of(inside), "homogeneous") != 0) {
         return koksma__import_unknown(r->im, inside->place, "media that vary in space are ignored");
     }
-    if (inside && n != r->box) {
+    if (inside && n != r->filled) {
         return koksma__import_unknown(
-            r->im, n->place,
-            "a medium in a shape is ignored: only one is read, of the sensor or of a cube along the axes");
+            r->im, n->place, "a medium in a shape is ignored: only one is read, of the sensor, a cube or a sphere");
     }
     if (outside && outside != r->medium) {
         return koksma__import_unknown(r->im, n->place, "a medium around a shape is ignored: only one is read");
@@ -1100,9 +1106,12 @@ static koksma_status read_medium(reader *r, const node *n)
         a[k] = extinction - b[k];
     }
     koksma__medium_init(to, a, b, g);
-    if (r->box) {
-        memcpy(to->low, r->low, sizeof to->low);
-        memcpy(to->high, r->high, sizeof to->high);
+    if (r->filled) {
+        memcpy(to->low, r->region.low, sizeof to->low);
+        memcpy(to->high, r->region.high, sizeof to->high);
+        memcpy(to->inverse, r->region.inverse, sizeof to->inverse);
+        to->in_shape = r->region.in_shape;
+        to->is_ball = r->region.is_ball;
     }
     if (!r->im->only_checks && koksma__medium_check(r->im->scene)) {
         to->is_there = false;

@@ -331,6 +331,18 @@ class Agreement(unittest.TestCase):
             with self.subTest(light=name, scene="Mitsuba's, read by us"):
                 self.of_text(text, depth=depth)
 
+    def test_media_in_shapes(self):
+        """A ball of haze, within which is a wall, and a turned cube, under a sky and a lamp outside."""
+        haze = (f'<bsdf type="null"/><medium name="interior" type="homogeneous">{rgb("sigma_t", "0.6, 0.8, 1")}{rgb("albedo", "0.9, 0.7, 0.5")}<float name="scale" value="1.5"/>'
+                '<phase type="hg"><float name="g" value="0.4"/></phase></medium>')
+        light = f'<emitter type="constant">{rgb("radiance", 0.3)}</emitter>' + PANEL
+        for name, shape in (("ball", f'<shape type="sphere"><point name="center" x="0.1" y="0.9" z="0.2"/><float name="radius" value="0.8"/>'
+                                     f'<transform name="to_world"><scale value="1.2"/></transform>{haze}</shape>'),
+                            ("cube", f'<shape type="cube"><transform name="to_world"><scale x="0.5" y="0.7" z="0.6"/>{turn("y", 35)}{turn("x", 20)}'
+                                     f'{move(y=1)}</transform>{haze}</shape>')):
+            with self.subTest(shape=name):
+                self.of_text(scene(ROOM + light + shape, depth=12).replace('"path"', '"volpath"'), depth=None)
+
     def test_medium_of_the_sensor(self):
         """A cube of haze around the sensor, which names it, and most of a room. The light is outside: near a light in haze samples
         have no finite variance."""
