@@ -156,8 +156,9 @@ static void put_errors(koksma__document *d, const koksma__images *all)
         d,
         "Error: %s to the reference, averaged over the trials. Behind: the relative difference of a group's error to "
         "the error of the first group. Its interval comes from the differences of images with equal {trial}, and is "
-        "known only if both groups have the same trials. Each interval alone holds with 95 %% confidence. Bands: the "
-        "error has a pattern, which eyes notice more than noise (`koksma compare --help`).",
+        "known only if both groups have the same trials. Each interval alone holds with 95 %% confidence: they "
+        "are " KOKSMA__MEAN_INTERVALS
+        ". Bands: the error has a pattern, which eyes notice more than noise (`koksma compare --help`).",
         metric);
     for (size_t i = 0; i < all->n; i++) {
         if (begins_spp(all, i)) {

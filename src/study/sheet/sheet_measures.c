@@ -357,8 +357,8 @@ void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
     koksma__doc_section(d, "measures", "Discrepancies and distances");
     koksma__doc_paragraph(
         d,
-        "Means over sets at n = %zu with 95 %% intervals, and slopes of log mean over log n. A "
-        "deterministic sampler has one set of each size; its values are exact and have no interval.",
+        "Means over sets at n = %zu, and slopes of log mean over log n. Intervals are " KOKSMA__MEAN_INTERVALS
+        ". A deterministic sampler has one set of each size; its values are exact and have no interval.",
         v->sizes[v->n_sizes - 1]);
     put_summary(v, d);
     for (size_t m = 0; m < v->n_measures; m++) {

@@ -280,7 +280,7 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     koksma_status status = KOKSMA_OK;
     koksma__doc_paragraph(d,
                           "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
-                          "are 95 %% intervals of means over trials. A maximum is the error of one pixel; maxima get "
+                          "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get "
                           "no verdict. Coherence is the peak of the mean power spectrum of the errors of the first "
                           "%d trials over its mean: white noise stays below the next column in 97.5 %% of cases, and "
                           "an error above 99.5 %% of noise is in bands or another pattern that the eye sees "

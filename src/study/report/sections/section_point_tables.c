@@ -13,6 +13,7 @@
 
 #include "core/status.h"
 #include "stats/slopes.h"
+#include "stats/statistics.h"
 #include "study/report/published_columns.h"
 #include "study/report/report.h"
 
@@ -292,8 +293,8 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
         "tooltip of each mark. The text below each table tests its values of z together: by chance the largest "
         "|z| of k independent values exceeds 2 with probability 1 - 0.954^k^ (25 %% for six), and six values of "
         "-0.8 are as rare as one of -2. _Largest of 100_ is the mean of the largest values in blocks of 100 sets; "
-        "its ± is the SD of these largest values, whereas the other intervals are 95 %% intervals of means. With "
-        "fewer than 100 sets it is the largest value of all.",
+        "its ± is the SD of these largest values, whereas the other intervals are " KOKSMA__MEAN_INTERVALS
+        ". With fewer than 100 sets it is the largest value of all.",
         KOKSMA__AGREEMENT_Z);
     for (size_t i = 0; !status && i < scope->study->plan.n_tables; i++) {
         const koksma__table *t = &scope->study->plan.tables[i];
