@@ -36,6 +36,12 @@ static double normal(double u, double v, double unused)
     return sqrt(-2 * log1p(-u)) * cos(2 * M_PI * v);
 }
 
+static double uniform(double u, double v, double unused)
+{
+    (void)v, (void)unused;
+    return (2 * u - 1) * sqrt(3);
+}
+
 static double laplace(double u, double v, double unused)
 {
     (void)unused;
@@ -72,6 +78,7 @@ static double payoff(double u, double v, double k)
 
 static const law laws[] = {
     {"normal", normal, 0, 1},
+    {"uniform", uniform, 0, 1},
     {"exponential, mean of 16", exponential, 0, 16},
     {"exponential", exponential, 0, 1},
     {"option out of the money by 1 sd, mean of 16", payoff, 1, 16},
@@ -228,8 +235,8 @@ static coverage coverage_of(const struct kind *kind, const law *l, size_t trials
 
 /* ---- Tests -------------------------------------------------------------------------------------------------------- */
 
-/* 93 to 97 % within three standard errors (and to 98 % with 8 trials of nearly normal errors, which a sample does not
-   tell from others), or more than a quarter of the intervals say that they are approximate. */
+/* 93 to 97 % within three standard errors (to 98 % with 8 trials of nearly normal errors, which a sample does not tell
+   from others, and to any share for uniform ones, whose lighter tails a few trials do not show), or more than a quarter of the intervals say that they are approximate. */
 static void intervals_of_integration_hold_or_are_approximate(void **state)
 {
     (void)state;
@@ -239,7 +246,8 @@ static void intervals_of_integration_hold_or_are_approximate(void **state)
         for (size_t l = 0; l < LAWS; l++) {
             for (size_t t = 0; t < 2; t++) {
                 const coverage c = coverage_of(&kinds[k], &laws[l], trial_counts[t], simulations);
-                if (!(c.holds < 0.98 + 3 * error && (c.holds > 0.93 - 3 * error || c.approximate > 0.25))) {
+                if (!((c.holds < 0.98 + 3 * error || laws[l].draw == uniform) &&
+                      (c.holds > 0.93 - 3 * error || c.approximate > 0.25))) {
                     fail_msg("%s of %zu trials, %s: it holds in %.1f %% and is approximate in %.1f %%", kinds[k].name,
                              trial_counts[t], laws[l].name, 100 * c.holds, 100 * c.approximate);
                 }
