@@ -10,7 +10,7 @@
 Points are NumPy arrays of shape (n, dim) over the memory that the library itself fills. Equal arguments give equal
 bits, the same as the program's. What fails raises koksma.Error with the library's own line.
 """
-from typing import TYPE_CHECKING as _TYPE_CHECKING
+import typing as _typing
 
 try:
     import numpy as _numpy  # noqa: F401
@@ -51,7 +51,7 @@ __all__ = [
     "warps", "write", "write_image",
 ]
 
-if _TYPE_CHECKING:
+if _typing.TYPE_CHECKING:
     from ._engine import Engine
 else:
     def __getattr__(name: str) -> object:
