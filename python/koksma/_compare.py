@@ -2,6 +2,7 @@
 """The error of images against a reference: its size, and whether it is noise or bands."""
 from __future__ import annotations
 
+import math
 import warnings
 from ctypes import POINTER, byref, c_float, create_string_buffer
 from dataclasses import dataclass, field
@@ -37,7 +38,8 @@ class Comparison:
     have a coherence from noise_low to noise_high, and p of them at least this one; coherent says that p is below
     0.005 (and the coherence at least 2). common is the share of the squared error that is the same in all images.
     metrics has rmse and the metrics that were asked for, by their texts.
-    What there is none of is NaN: intervals and common of one image, all of them where no image has an error.
+    What there is none of is NaN: intervals and common of one image, all of them where no image has an error or coherence was
+    not asked for.
     """
 
     mean: float
@@ -62,10 +64,10 @@ class Comparison:
 
         rows: List[Tuple[str, float, Union[float, str], str]] = [("mean absolute error", self.mean, "", ""), ("largest", self.max, "", "")]
         rows += [(name, m.value, m.robust, f"{100 * m.top_share:.0f} %") for name, m in self.metrics.items()]
-        error = "bands" if self.coherent else "noise"
+        kind = "bands" if self.coherent else "noise"
+        said = f"; the error is {kind} (coherence {self.coherence:.3g}, noise is below {self.noise_high:.3g})"
         return table(("error", "value", "without 0.1 % of the pixels", "their share"), rows,
-                     f"{self.images} image{'s' * (self.images != 1)}; the error is {error} (coherence {self.coherence:.3g}, noise is "
-                     f"below {self.noise_high:.3g})")
+                     f"{self.images} image{'s' * (self.images != 1)}{said if self.coherence == self.coherence else ''}")
 
 
 def _metric(name: str) -> Tuple[s.MetricSpec, str]:
@@ -118,7 +120,7 @@ def view_image(array: npt.NDArray[np.float32]) -> s.Image:
 
 
 def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: npt.ArrayLike,
-            metrics: Sequence[str] = ()) -> Comparison:
+            metrics: Sequence[str] = (), *, coherence: Optional[bool] = None) -> Comparison:
     """Compares an image, or several in a list or another iterable, with a reference, all of linear light.
 
     Parameters
@@ -128,6 +130,8 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     reference : array_like of shape (height, width) or (height, width, channels)
     metrics : sequence of str
         Beside rmse, such as "relmse", "smape:epsilon=0.001" or "hdr-flip:ppd=40" (`koksma.metrics()`).
+    coherence : bool, optional
+        Whether to find out if the error is noise or bands, which takes most of the time. None: only without metrics.
 
     Returns
     -------
@@ -153,7 +157,8 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     >>> round(koksma.compare(image, np.ones((8, 8)), metrics=["smape"]).metrics["smape"].value, 6)
     0.199203
     """
-    specs = {name: _metric(name)[0] for name in ("rmse", *texts("metrics", metrics))}
+    asked = texts("metrics", metrics)
+    specs = {name: _metric(name)[0] for name in ("rmse", *asked)}
     several: Any = images
     if hasattr(images, "__array__"):
         several = [images] if np.ndim(several) < 4 else several
@@ -170,13 +175,16 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     caveats: Dict[str, Optional[bytes]] = {}
     found: Dict[str, List[List[float]]] = {name: [] for name in specs}
     value = s.MetricValue()
-    check(lab().koksma_coherence_init(byref(raw), target.shape[1], target.shape[0]))
+    looks = not asked if coherence is None else bool(coherence)
+    if looks:
+        check(lab().koksma_coherence_init(byref(raw), target.shape[1], target.shape[0]))
     try:
         for image in several:
             array = as_image(image)
             c_image = view_image(array)
             check(lab().koksma_image_compare(byref(c_image), byref(c_target), byref(error)))
-            check(lab().koksma_coherence_add(byref(raw), byref(c_image), byref(c_target)))
+            if looks:
+                check(lab().koksma_coherence_add(byref(raw), byref(c_image), byref(c_target)))
             for name, spec in specs.items():
                 check(lab().koksma_metric_evaluate(byref(spec), byref(c_image), byref(c_target), byref(value)))
                 found[name].append([value.value, value.robust, value.top_share])
@@ -184,7 +192,10 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
             errors.append([error.mean, error.sd, error.max, error.rmse])
         if not errors:
             raise ArgumentError("a comparison takes at least one image")
-        lab().koksma_coherence_find(byref(raw), byref(values))
+        if looks:
+            lab().koksma_coherence_find(byref(raw), byref(values))
+        else:
+            values = s.CoherenceValues(0, *[math.nan] * 9)
     finally:
         lab().koksma_coherence_fini(byref(raw))
     mean, sd, most, rmse = (sum(column) / len(errors) for column in zip(*errors))

@@ -436,7 +436,7 @@ class Compare(unittest.TestCase):
                 metrics = ["rmse", "relmse:epsilon=0.001", "hdr-flip"]
                 row = json.loads(subprocess.run([PROGRAM, "compare", *names[:count], names[3], "--json", "-m",
                                                  ",".join(metrics)], check=True, capture_output=True).stdout)
-                ours = koksma.compare(iter(images[:count]), reference, metrics=metrics[1:])
+                ours = koksma.compare(iter(images[:count]), reference, metrics=metrics[1:], coherence=True)
                 self.assertEqual(list(ours.metrics), metrics)
                 for name, found in ours.metrics.items():
                     self.assertEqual((found.robust, found.top_share), (row.pop(f"{name}_robust"), row.pop(f"{name}_top_share")))
@@ -454,6 +454,13 @@ class Compare(unittest.TestCase):
         self.assertFalse(koksma.compare(noise, 0 * noise).coherent)
         seen = koksma.compare(noise + bands, 0 * noise)
         self.assertTrue(seen.coherent and abs(seen.frequency_x - 5 / 37) < 1e-12 and seen.frequency_y == 0)
+        # With metrics it is found only where it is asked for, and the other numbers are the same.
+        for asked, looks in ((None, False), (True, True), (False, False)):
+            other = koksma.compare(noise + bands, 0 * noise, metrics=["smape"], coherence=asked)
+            self.assertEqual((other.mean, other.sd, other.max, other.rmse, other.coherent), (seen.mean, seen.sd, seen.max, seen.rmse, looks))
+            self.assertTrue(other.coherence == seen.coherence if looks else np.isnan([other.coherence, other.noise_high, other.p]).all())
+            self.assertEqual("bands" in other._repr_html_(), looks)
+        self.assertTrue(np.isnan(koksma.compare(noise + bands, 0 * noise, coherence=False).coherence))
         none = koksma.compare(noise, noise)
         self.assertTrue(none.mean == 0 and np.isnan(none.coherence) and not none.coherent)
 
