@@ -13,14 +13,7 @@
  * .00691 to .00677. Half of the searches start from random orders of the centres (i + 1/2)/n, the others from the best set
  * at a lower threshold.
  *
- * A swap of coordinate k of points p and q changes n^2 times the squared discrepancy by (Jin, Chen & Sudjianto 2005)
- *
- *     2 sum_(j != p, q) (R_pj - R_qj) (K_k(q, j) - K_k(p, j)) + (R_pp - R_qq) (K_k(q, q) - K_k(p, p))
- *     - 2 n (B_p - B_q) (a_k(q) - a_k(p)),
- *
- * where R is the product of the kernels K_l, and B the product of their integrals a_l, over the coordinates l != k.
- * The kernels of all pairs are stored, one matrix for each coordinate: a change is a sum along rows, in fixed order,
- * and a swap of coordinate k exchanges two rows and two columns of matrix k.
+ * swaps.c has the change of the discrepancy by a swap.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -28,9 +21,8 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/l2_boxes.h"
-#include "measures/shared/order.h"
 #include "optimise/descent.h"
+#include "optimise/swaps.h"
 #include "optimise/value.h"
 
 /* LEAST_N: for fewer points the method `descent` is used, which finds the best sets at once. In each of ROUNDS rounds
@@ -38,8 +30,6 @@
    accept only swaps that reduce the value. The run is asked after ASKED swaps. */
 enum {
     LEAST_N = 10,
-    MOST_NUMBERS = 1 << 21,
-    LANES = 8,
     ROUNDS = 100,
     WARM = 40,
     COLD = 6,
@@ -60,103 +50,6 @@ static const double FIRST = 0.1, FALL = 0.96;
    spent on such trials, as a number of coordinates read. */
 static const double LEAP = 0.02, POLISH = 1e8;
 
-typedef struct job {
-    const koksma__l2_row *row;
-    size_t n, dim, stride;
-    double *kernels;        /* K_k(i, j) at (k n + i) stride + j; the columns from n on are 0 */
-    double *linear;         /* a_k of point i at k n + i */
-    double *products;       /* two rows: R_p and R_q */
-    double *before;         /* the set to restore if a trial swap gains nothing */
-    uint32_t *order, *rank; /* for each axis: the points in order, and the rank of each point */
-    koksma__stream random;
-    void *memory;
-} job;
-
-static koksma_status job_init(job *j, const koksma__l2_row *row, const koksma_points *points, uint64_t seed)
-{
-    const size_t n = points->n, dim = (size_t)points->dim, stride = (n + LANES - 1) / LANES * LANES;
-    const size_t numbers = (dim * n + 2) * stride + 2 * dim * n,
-                 bytes = numbers * sizeof(double) + 2 * dim * n * sizeof(uint32_t);
-    *j =
-        (job){.row = row, .n = n, .dim = dim, .stride = stride, .random = {.seed = seed}, .memory = calloc(1, bytes)};
-    KOKSMA__REQUIRE_MEMORY(j->memory, bytes);
-    j->kernels = j->memory;
-    j->products = j->kernels + dim * n * stride;
-    j->linear = j->products + 2 * stride;
-    j->before = j->linear + dim * n;
-    j->order = (uint32_t *)(j->before + dim * n);
-    j->rank = j->order + dim * n;
-    return KOKSMA_OK;
-}
-
-/* Computes orders, kernels and integrals of the points. */
-static koksma_status prepare(job *j, const double *xs)
-{
-    const koksma_run one_thread = {.threads = 1};
-    const koksma__l2_row *row = j->row;
-    const size_t n = j->n, dim = j->dim;
-    for (size_t k = 0; k < dim; k++) {
-        uint32_t *order = j->order + k * n;
-        KOKSMA__TRY(koksma__order(&one_thread, n, xs + k, dim, order));
-        double *g = j->products; /* the part g(x_i) of the kernel */
-        for (size_t i = 0; i < n; i++) {
-            j->rank[k * n + order[i]] = (uint32_t)i;
-            j->linear[k * n + i] = koksma__l2_polynomial(row->a24, xs[i * dim + k]) / 24;
-            g[i] = koksma__l2_polynomial(row->g, xs[i * dim + k]);
-        }
-        for (size_t i = 0; i < n; i++) {
-            double *to = j->kernels + (k * n + i) * j->stride;
-            for (size_t l = 0; l < n; l++) {
-                const double t = fabs(xs[i * dim + k] - xs[l * dim + k]);
-                to[l] = g[i] + g[l] + t * (row->q + row->r * t);
-            }
-        }
-    }
-    return KOKSMA_OK;
-}
-
-/* Returns the kernels of point p with all points, without the factor of coordinate k. */
-static const double *others(const job *j, size_t k, size_t p, double *room)
-{
-    if (j->dim == 2) {
-        return j->kernels + ((1 - k) * j->n + p) * j->stride;
-    }
-    for (size_t i = 0; i < j->n; i++) {
-        room[i] = 1;
-    }
-    for (size_t l = 0; l < j->dim; l++) {
-        const double *restrict factor = j->kernels + (l * j->n + p) * j->stride;
-        for (size_t i = 0; i < j->n && l != k; i++) {
-            room[i] *= factor[i];
-        }
-    }
-    return room;
-}
-
-/* Returns the change of n^2 times the squared discrepancy when points p and q swap coordinate k. */
-static double change(const job *j, size_t k, size_t p, size_t q)
-{
-    const double *restrict rp = others(j, k, p, j->products), *restrict rq = others(j, k, q, j->products + j->stride);
-    const double *restrict kp = j->kernels + (k * j->n + p) * j->stride, *restrict kq =
-                                                                             j->kernels + (k * j->n + q) * j->stride;
-    double sums[LANES] = {0}, pairs = 0, linear_p = 1, linear_q = 1;
-    for (size_t i = 0; i < j->stride; i += LANES) {
-        for (size_t l = 0; l < LANES; l++) {
-            sums[l] += (rp[i + l] - rq[i + l]) * (kq[i + l] - kp[i + l]);
-        }
-    }
-    for (size_t l = 0; l < LANES; l++) {
-        pairs += sums[l];
-    }
-    pairs -= (rp[p] - rq[p]) * (kq[p] - kp[p]) + (rp[q] - rq[q]) * (kq[q] - kp[q]);
-    for (size_t l = 0; l < j->dim; l++) {
-        linear_p *= l == k ? 1 : j->linear[l * j->n + p];
-        linear_q *= l == k ? 1 : j->linear[l * j->n + q];
-    }
-    return 2 * pairs + (rp[p] - rq[q]) * (kq[q] - kp[p]) -
-           2 * (double)j->n * (linear_p - linear_q) * (j->linear[k * j->n + q] - j->linear[k * j->n + p]);
-}
-
 static void exchange(double *a, double *b)
 {
     const double was = *a;
@@ -164,29 +57,8 @@ static void exchange(double *a, double *b)
     *b = was;
 }
 
-/* Swaps coordinate k of points p and q, and updates orders, kernels and integrals. */
-static void swap(job *j, double *xs, size_t k, size_t p, size_t q)
-{
-    const size_t n = j->n;
-    double *matrix = j->kernels + k * n * j->stride;
-    uint32_t *order = j->order + k * n, *rank = j->rank + k * n;
-    for (size_t i = 0; i < n; i++) {
-        exchange(matrix + p * j->stride + i, matrix + q * j->stride + i);
-    }
-    for (size_t i = 0; i < n; i++) {
-        exchange(matrix + i * j->stride + p, matrix + i * j->stride + q);
-    }
-    exchange(j->linear + k * n + p, j->linear + k * n + q);
-    exchange(xs + p * j->dim + k, xs + q * j->dim + k);
-    const uint32_t was = rank[p];
-    rank[p] = rank[q];
-    rank[q] = was;
-    order[rank[p]] = (uint32_t)p;
-    order[rank[q]] = (uint32_t)q;
-}
-
 /* Proposes SWAPS n swaps; each is accepted if the change is below a random threshold whose mean is `threshold`. */
-static koksma_status propose(job *j, double *xs, double threshold, const koksma_run *run)
+static koksma_status propose(koksma__swaps *j, double *xs, double threshold, const koksma_run *run)
 {
     const size_t n = j->n;
     for (size_t m = 0; m < SWAPS * n; m++) {
@@ -201,15 +73,15 @@ static koksma_status propose(job *j, double *xs, double threshold, const koksma_
             q = at < n ? j->order[l * n + at] : p;
         }
         const double u = koksma__next_unit(&j->random), v = koksma__next_unit(&j->random);
-        if (p != q && change(j, k, p, q) < 4 * threshold * u * v) {
-            swap(j, xs, k, p, q);
+        if (p != q && koksma__swaps_change(j, k, p, q) < 4 * threshold * u * v) {
+            koksma__swaps_swap(j, xs, k, p, q);
         }
     }
     return KOKSMA_OK;
 }
 
 /* Gives the points the coordinates (i + 1/2)/n along each axis, in random order. */
-static void shuffle(job *j, double *xs)
+static void shuffle(koksma__swaps *j, double *xs)
 {
     for (size_t k = 0; k < j->dim; k++) {
         for (size_t i = 0; i < j->n; i++) {
@@ -243,17 +115,17 @@ static koksma_status square_of(const void *context, const koksma_points *points,
 
 /* Tries random swaps, each followed by a descent, until STALE n^2 swaps in a row gain nothing or the work is used
    up. */
-static koksma_status improve(job *j, koksma__descent *d, double *square)
+static koksma_status improve(koksma__swaps *j, koksma__descent *d, double *square)
 {
     const size_t bytes = d->count * sizeof(double), n = j->n, dim = j->dim;
     const double reach = LEAP * *square * (double)(n * n);
     double next, *before = j->before;
-    koksma_status status = prepare(j, d->points.xs);
+    koksma_status status = koksma__swaps_prepare(j, d->points.xs);
     memcpy(before, d->points.xs, bytes);
     for (size_t stale = 0; stale < STALE * n * n && d->work < d->budget && !status; stale++) {
         const size_t k = koksma__next_below(&j->random, dim), p = koksma__next_below(&j->random, n),
                      q = koksma__next_below(&j->random, n);
-        if (p == q || change(j, k, p, q) > reach) {
+        if (p == q || koksma__swaps_change(j, k, p, q) > reach) {
             status = stale % ASKED ? KOKSMA_OK : koksma__ask(d->run);
             continue;
         }
@@ -264,7 +136,7 @@ static koksma_status improve(job *j, koksma__descent *d, double *square)
             *square = next;
             stale = 0;
             memcpy(before, d->points.xs, bytes);
-            status = prepare(j, before);
+            status = koksma__swaps_prepare(j, before);
         } else {
             memcpy(d->points.xs, before, bytes);
         }
@@ -280,8 +152,8 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     const measured context = {measure, o, run};
     const size_t n = points->n;
     koksma__descent d;
-    job j;
-    KOKSMA__TRY(job_init(&j, koksma__l2_row_of(measure->measure), points, seed));
+    koksma__swaps j;
+    KOKSMA__TRY(koksma__swaps_init(&j, koksma__l2_row_of(measure->measure), points, seed));
     koksma_status status = koksma__descent_init(&d, points, o->keep, true, 0);
     if (status) {
         free(j.memory);
@@ -303,7 +175,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
         if (round < WARM && again) {
             continue;
         }
-        status = prepare(&j, d.points.xs);
+        status = koksma__swaps_prepare(&j, d.points.xs);
         if (!status) {
             status = propose(&j, d.points.xs, round < ROUNDS ? threshold : 0, run);
             status = status ? status : koksma__descend(&d, FIT, &square);
@@ -326,7 +198,8 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
 static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
     return koksma__l2_row_of(measure->measure) && !measure->measure->on_torus && o->keep == KOKSMA_KEEP_NONE &&
-                   !o->n_projections && o->dim > 1 && o->n >= LEAST_N && o->n * o->n * (size_t)o->dim <= MOST_NUMBERS
+                   !o->n_projections && o->dim > 1 && o->n >= LEAST_N &&
+                   o->n * o->n * (size_t)o->dim <= KOKSMA__MOST_KERNELS
                ? 7
                : 0;
 }

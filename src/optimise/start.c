@@ -106,8 +106,8 @@ static koksma_status try_pattern(walk *w, const koksma_pattern *p, koksma__start
     koksma_spec spec;
     char text[KOKSMA_MAX_SPEC];
     koksma_status status = KOKSMA_OK;
-    if (p->operand || p->alias_of) {
-        return KOKSMA_OK;
+    if (p->operand || p->alias_of || (w->options->keep != KOKSMA_KEEP_NONE && p->claims & KOKSMA_CLAIM_BLUE)) {
+        return KOKSMA_OK; /* blue noise, which may take long, has none of the structures */
     }
     snprintf(text, sizeof text, "%s:measure=%s", p->name, w->measure->measure->name);
     if (p->params && !strcmp(p->params->name, "measure") && !koksma_pattern_spec(text, &spec)) {

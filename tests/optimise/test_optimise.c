@@ -386,6 +386,39 @@ static void methods_gain_and_keep(void **state)
     }
 }
 
+/* Latin hypercubes of both sizes, with stored kernels and too large for them, lose a good part of their discrepancy
+   and keep their coordinates. */
+static void latin_hypercubes_of_all_sizes(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t n;
+        int dim;
+        double share; /* of the first value, that remains at most */
+    } sets[] = {{50, 5, 0.7}, {840, 3, 0.95}};
+    for (size_t i = 0; i < test_repeats(2, 1); i++) {
+        koksma_points from = test_points("latin-hypercube", sets[i].n, sets[i].dim, 3);
+        const koksma_optimise_options options = {.n = from.n,
+                                                 .dim = from.dim,
+                                                 .first = &from,
+                                                 .keep = KOKSMA_KEEP_LATIN,
+                                                 .steps = 1,
+                                                 .processes = &one_search};
+        koksma_optimum best = optimised("l2-centered", options, 1);
+        assert_true(best.value < sets[i].share * test_measure("l2-centered", &from).value);
+        double *axes[2] = {malloc(from.n * sizeof(double)), malloc(from.n * sizeof(double))};
+        for (int k = 0; k < from.dim; k++) {
+            sorted(&from, k, axes[0]);
+            sorted(&best.points, k, axes[1]);
+            assert_memory_equal(axes[0], axes[1], from.n * sizeof(double));
+        }
+        free(axes[0]);
+        free(axes[1]);
+        koksma_optimum_fini(&best);
+        koksma_points_fini(&from);
+    }
+}
+
 /* Nothing is below: tools/prove_star.c proves it, and the test star_optima checks its proofs for up to 12 points. */
 static void optima_of_the_star_discrepancy(void **state)
 {
@@ -850,6 +883,7 @@ int main(void)
         cmocka_unit_test(gradients_of_powers_are_differences),
         cmocka_unit_test(torus_is_where_it_is_said),
         cmocka_unit_test(methods_gain_and_keep),
+        cmocka_unit_test(latin_hypercubes_of_all_sizes),
         cmocka_unit_test(optima_of_the_star_discrepancy),
         cmocka_unit_test(lower_bounds_hold),
         cmocka_unit_test(steps_of_few_points_are_short),
