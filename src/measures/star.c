@@ -10,9 +10,9 @@
  * be the procedure of Shirley's table 5.5 (its regular pattern has S = 0.0600 on such a grid, and exactly 0.0597).
  * Source: Zaremba 1968; Shirley 1991, section 5.5.7; in more than two dimensions Dobkin, Eppstein and Mitchell 1996;
  * for the upper bounds Thiemard 2001.
- * Known exactly: one point at (g,g), g = (sqrt 5 - 1)/2, has D = g; 4 x 4 cell centres 15/64 (also with grid=200); one point at the centre
- * of the cube 7/8; Hammersley 2^m, m >= 2: n D = m/3 + 13/9 - (-1)^m 4/(9 2^m) (De Clerck 1986; n D is 1 for m = 0,
- * 3/2 for m = 1).
+ * Known exactly: one point at (g,g), g = (sqrt 5 - 1)/2, has D = g; 4 x 4 cell centres 15/64 (also with
+ * grid=200); one point at the centre of the cube 7/8; Hammersley 2^m, m >= 2: n D = m/3 + 13/9 - (-1)^m 4/(9 2^m) (De
+ * Clerck 1986; n D is 1 for m = 0, 3/2 for m = 1).
  * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16 at any n. With a time limit, in 3
  * dimensions and more, the value may be a lower bound; it then comes with a proven upper bound.
  */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Means of the first paper's measures over 1,000 sets of 16 points for its seven patterns, within three standard
+/* Means of the measures of Shirley 1991 over 1,000 sets of 16 points for its seven patterns, within three standard
    errors of values found with an independent implementation from 20,000 sets (whose own error is the +- below). */
 #include "test.h"
 

@@ -145,23 +145,3 @@ koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, cons
     }
     return status;
 }
-
-const koksma__table *koksma__plan_table_of(const koksma__plan *p, size_t part, const char *id)
-{
-    for (size_t i = 0; i < p->n_tables; i++) {
-        if (p->tables[i].part == part && !strcmp(p->tables[i].id, id)) {
-            return &p->tables[i];
-        }
-    }
-    return NULL;
-}
-
-const koksma__table_row *koksma__plan_row_of(const koksma__table *t, const char *pattern)
-{
-    for (size_t r = 0; r < t->n_rows; r++) {
-        if (!strcmp(t->rows[r].pattern, pattern)) {
-            return &t->rows[r];
-        }
-    }
-    return NULL;
-}

@@ -237,3 +237,23 @@ bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char
     return !block->warps.n && block->dim == dim && koksma__texts_have(&block->measures, measure) &&
            koksma__texts_have(&block->patterns, pattern) && koksma__wholes_have(&block->n, n);
 }
+
+const koksma__table *koksma__plan_table_of(const koksma__plan *p, size_t part, const char *id)
+{
+    for (size_t i = 0; i < p->n_tables; i++) {
+        if (p->tables[i].part == part && !strcmp(p->tables[i].id, id)) {
+            return &p->tables[i];
+        }
+    }
+    return NULL;
+}
+
+const koksma__table_row *koksma__plan_row_of(const koksma__table *t, const char *pattern)
+{
+    for (size_t r = 0; r < t->n_rows; r++) {
+        if (!strcmp(t->rows[r].pattern, pattern)) {
+            return &t->rows[r];
+        }
+    }
+    return NULL;
+}

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads the means that conclusions are tested with, and the names of patterns as the paper has them. */
+/* A conclusion names tables and patterns; their means are those of the published tables (published_tables.h). */
+#include "study/report/conclusion_tables.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "study/plan/plan_owned.h"
-#include "study/report/conclusions/conclusion.h"
 
 koksma_status koksma__conclusion_means(koksma_study *study, const koksma__table *t, const koksma__texts *patterns,
                                        size_t k, double *ours, double *in_print, koksma__summary *of)
@@ -40,12 +41,4 @@ const char *koksma__conclusion_label(const koksma_study *study, const koksma__co
         }
     }
     return pattern;
-}
-
-void koksma__say_patterns(koksma__document *d, const koksma_study *study, const koksma__conclusion *c,
-                          const koksma__texts *patterns)
-{
-    for (size_t i = 0; i < patterns->n; i++) {
-        koksma__doc_say(d, "%s%s", i ? "; " : "", koksma__conclusion_label(study, c, patterns->at[i]));
-    }
 }

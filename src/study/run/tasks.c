@@ -200,10 +200,7 @@ static koksma_status add_images(koksma__tasks *tasks, const koksma__image_block 
 static int compare_tasks(const void *a, const void *b)
 {
     const koksma__task *s = a, *t = b;
-    if (s->trials != t->trials) {
-        return s->trials > t->trials ? -1 : 1;
-    }
-    return s->place < t->place ? -1 : 1;
+    return s->trials != t->trials ? (s->trials > t->trials ? -1 : 1) : s->place < t->place ? -1 : 1;
 }
 
 /* Sorts the tasks by descending number of trials (equal numbers keep the plan's order), so that every round of
@@ -510,11 +507,8 @@ static koksma_status find_coherence(const koksma_image *image, const koksma_imag
     status = status ? status : koksma_coherence_add(&coherence, image, reference);
     if (!status) {
         koksma_coherence_find(&coherence, &found);
-        const bool has_peak = !isnan(found.coherence);
-        values[0] = has_peak ? found.coherence : 0;
-        values[1] = has_peak ? found.p : 1;
-        values[2] = has_peak ? found.frequency_x : 0;
-        values[3] = has_peak ? found.frequency_y : 0;
+        const double none[] = {0, 1, 0, 0}, peak[] = {found.coherence, found.p, found.frequency_x, found.frequency_y};
+        memcpy(values, isnan(found.coherence) ? none : peak, sizeof none);
     }
     koksma_coherence_fini(&coherence);
     return status;

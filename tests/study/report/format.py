@@ -176,6 +176,7 @@ def check_sections():
     """A plan for every section: published tables of both kinds, figures, questions, images."""
     row = {"pattern": "random", "label": "R", "published": [0.3]}
     plan = {"discrepancies": [POINTS], "images": [{**IMAGES, "options": {}}],
+            "conclusions": [{"kind": "before", "says": "C.", "tables": ["1"], "patterns": [row["pattern"]], "against": [row["pattern"]]}],
             "tables": [{"id": "1", "title": "P", "measure": "star", "n": 16, "rows": [row]},
                        {"id": "2", "title": "S", "measure": "star", "n": [4, 16, 64], "rows": [{**row, "published": ["0.5", "0.3", "0.2"]}]},
                        {"id": "3", "title": "I", "scene": "ball", "n": 16, "rows": [row]}],

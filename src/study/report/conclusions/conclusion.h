@@ -3,8 +3,8 @@
 #ifndef KOKSMA_STUDY_REPORT_CONCLUSIONS_CONCLUSION_H
 #define KOKSMA_STUDY_REPORT_CONCLUSIONS_CONCLUSION_H
 
+#include "study/report/conclusion_tables.h"
 #include "study/report/document.h"
-#include "study/report/published_tables.h"
 #include "study/run/study.h"
 
 /* The number of tests that a conclusion passes, of those that its rows allow; rows that are missing count as `open`. */
@@ -18,21 +18,6 @@ static inline void koksma__test(koksma__tested *t, bool passes)
     t->tests++;
     t->passed += passes;
 }
-
-/* The means of a table's rows for the patterns of a list, at column number k: ours[i], in print[i], and the summaries of
-   ours. NaN: none. Unless `of` is NULL, of[i] is our summary. */
-koksma_status koksma__conclusion_means(koksma_study *study, const koksma__table *table, const koksma__texts *patterns,
-                                       size_t k, double *ours, double *in_print, koksma__summary *of);
-
-/* The table of a conclusion's plan with this id. */
-const koksma__table *koksma__conclusion_table(const koksma_study *study, const koksma__conclusion *c, const char *id);
-
-/* The label of a pattern in the first table of the conclusion's plan that has it, or the pattern. */
-const char *koksma__conclusion_label(const koksma_study *study, const koksma__conclusion *c, const char *pattern);
-
-/* Writes the labels of patterns with "; " between them, because names have commas. */
-void koksma__say_patterns(koksma__document *d, const koksma_study *study, const koksma__conclusion *c,
-                          const koksma__texts *patterns);
 
 /* Declares the functions. Each appends the words of the result to `words`, in which a paragraph is open, and counts its
    tests. */

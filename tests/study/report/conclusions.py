@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""conclusions.py PROGRAM: a study whose answers are known by construction. Of every kind of conclusion one is true, one is
+false and, where a kind has several tests, one is half true; the report has to say so. What stands beside them (rank
+correlations, coherences, joint tests of z) is computed here again from the rows, or is the same wherever a page says it."""
+import csv
+import io
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+KOKSMA = Path(sys.argv[1]).resolve()
+problems = 0
+
+# By theory: jittered falls as n^-0.75 and random as n^-0.5 in l2-star; a lattice of centres leaves bands in a checkerboard
+# at 45 degrees, and independent samples leave noise; and random samples err more than jittered ones everywhere.
+PLAN = {
+    "name": "known", "title": "Known", "metrics": ["grain"],
+    "discrepancies": [{"id": "d", "patterns": ["jittered", "random"], "measures": ["l2-star"], "n": [16, 64, 256], "trials": 60},
+                      {"id": "one", "patterns": ["jittered"], "measures": ["l2-star"], "n": [16, 64], "trials": 1},
+                      {"patterns": ["n-rooks", "jittered", "half-jittered", "multi-jittered", "random"], "measures": ["l2-star", "min-distance"],
+                       "n": [16], "trials": 60}],
+    "images": [{"id": "i", "scenes": ["checker-45"], "size": [64, 48], "spp": [4], "trials": 8, "patterns": ["regular", "jittered", "random"],
+                "references": [{"name": "r", "pattern": "sobol:scramble=owen", "spp": 1024, "replicates": 2}]},
+               {"scenes": ["checker"], "size": [64, 48], "spp": [16], "trials": 8,
+                "patterns": ["n-rooks", "jittered", "half-jittered", "multi-jittered", "random"],
+                "references": [{"name": "r", "pattern": "sobol:scramble=owen", "spp": 1024, "replicates": 2}]}],
+    "tables": [{"id": "errors", "title": "E", "scene": "checker", "n": 16, "rows": [
+                   {"pattern": p, "label": p, "published": [v]} for p, v in
+                   [("n-rooks", 3), ("jittered", 2), ("half-jittered", 5), ("multi-jittered", 1), ("random", 4)]]},
+               {"id": "bands", "title": "B", "scene": "checker-45", "n": 4, "rows": [
+                   {"pattern": p, "label": p, "published": []} for p in ("regular", "random")]},
+               {"id": "S", "title": "S", "measure": "l2-star", "n": 16, "rows": [
+                   {"pattern": p, "label": p, "published": ["0.09" if p == "random" else "0.05"]} for p in
+                   ("n-rooks", "jittered", "half-jittered", "multi-jittered", "random")]},
+               {"id": "distance", "title": "Distances", "measure": "min-distance", "n": 16, "rows": [
+                   {"pattern": p, "label": p, "published": []} for p in
+                   ("n-rooks", "jittered", "half-jittered", "multi-jittered", "random")]},
+               {"id": "sizes", "title": "N", "measure": "l2-star", "n": [16, 64, 256], "rows": [
+                   {"pattern": "jittered", "label": "jittered", "published": ["0.1", "0.02", "0.01"], "rate": -0.75},
+                   {"pattern": "random", "label": "Poisson, d = 2", "published": ["0.2", "0.2", "0.2"], "of-random": 1}]}],
+}
+FIVE = ["multi-jittered", "n-rooks", "jittered", "half-jittered", "random"]
+CONCLUSIONS = [  # the words, the expected verdict, and the test
+    ("order true", "holds", {"kind": "order", "tables": ["errors"], "patterns": ["multi-jittered", "jittered", "random"]}),
+    ("order half true", "partly", {"kind": "order", "tables": ["errors"], "patterns": ["jittered", "multi-jittered", "random"]}),
+    ("order false", "fails", {"kind": "order", "tables": ["errors"], "patterns": ["random", "jittered", "multi-jittered"]}),
+    ("best true", "holds", {"kind": "best", "tables": ["errors"], "patterns": ["multi-jittered"]}),
+    ("best half true", "partly", {"kind": "best", "tables": ["errors"], "patterns": ["jittered"], "against": ["multi-jittered", "n-rooks", "half-jittered"]}),
+    ("best false", "fails", {"kind": "best", "tables": ["errors"], "patterns": ["random"]}),
+    ("predictor true", "holds", {"kind": "predictor", "tables": ["errors"], "by": ["errors"], "patterns": FIVE}),
+    ("predictor false", "fails", {"kind": "predictor", "tables": ["errors"], "by": ["distance", "S"], "patterns": FIVE}),
+    ("before true", "holds", {"kind": "before", "tables": ["sizes"], "patterns": ["jittered"], "against": ["random"]}),
+    ("before false", "fails", {"kind": "before", "tables": ["sizes"], "patterns": ["random"], "against": ["jittered"]}),
+    ("bands true", "holds", {"kind": "bands", "images": "i", "patterns": ["regular"], "against": ["random", "jittered"]}),
+    ("bands half true", "partly", {"kind": "bands", "tables": ["bands"], "patterns": ["regular", "random"]}),
+    ("bands false", "fails", {"kind": "bands", "tables": ["bands"], "patterns": ["random"], "against": ["regular"]}),
+    ("metric true", "holds", {"kind": "metric", "images": "i", "metric": "rmse", "patterns": ["random"], "against": ["jittered"]}),
+    ("metric false", "fails", {"kind": "metric", "images": "i", "metric": "rmse", "patterns": ["jittered"], "against": ["random"]}),
+    ("rates true", "holds", {"kind": "rates", "discrepancies": "d", "patterns": ["jittered"]}),
+    ("rates half true", "partly", {"kind": "rates", "discrepancies": "d", "patterns": ["jittered", "random"]}),
+    ("rates false", "fails", {"kind": "rates", "discrepancies": "d", "patterns": ["random"]}),
+    ("rates unknown", "undecided", {"kind": "rates", "discrepancies": "one", "patterns": ["jittered"]}),
+]
+
+
+def complain(text):
+    global problems
+    problems += 1
+    print(text)
+
+
+def words(runs):
+    return "".join(run if isinstance(run, str) else run["text"] for run in runs)
+
+
+def blocks(content, under=()):
+    for block in content:
+        yield under, block
+        yield from blocks(block.get("content", []), (*under, words(block.get("heading", []))))
+
+
+def koksma(*arguments):
+    return subprocess.run([KOKSMA, *arguments], capture_output=True, text=True)
+
+
+def spearman(x, y):
+    ranks = [[sorted(v).index(a) for a in v] for v in (x, y)]
+    return 1 - 6 * sum((a - b) ** 2 for a, b in zip(*ranks)) / (len(x) * (len(x) ** 2 - 1))
+
+
+def report_of(plan, folder):
+    Path(f"{folder}.json").write_text(json.dumps(plan))
+    run = koksma("study", "run", f"./{folder}.json", "-o", folder, "-q")
+    if run.returncode:
+        complain(f"{folder}: {run.stderr}")
+        sys.exit(1)
+    return json.loads(Path(folder, "report.json").read_text())
+
+
+def check_verdicts(report, rows):
+    said = {words(b["text"]).split(" _")[0]: b for under, b in blocks(report["content"]) if under and "concludes" in under[-1] and b["kind"] == "paragraph"}
+    for what, verdict, _ in CONCLUSIONS:
+        found = [b for text, b in said.items() if text.startswith(what + ".")]
+        if len(found) != 1 or found[0]["answer"] != verdict:
+            complain(f"{what}: {[(b['answer'], words(b['text'])) for b in found]}, not {verdict}")
+    means = {}
+    for row in rows:
+        if row["kind"] == "image" and row["scene"] == "checker":
+            means.setdefault(row["pattern"], []).append(float(row["value"]))
+    order = ["multi-jittered", "jittered", "random"]
+    rho = spearman([sum(means[p]) / len(means[p]) for p in order], [1, 2, 4])
+    if f"{rho:.2f} in errors" not in words(next(b for t, b in said.items() if t.startswith("order true"))["text"]):
+        complain(f"the rank correlation is {rho:.2f}")
+
+
+def check_coherences(report):
+    """Of one error the page says one coherence, whatever section it is in."""
+    found = {}
+    for under, block in blocks(report["content"]):
+        names = [c["name"] for c in block.get("columns", [])]
+        if "coherence" in names:
+            scene = next(s for s in ("checker-45", "checker") if any(s in h or (s == "checker" and "Table errors" in h) or
+                                                                     (s == "checker-45" and "Table bands" in h) for h in under))
+            for row in block["rows"]:
+                of = dict(zip(names, row))
+                value = of["coherence"][0] if isinstance(of["coherence"], list) else of["coherence"]
+                noise = of.get("noise below", of.get("to"))
+                bands = {"yes": True, "no": False, "coherent": True, "noise": False}[of.get("in bands", of.get("error"))]
+                found.setdefault((scene, of["pattern"]), set()).add((value, noise, bands))
+    both = [key for key, values in found.items() if len(values) > 1]
+    if both or len(found) < 8:
+        complain(f"several coherences of one error: {[(key, found[key]) for key in both]} of {len(found)}")
+
+
+def check_joint_tests(report):
+    """The words below a table follow from the values of z that its cells have."""
+    tables = [(under, b) for under, b in blocks(report["content"]) if b["kind"] == "table" and b["name"] in ("table-S", "table-sizes")]
+    verdicts = set()
+    for under, table in tables:
+        z = [cell["z"] for row in table["rows"] for cell in row if isinstance(cell, dict) and "z" in cell]
+        k, total = len(z), sum(z) / math.sqrt(len(z))
+        squares, limit = sum(v * v for v in z), {2: 5.991, 5: 11.070, 6: 12.592}[k]
+        text = next(words(b["text"]) for u, b in blocks(report["content"]) if u == under and b["kind"] == "paragraph" and "together" in words(b["text"]))
+        fails = abs(total) > 1.96 or squares > limit
+        verdicts.add(fails)
+        if f"together {'fail' if fails else 'pass'}:" not in text or f"{total:+.2f}, which {'fails' if abs(total) > 1.96 else 'passes'}" not in text:
+            complain(f"{table['name']}: {total:+.2f} and {squares:.1f} of {k}: {text}")
+    headline = next(words(b["text"]) for _, b in blocks(report["content"]) if "joint tests" in words(b.get("text", [])))
+    if len(tables) != 2 or verdicts != {True, False} or "1 of 2 tables" not in headline or "fail: sizes." not in headline:
+        complain(f"{len(tables)} tables: {headline}")
+
+
+def check_slopes(report):
+    """Printed slopes are least squares in the logarithms, as ours: of 0.1, 0.02, 0.01 at 16, 64, 256."""
+    table = next(b for _, b in blocks(report["content"]) if b.get("name") == "table-sizes")
+    at = [c["name"] for c in table["columns"]].index("slope")
+    expected = (math.log(0.01) - math.log(0.1)) / (math.log(256) - math.log(16))  # the middle size has no weight
+    if abs(table["rows"][0][at][0] - expected) > 1e-12:
+        complain(f"the printed slope is {table['rows'][0][at][0]}, not {expected}")
+
+
+def check_refusals():
+    known = koksma("study", "run", "./kind.json", "-o", "never") if Path("kind.json").write_text(
+        json.dumps({**PLAN, "conclusions": [{"kind": "x", "says": "X", "patterns": ["random"]}]})) else None
+    kinds = {c[2]["kind"] for c in CONCLUSIONS}
+    listed = known.stderr.split("it takes one of ")[-1].strip().split(", ")
+    if known.returncode != 3 or set(listed) != kinds:
+        complain(f"the kinds are {listed}; tested are {sorted(kinds)}")
+    wrong = [({"kind": "order", "patterns": ["random"]}, "needs tables"), ({"kind": "order", "tables": ["none"], "patterns": ["random"]}, "no table of the plan has the id 'none'"),
+             ({"kind": "order", "tables": ["errors"], "patterns": ["sobol"]}, "table errors has no row of sobol"),
+             ({"kind": "order", "tables": ["S"], "patterns": ["random"]}, "table S is not one of a scene"),
+             ({"kind": "rates", "discrepancies": "e", "patterns": ["random"]}, "no block of the plan has the id 'e'"),
+             ({"kind": "rates", "discrepancies": "d", "patterns": ["sobol"]}, "a block 'd' lacks the pattern sobol"),
+             ({"kind": "metric", "images": "i", "patterns": ["random"], "against": ["jittered"]}, "needs metric")]
+    for conclusion, message in wrong:
+        Path("wrong.json").write_text(json.dumps({**PLAN, "conclusions": [{"says": "X", **conclusion}]}))
+        run = koksma("study", "run", "./wrong.json", "-o", "never")
+        if run.returncode != 3 or message not in run.stderr or "conclusions[0]" not in run.stderr:
+            complain(f"{conclusion}: {run.returncode}, {run.stderr}")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    plan = {**PLAN, "conclusions": [{"says": what + ".", **test} for what, _, test in CONCLUSIONS]}
+    report = report_of(plan, "known")
+    rows = list(csv.DictReader(io.StringIO(koksma("study", "export", "known").stdout)))
+    check_verdicts(report, rows)
+    check_coherences(report)
+    check_joint_tests(report)
+    check_slopes(report)
+    check_refusals()
+print(f"{problems} problems with {len(CONCLUSIONS)} conclusions")
+sys.exit(1 if problems else 0)
