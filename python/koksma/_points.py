@@ -423,7 +423,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     """
     shape: Any = (n, 2 if dim is None else dim) if out is None else out.shape if type(out) is np.ndarray and n is dim is None else None
     if (type(seed) is int and type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
-            and type(allow_exec) is bool and density is on is warp is domain is None and type(first) is int and first == 0
+            and type(allow_exec) is bool and density is on is warp is None and domain is None and type(first) is int and first == 0
             and set(map(type, shape or ())) == {int} and (pattern, shape) in quick):
         quickly = _quick_points(pattern, shape, seed, threads, out)
         if quickly is not None:
