@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Domains of points other than the uniform unit cube: a rectangle, which may have a density, or the surface of a model. A domain
-   consists of parts (the pixels of the density or the triangles of the model), each with its own coordinates. choose.c
-   makes points on a domain with the methods of patterns. */
+/* Domains of points other than the uniform unit cube: a rectangle, which may have a density, or the surface of a
+   model. A domain consists of parts (the pixels of the density or the triangles of the model), each with its own
+   coordinates. choose.c makes points on a domain with the methods of patterns. */
 #ifndef KOKSMA_DOMAINS_DOMAIN_H
 #define KOKSMA_DOMAINS_DOMAIN_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A density on a rectangle, in coordinates of [0,1)^2, that an image gives: it is constant in each pixel, in proportion to the luminance of the
-   pixel. Pixels are numbered row by row, the top row first. */
+/* A density on a rectangle, in coordinates of [0,1)^2, that an image gives: it is constant in each pixel, in
+   proportion to the luminance of the pixel. Pixels are numbered row by row, the top row first. */
 #ifndef KOKSMA_DOMAINS_IMAGE_DENSITY_H
 #define KOKSMA_DOMAINS_IMAGE_DENSITY_H
 

@@ -89,8 +89,8 @@ static double mean_radius(const koksma_spec *spec, const int *shape, bool densit
     return sum;
 }
 
-/* Every pattern that claims blue noise in the plane keeps its relative radius whatever the shape; with distances of the unit
-   square 4:3 would lose 10 %, 4:1 half. One set of few points varies by up to 6 % (gaussian-blue-noise). */
+/* Every pattern that claims blue noise in the plane keeps its relative radius whatever the shape; with distances
+   of the unit square 4:3 would lose 10 %, 4:1 half. One set of few points varies by up to 6 % (gaussian-blue-noise). */
 static void radii_do_not_depend_on_the_shape(void **state)
 {
     (void)state;
