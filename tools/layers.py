@@ -34,7 +34,7 @@ MAY_USE = {
     "api": "core patterns measures warps",
     "integrands": "core stats patterns api",
     "verify": "core patterns measures api",
-    "optimise": "core kernels measures api",
+    "optimise": "core kernels patterns measures api",
     "modules": "core",
     "image": "core kernels stats modules",
     "meshes": "core json image",

@@ -14,10 +14,10 @@
  * discrepancy is near it. L-BFGS uses only the listed corners, about 1 % of all corners, and ignores changes of
  * ranks; the next pass checks the result. A search begins with a descent from near the best set. Three of four searches
  * walk on from there. The other searches then walk from the best of DRAWS sets of points {i a + s} (fractional parts);
- * a new walk starts after STALE kicks (random changes) without a gain. A kick exchanges a coordinate of two points so that a listed box with too many
- * points loses one, or a box with too few gains one, because no other exchange can help; one kick in five (with
- * keep=net every kick) replaces a point by a random one. The walk accepts the result of a descent if its star
- * discrepancy exceeds that of the walk's current set by at most a threshold.
+ * a new walk starts after STALE kicks (random changes) without a gain. A kick exchanges a coordinate of two points so
+ * that a listed box with too many points loses one, or a box with too few gains one, because no other exchange can help;
+ * one kick in five (with keep=net every kick) replaces a point by a random one. The walk accepts the result of a
+ * descent if its star discrepancy exceeds that of the walk's current set by at most a threshold.
  */
 #include <math.h>
 #include <stdlib.h>

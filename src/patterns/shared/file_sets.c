@@ -6,7 +6,8 @@
  *
  * A set is found by its pattern, parameters, path, numbers of points and dimensions, and by what the system says of the
  * file: device, inode, size and times. It is asked each time, so that a file that has changed is read anew; only a
- * renderer, which asks for thousands of sets a second, trusts the file for some sets (koksma__trust_files). A file that was written less than RACY_S before it was read is not kept, because a clock that ticks that slowly could give a later
+ * renderer, which asks for thousands of sets a second, trusts the file for some sets (koksma__trust_files). A file that
+ * was written less than RACY_S before it was read is not kept, because a clock that ticks that slowly could give a later
  * change the same time. The table has at most MOST sets and MOST_BYTES of coordinates; the set whose last use is longest
  * ago makes room. Readers share a lock.
  */
