@@ -93,8 +93,8 @@ typedef struct koksma__part_name {
 } koksma__part_name;
 
 /* A homogeneous medium in the box from low to high, which may be infinite; if it is in_shape, only where inverse maps to
-   the unit ball, or to the cube from -1 to 1 if it is not is_ball, which the box bounds. Coefficients are per unit of length;
-   `phase` is the material of the medium's points: its parameter 0 is the mean cosine g, its albedo the
+   the unit ball, or to the cube from -1 to 1 if it is not is_ball, which the box bounds. Coefficients are per unit of
+   length; `phase` is the material of the medium's points: its parameter 0 is the mean cosine g, its albedo the
    single-scattering albedo. */
 typedef struct koksma__medium {
     bool is_there;

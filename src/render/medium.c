@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A homogeneous medium in an axis-parallel box, in a ball or cube under a matrix, or everywhere. Over the length s a ray keeps the fraction T(s) =
- * exp(-(a + b) s) of its light, the transmittance, with the coefficients of absorption a and of scattering b, and
- * gains the light that the medium scatters into it (Pharr, Jakob & Humphreys, chapter 11):
+ * A homogeneous medium in an axis-parallel box, in a ball or cube under a matrix, or everywhere. Over the length s a ray
+ * keeps the fraction T(s) = exp(-(a + b) s) of its light, the transmittance, with the coefficients of absorption a and of
+ * scattering b, and gains the light that the medium scatters into it (Pharr, Jakob & Humphreys, chapter 11):
  *
  *     L(o, d) = T(end) L(end)   +   integral of T(s) b (integral of p(d, w) L(o + s d, w) dw) ds
  *

@@ -217,7 +217,8 @@ static koksma_status find_identities(reader *r)
             const char *id = koksma__xml_attribute(n, "id");
             return koksma__import_fail(n->place, "%s: no element has the id '%.60s'", n->tag, id ? id : "");
         }
-        koksma__xml_mark(to, to != n ? KOKSMA__XML_TAKEN : 0); /* if nothing takes the <ref>, that is named */
+        koksma__xml_mark(to, to != n && is_property(to) ? KOKSMA__XML_TAKEN
+                                                        : 0); /* if nothing takes the <ref>, that is named */
     }
     return KOKSMA_OK;
 }
@@ -979,8 +980,8 @@ static bool set_region(const double m[12], bool is_ball, koksma__medium *to)
     return fits && koksma__import_invert(m, to->inverse);
 }
 
-/* Finds the only medium to read. If the first sensor has a medium, it is that one, bounded by the first cube or sphere whose
-   interior it fills, or without bounds if there is none. Otherwise it is the first homogeneous medium in a cube or
+/* Finds the only medium to read. If the first sensor has a medium, it is that one, bounded by the first cube or sphere
+   whose interior it fills, or without bounds if there is none. Otherwise it is the first homogeneous medium in a cube or
    sphere. */
 static koksma_status find_medium(reader *r, const node *root)
 {

@@ -353,8 +353,8 @@ static void mitsubas_cameras_see_what_they_may(void **state)
     }
 }
 
-/* Behind an absorbing shape a light of radiance 3 is seen through exp(-chord / 2): the middle of a ball of radius .5, of one
-   that is twice as long along z, and of a cube that is turned by 45 degrees. */
+/* Behind an absorbing shape a light of radiance 3 is seen through exp(-chord / 2): the middle of a ball of radius .5, of
+   one that is twice as long along z, and of a cube that is turned by 45 degrees. */
 static void media_fill_the_shapes_of_mitsuba(void **state)
 {
     static const struct {
