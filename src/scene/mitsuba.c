@@ -324,7 +324,7 @@ static koksma_status set_matrix(reader *r, const node *n, koksma__mapping *to)
 {
     /* in place of to_uv, Mitsuba 0.6 has four numbers, of which Mitsuba 3 moves by the offsets first */
     static const char *const older[] = {"uscale", "vscale", "uoffset", "voffset"};
-    static const float identity[6] = {1, 0, 0, 0, 1, 0};
+    static const float unmoved[6] = {1, 0, 0, 0, 1, 0};
     const node *t = property(r, n, "to_uv");
     double m[12], by[4] = {1, 1, 0, 0}, all[6];
     KOKSMA__TRY(transform(r, n, "to_uv", m));
@@ -335,7 +335,7 @@ static koksma_status set_matrix(reader *r, const node *n, koksma__mapping *to)
         all[i] = by[i / 3] * (m[i / 3 * 4 + (i % 3 < 2 ? i % 3 : 3)] + (i % 3 == 2 ? by[2 + i / 3] : 0));
         to->matrix[i] = (float)all[i];
     }
-    to->moved = memcmp(to->matrix, identity, sizeof identity) != 0;
+    to->moved = memcmp(to->matrix, unmoved, sizeof unmoved) != 0;
     return koksma__import_check_uv(t ? t->place : n->place, all, 6);
 }
 
