@@ -41,7 +41,8 @@ KOKSMA_API void koksma_image_fini(koksma_image *image);
            XYZ and without adaptation to another white
      PNG   1 to 16 bits, sRGB; if the file has a gAMA chunk but neither sRGB nor iCCP, its power law replaces the
            sRGB curve (1.0: linear)
-     PFM   Pf and PF in either byte order; the magnitude of the scale is ignored (koksma_image_remark); extra bytes at the end are an error
+     PFM   Pf and PF in either byte order; the magnitude of the scale is ignored (koksma_image_remark); extra bytes at
+           the end are an error
      JPEG  baseline or progressive, Huffman-coded, grey or colour, sRGB; a colour profile is not applied; a file that
            is cut short, that lacks a scan, in which the decoder sees damaged data, or that has more than 100 scans is an
            error

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* NumPy's .npy, versions 1 to 3: little- or big-endian arrays of shape (n, dim) or (n,), in C or Fortran order, of float16,
    float32, float64, or integers. An unsigned integer of b bits is a fraction of 2^b, as in the tables of renderers; a
-   signed integer is that number, and so 0 or 1. Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html */
+   signed integer is that number, and so 0 or 1. Format:
+   https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html */
 #include "core/points_npy.h"
 
 #include <math.h>

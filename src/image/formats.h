@@ -39,9 +39,6 @@ typedef struct koksma__image_format {
     const koksma__module *module; /* the module that read and write load; NULL: none */
 } koksma__image_format;
 
-/* Sets the text of koksma_image_remark for the image that this thread reads. */
-void koksma__image_remark(const char *format, ...) KOKSMA_PRINTF(1, 2);
-
 #define FORMAT(name) extern const koksma__image_format koksma__format_##name;
 #include "image/formats.def"
 #undef FORMAT

@@ -2,7 +2,8 @@
 /*
  * Reads and writes PFM files: "Pf" or "PF", width, height, a scale whose sign gives the byte order (negative:
  * little-endian), one blank, then the pixels as floats, with the bottom row first. The scale's magnitude has no
- * agreed meaning (Mitsuba and OpenImageIO multiply by it, OpenCV and netpbm divide): it is ignored, with a remark. Some writers end the header with blanks and CR LF. The first byte of the floats may
+ * agreed meaning (Mitsuba and OpenImageIO multiply by it, OpenCV and netpbm divide): it is ignored, with a remark. Some
+ * writers end the header with blanks and CR LF. The first byte of the floats may
  * look like a blank, so their start is computed from the end of the file.
  */
 #include <math.h>
@@ -14,6 +15,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"
+#include "image/registry.h"
 
 static bool recognises(const unsigned char *bytes, size_t size)
 {

@@ -25,6 +25,9 @@ typedef enum koksma__image_part {
 koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, koksma__image_part part,
                                       koksma_image *out);
 
+/* Sets the text of koksma_image_remark for the image that this thread reads. */
+void koksma__image_remark(const char *format, ...) KOKSMA_PRINTF(1, 2);
+
 /* A check for koksma__read_file: fails unless the file begins like an image in a supported format. Errors: MALFORMED,
    UNSUPPORTED. */
 koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size);

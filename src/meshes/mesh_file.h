@@ -8,6 +8,7 @@
 #include "core/read_file.h"
 #include "meshes/mesh.h"
 #include "meshes/names.h"
+#include "meshes/unknown.h"
 
 enum { KOKSMA__FILE_KEY = 64 }; /* size of the text of koksma__file_key */
 

@@ -3,7 +3,8 @@
  * Reads OBJ's material files. A line is a keyword and its values; "newmtl NAME" begins the material of that name, or
  * continues it if it exists. The reader uses Kd (colour), Ke (emission), d and Tr (opaque or not), Pm and Pr
  * (metallic, roughness), map_Kd and map_Ke or map_emissive (textures, whose options are skipped), and ignores all
- * other keywords of the format; what is not one of them is named. A colour is one to three numbers; missing numbers are equal to the first. Format: Wavefront's
+ * other keywords of the format; what is not one of them is named. A colour is one to three numbers; missing numbers are
+ * equal to the first. Format: Wavefront's
  * "Advanced Visualizer Manual", section 2.3 (Pm, Pr and map_Ke: the PBR extension of 2013).
  */
 #include "meshes/mesh_mtl.h"

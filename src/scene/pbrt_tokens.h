@@ -72,7 +72,8 @@ koksma_status koksma__pbrt_token_peek(koksma__pbrt_source *source, koksma__pbrt_
 koksma_status koksma__pbrt_text(koksma__pbrt_source *source, char *out, size_t size);
 koksma_status koksma__pbrt_numbers(koksma__pbrt_source *source, size_t n, double *out);
 
-/* Reads all parameters up to the next directive, after those that the directive inherits. Errors: MALFORMED (an unknown type, no value, a value of another type,
+/* Reads all parameters up to the next directive, after those that the directive inherits. Errors: MALFORMED (an unknown
+   type, no value, a value of another type,
    not three numbers for each point, ...). Call koksma__pbrt_parameters_fini even after an error. */
 koksma_status koksma__pbrt_parameters_read(koksma__pbrt_source *source, koksma__pbrt_parameters *out);
 

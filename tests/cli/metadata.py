@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """metadata.py KOKSMA: what a file says of its numbers counts. The files are written here, from their formats' definitions:
 EXR (openexr.com, "OpenEXR File Layout"), PFM (pauldebevec.com/Research/HDR/PFM), NPY (numpy.lib.format), sets of UTK
-(lines "#" between them), Git LFS pointers (git-lfs docs/spec.md)."""
+(lines "#" between them), Git LFS pointers (the specification of git-lfs)."""
 import json
 import os
 import random
