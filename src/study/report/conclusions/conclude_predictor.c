@@ -29,8 +29,9 @@ static koksma_status say_measure(koksma_study *study, koksma__document *d, const
     const size_t n = c->patterns.n;
     const koksma__table *of = koksma__conclusion_table(study, c, c->by.at[by]);
     KOKSMA__TRY(koksma__conclusion_means(study, of, &c->patterns, 0, x->ours, x->in_print, NULL));
+    koksma__doc_say(d, "%s", by ? ". " : "Rank correlation with the error, ours (printed), of ");
     koksma__doc_say(
-        d, by ? "; that of table %s" : "Rank correlation with the error, ours (printed): that of table %s", of->id);
+        d, of->measure ? "`%s` in table %s:" : "%sthe errors in table %s:", of->measure ? of->measure : "", of->id);
     for (size_t t = 0; t < c->tables.n; t++) {
         const koksma__table *table = koksma__conclusion_table(study, c, c->tables.at[t]);
         KOKSMA__TRY(koksma__conclusion_means(study, table, &c->patterns, 0, y->ours, y->in_print, NULL));
@@ -38,9 +39,9 @@ static koksma_status say_measure(koksma_study *study, koksma__document *d, const
         for (size_t i = 0; i < n && !by; i++) {
             tested->open += isnan(x->ours[i]) || isnan(y->ours[i]);
         }
-        koksma__doc_say(d, " %.2f (%.2f)", rho, koksma__spearman(x->in_print, y->in_print, n));
+        koksma__doc_say(d, "%s %.2f (%.2f) in %s", t ? ";" : "", rho, koksma__spearman(x->in_print, y->in_print, n),
+                        table->id);
         if (by == 0) {
-            koksma__doc_say(d, " in %s", table->id);
             koksma__test(tested, is_sure(rho, n));
         }
     }

@@ -94,7 +94,7 @@ static void add_joint(joint *j, const koksma__table *t, const koksma__z_sums *z)
 static void say_joint(koksma__document *d, const joint *j)
 {
     if (j->tables) {
-        koksma__doc_answer_begin(d, !j->failed);
+        koksma__doc_verdict_begin(d, j->failed ? KOKSMA__ANSWER_FAILS : KOKSMA__ANSWER_DECIDED);
         koksma__doc_say(
             d,
             "Together, the values of z of %zu of %zu tables pass their joint tests, each at 5 %% for the sum "
