@@ -29,7 +29,7 @@ _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
            "latin-prefixes", "independent", "pairs", "quadruples", "pairs-3", "quadruples-3", "classes",
-           "lattice-prefixes")  # by their bits
+           "lattice-prefixes", "dimension-prefixes")  # by their bits
 
 
 @dataclass(frozen=True)

@@ -42,7 +42,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 
 const koksma_measure koksma__measure_diaphony = {
     .name = "diaphony",
-    .title = "diaphony (weighted trigonometric sums)",
+    .title = "diaphony (root of the weighted sum of squared trigonometric sums)",
     .cite = "zinterhof1976",
     .cost = "n log n in 2D, n^2 d",
     .family = KOKSMA_FAMILY_BOXES,

@@ -78,7 +78,7 @@ static const koksma_param params[] = {
 
 const koksma_measure koksma__measure_disk_sampled = {
     .name = "disk-sampled",
-    .title = "L2 discrepancy of disks or balls on the torus, estimated from random ones",
+    .title = "L2 discrepancy of disks or balls on the torus (root mean square), estimated from random ones",
     .cite = "mitchell1992",
     .cost = "disks n",
     .family = KOKSMA_FAMILY_DISKS,

@@ -108,7 +108,7 @@ static const koksma_param params[] = {
 
 const koksma_measure koksma__measure_edge_sampled = {
     .name = "edge-sampled",
-    .title = "L2 discrepancy of half-planes or half-spaces, estimated from random lines or planes",
+    .title = "L2 discrepancy of half-planes or half-spaces (root mean square), estimated from random lines or planes",
     .cite = "mitchell1992",
     .cost = "lines n",
     .family = KOKSMA_FAMILY_EDGES,

@@ -51,7 +51,7 @@
  * Known exactly: one point at the centre of the unit square, S^2 = 23/288; random points, E(S^2) = (2^-d - 3^-d)/n; m
  * x m jittered, E(S^2) = ((m-1)/6 + 5/36)/m^4; 4 x 4 centres, S^2 = 1/9 - 2 (43/128)^2 + (11/32)^2.
  */
-L2(star, "L2 star discrepancy (root mean square over anchored boxes)",
+L2(star, "L2 star discrepancy (root mean square over anchored boxes; scipy's L2-star)",
    "warnock1972 zaremba1968 heinrich1996 shirley1991 mitchell1992", false, 4, .a24 = {9, -12, -12, 0},
    .g = {0.25, -0.5, 0, 0}, .q = -0.5, .r = 0);
 
@@ -90,8 +90,8 @@ L2(periodic, "L2 discrepancy over boxes on the torus (root mean square)", "lev19
  * Source: Hickernell 1998. SciPy's qmc.discrepancy(method='WD') is the square.
  * Known exactly: one point in the unit square, value^2 = 9/4 - 16/9 = 17/36.
  */
-L2(wraparound, "wrap-around L2 discrepancy", "hickernell1998", true, 16, .a24 = {32, 0, 0, 0}, .g = {0.75, 0, 0, 0},
-   .q = -1, .r = 1);
+L2(wraparound, "wrap-around L2 discrepancy (the root; scipy's WD is its square)", "hickernell1998", true, 16,
+   .a24 = {32, 0, 0, 0}, .g = {0.75, 0, 0, 0}, .q = -1, .r = 1);
 
 /*
  * l2-modified: l2-star over all projections: its square is the sum, over the non-empty sets of coordinates, of the
@@ -102,8 +102,8 @@ L2(wraparound, "wrap-around L2 discrepancy", "hickernell1998", true, 16, .a24 = 
  * Source: Hickernell 1998.
  * Known exactly: one point at the centre of [0,1), value^2 = 1/12.
  */
-L2(modified, "modified L2 discrepancy (L2 star over all projections)", "hickernell1998", false, 16,
-   .a24 = {33, -12, -12, 0}, .g = {0.75, -0.5, 0, 0}, .q = -0.5, .r = 0);
+L2(modified, "modified L2 discrepancy (root of the sum of squares of L2 star over all projections)", "hickernell1998",
+   false, 16, .a24 = {33, -12, -12, 0}, .g = {0.75, -0.5, 0, 0}, .q = -0.5, .r = 0);
 
 /*
  * l2-centered: like l2-modified, but each box extends from a point to the nearest corner of the cube instead of to
@@ -114,8 +114,8 @@ L2(modified, "modified L2 discrepancy (L2 star over all projections)", "hickerne
  * Source: Hickernell 1998. SciPy's method='CD' is the square.
  * Known exactly: one point at the centre of the unit square, value^2 = 25/144.
  */
-L2(centered, "centered L2 discrepancy", "hickernell1998", false, 13, .a24 = {24, 0, -12, 12}, .g = {0.5, 0, 0, 0.5},
-   .q = -0.5, .r = 0);
+L2(centered, "centered L2 discrepancy (the root; scipy's CD is its square)", "hickernell1998", false, 13,
+   .a24 = {24, 0, -12, 12}, .g = {0.5, 0, 0, 0.5}, .q = -0.5, .r = 0);
 
 /*
  * l2-mixture: a mixture of l2-centered and l2-wraparound, with equal parts of boxes that extend from a point to the
@@ -126,8 +126,8 @@ L2(centered, "centered L2 discrepancy", "hickernell1998", false, 13, .a24 = {24,
  * Source: Zhou, Fang and Ning 2013. SciPy's method='MD' is the square.
  * Known exactly: one point at the centre of [0,1), value^2 = 19/12 - 10/3 + 15/8 = 1/8.
  */
-L2(mixture, "mixture L2 discrepancy", "zhou2013", false, 19, .a24 = {40, 0, -6, -6}, .g = {0.9375, 0, 0, -0.25},
-   .q = -0.75, .r = 0.5);
+L2(mixture, "mixture L2 discrepancy (the root; scipy's MD is its square)", "zhou2013", false, 19,
+   .a24 = {40, 0, -6, -6}, .g = {0.9375, 0, 0, -0.25}, .q = -0.75, .r = 0.5);
 
 /*
  * l2-symmetric: l2-star averaged over all corners of the cube as anchors: its square is 4^d times the mean, over the
@@ -137,8 +137,8 @@ L2(mixture, "mixture L2 discrepancy", "zhou2013", false, 19, .a24 = {40, 0, -6, 
  * Source: Hickernell 1998.
  * Known exactly: one point at the centre of the unit square, value^2 = 23/18.
  */
-L2(symmetric, "symmetric L2 discrepancy (mean over all corners as anchors)", "hickernell1998", false, 16,
-   .a24 = {36, 0, -48, 0}, .g = {1, 0, 0, 0}, .q = -2, .r = 0);
+L2(symmetric, "symmetric L2 discrepancy (2^d times the root mean square over all corners as anchors)",
+   "hickernell1998", false, 16, .a24 = {36, 0, -48, 0}, .g = {1, 0, 0, 0}, .q = -2, .r = 0);
 
 const koksma__l2_row *koksma__l2_row_of(const koksma_measure *measure)
 {

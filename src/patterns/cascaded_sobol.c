@@ -54,6 +54,7 @@ const koksma_pattern koksma__pattern_cascaded_sobol = {
     .cite = "paulin2021 joe2008 niederreiter1987",
     .min_dim = 1,
     .max_dim = KOKSMA__SOBOL_DIM,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_LATIN | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_PAIRS,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_DIMENSION_PREFIXES | KOKSMA_CLAIM_LATIN | KOKSMA_CLAIM_NET2 |
+              KOKSMA_CLAIM_PAIRS,
     .generate = generate,
 };

@@ -64,7 +64,8 @@ const koksma_pattern koksma__pattern_halton = {
     .cite = "halton1960 braaten1979 owen1995 helmer2021",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATIN_PREFIXES,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_DIMENSION_PREFIXES | KOKSMA_CLAIM_SEQUENCE |
+              KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATIN_PREFIXES,
     .params = params,
     .revision = 1, /* since revision 1 a study makes one trial, not several, of the unscrambled points
                       (docs/decisions.md, 58) */

@@ -107,7 +107,8 @@ const koksma_pattern koksma__pattern_interlaced_sobol = {
     .cite = "dick2008 dick2011 joe2008",
     .min_dim = 1,
     .max_dim = KOKSMA__SOBOL_DIM,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N,
+    .claims =
+        KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_DIMENSION_PREFIXES | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N,
     .params = params,
     .generate = generate,
     .ranges = koksma__ranges_always,

@@ -108,7 +108,8 @@ const koksma_pattern koksma__pattern_lattice_rank1 = {
     .cite = "sloan2002 nuyens2006 nuyens2006a sloan1998 dick2013 cools2006 hickernell1998",
     .min_dim = 1,
     .max_dim = MAX_DIM,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATTICE | KOKSMA_CLAIM_LATIN,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_DIMENSION_PREFIXES | KOKSMA_CLAIM_ANY_N |
+              KOKSMA_CLAIM_LATTICE | KOKSMA_CLAIM_LATIN,
     .params = params,
     .generate = generate,
 };

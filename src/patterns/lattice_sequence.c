@@ -71,7 +71,8 @@ const koksma_pattern koksma__pattern_lattice_sequence = {
     .cite = "hickernell2000 cools2006 nuyens2006",
     .min_dim = 1,
     .max_dim = sizeof z / sizeof *z,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATTICE_PREFIXES,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_DIMENSION_PREFIXES | KOKSMA_CLAIM_SEQUENCE |
+              KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATTICE_PREFIXES,
     .generate = generate,
     .ranges = koksma__ranges_always,
 };

@@ -60,7 +60,8 @@ const koksma_pattern koksma__pattern_lattice_vector = {
     .cite = "sloan2002",
     .min_dim = 1,
     .max_dim = MOST,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATTICE,
+    .claims =
+        KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_DIMENSION_PREFIXES | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATTICE,
     .generate = generate,
     .operand = "Z1:Z2:..",
     .ranges = koksma__ranges_always,

@@ -291,8 +291,8 @@ const koksma_pattern koksma__pattern_sobol = {
     .cite = "sobol1967 joe2008 bratley1988 owen1995 matousek1998 laine2011 burley2020 helmer2021",
     .min_dim = 1,
     .max_dim = KOKSMA__SOBOL_DIM,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 |
-              KOKSMA_CLAIM_NET2_PREFIXES,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_DIMENSION_PREFIXES | KOKSMA_CLAIM_SEQUENCE |
+              KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES,
     .params = params,
     .revision = 2, /* since revision 2 a study makes one trial, not several, of the unscrambled points
                       (docs/decisions.md, 58) */

@@ -127,8 +127,9 @@ const koksma_pattern koksma__pattern_sz = {
     .cite = "ahmed2025 niederreiter1987",
     .min_dim = 1,
     .max_dim = MOST_DIM,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 |
-              KOKSMA_CLAIM_NET2_PREFIXES | KOKSMA_CLAIM_PAIRS | KOKSMA_CLAIM_QUADRUPLES,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_DIMENSION_PREFIXES | KOKSMA_CLAIM_SEQUENCE |
+              KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES | KOKSMA_CLAIM_PAIRS |
+              KOKSMA_CLAIM_QUADRUPLES,
     .generate = generate,
     .ranges = koksma__ranges_always,
 };

@@ -134,8 +134,8 @@ const koksma_pattern koksma__pattern_ternary_quads = {
     .cite = "ostromoukhov2024 niederreiter1988 owen1995 helmer2021",
     .min_dim = 1,
     .max_dim = MOST_DIM,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_PAIRS_3 |
-              KOKSMA_CLAIM_QUADRUPLES_3,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_DIMENSION_PREFIXES | KOKSMA_CLAIM_SEQUENCE |
+              KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_PAIRS_3 | KOKSMA_CLAIM_QUADRUPLES_3,
     .params = params,
     .generate = generate,
     .ranges = koksma__ranges_unscrambled,

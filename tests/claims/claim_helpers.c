@@ -233,6 +233,20 @@ bool is_net_in_base(const koksma_points *points, size_t n, size_t b)
     return is_net_from(points, n, b, use, ms, 0, n);
 }
 
+bool keeps_dimensions(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    koksma_points more;
+    const size_t dim = (size_t)points->dim;
+    bool same = true;
+    assert_ok(koksma_points_init(&more, points->n, points->dim + 1));
+    const koksma_status status = koksma_generate(spec, seed, NULL, &more);
+    for (size_t i = 0; !status && i < points->n && same; i++) {
+        same = !memcmp(more.xs + i * (dim + 1), points->xs + i * dim, dim * sizeof *more.xs);
+    }
+    koksma_points_fini(&more);
+    return same;
+}
+
 koksma_points projection_of(const koksma_points *points, int k, int count)
 {
     koksma_points projection;

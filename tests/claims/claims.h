@@ -54,6 +54,9 @@ bool is_net2_block(const koksma_points *points, size_t first, size_t n);
 /* The first n = b^m points, in up to 8 dimensions, are a (0,m,dim)-net in base b. */
 bool is_net_in_base(const koksma_points *points, size_t n, size_t b);
 
+/* With the same n and seed, a dimension more leaves these points' coordinates as they are, or is refused. */
+bool keeps_dimensions(const koksma_spec *spec, const koksma_points *points, uint64_t seed);
+
 /* Coordinates k .. k + count - 1 of all points. */
 koksma_points projection_of(const koksma_points *points, int k, int count);
 

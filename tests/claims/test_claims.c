@@ -283,6 +283,36 @@ static void patterns_with_operands_keep_their_claims(void **state)
     }
 }
 
+/* Who does not claim dimension-prefixes changes somewhere: the absence of the claim is a statement, too. */
+static void others_change_with_the_dimension(void **state)
+{
+    (void)state;
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        bool served = false, changes = false;
+        if (p->operand || p->alias_of || p->claims & KOKSMA_CLAIM_DIMENSION_PREFIXES) {
+            continue;
+        }
+        const koksma_spec spec = quick_spec_of(p);
+        for (int at = 0; at < 3 * N_COUNTS && !changes; at++) {
+            const int dim = p->min_dim + at % 3;
+            koksma_points points;
+            if (dim >= p->max_dim || counts[at / 3] > 64) {
+                continue;
+            }
+            assert_ok(koksma_points_init(&points, counts[at / 3], dim));
+            if (!koksma_generate(&spec, 1, NULL, &points)) {
+                changes = !keeps_dimensions(&spec, &points, 1);
+                served = true;
+            }
+            koksma_points_fini(&points);
+        }
+        if (served && !changes) {
+            fail_msg("%s keeps its coordinates when a dimension is added, and does not claim it", p->name);
+        }
+    }
+}
+
 /* Sets large enough for several blocks, of the patterns that are fast enough. */
 static void large_sets_are_equal_on_any_threads(void **state)
 {
@@ -373,6 +403,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patterns_keep_their_claims),
         cmocka_unit_test(patterns_with_operands_keep_their_claims),
+        cmocka_unit_test(others_change_with_the_dimension),
         cmocka_unit_test(large_sets_are_equal_on_any_threads),
         cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(aliases_are_their_patterns),

@@ -357,6 +357,33 @@ static void known_symmetries_hold(void **state)
     }
 }
 
+/* A measure whose value is the root of a quadratic mean or form of the points (it knows the square) says so in its title:
+   others' programs print the square of some of them. */
+static void looks_for_the_root(const koksma_spec *spec, const koksma_points *points, const koksma_value *value)
+{
+    if (!isnan(value->square)) {
+        const char *title = spec->measure->title;
+        if (!(fabs(value->value - sqrt(value->square)) <= 1e-9 * value->value)) {
+            fail_measure(spec, points, "%.17g is not the root of %.17g", value->value, value->square);
+        }
+        if (!strstr(title, "root")) {
+            fail_measure(spec, points, "its title does not say that it is a root: %s", title);
+        }
+    }
+}
+
+static void roots_are_called_so(void **state)
+{
+    (void)state;
+    walk(looks_for_the_root);
+    const koksma_measure *m;
+    for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
+        if ((!strncmp(m->name, "l2-", 3) || strstr(m->title, "L2 ")) && !strstr(m->title, "root")) {
+            fail_msg("%s: its title does not say that it is a root: %s", m->name, m->title);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -367,6 +394,7 @@ int main(void)
         cmocka_unit_test(witnesses_give_their_values),
         cmocka_unit_test(known_inequalities_hold),
         cmocka_unit_test(known_symmetries_hold),
+        cmocka_unit_test(roots_are_called_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
