@@ -73,14 +73,15 @@ KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);
 KOKSMA_API bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size);
 
 /* Writes line i, "FILE:LINE: ...", of the list of features of a pbrt or Mitsuba scene that this renderer does not
-   support, each with its replacement, or of the names in a model's files that their formats do not have. Returns false past the last line. The scene's warnings include these lines.
+   support, each with its replacement, or of the names in a model's files that their formats do not have.
+   Returns false past the last line. The scene's warnings include these lines.
      text  buffer of `size` characters, to which the line is cut */
 KOKSMA_API bool koksma_scene_unknown(const koksma_scene *scene, size_t i, char *text, size_t size);
 
 /* Sets whether the calling thread refuses to open scenes with the features that koksma_scene_unknown lists, and models
-   with parts that are not read, and returns the previous setting. false, the initial setting: the features are replaced. true: koksma_scene_open, and
-   functions that open scenes by their names (rankings, studies when they read a plan, datasheets), fail with
-   MALFORMED and name the first feature. */
+   with parts that are not read, and returns the previous setting. false, the initial setting: the features are
+   replaced. true: koksma_scene_open, and functions that open scenes by their names (rankings, studies when they
+   read a plan, datasheets), fail with MALFORMED and name the first feature. */
 KOKSMA_API bool koksma_scene_refuse_unknown(bool refuse);
 
 /* Numbers of the objects that a scene contains. `placements` counts the copies of meshes: a mesh may be placed

@@ -78,7 +78,7 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
 
 bool koksma__import_is_full(const koksma__import *im)
 {
-    return im->scene->n_unknown == MOST_UNKNOWN;
+    return im->scene->n_unknown == KOKSMA__MOST_UNKNOWN;
 }
 
 /* ---- Files ------------------------------------------------------------------------------------------------ */
