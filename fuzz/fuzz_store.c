@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Damaged and forged databases of studies. The first byte of the input chooses a database (of the present schema, or one of
- * tests/study/stores) and what is done with it: export, run and report, the same without the plan's file, or audit. The
- * second chooses the kind of change, of which the other bytes are a list:
+ * Damaged and forged databases of studies. The first byte of the input chooses what is done with the database: export, run
+ * and report, the same without the plan's file, or audit. The second chooses the kind of change, of which the other bytes
+ * are a list:
  *   bytes    3 bytes of offset, one of length, the bytes that are put there; length 0 cuts the file off
  *   values   table, row, column, one byte each, and the kind of the new value, its length and its bytes; the seal is then
  *            that of the changed rows
@@ -29,15 +29,11 @@ static const char plan[] =
 
 enum { MAX_FILE = 1 << 17 };
 typedef struct sound {
-    const char *plan; /* its path */
     size_t size;
     unsigned char bytes[MAX_FILE];
 } sound;
 
-/* The first is made by a run, the others are files of tests/study/stores. */
-static const char *const past[] = {"schema_3", "schema_4", "schema_5", "plan_6"};
-enum { N_BASES = 1 + sizeof past / sizeof *past };
-static sound bases[N_BASES];
+static sound base;
 static char folder[64], database[80], plan_path[80];
 
 /* Removes the files of a folder below `folder`, and of `folder` if name is NULL, and the folder. */
@@ -119,7 +115,7 @@ static void audit(void)
     fuzz_check_status(koksma_study_audit(&options, &run, &result));
 }
 
-static void make_bases(void)
+static void make_base(void)
 {
     snprintf(folder, sizeof folder, "%s/koksma-fuzz-store-XXXXXX", fuzz_place());
     if (!mkdtemp(folder)) {
@@ -130,31 +126,24 @@ static void make_bases(void)
     snprintf(plan_path, sizeof plan_path, "%s/plan.json", folder);
     write_file(plan_path, plan, sizeof plan - 1);
     run_study(plan_path);
-    bases[0].plan = plan_path;
-    read_base(database, &bases[0]);
-    for (size_t i = 1; i < N_BASES; i++) {
-        char path[512];
-        snprintf(path, sizeof path, KOKSMA_FUZZ_STUDY "/stores/%s.sqlite", past[i - 1]);
-        bases[i].plan = KOKSMA_FUZZ_STUDY "/plan.json";
-        read_base(path, &bases[i]);
-    }
+    read_base(database, &base);
 }
 
 /* Writes the file with its bytes changed as the input says. */
-static void damage(const sound *base, const uint8_t *bytes, size_t size)
+static void damage(const uint8_t *bytes, size_t size)
 {
     static unsigned char damaged[MAX_FILE];
-    memcpy(damaged, base->bytes, base->size);
-    size_t left = base->size;
+    memcpy(damaged, base.bytes, base.size);
+    size_t left = base.size;
     for (size_t i = 0; i + 4 <= size;) {
-        const size_t offset = (bytes[i] | (size_t)bytes[i + 1] << 8 | (size_t)bytes[i + 2] << 16) % (base->size + 1);
+        const size_t offset = (bytes[i] | (size_t)bytes[i + 1] << 8 | (size_t)bytes[i + 2] << 16) % (base.size + 1);
         size_t length = bytes[i + 3];
         i += 4;
         length = length < size - i ? length : size - i;
         if (length == 0) {
             left = offset;
         }
-        length = length < base->size - offset ? length : base->size - offset;
+        length = length < base.size - offset ? length : base.size - offset;
         memcpy(damaged + offset, bytes + i, length);
         i += length;
     }
@@ -193,7 +182,7 @@ static sqlite3_stmt *prepare(sqlite3 *store, const char *sql)
 }
 
 /* Makes the seal that of the rows as they are now (seal.c). */
-static void seal_again(sqlite3 *store, bool has_metric)
+static void seal_again(sqlite3 *store)
 {
     koksma__seal seal = {0};
     sqlite3_stmt *row = prepare(store, "SELECT key, value FROM meta WHERE key <> 'seal'");
@@ -201,13 +190,9 @@ static void seal_again(sqlite3 *store, bool has_metric)
         koksma__seal_add(&seal, 1, koksma__checksum_of_text(text_at(row, 0), text_at(row, 1)));
     }
     sqlite3_finalize(row);
-    char sql[200];
-    snprintf(
-        sql, sizeof sql,
-        "SELECT id, kind, scene, scene_hash, options, pattern, what, made_by, measured_by, n, dim, width, height, %s "
-        "FROM series",
-        has_metric ? "metric" : "''");
-    row = prepare(store, sql);
+    row = prepare(store,
+                  "SELECT id, kind, scene, scene_hash, options, pattern, what, made_by, measured_by, n, dim, width, "
+                  "height, metric FROM series");
     while (row && sqlite3_step(row) == SQLITE_ROW) {
         const koksma__series key = {.kind = text_at(row, 1),
                                     .scene = text_at(row, 2),
@@ -274,9 +259,9 @@ static void bind_value(sqlite3_stmt *row, int kind, const uint8_t *bytes, size_t
 
 /* Writes the file with values of its tables changed as the input says, and a seal that fits. What SQLite refuses (a value
    of another type, a key that is there) is left out. */
-static void forge(const sound *base, const uint8_t *bytes, size_t size)
+static void forge(const uint8_t *bytes, size_t size)
 {
-    write_file(database, base->bytes, base->size);
+    write_file(database, base.bytes, base.size);
     sqlite3 *store;
     if (sqlite3_open(database, &store)) {
         abort();
@@ -312,10 +297,7 @@ static void forge(const sound *base, const uint8_t *bytes, size_t size)
         }
         i += 5 + length;
     }
-    const size_t which = (size_t)(base - bases);
-    if (which == 0 || which == N_BASES - 1) { /* older ones have no seal */
-        seal_again(store, which == 0);
-    }
+    seal_again(store);
     if (sqlite3_exec(store, "COMMIT", NULL, NULL, NULL) || sqlite3_close(store)) {
         abort();
     }
@@ -323,29 +305,28 @@ static void forge(const sound *base, const uint8_t *bytes, size_t size)
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    if (!bases[0].size) {
-        make_bases();
+    if (!base.size) {
+        make_base();
     }
     if (size < 2) {
         return 0;
     }
-    const sound *base = &bases[bytes[0] / 4 % N_BASES];
     char side[96];
     snprintf(side, sizeof side, "%s-wal", database);
     remove(side);
     snprintf(side, sizeof side, "%s-journal", database);
     remove(side);
     if (bytes[1] % 2) {
-        forge(base, bytes + 2, size - 2);
+        forge(bytes + 2, size - 2);
     } else {
-        damage(base, bytes + 2, size - 2);
+        damage(bytes + 2, size - 2);
     }
     switch (bytes[0] % 4) {
     case 0:
         fuzz_check_status(koksma_study_export(folder, KOKSMA_EXPORT_CSV, "/dev/null"));
         break;
     case 1:
-        run_study(base->plan);
+        run_study(plan_path);
         break;
     case 2:
         run_study(NULL);
@@ -353,9 +334,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     default:
         audit();
         break;
-    }
-    if (base != &bases[0]) {
-        remove_folder("references");
     }
     return 0;
 }

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, check, lab, quoted, text, texts
+from ._library import ArgumentError, check, flag, lab, quoted, text, texts
 from ._points import Named, has_masked, named
 
 FEW_PIXELS = 0.5  #: the share of the error in 0.1 % of the pixels from which on koksma warns
@@ -175,7 +175,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     caveats: Dict[str, Optional[bytes]] = {}
     found: Dict[str, List[List[float]]] = {name: [] for name in specs}
     value = s.MetricValue()
-    looks = not asked if coherence is None else bool(coherence)
+    looks = not asked if coherence is None else flag("coherence", coherence)
     if looks:
         check(lab().koksma_coherence_init(byref(raw), target.shape[1], target.shape[0]))
     try:

@@ -4,7 +4,7 @@
  * lights and the camera; import_shapes.c has the shapes, import_text.c the texts. Every material becomes the nearest
  * kind that Koksma has. Two differences apply and are documented in docs/scenes.md: without an index of refraction a
  * conductor's Fresnel reflectance becomes Schlick's approximation, and surfaces have two sides. Any other difference is
- * reported in a warning with file and line.
+ * reported in a warning with file and line. Long because both formats share all of it.
  */
 #include "scene/import.h"
 

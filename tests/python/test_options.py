@@ -21,7 +21,7 @@ SETS = {"patterns": "generate(pattern)", "n": "generate(n)", "dim": "generate(di
 # By command and option: "function(parameter)" or "function", several with a space between; or a sentence that says why not.
 OPTIONS = {
     "generate": {"patterns": "generate(pattern)", "n": "generate(n)", "dim": "generate(dim)", "first": "generate(first)",
-                 "seed": "generate(seed)", "warp": "generate(warp) warp_points", "density": "generate(density)", "on": "generate(on)",
+                 "seed": "generate(seed)", "warp": "generate(warp) warp_points", "density": "generate(density)", "on": "generate(on)", "domain": "generate(domain)",
                  "output": "write"},
     "measure": {**SETS, "measures": "measure(measure)", "trials": "trials(trials)", "prefixes": "convergence(prefixes)",
                 "at": "local_discrepancy(corner)", "sizes": "convergence(sizes)", "warp": "measure(warp) trials(warp) convergence(warp)",

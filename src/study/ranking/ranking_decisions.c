@@ -21,7 +21,7 @@
  *
  * It can be wrong only of means that differ by about 2 % or more, and only in the two or three rounds after which half-
  * widths fit into 2 % and "different" is not yet decided; a wrong order is no longer likely there. The levels depend on
- * no limit of time or trials. docs/findings/ranking-decisions.md has the simulations by tests/study/ranking/test_ranking_power.c.
+ * no limit of time or trials. tests/study/ranking/test_ranking_power.c simulates them (docs/findings/ranking-decisions.md).
  *
  * Each bound is the lower bound of a contrast theta = x A - y B of the mean errors A and B of independent trials:
  *     theta - bias  -  t(level, nu) sqrt(x^2 s_A^2 / n + y^2 s_B^2 / n + v)  -  |bias|
