@@ -126,7 +126,7 @@ static double half_float(uint64_t bits)
 {
     const int exponent = (int)(bits >> 10 & 31);
     const double mantissa = (double)(bits & 1023), sign = bits >> 15 ? -1 : 1;
-    return exponent == 31 ? sign * (mantissa > 0 ? NAN : INFINITY)
+    return exponent == 31 ? sign * (mantissa > 0 ? (double)NAN : (double)INFINITY)
                           : sign * ldexp(exponent ? 1024 + mantissa : mantissa, (exponent ? exponent : 1) - 25);
 }
 

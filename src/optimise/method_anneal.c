@@ -179,17 +179,17 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
         if (!status) {
             status = propose(&j, d.points.xs, round < ROUNDS ? threshold : 0, run);
             status = status ? status : koksma__descend(&d, FIT, &square);
-            keep_better(&d, status ? INFINITY : square, &least, points);
+            keep_better(&d, status ? (double)INFINITY : square, &least, points);
         }
     }
     status = status ? status : koksma__descend(&d, KOKSMA__ITERATIONS, &square);
-    keep_better(&d, status ? INFINITY : square, &least, points);
+    keep_better(&d, status ? (double)INFINITY : square, &least, points);
     d.cost = (double)(n * d.count);
     d.work = 0;
     d.budget = POLISH;
     status = status ? status : improve(&j, &d, &square);
     status = status ? status : koksma__descend(&d, KOKSMA__ITERATIONS, &square);
-    keep_better(&d, status ? INFINITY : square, &least, points);
+    keep_better(&d, status ? (double)INFINITY : square, &least, points);
     koksma__descent_fini(&d);
     free(j.memory);
     return status;

@@ -125,7 +125,7 @@ static koksma_status anneal(walk *w, double temperature, size_t proposals, const
         const size_t k = koksma__next_below(&w->random, dim), p = koksma__next_below(&w->random, n),
                      q = koksma__next_below(&w->random, n);
         const double most = -temperature * log(koksma__next_unit(&w->random) + 0x1p-33);
-        const double by = p == q ? INFINITY : change_of(w, k, p, q);
+        const double by = p == q ? (double)INFINITY : change_of(w, k, p, q);
         if (by < most) {
             if (lower && by > 0) {
                 memcpy(best->xs, w->points.xs, bytes);

@@ -117,7 +117,7 @@ static void thin(job *j, double *limit)
         *limit *= 1.02;
         for (size_t l = 0; l < j->listed; l++) {
             j->corners[left] = j->corners[l];
-            left += j->corners[l].difference > *limit;
+            left += (double)j->corners[l].difference > *limit;
         }
         j->listed = left;
     }
