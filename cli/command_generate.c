@@ -237,7 +237,7 @@ static const cli_option options[] = {
     {'p', "patterns", "PATTERN", "the pattern, instead of the operand"},
     {0, "first", "I", "index of the first point, up to 2^51 - 1, for sequences that have ranges (default: 0)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
-    {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
+    {0, "warp", "WARP", "map the points to a disk, triangle, hemisphere or sphere; see 'koksma list warps'"},
     {0, "density", "FILE.png|.exr|.pfm",
      "the points' density follows the luminance of this image, with distances of its shape; x and y are in units of "
      "its "

@@ -302,6 +302,7 @@ static const char *default_measures(const measuring *j)
         [KOKSMA_DOMAIN_TRIANGLE] = "edge,l2-edge",
         [KOKSMA_DOMAIN_HEMISPHERE] = "l2-edge,l2-disk:law=area",
         [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "l2-disk:law=area",
+        [KOKSMA_DOMAIN_SPHERE] = "l2-edge,l2-disk:law=area",
     };
     return j->warp ? of_domains[j->warp->domain] : "star,l2-star,extreme";
 }
@@ -315,7 +316,7 @@ static koksma_status choose_measures(measuring *j, const char *list)
             koksma_measure_spec(koksma_measure_at(j->n_measures)->name, &j->measures[j->n_measures]);
             j->n_measures++;
         }
-        if (j->warp && j->n_measures < MAX_MEASURES) { /* this variant of l2-disk accepts points on a hemisphere */
+        if (j->warp && j->n_measures < MAX_MEASURES) { /* this variant of l2-disk accepts directions */
             koksma_measure_spec("l2-disk:law=area", &j->measures[j->n_measures++]);
         }
         return KOKSMA_OK;

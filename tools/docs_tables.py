@@ -62,7 +62,7 @@ def small_tables(site):
     add("adaptive", "Adaptive sampling", "where more samples go: <code>koksma render --adaptive</code>",
         lambda: [(n, r["what"], r["source"], f"src/render/samples/adaptive/adapt_{n.replace('-', '_')}.c",
           counts(program, n, size)) for r, n in of("adaptive", "method")])
-    add("warps", "Warps", "from the square to a lens, a triangle, a hemisphere: <code>koksma measure --warp</code>",
+    add("warps", "Warps", "from the square to a lens, a triangle, a hemisphere, a sphere: <code>koksma measure --warp</code>",
         lambda: [(n, r["what"], r["source"], f"src/warps/{n.replace('-', '_')}.c", "") for r, n in of("warps", "warp")])
     table = (ROOT / "src/integrands/integrands.def").read_text(encoding="utf-8")
     file_of = {n: f or n for n, f in re.findall(r"^INTEGRAND(?:_OF)?\((\w+)(?:, (\w+))?\)", table, re.M)}

@@ -44,8 +44,9 @@ typedef struct koksma_scatter_options {
                                 origin has too many points, blue where it has too few. A value of 0 is white; the
                                 largest absolute value in the picture has the full colour. Cannot be combined with
                                 warp */
-    const koksma_warp *warp; /* draw points and guide lines mapped by this warp, with hemispheres seen from above;
-                                NULL: no warp. Needs points of 2 dimensions and cannot be combined with witness */
+    const koksma_warp *warp; /* draw points and guide lines mapped by this warp, with hemispheres seen from above
+                                and the sphere in an equal-area projection, its pole z = 1 in the centre; NULL: no
+                                warp. Needs points of 2 dimensions and cannot be combined with witness */
     const koksma_witness *witness; /* draw this box, line or disk; a box of more than 2 dimensions is drawn as its
                                       projections. May be NULL */
     const char *caption;           /* a line of text below the picture; may be NULL */

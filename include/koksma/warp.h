@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Warps: maps of the unit square to the disk of a lens, a triangle light or a hemisphere. Part of libkoksma.
+ * Warps: maps of the unit square to the disk of a lens, a triangle light, a hemisphere or a sphere. Part of libkoksma.
  * Every warp preserves ratios of areas (for the cosine-weighted hemisphere: probabilities), so a measure can
  * compare the mapped points with the uniform distribution on the warp's domain.
  */
@@ -15,11 +15,12 @@ extern "C" {
 
 /* The set in which mapped points lie, and their density on it. */
 typedef enum koksma_warp_domain {
-    KOKSMA_DOMAIN_DISK,             /* x^2 + y^2 <= 1, uniform area */
-    KOKSMA_DOMAIN_TRIANGLE,         /* x >= 0, y >= 0, x + y <= 1, uniform area: x, y and 1-x-y are the barycentric
+    KOKSMA_DOMAIN_DISK,              /* x^2 + y^2 <= 1, uniform area */
+    KOKSMA_DOMAIN_TRIANGLE,          /* x >= 0, y >= 0, x + y <= 1, uniform area: x, y and 1-x-y are the barycentric
                                        coordinates in a triangle of any shape */
-    KOKSMA_DOMAIN_HEMISPHERE,       /* x^2 + y^2 + z^2 = 1, z >= 0, uniform solid angle */
-    KOKSMA_DOMAIN_HEMISPHERE_COSINE /* x^2 + y^2 + z^2 = 1, z >= 0, with density z/pi */
+    KOKSMA_DOMAIN_HEMISPHERE,        /* x^2 + y^2 + z^2 = 1, z >= 0, uniform solid angle */
+    KOKSMA_DOMAIN_HEMISPHERE_COSINE, /* x^2 + y^2 + z^2 = 1, z >= 0, with density z/pi */
+    KOKSMA_DOMAIN_SPHERE             /* x^2 + y^2 + z^2 = 1, uniform solid angle */
 } koksma_warp_domain;
 
 /* A map of the unit square. */
@@ -42,10 +43,11 @@ KOKSMA_API koksma_status koksma_warp_points(const koksma_warp *warp, const koksm
 
 /* Maps 2D points by a warp and evaluates a measure of the mapped points on the warp's domain. Accepted measures:
      edge          half-planes (disk and triangle)
-     l2-edge       half-planes; on the uniform hemisphere, half-spaces through its centre (law=isotropic)
+     l2-edge       half-planes; on the uniform hemisphere and the sphere, half-spaces through the centre
+                   (law=isotropic)
      l2-disk       disk: test disks of fixed radius r that meet the unit disk, with centres uniform within distance
-                   1 + r. On the hemispheres with law=area: spherical caps whose area is uniform up to the whole
-                   sphere (r has no effect)
+                   1 + r. On the hemispheres and the sphere with law=area: spherical caps whose area is uniform up to
+                   the whole sphere (r has no effect)
      disk-sampled  disk: random test disks, with centres as for l2-disk and radii by any law, not on a torus
    Errors: ARGUMENT (no warp, no measure, a parameter that the measure does not accept here, no points, a coordinate
    outside [0,1]), DIM, N (too many points for the method), UNSUPPORTED (a measure or law not listed above), MEMORY,

@@ -389,7 +389,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         A model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
         dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
     warp : str, optional
-        Maps the points of the square to a disk, triangle or hemisphere, as `warp_points` does; warps() has them all.
+        Maps the points of the square to a disk, triangle, hemisphere or sphere, as `warp_points` does; warps() has them all.
 
     Returns
     -------
@@ -545,7 +545,7 @@ def warp_points(points: npt.ArrayLike, warp: str) -> PointArray:
 
     Returns
     -------
-    ndarray of shape (n, 2), on a hemisphere (n, 3)
+    ndarray of shape (n, 2), on a hemisphere or the sphere (n, 3)
 
     Examples
     --------

@@ -108,6 +108,16 @@ static const char *const taken[] = {
     [KOKSMA_DOMAIN_TRIANGLE] = "edge and l2-edge",
     [KOKSMA_DOMAIN_HEMISPHERE] = "l2-edge and l2-disk:law=area",
     [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "l2-disk:law=area",
+    [KOKSMA_DOMAIN_SPHERE] = "l2-edge and l2-disk:law=area",
+};
+
+/* The domain of random lines; half-planes have no law on the hemisphere with the cosine. */
+static const koksma__domain_kind kinds[] = {
+    [KOKSMA_DOMAIN_DISK] = KOKSMA__DISK,
+    [KOKSMA_DOMAIN_TRIANGLE] = KOKSMA__TRIANGLE,
+    [KOKSMA_DOMAIN_HEMISPHERE] = KOKSMA__HEMISPHERE,
+    [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = KOKSMA__HEMISPHERE,
+    [KOKSMA_DOMAIN_SPHERE] = KOKSMA__SPHERE,
 };
 
 static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, size_t n, const double *xs,
@@ -116,10 +126,7 @@ static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, 
     const char *name = spec->measure->name;
     const bool on_disk = warp->domain == KOKSMA_DOMAIN_DISK, on_plane = warp->dim == 2,
                is_disk = !strcmp(name, "l2-disk"), cosine = warp->domain == KOKSMA_DOMAIN_HEMISPHERE_COSINE;
-    job j = {.kind = (koksma__domain_kind)(cosine ? KOKSMA__HEMISPHERE : (int)warp->domain),
-             .n = n,
-             .dim = (size_t)warp->dim,
-             .xs = xs};
+    job j = {.kind = kinds[warp->domain], .n = n, .dim = (size_t)warp->dim, .xs = xs};
     if (!strcmp(name, "edge") && on_plane) {
         return koksma__edge_sweep(&koksma__domains[j.kind], n, xs, run, out);
     }
@@ -130,7 +137,7 @@ static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, 
         return koksma__warp_l2_disk(n, xs, koksma__disk_radius(KOKSMA__DISKS_FIXED, spec->params[0]), run, out);
     }
     if (is_disk && !on_plane && spec->params[1] == KOKSMA__DISKS_AREA) {
-        return koksma__warp_caps(n, xs, cosine, run, out);
+        return koksma__warp_caps(n, xs, warp->domain, run, out);
     }
     if (!strcmp(name, "disk-sampled") && on_disk) {
         return disk_sampled(&j, spec, run, out);
@@ -145,9 +152,8 @@ static koksma_status check_warp(const koksma_warp *warp)
 {
     KOKSMA__FAIL_IF(!warp->name || !warp->map, KOKSMA_ARGUMENT, "the warp has no %s: koksma_warp_find has warps",
                     warp->name ? "map" : "name");
-    KOKSMA__FAIL_IF(warp->dim < 2 || warp->dim > 3 || (unsigned)warp->domain > KOKSMA_DOMAIN_HEMISPHERE_COSINE,
-                    KOKSMA_ARGUMENT, "warp %s: a warp maps to 2 or 3 dimensions, on a domain of koksma_warp_domain",
-                    warp->name);
+    KOKSMA__FAIL_IF(warp->dim < 2 || warp->dim > 3 || (unsigned)warp->domain > KOKSMA_DOMAIN_SPHERE, KOKSMA_ARGUMENT,
+                    "warp %s: a warp maps to 2 or 3 dimensions, on a domain of koksma_warp_domain", warp->name);
     return KOKSMA_OK;
 }
 

@@ -48,13 +48,26 @@ static double at_y(const plot *p, double y)
     return p->top + (1 - y) * p->side;
 }
 
+/* Projects a point of the sphere to the unit disk with areas in proportion (Lambert's azimuthal projection): the pole
+   z = 1 is the centre and z = -1 the rim. */
+static void project_sphere(double at[3])
+{
+    const double across = hypot(at[0], at[1]), radius = sqrt(fmax(1 - at[2], 0) / 2);
+    at[0] = across > 0 ? radius * (at[0] / across) : radius;
+    at[1] = across > 0 ? radius * (at[1] / across) : 0;
+}
+
 /* Computes the position in the picture of a point of the unit square, which is mapped by the warp, if there is one,
-   and scaled; the range of the warp fills the square in the picture. Hemispheres are seen from above. */
+   and scaled; the range of the warp fills the square in the picture. Hemispheres are seen from above, and the sphere is
+   projected with areas in proportion. */
 static void position(const plot *p, const koksma_warp *warp, const double in[2], double out[2])
 {
     double at[3] = {in[0], in[1], 0};
     if (warp) {
         warp->map(in, at);
+        if (warp->domain == KOKSMA_DOMAIN_SPHERE) {
+            project_sphere(at);
+        }
         if (warp->domain != KOKSMA_DOMAIN_TRIANGLE) { /* disk of radius 1 */
             at[0] = 0.5 + 0.5 * at[0];
             at[1] = 0.5 + 0.5 * at[1];
@@ -64,14 +77,15 @@ static void position(const plot *p, const koksma_warp *warp, const double in[2],
     out[1] = at_y(p, at[1]);
 }
 
-/* Draws the line where coordinate `fixed` equals `value`, in short pieces if it goes through a warp. */
+/* Draws the line where coordinate `fixed` equals `value`, in short pieces if it goes through a warp. These end just inside
+   the square: at the end itself, which `sphere` maps to the pole z = -1, the picture's rim has no direction. */
 static void draw_guide(const plot *p, const koksma_warp *warp, int fixed, double value)
 {
     const int pieces = warp ? CURVE : 1;
     double xys[2 * (CURVE + 1)], in[2];
     in[fixed] = value;
     for (int i = 0; i <= pieces; i++) {
-        in[1 - fixed] = (double)i / pieces;
+        in[1 - fixed] = warp && i == pieces ? 1 - 1e-9 : (double)i / pieces;
         position(p, warp, in, xys + 2 * i);
     }
     koksma__canvas_path(p->canvas, xys, (size_t)pieces + 1, line_of(p->theme->cell, 0.8));

@@ -42,29 +42,31 @@ static void quadrature_and_elliptic_integrals(void **state)
 
 static double potential_at(double z, const void *context)
 {
-    const bool cosine = context != NULL;
-    return koksma__cap_potential((double[]){sqrt((1 - z) * (1 + z)), 0, z}, cosine) * (cosine ? 2 * z : 1);
+    const koksma_warp_domain *domain = context;
+    return koksma__cap_potential((double[]){sqrt((1 - z) * (1 + z)), 0, z}, *domain) *
+           (*domain == KOKSMA_DOMAIN_HEMISPHERE_COSINE ? 2 * z : 1);
 }
 
 static void cap_potentials(void **state)
 {
     (void)state;
     const double pole[3] = {0, 0, 1}, rim[3] = {0.6, 0.8, 0};
-    assert_near(koksma__cap_potential(pole, false), 2 * sqrt(2) / 3, 1e-14);
-    assert_near(koksma__cap_potential(rim, false), 4.0 / 3, 1e-14);
-    assert_near(koksma__cap_potential(pole, true), 8 * sqrt(2) / 15, 1e-14);
-    assert_near(koksma__cap_potential(rim, true), 64 / (15 * M_PI), 1e-14);
-    assert_near(koksma__cap_constant(false), koksma__integral(potential_at, NULL, 0, 1), 1e-13);
-    assert_near(koksma__cap_constant(true), koksma__integral(potential_at, pole, 0, 1), 1e-13);
+    const koksma_warp_domain uniform = KOKSMA_DOMAIN_HEMISPHERE, cosine = KOKSMA_DOMAIN_HEMISPHERE_COSINE;
+    assert_near(koksma__cap_potential(pole, uniform), 2 * sqrt(2) / 3, 1e-14);
+    assert_near(koksma__cap_potential(rim, uniform), 4.0 / 3, 1e-14);
+    assert_near(koksma__cap_potential(pole, cosine), 8 * sqrt(2) / 15, 1e-14);
+    assert_near(koksma__cap_potential(rim, cosine), 64 / (15 * M_PI), 1e-14);
+    assert_near(koksma__cap_constant(uniform), koksma__integral(potential_at, &uniform, 0, 1), 1e-13);
+    assert_near(koksma__cap_constant(cosine), koksma__integral(potential_at, &cosine, 0, 1), 1e-13);
 }
 
 /* The mean distance over a mapped lattice of the square: the map carries the measure, and P is right. */
 static void warps_carry_the_measure(void **state)
 {
     (void)state;
-    static const char *const names[] = {"hemisphere", "concentric-hemisphere", "cosine-hemisphere"};
+    static const char *const names[] = {"hemisphere", "concentric-hemisphere", "cosine-hemisphere", "sphere"};
     enum { GRID = 300 };
-    for (int w = 0; w < 3; w++) {
+    for (int w = 0; w < 4; w++) {
         const koksma_warp *warp = koksma_warp_find(names[w]);
         for (uint64_t s = 0; s < 4; s++) {
             double x[3], y[3], sum = 0;
@@ -74,7 +76,7 @@ static void warps_carry_the_measure(void **state)
                 assert_near(y[0] * y[0] + y[1] * y[1] + y[2] * y[2], 1, 1e-14);
                 sum += sqrt(pow(x[0] - y[0], 2) + pow(x[1] - y[1], 2) + pow(x[2] - y[2], 2)) / GRID / GRID;
             }
-            assert_near(koksma__cap_potential(x, w == 2), sum, 1e-4);
+            assert_near(koksma__cap_potential(x, warp->domain), sum, 1e-4);
         }
     }
 }
@@ -136,14 +138,14 @@ static void errors_of_few_disks(void **state)
     koksma_points_fini(&p);
 }
 
-/* Random caps against a fine mapped lattice as the measure of the hemisphere. */
+/* Random caps against a fine mapped lattice as the measure of the domain. */
 static void caps_agree_with_random_caps(void **state)
 {
     (void)state;
-    static const char *const names[] = {"hemisphere", "concentric-hemisphere", "cosine-hemisphere"};
+    static const char *const names[] = {"hemisphere", "concentric-hemisphere", "cosine-hemisphere", "sphere"};
     enum { GRID = 100, CAPS = 4000, N = 16 };
     static double grid[3 * GRID * GRID];
-    for (int w = 0; w < 3; w++) {
+    for (int w = 0; w < 4; w++) {
         const koksma_warp *warp = koksma_warp_find(names[w]);
         koksma_points p = test_points("random", N, 2, 4);
         double xs[3 * N], sum = 0, squares = 0;
@@ -177,16 +179,18 @@ static void random_points(void **state)
 {
     (void)state;
     enum { SETS = 500, N = 8 };
-    for (int w = 0; w < 2; w++) {
+    static const char *const names[] = {"hemisphere", "cosine-hemisphere", "sphere"};
+    for (int w = 0; w < 3; w++) {
         double sum = 0, squares = 0;
         for (uint64_t seed = 0; seed < SETS; seed++) {
             koksma_points p = test_points("random", N, 2, 40 + seed);
-            const double v = warped(w ? "cosine-hemisphere" : "hemisphere", "l2-disk:law=area", &p).square;
+            const double v = warped(names[w], "l2-disk:law=area", &p).square;
             sum += v / SETS;
             squares += v * v / SETS;
             koksma_points_fini(&p);
         }
-        assert_near(sum, koksma__cap_constant(w == 1) / (8 * N), 4 * sqrt((squares - sum * sum) / SETS));
+        assert_near(sum, koksma__cap_constant(koksma_warp_find(names[w])->domain) / (8 * N),
+                    4 * sqrt((squares - sum * sum) / SETS));
     }
 }
 
@@ -252,6 +256,22 @@ static void points_that_are_opposite(void **state)
     }
 }
 
+/* Known exactly: a point; two opposite points, which every plane through the centre divides evenly; the six corners of an
+   octahedron, with 12 distances sqrt 2 at right angles and 3 distances 2. */
+static void few_points_on_the_sphere(void **state)
+{
+    (void)state;
+    static double xs[] = {0, 0, 1, 0.3, 0.5, 0, 0.5, 0.25, 0.5, 0.5, 0.5, 0.75};
+    const koksma_points point = {1, 2, xs}, opposite = {2, 2, xs}, octahedron = {6, 2, xs};
+    assert_near(warped("sphere", "l2-disk:law=area", &point).square, 1.0 / 6, 1e-15);
+    assert_near(warped("sphere", "l2-disk:law=area", &opposite).square, 1.0 / 24, 1e-15);
+    assert_near(warped("sphere", "l2-disk:law=area", &octahedron).square, (2.0 / 3 - (12 * sqrt(2) + 6) / 36) / 4,
+                1e-15);
+    assert_near(warped("sphere", "l2-edge", &point).square, 0.25, 1e-15);
+    assert_near(warped("sphere", "l2-edge", &opposite).square, 0, 1e-15);
+    assert_near(warped("sphere", "l2-edge", &octahedron).square, 0.25 - (12 * 0.5 + 3) / 36, 1e-15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -264,6 +284,7 @@ int main(void)
         cmocka_unit_test(disks_agree_with_random_disks),
         cmocka_unit_test(errors_of_few_disks),
         cmocka_unit_test(caps_agree_with_random_caps),
+        cmocka_unit_test(few_points_on_the_sphere),
         cmocka_unit_test(random_points),
         cmocka_unit_test(concentric_beats_polar),
     };

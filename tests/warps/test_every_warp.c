@@ -26,6 +26,8 @@ static bool is_inside(const koksma_warp *w, const double *x)
     case KOKSMA_DOMAIN_HEMISPHERE:
     case KOKSMA_DOMAIN_HEMISPHERE_COSINE:
         return fabs(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - 1) <= e && x[2] >= 0;
+    case KOKSMA_DOMAIN_SPHERE:
+        return fabs(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - 1) <= e;
     }
     fail_domain(w);
     return false;
@@ -43,6 +45,8 @@ static double area_at(const koksma_warp *w, const double *x)
         return 2 * M_PI;
     case KOKSMA_DOMAIN_HEMISPHERE_COSINE:
         return M_PI / x[2];
+    case KOKSMA_DOMAIN_SPHERE:
+        return 4 * M_PI;
     }
     fail_domain(w);
     return 0;
@@ -64,6 +68,9 @@ static void straighten(const koksma_warp *w, const double *x, double *a, double 
         return;
     case KOKSMA_DOMAIN_HEMISPHERE:
         *a = x[2];
+        return;
+    case KOKSMA_DOMAIN_SPHERE:
+        *a = (1 + x[2]) / 2; /* Archimedes: the area between two heights is proportional to their distance */
         return;
     }
     fail_domain(w);

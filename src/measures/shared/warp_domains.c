@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The disk, the triangle and the hemisphere as domains of random lines or great circles: the probability that one of
- * them separates two points, the integral of this probability over the second point (potential), and the integral of
- * the potential (constant).
+ * The disk, the triangle, the hemisphere and the sphere as domains of random lines or great circles: the probability
+ * that one of them separates two points, the integral of this probability over the second point (potential), and the
+ * integral of the potential (constant).
  */
 #include "measures/shared/warp_domains.h"
 
@@ -216,7 +216,7 @@ static double line_density(koksma__domain_kind kind)
 
 double koksma__domain_separates(koksma__domain_kind kind, const double *p, const double *q)
 {
-    if (kind != KOKSMA__HEMISPHERE) {
+    if (kind < KOKSMA__HEMISPHERE) {
         return line_density(kind) * hypot(p[0] - q[0], p[1] - q[1]);
     }
     double minus = 0, plus = 0;
@@ -233,6 +233,9 @@ double koksma__domain_potential(koksma__domain_kind kind, const double *p)
     if (kind == KOKSMA__HEMISPHERE) {
         return hemisphere_potential(p);
     }
+    if (kind == KOKSMA__SPHERE) {
+        return 0.5; /* by symmetry: a point and its opposite are on different sides of every plane */
+    }
     return line_density(kind) * (kind == KOKSMA__DISK ? mean_distance_in_disk : mean_distance_in_triangle)(p);
 }
 
@@ -241,5 +244,5 @@ double koksma__domain_constant(koksma__domain_kind kind)
     if (kind == KOKSMA__DISK) {
         return 128 / (45 * M_PI * M_PI);
     }
-    return kind == KOKSMA__TRIANGLE ? triangle_constant() : 4 / (M_PI * M_PI);
+    return kind == KOKSMA__TRIANGLE ? triangle_constant() : kind == KOKSMA__SPHERE ? 0.5 : 4 / (M_PI * M_PI);
 }
