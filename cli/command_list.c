@@ -31,7 +31,8 @@ static const char *const domains[] = {[KOKSMA_DOMAIN_DISK] = "disk",
                                       [KOKSMA_DOMAIN_TRIANGLE] = "triangle",
                                       [KOKSMA_DOMAIN_HEMISPHERE] = "hemisphere",
                                       [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "hemisphere, density z/pi",
-                                      [KOKSMA_DOMAIN_SPHERE] = "sphere"};
+                                      [KOKSMA_DOMAIN_SPHERE] = "sphere",
+                                      [KOKSMA_DOMAIN_GGX_VISIBLE] = "hemisphere, GGX density"};
 
 static void put_dims(cli_rows *rows, int min_dim, int max_dim)
 {

@@ -294,7 +294,7 @@ static bool parse_options(measuring *j)
 }
 
 /* Returns the measures that are evaluated without -m. With --warp they are the measures that apply to the domain of
-   the warp. */
+   the warp: NULL if there are none. */
 static const char *default_measures(const measuring *j)
 {
     static const char *const of_domains[] = {
@@ -303,6 +303,7 @@ static const char *default_measures(const measuring *j)
         [KOKSMA_DOMAIN_HEMISPHERE] = "l2-edge,l2-disk:law=area",
         [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "l2-disk:law=area",
         [KOKSMA_DOMAIN_SPHERE] = "l2-edge,l2-disk:law=area",
+        [KOKSMA_DOMAIN_GGX_VISIBLE] = NULL,
     };
     return j->warp ? of_domains[j->warp->domain] : "star,l2-star,extreme";
 }
@@ -344,7 +345,12 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     j.by_default = !cli_text(arguments, "measures", NULL);
-    const koksma_status status = choose_measures(&j, cli_text(arguments, "measures", default_measures(&j)));
+    const char *list = cli_text(arguments, "measures", default_measures(&j));
+    if (!list) {
+        return cli_usage_error(arguments, "--warp %s: no measure is known on its domain; generate and plot take it",
+                               j.warp->name);
+    }
+    const koksma_status status = choose_measures(&j, list);
     if (status) {
         return cli_fail(arguments, status);
     }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Warps: maps of the unit square to the disk of a lens, a triangle light, a hemisphere or a sphere. Part of libkoksma.
- * Every warp preserves ratios of areas (for the cosine-weighted hemisphere: probabilities), so a measure can
- * compare the mapped points with the uniform distribution on the warp's domain.
+ * Every warp preserves ratios of areas (where the domain has a density: probabilities), so a measure can compare the
+ * mapped points with the distribution on the warp's domain.
  */
 #ifndef KOKSMA_WARP_H
 #define KOKSMA_WARP_H
@@ -20,7 +20,9 @@ typedef enum koksma_warp_domain {
                                        coordinates in a triangle of any shape */
     KOKSMA_DOMAIN_HEMISPHERE,        /* x^2 + y^2 + z^2 = 1, z >= 0, uniform solid angle */
     KOKSMA_DOMAIN_HEMISPHERE_COSINE, /* x^2 + y^2 + z^2 = 1, z >= 0, with density z/pi */
-    KOKSMA_DOMAIN_SPHERE             /* x^2 + y^2 + z^2 = 1, uniform solid angle */
+    KOKSMA_DOMAIN_SPHERE,            /* x^2 + y^2 + z^2 = 1, uniform solid angle */
+    KOKSMA_DOMAIN_GGX_VISIBLE        /* x^2 + y^2 + z^2 = 1, z >= 0, with the density of the GGX normals of alpha
+                                        = 1/2 that are visible from (sqrt(3)/2, 0, 1/2); no measure accepts it */
 } koksma_warp_domain;
 
 /* A map of the unit square. */

@@ -102,22 +102,19 @@ static koksma_status disk_sampled(const job *j, const koksma_spec *measure, cons
     return stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* Names of the measures that each domain supports, for error messages. */
-static const char *const taken[] = {
-    [KOKSMA_DOMAIN_DISK] = "edge, l2-edge, l2-disk and disk-sampled",
-    [KOKSMA_DOMAIN_TRIANGLE] = "edge and l2-edge",
-    [KOKSMA_DOMAIN_HEMISPHERE] = "l2-edge and l2-disk:law=area",
-    [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "l2-disk:law=area",
-    [KOKSMA_DOMAIN_SPHERE] = "l2-edge and l2-disk:law=area",
-};
-
-/* The domain of random lines; half-planes have no law on the hemisphere with the cosine. */
-static const koksma__domain_kind kinds[] = {
-    [KOKSMA_DOMAIN_DISK] = KOKSMA__DISK,
-    [KOKSMA_DOMAIN_TRIANGLE] = KOKSMA__TRIANGLE,
-    [KOKSMA_DOMAIN_HEMISPHERE] = KOKSMA__HEMISPHERE,
-    [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = KOKSMA__HEMISPHERE,
-    [KOKSMA_DOMAIN_SPHERE] = KOKSMA__SPHERE,
+/* What each domain has: coordinates, random lines or planes, random caps; and the names of its measures for messages. */
+static const struct {
+    int dim;
+    bool lines, caps;
+    koksma__domain_kind kind; /* if it has lines */
+    const char *taken;
+} domains[] = {
+    [KOKSMA_DOMAIN_DISK] = {2, true, false, KOKSMA__DISK, "edge, l2-edge, l2-disk and disk-sampled"},
+    [KOKSMA_DOMAIN_TRIANGLE] = {2, true, false, KOKSMA__TRIANGLE, "edge and l2-edge"},
+    [KOKSMA_DOMAIN_HEMISPHERE] = {3, true, true, KOKSMA__HEMISPHERE, "l2-edge and l2-disk:law=area"},
+    [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = {3, false, true, KOKSMA__HEMISPHERE, "l2-disk:law=area"},
+    [KOKSMA_DOMAIN_SPHERE] = {3, true, true, KOKSMA__SPHERE, "l2-edge and l2-disk:law=area"},
+    [KOKSMA_DOMAIN_GGX_VISIBLE] = {3, false, false, KOKSMA__HEMISPHERE, "none"},
 };
 
 static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, size_t n, const double *xs,
@@ -125,18 +122,18 @@ static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, 
 {
     const char *name = spec->measure->name;
     const bool on_disk = warp->domain == KOKSMA_DOMAIN_DISK, on_plane = warp->dim == 2,
-               is_disk = !strcmp(name, "l2-disk"), cosine = warp->domain == KOKSMA_DOMAIN_HEMISPHERE_COSINE;
-    job j = {.kind = kinds[warp->domain], .n = n, .dim = (size_t)warp->dim, .xs = xs};
+               is_disk = !strcmp(name, "l2-disk");
+    job j = {.kind = domains[warp->domain].kind, .n = n, .dim = (size_t)warp->dim, .xs = xs};
     if (!strcmp(name, "edge") && on_plane) {
         return koksma__edge_sweep(&koksma__domains[j.kind], n, xs, run, out);
     }
-    if (!strcmp(name, "l2-edge") && spec->params[0] == 0 && !cosine) {
+    if (!strcmp(name, "l2-edge") && spec->params[0] == 0 && domains[warp->domain].lines) {
         return l2_edge(&j, run, out);
     }
     if (is_disk && on_disk && spec->params[1] == KOKSMA__DISKS_FIXED) {
         return koksma__warp_l2_disk(n, xs, koksma__disk_radius(KOKSMA__DISKS_FIXED, spec->params[0]), run, out);
     }
-    if (is_disk && !on_plane && spec->params[1] == KOKSMA__DISKS_AREA) {
+    if (is_disk && domains[warp->domain].caps && spec->params[1] == KOKSMA__DISKS_AREA) {
         return koksma__warp_caps(n, xs, warp->domain, run, out);
     }
     if (!strcmp(name, "disk-sampled") && on_disk) {
@@ -145,15 +142,18 @@ static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, 
     char text[KOKSMA_MAX_SPEC];
     koksma_spec_text(spec, text);
     return koksma__fail(KOKSMA_UNSUPPORTED, "%s: this measure does not support the warp %s, which accepts %s", text,
-                        warp->name, taken[warp->domain]);
+                        warp->name, domains[warp->domain].taken);
 }
 
 static koksma_status check_warp(const koksma_warp *warp)
 {
     KOKSMA__FAIL_IF(!warp->name || !warp->map, KOKSMA_ARGUMENT, "the warp has no %s: koksma_warp_find has warps",
                     warp->name ? "map" : "name");
-    KOKSMA__FAIL_IF(warp->dim < 2 || warp->dim > 3 || (unsigned)warp->domain > KOKSMA_DOMAIN_SPHERE, KOKSMA_ARGUMENT,
-                    "warp %s: a warp maps to 2 or 3 dimensions, on a domain of koksma_warp_domain", warp->name);
+    const bool known = (unsigned)warp->domain < sizeof domains / sizeof *domains;
+    KOKSMA__FAIL_IF(
+        !known || warp->dim != domains[warp->domain].dim, KOKSMA_ARGUMENT,
+        "warp %s: a warp maps to a domain of koksma_warp_domain, with 2 dimensions if it is plane, else 3",
+        warp->name);
     return KOKSMA_OK;
 }
 

@@ -15,6 +15,41 @@ static void fail_domain(const koksma_warp *w)
     fail_msg("%s: its domain %d has no test here", w->name, (int)w->domain);
 }
 
+/* The direction from which ggx-visible-normals looks, and its alpha; sqrt(1 - z^2) = sqrt(3/4). */
+static const double view[3] = {0.86602540378443864676, 0, 0.5}, alpha = 0.5;
+
+static double dot(const double *x, const double *y)
+{
+    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+/* The density of visible normals D G1 (v.h) / v.z: D by Walter et al. 2007 (33), Smith's G1 by (34). */
+static double visible_density(const double *h)
+{
+    const double tangent = (1 - h[2] * h[2]) / (h[2] * h[2]), part = alpha * alpha + tangent;
+    const double d = alpha * alpha / (M_PI * pow(h[2], 4) * part * part);
+    const double g1 = 2 / (1 + sqrt(1 + alpha * alpha * (1 - view[2] * view[2]) / (view[2] * view[2])));
+    return d * g1 * fmax(dot(view, h), 0) / view[2];
+}
+
+/* Dupuy & Benyoub 2023: if the surface is stretched to a hemisphere, the view's mirror images at visible normals are
+   uniform on a spherical cap. Returns the image's share of the cap's height, and its angle in turns. */
+static void mirror_view(const double *h, double *height, double *turns)
+{
+    double v[3], m[3], image[3];
+    for (int k = 0; k < 3; k++) {
+        v[k] = k < 2 ? alpha * view[k] : view[k];
+        m[k] = k < 2 ? h[k] / alpha : h[k];
+    }
+    const double v_norm = sqrt(dot(v, v)), twice = 2 * dot(v, m) / dot(m, m);
+    for (int k = 0; k < 3; k++) {
+        image[k] = (twice * m[k] - v[k]) / v_norm;
+    }
+    *height = (image[2] + v[2] / v_norm) / (1 + v[2] / v_norm);
+    *turns = atan2(image[1], image[0]) / (2 * M_PI);
+    *turns += *turns < 0 ? 1 : 0;
+}
+
 static bool is_inside(const koksma_warp *w, const double *x)
 {
     const double e = 1e-12;
@@ -26,6 +61,8 @@ static bool is_inside(const koksma_warp *w, const double *x)
     case KOKSMA_DOMAIN_HEMISPHERE:
     case KOKSMA_DOMAIN_HEMISPHERE_COSINE:
         return fabs(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - 1) <= e && x[2] >= 0;
+    case KOKSMA_DOMAIN_GGX_VISIBLE:
+        return fabs(dot(x, x) - 1) <= e && x[2] >= 0 && dot(view, x) >= -e;
     case KOKSMA_DOMAIN_SPHERE:
         return fabs(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - 1) <= e;
     }
@@ -47,6 +84,8 @@ static double area_at(const koksma_warp *w, const double *x)
         return M_PI / x[2];
     case KOKSMA_DOMAIN_SPHERE:
         return 4 * M_PI;
+    case KOKSMA_DOMAIN_GGX_VISIBLE:
+        return 1 / visible_density(x);
     }
     fail_domain(w);
     return 0;
@@ -71,6 +110,9 @@ static void straighten(const koksma_warp *w, const double *x, double *a, double 
         return;
     case KOKSMA_DOMAIN_SPHERE:
         *a = (1 + x[2]) / 2; /* Archimedes: the area between two heights is proportional to their distance */
+        return;
+    case KOKSMA_DOMAIN_GGX_VISIBLE:
+        mirror_view(x, a, b);
         return;
     }
     fail_domain(w);

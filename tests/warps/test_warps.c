@@ -237,6 +237,15 @@ static void others_say_what_is_taken(void **state)
     assert_ok(koksma_measure_spec("edge", &spec));
     assert_int_equal(koksma_warp_evaluate(koksma_warp_find("sphere"), &spec, &p, NULL, &value), KOKSMA_UNSUPPORTED);
     assert_non_null(strstr(koksma_error_text(), "sphere, which accepts l2-edge and l2-disk:law=area"));
+    for (size_t i = 0; koksma_measure_at(i); i++) {
+        assert_ok(koksma_measure_spec(koksma_measure_at(i)->name, &spec));
+        assert_int_equal(koksma_warp_evaluate(koksma_warp_find("ggx-visible-normals"), &spec, &p, NULL, &value),
+                         KOKSMA_UNSUPPORTED);
+    }
+    koksma_warp flat = *koksma_warp_find("sphere"); /* a caller's own, whose measures would read a third coordinate */
+    flat.dim = 2;
+    assert_ok(koksma_measure_spec("l2-edge", &spec));
+    assert_int_equal(koksma_warp_evaluate(&flat, &spec, &p, NULL, &value), KOKSMA_ARGUMENT);
     assert_ok(koksma_measure_spec("disk-sampled:disks=2000,r=0.5", &spec));
     assert_ok(koksma_warp_evaluate(koksma_warp_find("polar-disk"), &spec, &p, NULL, &value));
     assert_true(value.value > 0 && value.standard_error > 0 && !value.exact);
