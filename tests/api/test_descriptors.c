@@ -62,7 +62,7 @@ static void warps(void **state)
     refused(koksma_plot_scatter(&p, &options, KOKSMA_PLOT_SVG, &bytes, &n), "no map");
     own = *koksma_warp_find("triangle");
     own.dim = -1;
-    refused(koksma_warp_points(&own, &p, &out), "2 or 3 dimensions");
+    refused(koksma_warp_points(&own, &p, &out), "2 dimensions if it is plane, else 3");
     koksma_points_fini(&p);
 }
 

@@ -23,4 +23,4 @@ if audit.returncode:
           "KOKSMA__RENDERER_REVISION (src/study/plan/made_by.h)")
     sys.exit(1)
 counted = sum(int(n) for n in re.findall(r"(\d+) rows drawn|not compared: (\d+) rows", audit.stdout) for n in n if n)
-assert counted == len(export.strip().split("\n")) - 1 == 159, (counted, len(export))
+assert counted == len(export.strip().split("\n")) - 1 == 161, (counted, len(export))
