@@ -167,6 +167,11 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     } else {
         cli_row_flag(rows, "coherent", row->coherence.coherent);
     }
+    if (options->render) { /* nothing is known of the other renderer's samplers */
+        cli_row_json(rows, "unbiased", "null", "-");
+    } else {
+        cli_row_flag(rows, "unbiased", !row->biased);
+    }
     cli_row_whole(rows, "width", (uint64_t)ranking->width);
     cli_row_whole(rows, "height", (uint64_t)ranking->height);
     char metric[KOKSMA_MAX_SPEC];
@@ -421,6 +426,10 @@ const cli_command cli_command_rank = {
         "--help). A coherent error\n"
         "has bands or another pattern, which eyes notice more than noise of the same size. The advice therefore "
         "names the best pattern whose error is not coherent, and how much less error a coherent pattern leaves.\n"
+        "\n"
+        "unbiased: 'yes' means that the pattern or a modifier claims it (koksma list patterns), or that it is "
+        "scrambled. Part of the error of other patterns may be bias, the same in every trial, which no number of "
+        "images averages away; the advice names them. Nothing is known of samplers of --with.\n"
         "\n"
         "If the 0.1 % of the pixels with the largest error have at least half of the total error (top_share in "
         "--json), a warning tells that few pixels decide the order. 'robust' is the error without them, not "

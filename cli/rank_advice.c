@@ -286,6 +286,31 @@ static void advise_sizes(const koksma_rank_options *options, const koksma_rank_r
     }
 }
 
+/* Prints a sentence on the ranked patterns that are not known to be unbiased, if there are any. */
+static void warn_of_bias(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n)
+{
+    size_t count = 0, done = 0;
+    for (size_t i = 0; i < n; i++) {
+        count += rows[i].biased;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (rows[i].biased) {
+            fprintf(stderr, "%s%s",
+                    !done              ? "  not known to be unbiased: "
+                    : done + 1 < count ? ", "
+                                       : " and ",
+                    name_of(options, rows[i].pattern));
+            done++;
+        }
+    }
+    if (count) {
+        fprintf(stderr,
+                "; part of %s error may be bias, the same in every trial, which no number of images averages "
+                "away (modifiers such as shift=1 make patterns unbiased)\n",
+                count > 1 ? "their" : "its");
+    }
+}
+
 /* The number of patterns whose robust errors the warning prints, the best first. */
 enum { MOST_ROBUST = 8 };
 
@@ -341,6 +366,7 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
             : ranking->cut_short ? "; the time was up before every pair was decided"
                                  : "; the trials were too few to decide every pair");
     warn_of_few_pixels(options, rows, ranking->n);
+    warn_of_bias(options, rows, ranking->n);
     if (ranking->settled && ranking->n > 1 && !options->one_size && (!options->render || options->width)) {
         advise_sizes(options, rows, ranking);
     }

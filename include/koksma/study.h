@@ -390,6 +390,8 @@ typedef struct koksma_rank_row {
     size_t position; /* 1 + the number of patterns that are decided to have less error; 0: not ranked */
     koksma_rank_state state;
     koksma_rank_decision decision;
+    bool biased; /* a use has a pattern that is not known to be unbiased (koksma_is_unbiased); false for patterns of
+                    another renderer, of which nothing is known */
     long long trials;
     double mean, low, high; /* mean over the trials of the metric, corrected for the error of the reference, and its
                                interval */

@@ -116,6 +116,7 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_generate", spec, c_uint64, run, points)
     _declare(library, c_bool, "koksma_has_ranges", spec)
     _declare(library, c_bool, "koksma_has_one_set", spec)
+    _declare(library, c_bool, "koksma_is_unbiased", spec)
     _declare(library, c_bool, "koksma_is_sequence", spec)
     _declare(library, c_double, "koksma_allow_exec", c_double)
     _declare(library, c_int, "koksma_generate_range", spec, c_uint64, c_uint64, c_uint64, run, points)

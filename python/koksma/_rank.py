@@ -43,6 +43,7 @@ class Ranked:
     coherent: bool  #: the error has bands or another pattern
     robust: float  #: the error without the 0.1 % of the pixels with the largest, not corrected for the error of the reference
     top_share: float  #: the share of the error that these carry; from 0.5 on the order is that of few pixels
+    unbiased: Optional[bool] = None  #: False: its error may be partly bias, the same in every trial; None: of another renderer
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,7 @@ class Ranking:
                  f"{f'use {self.advised}' if self.advised else 'undecided'}; place, pattern, error, interval)"]
         for r in self.rows:
             error = f"{number(r.error)} ({number(r.interval[0], 3)} to {number(r.interval[1], 3)})" if r.position else r.reason or r.state
-            lines.append(f"{r.position or '-':>4}  {r.pattern:{width}}  {error}{', bands' * r.coherent}")
+            lines.append(f"{r.position or '-':>4}  {r.pattern:{width}}  {error}{', bands' * r.coherent}{', not unbiased' * (r.unbiased is False)}")
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -109,7 +110,7 @@ class Ranking:
         return table(("position", "pattern", f"error ({self.metric})", "interval", "behind the first", "images", "error is"),
                      [(r.position if r.position else r.reason or r.state, r.pattern, r.error,
                        " to ".join(map(number, r.interval)), "" if math.isnan(r.behind) else f"{100 * r.behind:.3g} %", r.trials,
-                       "bands" if r.coherent else "noise") for r in self.rows],
+                       ("bands" if r.coherent else "noise") + ", perhaps bias" * (r.unbiased is False)) for r in self.rows],
                      f"{advice} ({self.size[0]} x {self.size[1]} pixels; intervals hold together with 95 %)")
 
 
@@ -244,7 +245,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
                      (r.low, r.high), r.behind, (r.behind_low, r.behind_high),
                      reasons.get(names[int(r.pattern)], in_python(r.reason.decode(errors="replace"))),
                      r.coherence.coherence, (r.coherence.low, r.coherence.high), r.coherence.noise_high,
-                     r.coherence.p, r.coherence.coherent, r.robust, r.top_share)
+                     r.coherence.p, r.coherence.coherent, r.robust, r.top_share,
+                     None if other is not None else not r.biased)
               for r in rows],
         settled=out.settled, complete=out.complete, cut_short=out.cut_short, trials=out.trials,
         needed_trials=out.needed_trials or None if undecided else None,

@@ -343,7 +343,7 @@ class DatasheetOptions(Structure):
 
 
 class RankRow(Structure):
-    _fields_ = [("pattern", c_size_t), ("position", c_size_t), ("state", c_int), ("decision", c_int),
+    _fields_ = [("pattern", c_size_t), ("position", c_size_t), ("state", c_int), ("decision", c_int), ("biased", c_bool),
                 ("trials", c_longlong), ("mean", c_double), ("low", c_double), ("high", c_double),
                 ("robust", c_double), ("top_share", c_double), ("behind", c_double), ("behind_low", c_double), ("behind_high", c_double),
                 ("coherence", CoherenceValues), ("reason", c_char * RANK_REASON)]

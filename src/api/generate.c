@@ -36,6 +36,16 @@ static const koksma_pattern *pattern_of(const koksma_spec *spec)
     return spec->pattern && spec->pattern->alias_of ? koksma_pattern_find(spec->pattern->alias_of) : spec->pattern;
 }
 
+/* Whether the pattern has a parameter of this name, and the spec a value other than 0 for it. */
+static bool is_set(const koksma_spec *spec, const koksma_pattern *p, const char *name)
+{
+    bool set = false;
+    for (int k = 0; p->params && p->params[k].name; k++) {
+        set = set || (!strcmp(p->params[k].name, name) && spec->params[k] != 0);
+    }
+    return set;
+}
+
 bool koksma_has_one_set(const koksma_spec *spec)
 {
     KOKSMA__REQUIRE_OR(false, spec);
@@ -43,14 +53,20 @@ bool koksma_has_one_set(const koksma_spec *spec)
     if (!p) {
         return false;
     }
-    bool deterministic = !koksma__modifiers_are_random(spec->modifiers) && p->claims & KOKSMA_CLAIM_DETERMINISTIC &&
-                         !(koksma__reads_points(p) && koksma__file_has(spec->path, "{seed}"));
-    for (int k = 0; p->params && p->params[k].name; k++) {
-        if (!strcmp(p->params[k].name, "scramble") || !strcmp(p->params[k].name, "shuffle")) {
-            deterministic = deterministic && spec->params[k] == 0;
-        }
-    }
-    return deterministic;
+    return !koksma__modifiers_are_random(spec->modifiers) && p->claims & KOKSMA_CLAIM_DETERMINISTIC &&
+           !(koksma__reads_points(p) && koksma__file_has(spec->path, "{seed}")) && !is_set(spec, p, "scramble") &&
+           !is_set(spec, p, "shuffle");
+}
+
+bool koksma_is_unbiased(const koksma_spec *spec)
+{
+    KOKSMA__REQUIRE_OR(false, spec);
+    const koksma_pattern *p = pattern_of(spec);
+    koksma_pattern claiming = p ? *p : (koksma_pattern){.claims = 0};
+    koksma_spec modified = *spec;
+    modified.pattern = &claiming;
+    claiming.claims |= p && is_set(spec, p, "scramble") ? KOKSMA_CLAIM_UNBIASED : 0;
+    return p && koksma__claims_left(&modified, 1) & KOKSMA_CLAIM_UNBIASED;
 }
 
 bool koksma_is_sequence(const koksma_spec *spec)

@@ -79,6 +79,7 @@ static void check_claims(const koksma_modifier *m, size_t at, koksma_spec spec, 
     const unsigned left = koksma__claims_left(&spec, n);
     const bool power = !(n & (n - 1));
     assert_int_equal(left, (spec.pattern->claims & (m->claims | (power ? m->claims_binary : 0))) | m->gives);
+    assert_int_equal(koksma_is_unbiased(&spec), !!(left & KOKSMA_CLAIM_UNBIASED));
     assert_ok(koksma_points_init(&points, n, dim));
     assert_ok(koksma_generate(&spec, 3, NULL, &points));
     for (size_t c = 0; c < n * (size_t)dim; c++) {

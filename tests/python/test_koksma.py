@@ -285,6 +285,8 @@ class Rankings(unittest.TestCase):
     def test_rank(self):
         ranking = koksma.rank("checker", ["random", "n-rooks"], 4, size=(16, 12), time_limit=None)
         self.assertEqual((ranking.best, ranking.settled, ranking.complete, ranking.cut_short), ("n-rooks", True, True, False))
+        mixed = koksma.rank("checker", ["random", "sobol", "sobol:scramble=owen"], 4, size=(8, 6), max_trials=8, one_size=True)
+        self.assertEqual({row.pattern: row.unbiased for row in mixed.rows}, {"random": True, "sobol": False, "sobol:scramble=owen": True})
         first, last = ranking.rows
         self.assertEqual([first.position, last.position, first.decision, last.decision], [1, 2, "best", "worse"])
         self.assertLess(last.interval[0], last.error)

@@ -8,6 +8,7 @@
 
 #include "core/status.h"
 #include "render/samples/use_patterns.h"
+#include "render/samples/uses.h"
 
 koksma_status koksma__image_pattern_set(const char *text, koksma_render_options *options)
 {
@@ -49,6 +50,19 @@ bool koksma__image_pattern_is_one(const char *text)
         one = one && !spec->pattern;
     }
     return one;
+}
+
+bool koksma__image_pattern_is_biased(const char *text)
+{
+    koksma_render_options options = {0};
+    bool biased = false;
+    const bool read = !koksma__image_pattern_set(text, &options);
+    for (int u = 0; read && u < KOKSMA_N_USES; u++) {
+        const int group = koksma__place_of_use_at(&options, u).group;
+        const koksma_spec *own = group < 0 ? &options.patterns[u] : &options.groups[group].pattern;
+        biased = biased || !koksma_is_unbiased(own->pattern ? own : &options.pattern);
+    }
+    return biased;
 }
 
 koksma_status koksma__image_pattern_try(const char *text, size_t n, const koksma_run *run)

@@ -21,6 +21,9 @@ const koksma_spec *koksma__image_pattern_at(const koksma_render_options *options
    require. */
 bool koksma__image_pattern_is_one(const char *text);
 
+/* Whether some use has a pattern that is not known to be unbiased (koksma_is_unbiased). */
+bool koksma__image_pattern_is_biased(const char *text);
+
 /* Fails unless each pattern of the text can make n points. Errors: those of the patterns. */
 koksma_status koksma__image_pattern_try(const char *text, size_t n, const koksma_run *run);
 

@@ -25,6 +25,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"
+#include "study/plan/image_patterns.h"
 #include "study/ranking/ranking_contest.h"
 
 #define ALPHA 0.04
@@ -281,6 +282,8 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
     *row = (koksma_rank_row){
         .pattern = c->contestants[i].pattern, .mean = NAN, .low = NAN, .high = NAN, .robust = NAN, .top_share = NAN};
     row->behind = row->behind_low = row->behind_high = NAN;
+    row->biased =
+        !c->options->render && koksma__image_pattern_is_biased(c->options->patterns[c->contestants[i].pattern]);
     row->coherence = c->contestants[i].coherence;
     row->trials = (long long)e.n;
     row->state = table->entrants[i].out        ? KOKSMA_RANK_REFUSED
