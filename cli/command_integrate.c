@@ -148,6 +148,7 @@ static void put_error(job *j, const koksma_integral_facts *facts, const series *
     cli_row_number(j->rows, "mean", row->mean);
     cli_row_number(j->rows, "sd", row->sd);
     cli_row_number(j->rows, "integral", facts->value);
+    cli_row_number(j->rows, "z", row->z);
     cli_row_end(j->rows);
 }
 
@@ -507,7 +508,10 @@ const cli_command cli_command_integrate = {
         "rmse is the root mean square, over the trials, of the estimate minus the integral, with its 95 % interval. "
         "With a single set, which is all that deterministic patterns have, it is the absolute error. gain is the "
         "variance with random points divided by the mean squared error: how many times as many random points would "
-        "be needed for the same error. Three\n"
+        "be needed for the same error. z is the mean minus the integral in standard errors, sd / sqrt T. Estimates "
+        "whose z is beyond what Student's t allows at the level of 4 standard deviations (6.3e-5) are biased, and "
+        "have no gain; where intervals are approximate, the mean must be off by 4 standard errors of random points, "
+        "too. Three\n"
         "sizes or more give the slope of log rmse against log n with its interval. Intervals are marked approximate "
         "if they may hold in less than 93 % of cases: with fewer than 16 sets, and if errors are much more skewed or "
         "heavy-tailed than normal ones, as those of options far out of the money.\n"

@@ -110,7 +110,11 @@ class Integration:
     mean, sd : ndarray of shape (k,)
         Of the estimates.
     gain : ndarray of shape (k,)
-        How many times more random points give this error; NaN if the variance is not known.
+        How many times more random points give this error; NaN if the variance is not known, or z tells that the estimates are biased.
+    z : ndarray of shape (k,)
+        Mean minus integral in standard errors, sd / sqrt(trials); NaN with one trial. Beyond the quantile of Student's t at the
+        level of 4 standard deviations (6.3e-5, two-sided) the estimates are taken as biased; where the interval is approximate,
+        only if the mean is off by 4 standard errors of random points, too.
     slope, slope_error, slope_low, slope_high : float
         Of log rmse against log n, its standard error and 95 % interval; NaN with fewer than three sizes.
     slope_approximate : bool
@@ -134,6 +138,7 @@ class Integration:
     mean: npt.NDArray[np.float64]
     sd: npt.NDArray[np.float64]
     gain: npt.NDArray[np.float64]
+    z: npt.NDArray[np.float64]
     slope: float
     slope_error: float
     slope_low: float
@@ -150,11 +155,11 @@ class Integration:
     def _repr_html_(self) -> str:
         from ._display import number, table
 
-        errors = zip(self.sizes, self.rmse, self.low, self.high, self.approximate, self.gain)
+        errors = zip(self.sizes, self.rmse, self.low, self.high, self.approximate, self.gain, self.z)
         slope = "" if math.isnan(self.slope) else f"; slope {self.slope:.3f} ({self._slope_interval()})"
-        page = table(("n", "rmse", "low", "high", "interval", "gain"),
-                     [(int(n), *map(float, (rmse, low, high)), "approximate" if about else "", float(gain))
-                      for n, rmse, low, high, about, gain in errors],
+        page = table(("n", "rmse", "low", "high", "interval", "gain", "z"),
+                     [(int(n), *map(float, (rmse, low, high)), "approximate" if about else "", float(gain), float(z))
+                      for n, rmse, low, high, about, gain, z in errors],
                      f"{self.integrand} by {self.pattern}, {self.trials} set{'s' * (self.trials != 1)}{slope}")
         if not self.components:
             return page
@@ -425,7 +430,7 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
         components = _components(handle, function, source, sizes, seed, trials, rows[int(np.argmax(sizes))].rmse, samples, threads,
                                  raised) if each else ()
     columns = {key: np.array([getattr(row, key) for row in rows])
-               for key in ("rmse", "low", "high", "approximate", "mean", "sd", "gain")}
+               for key in ("rmse", "low", "high", "approximate", "mean", "sd", "gain", "z")}
     return Integration(name, canonical(source) if isinstance(source, str) else "points", dim, rows[0].trials, np.array(sizes), **columns,
                        slope=result.slope.value, slope_error=result.slope.standard_error, slope_low=result.slope.low,
                        slope_high=result.slope.high, slope_approximate=result.slope.approximate, slope_sizes=result.slope.count,

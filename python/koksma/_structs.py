@@ -158,7 +158,8 @@ class IntegralFacts(Structure):
 
 class IntegrationRow(Structure):
     _fields_ = [("n", c_size_t), ("trials", c_uint64), ("mean", c_double), ("sd", c_double), ("rmse", c_double),
-                ("low", c_double), ("high", c_double), ("gain", c_double), ("approximate", c_bool)]
+                ("low", c_double), ("high", c_double), ("gain", c_double), ("z", c_double),
+                ("approximate", c_bool)]
 
 
 class IntegrationSlope(Structure):

@@ -17,6 +17,7 @@
 #include "integrands/integrands.h"
 #include "stats/joint.h"
 #include "stats/mean_square.h"
+#include "stats/quantiles.h"
 
 enum { MOST_TRIALS = 1000000 };
 
@@ -69,6 +70,25 @@ static koksma_integration_row row_of(const koksma_integration_options *o, size_t
                                     .high = sqrt(square->high),
                                     .gain = variance / (double)n / square->value,
                                     .approximate = square->approximate};
+}
+
+/* The level of 4 standard deviations on one side: P(Z > 4) of the normal law. */
+#define BEYOND_4 3.167124183311986e-5
+
+/* Returns the distance of the mean from the integral in standard errors; NaN where it says nothing. */
+static double z_of(const koksma_integration_row *row, double value, double least)
+{
+    const double off = row->mean - value;
+    return row->trials > 1 && fabs(off) > least ? off / (row->sd / sqrt((double)row->trials)) : (double)NAN;
+}
+
+/* Estimates that are 0 but for rare trials have a deviation that is too small, or 0, as long as these are missing. Where
+   the interval is approximate, the mean must therefore be off by 4 standard errors of random points, too. */
+static bool is_biased(const koksma_integration_row *row, double value, double variance)
+{
+    const double random = sqrt(variance / ((double)row->n * (double)row->trials));
+    return !isnan(row->z) && fabs(row->z) > koksma__student_quantile(1 - BEYOND_4, (double)row->trials - 1) &&
+           (!row->approximate || fabs(row->mean - value) > 4 * random);
 }
 
 /* Returns the threshold below which errors count as rounding: 2^-44 of the largest among the integral, the values of
@@ -137,7 +157,9 @@ koksma_status koksma_integration_summary(double value, double variance, const ko
         tallies[i] = tally_of(options, estimates, i);
         squares[i] = koksma__mean_square_of(estimates + i, options->trials, options->n_sizes, value);
         out->rows[i] = row_of(options, i, &tallies[i], &squares[i], variance);
-        out->rows[i].gain = out->rows[i].rmse > least ? out->rows[i].gain : (double)NAN;
+        out->rows[i].z = z_of(&out->rows[i], value, least);
+        const bool gains = out->rows[i].rmse > least && !is_biased(&out->rows[i], value, variance);
+        out->rows[i].gain = gains ? out->rows[i].gain : (double)NAN;
     }
     const koksma_joint joint = joint_of(options, estimates, value, tallies);
     fit_slope(options, &joint, squares, least, &out->slope);

@@ -46,15 +46,67 @@ static void summaries_are_those_of_the_estimates(void **state)
     assert_near(out.rows[0].mean, 1.1, 1e-14);
     assert_near(out.rows[0].sd, 0.2 * sqrt(2), 1e-14);
     assert_near(out.rows[0].gain, 2.0 / 10 / 0.05, 1e-11);
+    assert_near(out.rows[0].z, 0.1 / 0.2, 1e-12);
+    assert_true(isnan(out.rows[1].z)); /* the mean is right but for rounding */
     assert_near(out.rows[1].rmse, 0.01, 1e-14);
     assert_near(out.slope.value, log(0.001 / sqrt(0.05)) / log(100), 1e-12); /* the middle has no weight */
     assert_ok(koksma_integration_summary(NAN, NAN, &options, estimates, &out));
     assert_near(out.rows[0].rmse, out.rows[0].sd, 1e-14);
-    assert_true(isnan(out.rows[0].gain));
+    assert_true(isnan(out.rows[0].gain) && isnan(out.rows[0].z));
     const double rounding[] = {1.3, 1.01, 1 + 1e-15, 0.9, 0.99, 1 - 1e-15};
     assert_ok(koksma_integration_summary(1, 2, &options, rounding, &out));
     assert_int_equal(out.slope.count, 0);
     assert_true(isnan(out.slope.value));
+}
+
+/* Estimates of mean 1 + d and deviation 1: a mean that is off by more than Student's t allows has no gain. The quantiles
+   for 4 standard deviations, P = 6.334e-5 on both sides, are by the closed forms for one and two degrees. */
+static void biased_estimates_have_no_gain(void **state)
+{
+    (void)state;
+    koksma_integration out;
+    const double p = erfc(4 / sqrt(2));
+    const struct {
+        size_t trials;
+        double least;
+    } cases[] = {{2, 1 / tan(acos(-1) * p / 2)}, {3, sqrt(2 * (1 - p) * (1 - p) / (p * (2 - p)))}, {100000, 4.0005}};
+    static double estimates[100000];
+    for (size_t c = 0; c < 3; c++) {
+        for (int side = 0; side < 4; side++) {
+            const koksma_integration_options options = {.sizes = {1}, .n_sizes = 1, .trials = cases[c].trials};
+            const double t = (double)cases[c].trials, z = (side & 1 ? 1.001 : 0.999) * cases[c].least;
+            double square = 0, mean = 0;
+            for (size_t i = 0; i < cases[c].trials; i++) {
+                estimates[i] = i & 1 ? 1 : -1;
+                mean += estimates[i] / t;
+            }
+            for (size_t i = 0; i < cases[c].trials; i++) {
+                square += (estimates[i] - mean) * (estimates[i] - mean) / (t - 1);
+            }
+            const double off = (side & 2 ? -z : z) * sqrt(square / t);
+            assert_ok(koksma_integration_summary(mean - off, 1, &options, estimates, &out));
+            assert_near(out.rows[0].z, side & 2 ? -z : z, 1e-6 * z);
+            assert_int_equal(isnan(out.rows[0].gain), side & 1);
+        }
+    }
+}
+
+/* Of 64 estimates that are 1 with probability .1 none or one may be by chance (p = .001, .01): no sign of bias, although
+   z is large or infinite. */
+static void rare_events_are_no_bias(void **state)
+{
+    (void)state;
+    koksma_integration out;
+    const koksma_integration_options options = {.sizes = {1}, .n_sizes = 1, .trials = 64};
+    double estimates[64] = {0};
+    for (int hits = 0; hits < 2; hits++) {
+        assert_ok(koksma_integration_summary(0.1, 0.1 * 0.9, &options, estimates, &out));
+        assert_true(out.rows[0].z < (hits ? -4 : -1e9));
+        assert_true(out.rows[0].gain > 0);
+        estimates[hits] = 1;
+    }
+    assert_ok(koksma_integration_summary(0.5, 0.5 * 0.5, &options, estimates, &out)); /* 2 of 64 for a half: bias */
+    assert_true(isnan(out.rows[0].gain));
 }
 
 /* ---- Functions of a caller, and what is refused ------------------------------------------------------------------ */
@@ -132,10 +184,9 @@ static void wrong_arguments_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_points_have_gain_one),
-        cmocka_unit_test(summaries_are_those_of_the_estimates),
-        cmocka_unit_test(functions_of_a_caller),
-        cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(random_points_have_gain_one), cmocka_unit_test(biased_estimates_have_no_gain),
+        cmocka_unit_test(rare_events_are_no_bias),     cmocka_unit_test(summaries_are_those_of_the_estimates),
+        cmocka_unit_test(functions_of_a_caller),       cmocka_unit_test(wrong_arguments_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
