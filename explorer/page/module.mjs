@@ -19,7 +19,7 @@ function system(memory, step) {
         return 0;
       },
       environ_sizes_get: zeros, environ_get: () => 0,
-      fd_write: no_file, fd_read: no_file, fd_close: no_file, fd_seek: no_file, fd_fdstat_get: no_file,
+      fd_write: no_file, fd_read: no_file, fd_close: no_file, fd_seek: no_file, fd_pread: no_file, fd_fdstat_get: no_file,
     },
     page: { step },
     env: {

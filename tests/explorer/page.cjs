@@ -218,7 +218,7 @@ async function comparing(page) {
     }, svg);
     check(!parts.broken && parts.dots === 64 && parts.title.includes("@64") && /^rgb/.test(parts.stroke), "the saved SVG: " + JSON.stringify(parts));
   }
-  await page.locator('[data-measure="star"] input').check();
+  await page.locator('[data-measure="star"] input[type=radio]').check();
   await choose(page, "#decay-measure", "star");
   check(/A, jittered: slope -?[\d.]+ .*B, dart-throwing: slope -?[\d.]+/s.test(await page.locator("#decay-text").innerText()), "slopes: " + await page.locator("#decay-text").innerText());
   check(await page.locator("#decay-chart .dots").count() === 2, "two curves are not drawn");

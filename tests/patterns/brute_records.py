@@ -79,7 +79,7 @@ for row in (json.loads(line) for line in run("list", "records", "--json").splitl
         print(f"l2-periodic, n = {row['n']}: {row['value']} is above the best lattice's {best_lattice(row['n'])}")
         failed += 1
     if row["steps"] and row["n"] <= LARGEST:
-        command = f"optimise {row['measure']} -n {row['n']} -d {row['dim']} --seed {row['seed']} --steps {row['steps']}"
+        command = f"optimise {row['measure']} -n {row['n']} -d {row['dim']} --from latin-hypercube --seed {row['seed']} --steps {row['steps']}"
         with tempfile.NamedTemporaryFile(suffix=".npy") as made:
             run(*command.split(), "-q", "-o", made.name)
             if np.abs(np.load(made.name) - points).max() > 1e-9:

@@ -15,6 +15,7 @@
 #include "core/processor_clock.h"
 #include "core/status.h"
 #include "study/run/mpi_rank.h"
+#include "study/run/references.h"
 #include "study/run/run_control.h"
 #include "study/run/tasks.h"
 
@@ -166,21 +167,57 @@ static void add_task(const koksma__task *t, double seconds, koksma_study_cost *c
     cost->bytes += trials * (ROW * (double)rows + VALUE * (double)values);
 }
 
-/* Adds the references that a task is compared with and that were not counted before. A sample of a reference is
-   assumed to take as long as a sample of the task. */
-static void add_references(koksma_study *study, const koksma__task *t, double seconds, bool *counted,
-                           koksma_study_cost *cost)
+/* Lowers the time of a sample of each reference that a task is compared with to that of the task's samples: the task whose
+   samples are cheapest is nearest to a reference, whose many samples are of a fast pattern. */
+static void note_references(const koksma__task *t, double seconds, double *sample_s)
 {
     for (size_t r = 0; t->image && r < t->n_series; r++) {
-        const koksma__reference_image *image = &study->references[t->references[r]];
-        if (!counted[t->references[r]]) {
-            counted[t->references[r]] = true;
-            const double samples = (double)image->reference->spp * (double)image->reference->replicates;
+        sample_s[t->references[r]] = fmin(sample_s[t->references[r]], seconds / (double)t->n);
+    }
+}
+
+/* Replaces *seconds, the time of a replicate as guessed from tasks, by that of three of its rows, times their share.
+   Tasks of few samples spend more on metrics than on rendering. The guess stays where rows can't be rendered alone, or
+   would take long. */
+static koksma_status time_rows(const koksma__reference_image *reference, const koksma_run *job, double *seconds)
+{
+    enum { ROWS = 3 };
+    const double most_s = 1;
+    bool alone;
+    KOKSMA__TRY(koksma__reference_rows_stand_alone(reference, &alone));
+    if (!alone || *seconds / reference->height * ROWS > most_s) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = KOKSMA_OK;
+    const double start = koksma__thread_s();
+    for (int i = 0; i < ROWS && !status; i++) {
+        koksma_image image = {0};
+        status =
+            koksma__reference_replicate(reference, 0, (2 * i + 1) * reference->height / (2 * ROWS), 1, job, &image);
+        koksma_image_fini(&image);
+    }
+    if (!status) {
+        *seconds = (koksma__thread_s() - start) * reference->height / ROWS;
+    }
+    return koksma__is_impossible(status) ? KOKSMA_OK : status;
+}
+
+/* Adds the references that tasks are compared with. */
+static koksma_status add_references(koksma_study *study, const double *sample_s, const koksma_run *job,
+                                    koksma_study_cost *cost)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t r = 0; r < study->n_references && !status; r++) {
+        const koksma__reference_image *image = &study->references[r];
+        double seconds = sample_s[r] * (double)image->reference->spp;
+        if (isfinite(seconds)) {
+            status = time_rows(image, job, &seconds);
             cost->references++;
-            cost->reference_seconds += seconds * samples / (double)t->n;
+            cost->reference_seconds += seconds * (double)image->reference->replicates;
             cost->bytes += (double)image->width * image->height * 3 * REFERENCE_PIXEL;
         }
     }
+    return status;
 }
 
 static koksma_status time_and_learn(koksma_study *study, guesses *g, size_t i, const koksma_run *job)
@@ -236,8 +273,8 @@ static koksma_status estimate_kind(koksma_study *study, bool images, const koksm
     koksma__tasks tasks;
     KOKSMA__TRY(koksma__tasks_open(study, images, &tasks));
     guesses g = {calloc(tasks.n + 1, sizeof *g.at), tasks.n};
-    bool *counted = calloc(study->n_references + 1, sizeof *counted);
-    koksma_status status = g.at && counted ? KOKSMA_OK : koksma__fail_memory(tasks.n * sizeof *g.at);
+    double *sample_s = calloc(study->n_references + 1, sizeof *sample_s);
+    koksma_status status = g.at && sample_s ? KOKSMA_OK : koksma__fail_memory(tasks.n * sizeof *g.at);
     for (size_t i = 0; !status && i < g.n; i++) {
         g.at[i] = (guess){&tasks.at[i], (size_t)NONE, 0};
     }
@@ -245,15 +282,20 @@ static koksma_status estimate_kind(koksma_study *study, bool images, const koksm
         qsort(g.at, g.n, sizeof *g.at, by_n);
         status = time_tasks(study, &g, run, budget_s);
     }
-    /* Tasks of large n come first: the time of a reference is estimated from the first task that uses it, and a
-       reference also has many samples. */
-    for (size_t i = g.n; !status && i-- > 0;) {
+    for (size_t r = 0; sample_s && r < study->n_references; r++) {
+        sample_s[r] = (double)INFINITY;
+    }
+    for (size_t i = 0; !status && i < g.n; i++) {
         add_task(g.at[i].task, g.at[i].seconds, cost);
-        add_references(study, g.at[i].task, g.at[i].seconds, counted, cost);
+        note_references(g.at[i].task, g.at[i].seconds, sample_s);
+    }
+    if (!status) {
+        const koksma_run job = {.threads = 1};
+        status = add_references(study, sample_s, &job, cost);
     }
     cost->jobs += tasks.n_jobs;
     free(g.at);
-    free(counted);
+    free(sample_s);
     koksma__tasks_close(&tasks);
     return status;
 }
