@@ -466,8 +466,9 @@ typedef struct koksma_ranking {
    decisions at the requested size are correct, and with 99.5 % probability all decisions of a check. A time limit
    ends this sequence early. A longer limit gives the same best pattern, or a best pattern where a shorter limit
    gave none. A pattern whose first round exceeds its part of the time limit is postponed until the other patterns
-   are decided, and no pattern is reported as best while one is postponed. The trials of a pattern are independent
-   of each other and of the trials of other patterns.
+   are decided, and no pattern is reported as best while one is postponed; two others that are 1 to 2 % apart may
+   then be found equal instead of different, because its pairs keep their part of the error rate. The trials of a
+   pattern are independent of each other and of the trials of other patterns.
      rows  receives options->n_patterns rows
    A pattern that has no set of spp points is not ranked, and its row says why. A pattern whose file is missing or
    malformed, or whose program may not run, is an error before anything is rendered.

@@ -10,8 +10,8 @@
  *     3. the first contest again, until every pair of patterns is decided.
  * A time limit may end the ranking at any point; the rows then report what is known. The speed of the machine affects
  * how many decisions are taken (ranking_contest.c describes the treatment of patterns too slow for the time limit,
- * ranking_decisions.c the statistics). It has no part in their outcome: the levels of a decision depend on the rounds
- * and the decisions before it.
+ * ranking_decisions.c the statistics). It has no part in their outcome but one: the levels of a decision depend on the
+ * rounds and the decisions before it, among which those of a pattern that was put off are missing.
  *
  * Any decision is wrong with a probability of at most 5 %: 4 % for the first contest and 1/2 % for each check.
  */
