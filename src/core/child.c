@@ -35,7 +35,7 @@ koksma_status koksma__child_run(const koksma__child *child, const koksma_run *ru
 #include <unistd.h>
 
 /* OUT and ERR: the program's standard output and error. START: errno, if the program can't be started. */
-enum { OUT, ERR, START, N_ENDS, STEP_MS = 20, CHUNK = 1 << 16, SHOWN = 200 };
+enum { OUT, ERR, START, N_ENDS, STEP_MS = 20, LAST_STEP_MS = 1, FULL_PIPES = 16, CHUNK = 1 << 16, SHOWN = 200 };
 
 static _Noreturn void become_program(const koksma__child *child, const int ends[N_ENDS])
 {
@@ -146,7 +146,8 @@ static bool has_ended(const conversation *c)
                                                                                : info.si_pid == c->program;
 }
 
-/* Reads output until the program has ended, and then what is left in the pipes, which other processes may hold open. */
+/* Reads output until the program has ended, and then what is left in the pipes: some times what a pipe holds at most, as a
+   process that left the group may write on. */
 static void talk(conversation *c, char *chunk)
 {
     while (!has_ended(c)) {
@@ -154,7 +155,9 @@ static void talk(conversation *c, char *chunk)
         for (int e = 0; e < N_ENDS; e++) {
             files[e] = (struct pollfd){.fd = c->ends[e], .events = POLLIN}; /* poll() ignores -1 */
         }
-        const int ready = poll(files, N_ENDS, STEP_MS);
+        /* the pipes are closed a moment before the program has ended */
+        const bool closed = c->ends[OUT] < 0 && c->ends[ERR] < 0;
+        const int ready = poll(files, N_ENDS, closed ? LAST_STEP_MS : STEP_MS);
         for (int e = 0; e < N_ENDS && ready > 0; e++) {
             if (files[e].revents) {
                 take(c, e, chunk);
@@ -170,7 +173,7 @@ static void talk(conversation *c, char *chunk)
     }
     kill(-c->program, SIGKILL);
     for (int e = 0; e < N_ENDS; e++) {
-        while (!c->status && take(c, e, chunk)) {
+        for (int i = 0; i < FULL_PIPES && !c->status && take(c, e, chunk); i++) {
         }
     }
 }

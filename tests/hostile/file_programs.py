@@ -57,6 +57,7 @@ BAD = {
 # Programs with other processes: the points are right.
 FORKS = {
     "background": "sleep 1000 & " + POINTS,
+    "floods": "setsid sh -c 'yes >&2' & " + POINTS,  # ends by SIGPIPE
     "holds": POINTS + "; (sleep 1000) &",
     "bomb": "for i in 1 2 3 4 5 6 7 8; do (sleep 1000 & sh -c 'sleep 1000; sleep 1000' &); done; " + POINTS,
 }
