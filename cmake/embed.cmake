@@ -62,7 +62,7 @@ endfunction()
 # {{script-hash}} is that of the element's text, for the page's Content-Security-Policy.
 function(koksma_embed_page header page)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page} ${ARGN})
-  set(palette ${PROJECT_SOURCE_DIR}/src/plot/palette.def)
+  set(palette ${PROJECT_SOURCE_DIR}/src/lab/plot/palette.def)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${palette})
   file(STRINGS ${palette} lines REGEX "^COLOUR")
   set(number 0)

@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 if(SKBUILD) # pip: the libraries and the program go into the Python package, where _library.py and _program.py look
   set(parts koksma-shared koksma-lab-shared koksma-program)
-  foreach(module koksma-cairo koksma-exr koksma-jpeg koksma-embree) # found beside the library (src/modules/module.c)
+  foreach(module koksma-cairo koksma-exr koksma-jpeg koksma-embree) # found beside the library (src/engine/modules/module.c)
     if(TARGET ${module})
       list(APPEND parts ${module})
     endif()

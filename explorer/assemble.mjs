@@ -47,7 +47,7 @@ function references() {
 
 // The colours of the plots: [{ light, dark, patterns: [name, ..] }, ..]
 function palette() {
-  const text = fs.readFileSync(path.join(here, "../src/plot/palette.def"), "utf8");
+  const text = fs.readFileSync(path.join(here, "../src/lab/plot/palette.def"), "utf8");
   return [...text.matchAll(/^COLOUR\(0x(\w{6}), 0x(\w{6}), ([^)]*)\)/gm)].map(([, light, dark, names]) =>
     ({ light: `#${light}`, dark: `#${dark}`, patterns: names.match(/[\w-]+/g) }));
 }

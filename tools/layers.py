@@ -7,7 +7,7 @@
     tools/layers.py arrows            list every arrow between directories with one use of it
 
 Rules: a directory includes and uses only those named in MAY_USE; that relation has no cycle, and neither has that of
-files (a header and its .c file count as one). A shared function (koksma__) is declared in the header of the file
+files (a header and its .c file count as one). A wing of src/ uses no wing above it (WINGS). A shared function (koksma__) is declared in the header of the file
 that defines it. No type name is defined twice. No header holds code for a single file.
 
 How: comments and strings are removed; an include names a file; a name koksma_... that occurs in one file and that
@@ -58,10 +58,10 @@ MAY_USE = {
 # Headers that declare what several files of their directory define, and why; so do headers that have their directory's name,
 # if no .c file has it (measures/star/star.h).
 INTERNAL = {
-    "src/study/plan/plan.h": "the data of a plan, which plan.c and the parsers of its sections fill",
-    "src/study/store/store.h": "the interface of the store, whose files are parts of one object",
-    "src/study/store/store_internal.h": "the store's object, for its own files only",
-    "src/study/plan/plan_section.h": "the parsers of a plan's sections, one file each, for plan.c's table",
+    "src/lab/study/plan/plan.h": "the data of a plan, which plan.c and the parsers of its sections fill",
+    "src/lab/study/store/store.h": "the interface of the store, whose files are parts of one object",
+    "src/lab/study/store/store_internal.h": "the store's object, for its own files only",
+    "src/lab/study/plan/plan_section.h": "the parsers of a plan's sections, one file each, for plan.c's table",
 }
 
 
@@ -71,19 +71,31 @@ def is_internal(path):
     return path in INTERNAL or alone
 
 
-def directory(path):
-    """src/study/run/queue.c -> study/run; src/render/lights/sphere.c -> render; cli/main.c -> cli."""
+# From below to above: a wing of src/ uses itself and those before it.
+WINGS = ["engine", "files", "render", "lab", "cli"]
+
+
+def wing(path):
     parts = path.split("/")
-    if parts[0] == "cli":
-        return "cli"
-    if len(parts) < 3:
+    return parts[0] if parts[0] == "cli" else parts[1]
+
+
+def directory(path):
+    """src/lab/study/run/queue.c -> study/run; src/engine/core/dft.c -> core; src/render/lights/sphere.c -> render."""
+    parts = path.split("/")
+    if wing(path) in ("cli", "render"):
+        return "scene" if parts[2:3] == ["scene"] else wing(path)
+    if len(parts) < 4:
         return path
-    return "/".join(parts[1:3]) if parts[1] == "study" else parts[1]
+    return "/".join(parts[2:4]) if parts[2] == "study" else parts[2]
 
 
 def unit(path):
     """A header and its .c file are one; an internal header stands for itself."""
     return path if is_internal(path) else path.rsplit(".", 1)[0]
+
+
+ROOTS = ("src/engine/", "src/files/", "src/", "src/render/", "src/lab/")  # CMakeLists.txt, KOKSMA_ROOTS
 
 
 def read_sources():
@@ -96,7 +108,7 @@ def read_sources():
         text = open(os.path.join(ROOT, path), encoding="utf-8").read()
         folder = os.path.dirname(path)
         named = re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, re.M)
-        includes[path] = [p for n in named for p in ("src/" + n, folder + "/" + n) if p in listed]
+        includes[path] = [p for n in named for p in [r + n for r in ROOTS] + [folder + "/" + n] if p in listed]
         code[path] = re.sub(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'',
                             lambda m: "\n" * m.group().count("\n") or " ", text, flags=re.S)
     return code, includes
@@ -208,6 +220,9 @@ def check_directories(tree):
             for path, what in sorted(set(examples)):
                 yield "layers", path, "%s may not use %s: %s" % (here, there, what)
     for path in sorted(tree.code):
+        for other in sorted({*tree.uses[path], *tree.includes[path]}):
+            if WINGS.index(wing(other)) > WINGS.index(wing(path)):
+                yield "wings", path, "%s may not use %s: %s" % (wing(path), wing(other), other)
         for other in tree.includes[path]:
             if path.startswith("cli/") and not other.startswith("cli/"):
                 yield "layers", path, "cli includes include/koksma only: " + other

@@ -160,7 +160,7 @@ def verified(site, row, n):
 def pattern_page(site, row, numbers):
     """The page of a pattern."""
     name = row["pattern"]
-    path = f"src/patterns/{name.replace('-', '_')}.c"
+    path = f"src/engine/patterns/{name.replace('-', '_')}.c"
     claims = [] if row["claims"] == "-" else row["claims"].split(",")
     entry = table([], [["dimensions", row["dim"]], ["source", site.cite(row["source"], name, "patterns")]])
     entry += site.parameters(name)
@@ -210,7 +210,7 @@ def measure_page(site, row, numbers):
                               alt=f"16 jittered points and where {name} is reached")
     chart = program.picture(f"{name}-n.svg", "plot", "--curve", "convergence", "-m", name, "--sizes", sizes, "--trials", trials,
                             *sources, alt=f"{name} against n")
-    body = (site.comment("src/measures", name) + entry + f"<div class='row'>{witness}{chart}</div>" +
+    body = (site.comment("src/engine/measures", name) + entry + f"<div class='row'>{witness}{chart}</div>" +
             f"<h2>Patterns ranked by {name}</h2><p>Means over sets with standard errors, as on the pages of the patterns, which have the "
             "commands; the best first by the last column.</p>" + ranking(site, name, numbers))
     site.write(f"measures/{name}.html", "measure", name, text.formula(row["what"]), body)

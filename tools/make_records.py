@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes src/patterns/data/records.csv, the sets of the pattern record: make_records.py PROGRAM FOLDER
+"""Writes src/engine/patterns/data/records.csv, the sets of the pattern record: make_records.py PROGRAM FOLDER
 
 FOLDER has sets that `koksma optimise MEASURE -n N [-d D] --from latin-hypercube --seed S --steps K -o FOLDER/ANY.txt` wrote.
 Of each measure, dim and n the best is kept, with its seed and steps, from which that command makes it again. A set that is there
@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-FILE = Path(__file__).resolve().parent.parent / "src/patterns/data/records.csv"
+FILE = Path(__file__).resolve().parent.parent / "src/engine/patterns/data/records.csv"
 MEASURES = ["star", "l2-star", "l2-periodic", "l2-centered"]  # in the order of record.c
 
 # The best published values of the 2D star discrepancy that were at hand.

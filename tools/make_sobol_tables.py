@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes src/patterns/shared/sobol_joe_kuo.inc and sobol_bratley_fox.inc.
+"""Writes src/engine/patterns/shared/sobol_joe_kuo.inc and sobol_bratley_fox.inc.
 
 Usage: tools/make_sobol_tables.py [FOLDER]   (needs scipy and the GSL library, which hold the published numbers)
 
@@ -110,6 +110,6 @@ def primitive(p):
             return x == 1 and order == (1 << degree) - 1
 
 
-folder = sys.argv[1] if len(sys.argv) > 1 else "src/patterns/parts"
+folder = sys.argv[1] if len(sys.argv) > 1 else "src/engine/patterns/parts"
 write(os.path.join(folder, "sobol_joe_kuo.inc"), JOE_KUO, joe_kuo())
 write(os.path.join(folder, "sobol_bratley_fox.inc"), BRATLEY_FOX, bratley_fox())

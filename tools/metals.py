@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The reflectances of metals in src/scene/import.c, from published optical constants.
+"""The reflectances of metals in src/render/scene/import.c, from published optical constants.
 
     tools/metals.py           print the rows of the table
     tools/metals.py FILE      compare them with the rows in FILE (exit code 1: they differ)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The charts of the explorer and of a study's report (src/study/report/page): series of lines and marks with bars on axes
+// The charts of the explorer and of a study's report (src/lab/study/report/page): series of lines and marks with bars on axes
 // that are linear or logarithmic each. An axis spans its values with a margin; ticks are at 1, 2 or 5 times powers of ten,
 // at least three of them. Colours are the page's: a series is <g class="series CLASS"> with .line, .bar and .dots.
 import { svg, short } from "./dom.mjs";
@@ -65,7 +65,7 @@ function ticks(axis) {
 
 const round = v => +v.toFixed(2);
 
-// The corners of marks, those of the program's plots (draw_mark in src/plot/chart.c); the first mark is a dot.
+// The corners of marks, those of the program's plots (draw_mark in src/lab/plot/chart.c); the first mark is a dot.
 const corners = [null, [-1, -1, 1, -1, 1, 1, -1, 1], [-1.2, 1, 1.2, 1, 0, -1.2], [0, -1.5, 1.5, 0, 0, 1.5, -1.5, 0], [-1.2, -1, 1.2, -1, 0, 1.2],
   [-0.4, -1.5, 0.4, -1.5, 0.4, -0.4, 1.5, -0.4, 1.5, 0.4, 0.4, 0.4, 0.4, 1.5, -0.4, 1.5, -0.4, 0.4, -1.5, 0.4, -1.5, -0.4, -0.4, -0.4],
   [0, -1.7, 0.42, -0.58, 1.62, -0.53, 0.68, 0.22, 1, 1.38, 0, 0.72, -1, 1.38, -0.68, 0.22, -1.62, -0.53, -0.42, -0.58],

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The description of a scene in double precision, which src/scene fills from files and the renderer reads. Lengths
+ * The description of a scene in double precision, which src/render/scene fills from files and the renderer reads. Lengths
  * are in the scene's unit; y is up. A material, light or shape points to its kind's entry in the tables of
  * src/render, so that a new kind needs no change here.
  */

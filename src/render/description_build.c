@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Builds the description of a scene: the readers of files (src/scene) and the parsers of lights and shapes
+ * Builds the description of a scene: the readers of files (src/render/scene) and the parsers of lights and shapes
  * (src/render/lights and shapes) append to the description by these functions. koksma__scene_finish() derives what
  * depends on all parts: whether pictures have one channel, whether anything moves, and the part of the scene's hash
  * that depends on images in other files.

@@ -108,7 +108,7 @@ with tempfile.TemporaryDirectory() as folder:
             found = pages.get(site / kind / f"{name}.html")
             check(found, f"no page for {name}")
             words = " ".join(found.words) if found else ""
-            check(f"comment of  src/{kind}/" in words, f"{name}: the page lacks the comment")
+            check(f"comment of  src/engine/{kind}/" in words, f"{name}: the page lacks the comment")
             check(name in ("file", "latin-hypercube", "exec", "plugin") or "Source" in words, f"{name}: no source in the head comment")
             check("koksma " in words, f"{name}: no command")
             check(found and any("pictures/" in link for link in found.links), f"{name}: no picture")

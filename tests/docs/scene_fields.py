@@ -31,7 +31,7 @@ for noun in "material", "light", "shape":
         if row not in rows:
             failures.append(f"lacks the row | {' | '.join(row)} |")
     failures += [f"has a row that `koksma list {noun}s` lacks: | {' | '.join(row)} |" for row in rows if row not in wanted]
-sources = (ROOT / "src" / "scene" / "parse.c").read_text()
+sources = (ROOT / "src" / "render" / "scene" / "parse.c").read_text()
 others = set(re.findall(r'"(\w+)"', " ".join(re.findall(r"KEYS\(([^)]*)\)", sources))))
 if not fields or not others:
     failures.append("no fields found: nothing is compared")

@@ -70,7 +70,7 @@ async function controls(page) {
 
 // Both sets have the colours of their patterns in the plots of the program, on light and on dark.
 async function colours(browser) {
-  const rows = [...fs.readFileSync(path.join(__dirname, "../../src/plot/palette.def"), "utf8").matchAll(/COLOUR\(0x(\w+), 0x(\w+), ([^)]*)\)/g)];
+  const rows = [...fs.readFileSync(path.join(__dirname, "../../src/lab/plot/palette.def"), "utf8").matchAll(/COLOUR\(0x(\w+), 0x(\w+), ([^)]*)\)/g)];
   const page = await open(browser);
   for (const [colorScheme, at] of [["light", 1], ["dark", 2]]) {
     await page.emulateMedia({ colorScheme });

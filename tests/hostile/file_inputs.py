@@ -3,7 +3,7 @@
 """file_inputs.py PROGRAM: what scenes, plans, models and the command line may point at.
 
 Each place that names a file is pointed at devices, fifos without a writer, sockets, folders, links to them, sparse files
-beyond the limit of the kind (src/core/file_kinds.def), and sparse files within it whose first bytes are wrong. Whatever
+beyond the limit of the kind (src/engine/core/file_kinds.def), and sparse files within it whose first bytes are wrong. Whatever
 it is, the program must end, in the memory of an ordinary run, with exit code 3 and one line that names the file and says
 why. What the user names may be a pipe, which must give what the file gives, and is read up to the limit; the first signal
 ends the wait for it.
@@ -33,7 +33,7 @@ LEFT_OUT = ("map_Kd", "glTF image", "pbrt texture", "pbrt sky", "Mitsuba texture
 
 def limits():
     """Bytes and words of each kind; a kind without a case below is a failure."""
-    with open(os.path.join(SOURCE, "src/core/file_kinds.def"), encoding="utf-8") as stream:
+    with open(os.path.join(SOURCE, "src/engine/core/file_kinds.def"), encoding="utf-8") as stream:
         rows = re.findall(r'^FILE_KIND\((\w+), (\d+), "([^"]+)"\)', stream.read(), re.M)
     return {name: (int(mib) << 20, text) for name, mib, text in rows}
 

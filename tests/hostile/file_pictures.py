@@ -16,8 +16,8 @@ import zlib
 import files
 from file_inputs import scene
 
-MOST = 1 << 26  # pixels: src/image/formats.h
-LIMIT = 1 << 30  # bytes of a texture's file: src/core/file_kinds.def
+MOST = 1 << 26  # pixels: src/files/image/formats.h
+LIMIT = 1 << 30  # bytes of a texture's file: src/engine/core/file_kinds.def
 
 
 def packed(size, byte=0):

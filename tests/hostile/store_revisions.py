@@ -20,7 +20,7 @@ with tempfile.TemporaryDirectory() as folder:
 print(audit.stdout + audit.stderr)
 if audit.returncode:
     print("where the bits of a pattern, measure or warp have changed on purpose, raise its `revision`; of images\n"
-          "KOKSMA__RENDERER_REVISION (src/study/plan/made_by.h)")
+          "KOKSMA__RENDERER_REVISION (src/lab/study/plan/made_by.h)")
     sys.exit(1)
 counted = sum(int(n) for n in re.findall(r"(\d+) rows drawn|not compared: (\d+) rows", audit.stdout) for n in n if n)
 assert counted == len(export.strip().split("\n")) - 1 == 161, (counted, len(export))

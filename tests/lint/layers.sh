@@ -20,18 +20,18 @@ only() {
   others=$(grep -rlE "#include <$1" src cli include | grep -vxF "$2")
   for file in $others; do complain "$file includes <$1; only $2 may"; done
 }
-only 'png\.h' src/image/png.c
-only 'zlib\.h' src/meshes/inflate.c
-only 'openexr\.h' src/image/exr_openexr.c
-only 'OpenEXR/' src/image/exr_rgba.c
-only 'jpeglib\.h' src/image/jpeg_turbo.c
-only 'cairo' src/plot/cairo.c
-only 'sqlite3\.h' src/study/store/database.c
-only 'jansson\.h' src/json/json.c
+only 'png\.h' src/files/image/png.c
+only 'zlib\.h' src/files/meshes/inflate.c
+only 'openexr\.h' src/files/image/exr_openexr.c
+only 'OpenEXR/' src/files/image/exr_rgba.c
+only 'jpeglib\.h' src/files/image/jpeg_turbo.c
+only 'cairo' src/lab/plot/cairo.c
+only 'sqlite3\.h' src/lab/study/store/database.c
+only 'jansson\.h' src/files/json/json.c
 only 'embree' src/render/accel/accel_embree.c
-only 'expat\.h' src/scene/xml.c
-only 'mpi\.h' src/study/run/transport_mpi.c
-only 'Random123' src/core/random.h
+only 'expat\.h' src/render/scene/xml.c
+only 'mpi\.h' src/lab/study/run/transport_mpi.c
+only 'Random123' src/engine/core/random.h
 
 # Every source says its licence; no file is long without a reason at its top.
 files 'src/*.[ch]' 'cli/*.[ch]' 'include/*.h' 'tests/*.[ch]' 'bench/*.[ch]' 'explorer/*.[ch]' '*.mjs' '*.cjs' |

@@ -1,10 +1,10 @@
 #!/bin/sh
-# Numbers with a decimal point become text, and text becomes numbers, by src/core/c_locale.c alone: libc's own functions
+# Numbers with a decimal point become text, and text becomes numbers, by src/engine/core/c_locale.c alone: libc's own functions
 # follow the host program's locale, where 0.5 may be 0,5. Whole numbers and words may go by libc's.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . tests/lint/files.sh
-files 'src/*.[ch]' | grep -vxF src/core/c_locale.c | xargs perl -0777 -ne '
+files 'src/*.[ch]' | grep -vxF src/engine/core/c_locale.c | xargs perl -0777 -ne '
   my $string = qr/"(?:[^"\\]|\\.)*"/s;
   my $float = qr/%[-+ #0\x27]*[\d*]*(?:\.[\d*]*)?[lL]?[aefgAEFG]/;
   my $character = qr/\x27(?:[^\x27\\]|\\.)+\x27/;

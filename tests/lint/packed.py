@@ -80,7 +80,7 @@ for path in sys.argv[2:]:
             seen += 1
             scalar, packed = total(found, name)
             if scalar > packed and kernel.group(1) not in REASONS:
-                print(f"{name}: {scalar} scalar and {packed} packed instructions; use the vectors of src/kernels/lanes64.h, "
+                print(f"{name}: {scalar} scalar and {packed} packed instructions; use the vectors of src/engine/kernels/lanes64.h, "
                       f"or give a reason in tests/lint/packed.py")
                 failed = True
 if seen < 100:

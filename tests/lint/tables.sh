@@ -17,14 +17,14 @@ same() {
   grep -E '^[A-Z_]+\(' "$2/$1" | tac >"$folder/turned/$1"
   [ "$(wc -l <"$folder/turned/$1")" -gt 1 ] || complain "$2/$1: no lines found"
   for way in "" "-I$folder/turned"; do
-    $cc -std=c11 -O1 -S -D_XOPEN_SOURCE=700 $way -Iinclude -Isrc "$3" -o "$folder/${way:+turned}.s" ||
+    $cc -std=c11 -O1 -S -D_XOPEN_SOURCE=700 $way -Iinclude -Isrc -Isrc/engine "$3" -o "$folder/${way:+turned}.s" ||
       complain "$3: does not compile"
   done
   cmp -s "$folder/.s" "$folder/turned.s" || complain "$2/$1: the order of its lines changes $3"
   rm -f "$folder"/*.s
 }
 same render/samples/uses.def src src/render/samples/uses.c
-same koksma/status.def include src/core/status.c
+same koksma/status.def include src/engine/core/status.c
 
 # Every other table is a list of names, a list of functions that structs call by name, or names and numbers that are
 # made together.

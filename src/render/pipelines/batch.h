@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Rays in blocks: structures of arrays with KOKSMA__BLOCK lanes, and the table of loops over them, which are compiled
- * once for each instruction set (like the kernels of src/kernels). The loops use only + - * /, square roots,
+ * once for each instruction set (like the kernels of src/engine/kernels). The loops use only + - * /, square roots,
  * comparisons and floor, each rounded as IEEE 754 prescribes and none fused, so that every instruction set gives the
  * same bits.
  *

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""format.py KOKSMA: a report for every kind of question (src/study/plan/questions.def), asked by name, and for every section
+"""format.py KOKSMA: a report for every kind of question (src/lab/study/plan/questions.def), asked by name, and for every section
 (sections.def). Each report.json must be as docs/report.schema.json says and have the answer or the section; the page must
 hold the same text; the same rows must give the same bytes; a study of blocks that a question can't be answered from must
 say what it takes. Documents and error messages must name every kind of question. With sanitizers each report is made once."""
@@ -31,7 +31,7 @@ def complain(text):
 
 
 def lines_of(table, macro):
-    text = (ROOT / "src/study" / table).read_text()
+    text = (ROOT / "src/lab/study" / table).read_text()
     return re.findall(r"^%s\((\w+)" % macro, text, re.M)
 
 
@@ -70,7 +70,7 @@ def check_tables(name, report):
                     complain(f"{name}: table {table['name']}, {column['name']}: {cell} has no interval")
 
 
-PALETTE = [re.findall(r"[\w-]+", names) for names in re.findall(r"^COLOUR\(\w+, \w+, ([^)]*)\)", (ROOT / "src/plot/palette.def").read_text(), re.M)]
+PALETTE = [re.findall(r"[\w-]+", names) for names in re.findall(r"^COLOUR\(\w+, \w+, ([^)]*)\)", (ROOT / "src/lab/plot/palette.def").read_text(), re.M)]
 
 
 def check_colours(name, report):

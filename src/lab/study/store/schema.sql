@@ -24,7 +24,7 @@ CREATE TABLE series (        -- the key of results without the trial; each serie
   height INTEGER NOT NULL CHECK (height >= 0),
   what TEXT NOT NULL,                      -- the measure's canonical spec, or name:pattern@spp x replicates
   metric TEXT NOT NULL CHECK ((metric <> '') = (kind = 'metric')), -- the metric's canonical spec, e.g. relmse
-  made_by TEXT NOT NULL,                   -- revisions: renderer 0, n-rooks 0 (src/study/plan/made_by.h)
+  made_by TEXT NOT NULL,                   -- revisions: renderer 0, n-rooks 0 (src/lab/study/plan/made_by.h)
   measured_by TEXT NOT NULL,               -- revisions of the measure and warp, or of the metric and the
                                            -- reference's generators
   UNIQUE (kind, scene, scene_hash, options, pattern, n, dim, width, height, what, metric, made_by, measured_by)
