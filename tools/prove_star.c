@@ -4,8 +4,8 @@
  * tests/optimise/check_star.py checks and defines. Exit code 1 if a permutation is found that may have less.
  *
  * Branch and bound over the ranks by y of the points in order of x (the constraints:
- * src/engine/optimise/method_star_plane.c). Of a prefix of length k the counts c(i,j), i <= k, are known and others bounded,
- * so that with F = n f
+ * src/engine/optimise/method_star_plane.c). Of a prefix of length k the counts c(i,j), i <= k, are known and others
+ * bounded, so that with F = n f
  *
  *     X_i Y_j >= low(i,j) - F,   X_i' Y_j' <= high(i'-1,j'-1) + F,   X and Y increasing,   X_n+1 Y_n+1 = n.
  *
