@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Prints the tables of docs/findings/ranking-keys.md: errors of koksma/keys.h and of z-sampler on integrands that took no
+ * Prints the tables of docs/findings/screen-noise.md: errors of koksma/keys.h and of z-sampler on integrands that took no
  * part in the design of the keys, in units of those of independently scrambled pixels. A program of its own:
  *
  *     cc -O3 -ffast-math -march=native -std=gnu11 -Iinclude tools/keys_held_out.c -lm -o /tmp/keys_held_out

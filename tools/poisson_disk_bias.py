@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""poisson_disk_bias.py KOKSMA: the table of biases in docs/findings/poisson-disk.md.
+"""poisson_disk_bias.py KOKSMA: the table of biases in docs/findings/blue-noise.md.
 
 With m the mean error of T renders of a pixel and v their variance, m^2 - v / T is an unbiased estimate of the squared
 bias; the reference's own variance, from its two halves, is taken off, too. Intervals: jackknife over 8 groups of seeds."""

@@ -25,7 +25,7 @@
  * of independent pixels. Only the errors of the pixels of one cell depend on each other. Therefore the mean square
  * error of one image varies more from seed to seed than with independent pixels; the difference is smaller in larger
  * images. Low frequencies of the errors have .35 to .58 of the power of white noise in the mean over 28 held-out
- * integrands, less than with koksma_z_rank at 1 to 100 samples per pixel; docs/findings/ranking-keys.md has the
+ * integrands, less than with koksma_z_rank at 1 to 100 samples per pixel; docs/findings/screen-noise.md has the
  * measured errors.
  *
  * Aligned blocks of 2^k samples of a pixel are (0,k,2)-nets in base 2, for all k. The 2^m samples of the 1,024 pixels

@@ -75,7 +75,7 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster_3d(int size, int frames, u
        sum over pixels p, q of exp(-|p - q|^2 / 2.1^2 - |v_p - v_q|^(dim/2)),  distances of pixels on the torus
 
    Masks of fewer dimensions have less error at low frequencies. For functions of two coordinates, its power is .01 to
-   .15 of that of white noise with dim = 2, .03 to .3 with 4, .13 to .4 with 8 (docs/findings/blue-noise.md). Seeds
+   .15 of that of white noise with dim = 2, .03 to .3 with 4, .13 to .4 with 8 (docs/findings/screen-noise.md). Seeds
    differ in the shift and in the arrangement; the bits depend on neither threads nor machine. The points of the
    pattern `mask-offset:masks=vectors` are the mask with dim = 2. It takes about 1.2 s for size 64 with dim = 2 and
    1.6 s with dim = 8; the time is proportional to size^2 (22 s for 256).

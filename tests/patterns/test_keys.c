@@ -250,7 +250,7 @@ static void mean_squares_of_tiles(uint32_t spp, bool independent, double mean[2]
 }
 
 /* Plain errors are no larger than those of independent pixels, within four standard errors; blurred ones are smaller.
-   RATIOS=1 in the environment prints the table of docs/findings/blue-noise.md. */
+   RATIOS=1 in the environment prints the ratios. */
 static void errors_are_blue_and_small(void **state)
 {
     (void)state;
@@ -309,7 +309,7 @@ static void ranking_permutes_samples(void **state)
 }
 
 /* They rank for all powers of two at once: the first 1, 2, 4, ... of 64 samples have blue errors, too. Blurred mean squares
-   over those of independent pixels; docs/findings/ranking-keys.md has the low frequencies. */
+   over those of independent pixels; docs/findings/screen-noise.md has the low frequencies. */
 static void prefixes_are_blue(void **state)
 {
     (void)state;

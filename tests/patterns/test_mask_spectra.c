@@ -7,7 +7,7 @@
  *     little power at lower frequencies, and constant power at higher ones
  *     no direction: with K averaged periodograms the anisotropy, the variance of a ring's powers over the square of their
  *     mean, is -10 log10 K decibels (-10 for his 10 periodograms); at 0 dB a pattern has strong directions
- * Powers are in units of g (1 - g), that of pixels set at random. docs/findings/blue-noise.md has the measured values.
+ * Powers are in units of g (1 - g), that of pixels set at random. docs/findings/screen-noise.md has the measured values.
  */
 #include <koksma/mask.h>
 

@@ -11,7 +11,7 @@
  *
  * With masks=vectors a pixel has one sample, its vector in koksma_mask_vectors. The errors are then bluer if the
  * integrand depends on both coordinates together: for a disk their power at low frequencies is .13 times that of
- * white noise in place of .38 (docs/findings/blue-noise.md has all integrands).
+ * white noise in place of .38 (docs/findings/screen-noise.md has all integrands).
  *
  * Sources: Georgiev & Fajardo 2016, who shift the points on the torus by two optimised masks; here the masks are
  * void-and-cluster masks (Ulichney 1993). Scrambling: Laine & Karras 2011, Burley 2020. New in this project are two

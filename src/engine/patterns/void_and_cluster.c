@@ -9,7 +9,7 @@
  *
  * Source: Ulichney 1993. koksma/mask.h declares the function that makes the mask. Known (Ulichney 1988, of blue noise):
  * with a share g of the pixels set, the peak of the power is at about sqrt(g) cycles a pixel, for g up to 1/4, and 10
- * averaged periodograms have an anisotropy of -10 dB (docs/findings/blue-noise.md).
+ * averaged periodograms have an anisotropy of -10 dB (docs/findings/screen-noise.md).
  */
 #include <koksma/mask.h>
 

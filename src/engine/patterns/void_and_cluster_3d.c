@@ -8,7 +8,7 @@
  *
  * Source: Ulichney 1993, in three dimensions. koksma/mask.h declares the function that makes the mask. Known: with a share
  * g of the voxels set the power has its peak at about the cube root of g cycles a voxel; a single frame is no blue
- * noise: it has half the low power of white noise (docs/findings/blue-noise.md).
+ * noise: it has half the low power of white noise (docs/findings/screen-noise.md).
  */
 #include <koksma/mask.h>
 

@@ -7,7 +7,7 @@
  *
  * where distances between pixels are measured on the torus, and distances between vectors are not. With distances of
  * vectors on the torus, masks of dim = 2 get worse than white noise for integrands that are not periodic: neighbours
- * come to lie half a torus apart, so that vectors modulo 1/2 vary slowly over the tile (docs/findings/blue-noise.md).
+ * come to lie half a torus apart, so that vectors modulo 1/2 vary slowly over the tile (docs/findings/screen-noise.md).
  * Pairs of pixels more than 6 pixels apart along an axis are left out; their first factor is below 3e-4.
  *
  * The vectors are a rank-1 lattice of size^2 points with a random shift; its multipliers are those of lattice-rank1.
