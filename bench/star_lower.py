@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """How often star-lower reaches star: KOKSMA [-m MEASURE]. Counts the sets whose exact star discrepancy a measure
-reaches, by dimension, and lists the others with their gaps (docs/findings/star-lower.md). Two to three minutes, most
+reaches, by dimension, and lists the others with their gaps (docs/findings/records.md). Two to three minutes, most
 of them for the exact values."""
 import json
 import resource

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Is a point set that was optimised for one scene better in others? Prints the tables of docs/findings/scene-sets.md.
+"""Is a point set that was optimised for one scene better in others? Prints the tables of docs/findings/records.md.
 
     tools/scene_sets.py build/release/koksma [SCENE] [SEED] >tables.md
 

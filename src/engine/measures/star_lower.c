@@ -6,7 +6,7 @@
  * Formula: the largest |#{x_i in box}/n - volume| that threshold accepting finds among anchored boxes (see star.c).
  * Source: Gnewuch, Wahlstrom and Winzen 2012; measures/star/star_search.c describes how this search differs from
  * theirs. Known exactly: the value never exceeds the value of the measure star, except in the last bit by rounding.
- * In measurements (docs/findings/star-lower.md) the default search reached star in all of 360 sets of 12 patterns,
+ * In measurements (docs/findings/records.md) the default search reached star in all of 360 sets of 12 patterns,
  * with 64 to 2000 points in 2 to 5 dimensions and 50 to 200 points in 6 to 8. Limits: the witness, which is given up
  * to 16 dimensions, proves the bound. The distance to the supremum is unknown, so the upper bound is 1.
  */
