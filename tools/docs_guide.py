@@ -15,7 +15,7 @@ except ImportError:
     sys.exit("make_docs: Python has no module markdown; on Debian: apt-get install python3-markdown")
 
 # The documents for users, in their order; all others follow.
-FIRST = ("README", "tutorial", "install", "commands", "scenes", "scaling", "report-format", "abi", "hardening", "contributing", "conventions", "decisions")
+FIRST = ("README", "tutorial", "install", "commands", "scenes", "scaling", "report-format", "abi", "hardening", "contributing", "architecture", "conventions", "decisions")
 FOLDERS = (("guide", "Guide", "documents for users and for those who work on Koksma"), ("findings", "Findings", "studies with their numbers, and the commands that give them"))
 
 
