@@ -47,6 +47,16 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
     return KOKSMA_OK;
 }
 
+/* Names that other libraries use for a measure, and what differs there. */
+static const struct {
+    const char *name, *measure, *there;
+} foreign_measures[] = {
+    {"CD", "l2-centered", "scipy's CD is its square"},
+    {"WD", "l2-wraparound", "scipy's WD is its square"},
+    {"MD", "l2-mixture", "scipy's MD is its square"},
+    {"L2-star", "l2-star", "scipy's L2-star is the same"},
+};
+
 koksma_status koksma_measure_spec(const char *text, koksma_spec *spec)
 {
     KOKSMA__REQUIRE(text, spec);
@@ -55,6 +65,11 @@ koksma_status koksma_measure_spec(const char *text, koksma_spec *spec)
     *spec = (koksma_spec){0};
     KOKSMA__TRY(koksma__spec_split(text, name, &rest));
     spec->measure = koksma_measure_find(name);
+    for (size_t i = 0; !spec->measure && i < sizeof foreign_measures / sizeof *foreign_measures; i++) {
+        KOKSMA__FAIL_IF(!strcmp(name, foreign_measures[i].name), KOKSMA_UNKNOWN,
+                        "no measure '%s'; did you mean '%s'? %s", name, foreign_measures[i].measure,
+                        foreign_measures[i].there);
+    }
     if (!spec->measure) {
         return koksma__fail_unknown("measure", name, koksma_measure_name_at, NULL,
                                     "'koksma list measures' names them");
