@@ -88,47 +88,15 @@ static int take_sampler(const cli_arguments *arguments, const char **text)
     return CLI_YES;
 }
 
-/* The length of the placeholder {n} or {seed} at the start of a text; 0: there is none. */
-static size_t placeholder(const char *text)
-{
-    return !strncmp(text, "{n}", 3) ? 3 : !strncmp(text, "{seed}", 6) ? 6 : 0;
-}
-
-/* Whether a path is that of a family of files, whose name has digits in place of each placeholder. */
-static bool is_of(const char *family, const char *path)
-{
-    while (*family && !placeholder(family)) {
-        if (*family++ != *path++) {
-            return false;
-        }
-    }
-    bool is = !*family && !*path;
-    for (size_t digits = *family ? strspn(path, "0123456789") : 0; !is && digits > 0; digits--) {
-        is = is_of(family + placeholder(family), path + digits);
-    }
-    return is;
-}
-
 /* Whether the files of a sampler include `output`. */
 static bool sampler_reads(const char *sampler, const char *output)
 {
     koksma_spec spec;
-    const char *path = koksma_pattern_spec(sampler, &spec) || !*spec.path ? sampler : spec.path, *family = path;
-    char names[2 * KOKSMA_MAX_SPEC];
+    const char *path = koksma_pattern_spec(sampler, &spec) || !*spec.path ? sampler : spec.path;
     glob_t found = {0};
-    size_t used = 0;
-    while (*path && used + 8 < sizeof names) {
-        const size_t length = placeholder(path);
-        used += (size_t)(length                   ? snprintf(names + used, 8, "[0-9]*")
-                         : strchr("*?[\\", *path) ? snprintf(names + used, 8, "\\%c", *path)
-                                                  : snprintf(names + used, 8, "%c", *path));
-        path += length ? length : 1;
-    }
     bool same = false;
-    if (used && !glob(names, GLOB_NOSORT, NULL, &found)) {
-        for (size_t i = 0; i < found.gl_pathc; i++) {
-            same |= is_of(family, found.gl_pathv[i]) && cli_is_same_file(found.gl_pathv[i], output);
-        }
+    for (size_t i = cli_family_files(path, &found); i-- > 0;) {
+        same |= cli_is_same_file(found.gl_pathv[i], output);
     }
     globfree(&found);
     return same;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma verify`: reports which properties points have; with --expect the exit code tells whether given properties
-   hold. */
+/* `koksma verify`: reports which properties points have, or how the points of many sets, one for each seed, are
+   distributed; with --expect the exit code tells whether given properties hold. */
 #include <koksma/optimise.h>
 #include <koksma/verify.h>
 
@@ -60,6 +60,11 @@ static const char *misspelt(const char *list, char *name, size_t size)
     return NULL;
 }
 
+static bool findings_of_sets(const koksma_findings *findings)
+{
+    return findings->count && find_property(findings->items[0].property)->of_sets;
+}
+
 /* Returns whether a property of the list fails, was not tested, or was tested only in some coordinates. A message on
    stderr reports a property that was not tested in all coordinates. */
 static bool disappoints(const char *list, const char *source, const koksma_points *points,
@@ -75,6 +80,13 @@ static bool disappoints(const char *list, const char *source, const koksma_point
                     return true;
                 }
             }
+        }
+        const bool of_sets = find_property(name)->of_sets, many = findings_of_sets(findings);
+        if (!seen && of_sets != many) {
+            cli_say("verify", "%s: %s was not tested: it is a property of %s", source, name,
+                    of_sets ? "many sets, which --seeds R or a name with {seed} gives"
+                            : "one set; test it by a command without --seeds");
+            return true;
         }
         if (!seen) {
             cli_say("verify", "%s: %s was not tested: it does not apply to %zu points in %d dimensions", source, name,
@@ -147,25 +159,89 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
     return CLI_YES;
 }
 
-/* Prints the properties of the points. *missed: a property of --expect does not hold. Returns the exit code. */
+/* Prints the properties of the points, or of n_sets > 1 sets. *missed: a property of --expect does not hold. Returns the
+   exit code. */
 static int put_findings(const cli_arguments *arguments, cli_rows *rows, const char *source,
-                        const koksma_points *points, cli_work *work, bool *missed)
+                        const koksma_points *points, size_t n_sets, cli_work *work, bool *missed)
 {
     const char *expect = cli_text(arguments, "expect", NULL);
     koksma_findings findings = {0};
-    const koksma_status status = koksma_verify(points, &work->run, &findings);
+    const koksma_status status = n_sets > 1 ? koksma_verify_sets(points, n_sets, &work->run, &findings)
+                                            : koksma_verify(points, &work->run, &findings);
     cli_work_end();
     if (!status) {
         put_rows(rows, source, points, &findings);
-        *missed = expect && disappoints(expect, source, points, &findings);
+        *missed = *missed || (expect && disappoints(expect, source, points, &findings));
     }
     koksma_findings_fini(&findings);
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+static int by_size(const void *a, const void *b)
+{
+    const koksma_points *p = a, *q = b;
+    const int order = (p->n > q->n) - (p->n < q->n);
+    return order ? order : (p->dim > q->dim) - (p->dim < q->dim);
+}
+
+/* Prints the properties of sets that a pattern makes or files have, together for all sets of a size. Returns the exit
+   code. */
+static int put_sets(const cli_arguments *arguments, cli_rows *rows, const char *source, uint64_t seed, size_t seeds,
+                    cli_work *work, bool *missed)
+{
+    glob_t files = {0};
+    const bool of_files = cli_is_family(source);
+    const size_t n_sets = of_files ? cli_family_files(source, &files) : seeds;
+    koksma_points *sets = calloc(n_sets + 1, sizeof *sets);
+    int code = !sets ? cli_no_memory()
+               : !n_sets
+                   ? cli_usage_error(arguments, "%s: no file has such a name, with digits for {n} and {seed}", source)
+                   : CLI_YES;
+    for (size_t i = 0; i < n_sets && !code; i++) {
+        code = cli_source_points(arguments, of_files ? files.gl_pathv[i] : source, seed + i, &work->run, &sets[i]);
+    }
+    if (!code && of_files) {
+        qsort(sets, n_sets, sizeof *sets, by_size);
+    }
+    for (size_t first = 0, end; first < n_sets && !code; first = end) {
+        for (end = first + 1; end < n_sets && !by_size(&sets[first], &sets[end]);) {
+            end++;
+        }
+        code = end - first > 1 ? put_findings(arguments, rows, source, sets + first, end - first, work, missed)
+                               : cli_usage_error(arguments,
+                                                 "%s: there is one set of %zu points; a distribution takes "
+                                                 "many, one file for each seed",
+                                                 source, sets[first].n);
+    }
+    for (size_t i = 0; sets && i < n_sets; i++) {
+        koksma_points_fini(&sets[i]);
+    }
+    free(sets);
+    globfree(&files);
+    return code;
+}
+
+/* Fails if --seeds is given and an operand names one set. */
+static bool check_seeds(const cli_arguments *arguments)
+{
+    const bool seeds = cli_text(arguments, "seeds", NULL) != NULL;
+    for (int i = 0; i < arguments->n_operands && seeds; i++) {
+        const char *source = arguments->operands[i];
+        if (!cli_source_is_pattern(source) && !cli_is_family(source)) {
+            cli_usage_error(arguments, "--seeds: '%s' is one set; it takes patterns, SPEC@N", source);
+            return false;
+        }
+        if (cli_flag(arguments, "record")) {
+            cli_usage_error(arguments, "--seeds has no effect with --record, which looks at single sets");
+            return false;
+        }
+    }
+    return true;
+}
+
 static int run(const cli_arguments *arguments)
 {
-    uint64_t seed;
+    uint64_t seed, seeds;
     cli_work work;
     const char *expect = cli_text(arguments, "expect", NULL);
     char name[64];
@@ -187,6 +263,7 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
     }
     if (!cli_sources_check(arguments, 0, 1, 0) || !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) ||
+        !cli_whole(arguments, "seeds", 0, KOKSMA_VERIFY_SETS, 1 << 20, &seeds) || !check_seeds(arguments) ||
         !cli_work_begin(arguments, "verifying", &work)) {
         return CLI_USAGE;
     }
@@ -198,12 +275,16 @@ static int run(const cli_arguments *arguments)
         const char *source = arguments->operands[i];
         bool one = false;
         cli_work_part(&work, (size_t)i, (size_t)arguments->n_operands);
+        if (!cli_flag(arguments, "record") && (seeds || cli_is_family(source))) {
+            code = put_sets(arguments, rows, source, seed, (size_t)seeds, &work, &missed);
+            continue;
+        }
         code = cli_source_points(arguments, source, seed, &work.run, &points);
         if (!code && cli_flag(arguments, "record")) {
             code = put_record(arguments, rows, source, &points, &work.run, &one);
             one = !one;
         } else if (!code) {
-            code = put_findings(arguments, rows, source, &points, &work, &one);
+            code = put_findings(arguments, rows, source, &points, 1, &work, &one);
         }
         missed = missed || one;
         koksma_points_fini(&points);
@@ -219,7 +300,8 @@ static const cli_option options[] = {
      "is lower (of distances: larger), also if none is known"},
     {'m', "measure", "MEASURE", "with --record: measure to compare instead of star, such as l2-star"},
     CLI_SOURCE_OPTIONS,
-    {'s', "seed", "S", "seed of patterns (default: 0)"},
+    {'s', "seed", "S", "seed of patterns, or the first of --seeds (default: 0)"},
+    {0, "seeds", "R", "test how points are distributed in R sets of each pattern, one for each seed; at least 32"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -228,14 +310,20 @@ static const cli_option options[] = {
 const cli_command cli_command_verify = {
     .name = "verify",
     .summary = "check which properties points have",
-    .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..|--record [-m MEASURE]] [--json]",
+    .synopsis =
+        "FILE|-|SPEC@N[@DIM]|'my_{n}_{seed}.npy'... [-e PROPERTY,..|--record [-m MEASURE]] [--seeds R] [--json]",
     .details = "Each property is desirable; 'yes' means that the points have it, and the detail explains the value.\n"
                "{property-meanings}\n"
+               "The last two are properties of many sets. A name with {seed} stands for many files, such as "
+               "my_256_3.npy for 256 points of seed 3; sets of equal sizes are tested together. A pattern that has "
+               "such a property fails the test with a probability of at most .001, if its sets are independent.\n"
                "Exit codes: 0 for any findings without --expect; 1 when a property of --expect fails or was not "
                "tested, or when points of --record are no record or no value is known to compare with; 2 for a wrong "
                "command line, such as an unknown property; 3 for points that are missing or malformed.",
     .examples = "koksma verify pattern:sobol@1024\n"
-                "koksma verify points.txt --expect distinct\n",
+                "koksma verify points.txt --expect distinct\n"
+                "koksma verify jittered@16 poisson-disk:d=.1@16 --seeds 1000\n"
+                "koksma verify 'my_{n}_{seed}.npy' --expect unbiased\n",
     .options = options,
     .run = run,
 };

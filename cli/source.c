@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Operands that name points, for all commands: files, - for standard input, and [pattern:]SPEC@N[@DIM], N points of a
- * pattern. SPEC@N is a pattern if the library has a pattern of that name, or if there is no such file; ./SPEC@N is
- * always a file. -p PATTERN,.. adds operands; -n N,.. and -d DIM complete operands that are patterns without @N.
+ * Operands that name points, for all commands: files, families of files, - for standard input, and
+ * [pattern:]SPEC@N[@DIM], N points of a pattern. SPEC@N is a pattern if the library has a pattern of that name, or if
+ * there is no such file; ./SPEC@N is always a file. -p PATTERN,.. adds operands; -n N,.. and -d DIM complete operands
+ * that are patterns without @N.
  */
 #include "source.h"
 
 #include <ctype.h>
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -184,6 +186,57 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
         }
     }
     return true;
+}
+
+/* ---- Families of files -------------------------------------------------------------------------------------- */
+
+/* The length of the placeholder {n} or {seed} at the start of a text; 0: there is none. */
+static size_t placeholder(const char *text)
+{
+    return !strncmp(text, "{n}", 3) ? 3 : !strncmp(text, "{seed}", 6) ? 6 : 0;
+}
+
+/* Whether a path is that of a family of files, whose name has digits in place of each placeholder. */
+static bool is_of(const char *family, const char *path)
+{
+    while (*family && !placeholder(family)) {
+        if (*family++ != *path++) {
+            return false;
+        }
+    }
+    bool is = !*family && !*path;
+    for (size_t digits = *family ? strspn(path, "0123456789") : 0; !is && digits > 0; digits--) {
+        is = is_of(family + placeholder(family), path + digits);
+    }
+    return is;
+}
+
+bool cli_is_family(const char *text)
+{
+    return (strstr(text, "{n}") || strstr(text, "{seed}")) && !cli_source_is_pattern(text);
+}
+
+size_t cli_family_files(const char *family, glob_t *found)
+{
+    char names[2 * KOKSMA_MAX_SPEC];
+    size_t used = 0, n = 0;
+    *found = (glob_t){0};
+    for (const char *at = family; *at && used + 8 < sizeof names; at += placeholder(at) ? placeholder(at) : 1) {
+        used += (size_t)(placeholder(at)        ? snprintf(names + used, 8, "[0-9]*")
+                         : strchr("*?[\\", *at) ? snprintf(names + used, 8, "\\%c", *at)
+                                                : snprintf(names + used, 8, "%c", *at));
+    }
+    if (!used || glob(names, 0, NULL, found)) {
+        return 0;
+    }
+    for (size_t i = 0; i < found->gl_pathc; i++) {
+        char *path = found->gl_pathv[i];
+        if (is_of(family, path)) {
+            found->gl_pathv[i] = found->gl_pathv[n];
+            found->gl_pathv[n++] = path;
+        }
+    }
+    return n;
 }
 
 /* ---- -p and -n --------------------------------------------------------------------------------------------- */

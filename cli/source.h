@@ -3,6 +3,8 @@
 #ifndef KOKSMA_CLI_SOURCE_H
 #define KOKSMA_CLI_SOURCE_H
 
+#include <glob.h>
+
 #include "cli.h"
 
 /* Options of commands that take points, in addition to their operands. */
@@ -18,6 +20,13 @@
    "[pattern:]SPEC@N[@DIM]". Allocates the points. Returns the exit code, which is not 0 after an error on stderr. */
 int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
                       koksma_points *points);
+
+/* Returns whether an operand is the name of a family of files, one set each, such as my_{n}_{seed}.npy. */
+bool cli_is_family(const char *text);
+
+/* Finds the files whose names have digits in place of each {n} and {seed} of `family`; a name without these is its own
+   family. Returns how many there are: the first of found->gl_pathv, which the caller frees by globfree(). */
+size_t cli_family_files(const char *family, glob_t *found);
 
 /* Returns the text behind "pattern:", or the text itself if it does not begin so. */
 const char *cli_spec_in(const char *text);

@@ -27,7 +27,7 @@ from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, Mis
 from ._optimise import Optimum, Record, optimise, radial_power, records
 from ._optimise_scene import SceneGain, SceneOptimum, optimise_scene
 from ._points import (Finding, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, local_discrepancy, measure, measures,
-                      modifiers, patterns, read, verify, warp_points, warps, write)
+                      modifiers, patterns, read, verify, verify_sets, warp_points, warps, write)
 from ._plot import Picture, plot, plot_compare, plot_convergence
 from ._rank import Asked, Ranked, Ranking, SizeCheck, rank
 from ._render import (Layers, SceneCheck, ScenePart, adaptive, check_scene, filters, integrators, read_image, render, scenes,
@@ -47,7 +47,7 @@ __all__ = [
     "has_ranges", "integrand", "integrands", "integrate", "integrators", "local_discrepancy", "measure", "measures",
     "metrics", "modifiers", "optimise", "optimise_scene", "pair_correlation", "patterns", "plans", "plot",
     "plot_compare", "plot_convergence", "radial_power", "rank", "read", "read_image", "records", "refuse_unknown",
-    "render", "scenes", "sensitivity", "spectrum", "study_images", "trials", "verify", "version", "warp_points",
+    "render", "scenes", "sensitivity", "spectrum", "study_images", "trials", "verify", "verify_sets", "version", "warp_points",
     "warps", "write", "write_image",
 ]
 

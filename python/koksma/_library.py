@@ -140,6 +140,7 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_local_discrepancy", points, POINTER(c_double), POINTER(c_double))
     _declare(library, POINTER(s.Record), "koksma_record_at", c_size_t)
     _declare(library, c_int, "koksma_verify", points, run, POINTER(s.Findings))
+    _declare(library, c_int, "koksma_verify_sets", points, c_size_t, run, POINTER(s.Findings))
     _declare(library, None, "koksma_findings_fini", POINTER(s.Findings))
     _declare(library, c_int, "koksma_optimise", spec, POINTER(s.OptimiseOptions), run, POINTER(s.Optimum))
     _declare(library, c_int, "koksma_radial_power", c_char_p, c_size_t, c_int, run, POINTER(c_double))

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Each defect that `koksma verify` is there for, planted in points that have none, is found; and only it. */
+#include <koksma/study.h>
 #include <koksma/verify.h>
 
+#include <stdlib.h>
 #include <string.h>
 
+#include "claims/claims.h"
 #include "patterns/shared/packing.h"
 #include "test.h"
 
@@ -52,7 +55,7 @@ static void each_name_of_the_table_is_found(void **state)
     const koksma_property *property;
     size_t seen = 0;
     assert_ok(koksma_verify(&p, NULL, &all));
-    for (size_t i = 0; (property = koksma_property_at(i)); i++) {
+    for (size_t i = 0; (property = koksma_property_at(i)) && !property->of_sets; i++) {
         const size_t before = seen;
         for (size_t f = 0; f < all.count; f++) {
             seen += !strcmp(all.items[f].property, property->name);
@@ -375,10 +378,120 @@ static void points_outside_are_refused(void **state)
     koksma_findings_fini(&all);
 }
 
+/* ---- Properties of sets ------------------------------------------------------------------------------------ */
+
+enum { SETS = test_repeats(300, 50) };
+
+static koksma_findings of_sets(const koksma_spec *spec, size_t n, int dim, size_t n_sets)
+{
+    koksma_points *sets = calloc(n_sets, sizeof *sets);
+    koksma_findings all;
+    assert_non_null(sets);
+    for (size_t s = 0; s < n_sets; s++) {
+        assert_ok(koksma_points_init(&sets[s], n, dim));
+        assert_ok(koksma_generate(spec, s, NULL, &sets[s]));
+    }
+    assert_ok(koksma_verify_sets(sets, n_sets, NULL, &all));
+    for (size_t s = 0; s < n_sets; s++) {
+        koksma_points_fini(&sets[s]);
+    }
+    free(sets);
+    assert_int_equal(all.count, 2);
+    return all;
+}
+
+static void patterns_that_claim_it_are_unbiased(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {4, 16, 27};
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        for (size_t c = 0; c < 3 && p->claims & KOKSMA_CLAIM_UNBIASED; c++) {
+            const int dim = c < 2 && p->min_dim <= 2 ? 2 : 3;
+            if (dim > p->max_dim || koksma_plan_try(p->name, counts[c], dim)) {
+                continue;
+            }
+            const koksma_spec spec = quick_spec_of(p);
+            koksma_findings all = of_sets(&spec, counts[c], dim, SETS);
+            if (!all.items[0].holds || (p->claims & KOKSMA_CLAIM_EXCHANGEABLE && !all.items[1].holds)) {
+                fail_msg("%s, n = %zu: %s; %s", p->name, counts[c], all.items[0].detail, all.items[1].detail);
+            }
+            koksma_findings_fini(&all);
+        }
+    }
+}
+
+/* With their boxes: the middle halves of cells; sides, where darts have fewer neighbours; a first cell that comes first;
+   one set for all seeds. Darts on the torus are the same wherever it is cut, so each is uniform. */
+static void biases_are_found(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *spec;
+        size_t n_sets;
+        bool unbiased, uniform_samples;
+        double bias; /* of the share, at least */
+    } rows[] = {
+        {"half-jittered", 200, false, false, 0.125},
+        {"jittered", 200, true, false, 0},
+        {"sobol", 200, false, false, 0},
+        {"poisson-disk:d=0.15", 4000, false, false, 0.02},
+        {"poisson-disk:d=0.15,torus=1", 4000, true, true, 0},
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        if (TEST_SANITIZED && rows[r].n_sets > 200) {
+            continue;
+        }
+        koksma_spec spec;
+        assert_ok(koksma_pattern_spec(rows[r].spec, &spec));
+        koksma_findings all = of_sets(&spec, 16, 2, rows[r].n_sets);
+        assert_int_equal(koksma_is_unbiased(&spec), rows[r].unbiased);
+        if (all.items[0].holds != rows[r].unbiased || all.items[1].holds != rows[r].uniform_samples ||
+            fabs(all.items[0].value) < rows[r].bias) {
+            fail_msg("%s: %g, %s; %s", rows[r].spec, all.items[0].value, all.items[0].detail, all.items[1].detail);
+        }
+        koksma_findings_fini(&all);
+    }
+}
+
+/* A sampler whose first coordinate is never in [1/4,3/4): 0 of 400 samples where half are expected is 20 standard errors,
+   sqrt(400 / (1/2 1/2)) / 2. */
+static void a_gap_is_named(void **state)
+{
+    (void)state;
+    enum { N_SETS = 400 };
+    koksma_points sets[N_SETS];
+    koksma_findings all;
+    for (uint64_t s = 0; s < N_SETS; s++) {
+        sets[s] = test_points("random", 8, 2, s);
+        for (size_t i = 0; i < 8; i++) {
+            double *x = &sets[s].xs[2 * i];
+            *x = *x / 2 < 0.25 ? *x / 2 : *x / 2 + 0.5;
+        }
+    }
+    assert_ok(koksma_verify_sets(sets, N_SETS, NULL, &all));
+    for (size_t f = 0; f < 2; f++) {
+        assert_false(all.items[f].holds);
+        assert_near(all.items[f].value, -0.5, 0);
+        assert_non_null(strstr(all.items[f].detail, "[1/4,3/4) of coordinate 0: expected 0.5, "));
+        assert_non_null(strstr(all.items[f].detail, "z = -20.0"));
+    }
+    koksma_findings_fini(&all);
+    assert_int_equal(koksma_verify_sets(sets, KOKSMA_VERIFY_SETS - 1, NULL, &all), KOKSMA_N);
+    sets[5].n = 7;
+    assert_int_equal(koksma_verify_sets(sets, N_SETS, NULL, &all), KOKSMA_N);
+    for (size_t s = 0; s < N_SETS; s++) {
+        koksma_points_fini(&sets[s]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(healthy_points_pass),
+        cmocka_unit_test(patterns_that_claim_it_are_unbiased),
+        cmocka_unit_test(biases_are_found),
+        cmocka_unit_test(a_gap_is_named),
         cmocka_unit_test(every_property_looks_alike_on_any_threads),
         cmocka_unit_test(each_name_of_the_table_is_found),
         cmocka_unit_test(a_broken_net),

@@ -9,7 +9,7 @@
  * Without torus=1 points crowd at the sides, where darts have fewer neighbours: 16 points with d = 0.2 have 1.40 times
  * the mean density in the outer tenths of a coordinate, and .9 times inside. A mean over the square is therefore
  * biased, and for the integrand `checker` the points are no better than jittered ones. The default is Shirley's square
- * without wraparound; torus=1 is recommended.
+ * without wraparound; torus=1 is recommended: the torus has no sides, and each point is uniform.
  *
  * The set consists of the first n darts that fit. After 3,000 rejections in a row the search restarts with an empty
  * set, and after 200 restarts it fails: the error message then gives the largest d that any n points can have. Dart

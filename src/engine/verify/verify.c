@@ -2,6 +2,7 @@
 /*
  * koksma_verify: checks one set of points for every property of properties.def and collects the findings. A property
  * adds no finding if its check would take more than about a second for this number of points and dimensions.
+ * koksma_verify_sets checks the properties of many sets together.
  */
 #include "verify/verify.h"
 
@@ -74,9 +75,36 @@ koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, 
     koksma_status status = v.counts ? KOKSMA_OK : koksma__fail_memory((points->n + 1) * sizeof *v.counts);
     for (size_t i = 0; i < N_PROPERTIES && !status; i++) {
         v.property = properties[i];
-        status = v.property->look(&v);
+        status = v.property->public.of_sets ? KOKSMA_OK : v.property->look(&v);
     }
     free(v.counts);
+    if (status) {
+        koksma_findings_fini(findings);
+    }
+    return status;
+}
+
+koksma_status koksma_verify_sets(const koksma_points *sets, size_t n_sets, const koksma_run *run,
+                                 koksma_findings *findings)
+{
+    KOKSMA__REQUIRE(sets, findings);
+    KOKSMA__REQUIRE_RUN(run);
+    *findings = (koksma_findings){0};
+    KOKSMA__FAIL_IF(n_sets < KOKSMA_VERIFY_SETS, KOKSMA_N,
+                    "verify: %zu sets are too few for a distribution; it takes %d or more, one for each seed", n_sets,
+                    KOKSMA_VERIFY_SETS);
+    for (size_t i = 0; i < n_sets; i++) {
+        KOKSMA__TRY(koksma__points_check(&sets[i]));
+        KOKSMA__FAIL_IF(sets[i].n != sets->n || sets[i].dim != sets->dim, KOKSMA_N,
+                        "verify: the sets have different sizes: %zu points in %d dimensions, then %zu in %d", sets->n,
+                        sets->dim, sets[i].n, sets[i].dim);
+    }
+    koksma__verification v = {.points = sets, .n_sets = n_sets, .run = run, .findings = findings};
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < N_PROPERTIES && !status; i++) {
+        v.property = properties[i];
+        status = v.property->public.of_sets && v.property->look ? v.property->look(&v) : KOKSMA_OK;
+    }
     if (status) {
         koksma_findings_fini(findings);
     }

@@ -10,7 +10,8 @@
 #include <koksma/verify.h>
 
 typedef struct koksma__verification {
-    const koksma_points *points;
+    const koksma_points *points; /* the set or, of properties of sets, the first of n_sets */
+    size_t n_sets;
     const koksma_run *run;
     const struct koksma__property *property; /* the property being checked */
     koksma_findings *findings;
@@ -20,7 +21,7 @@ typedef struct koksma__verification {
 typedef struct koksma__property {
     koksma_property public;
     /* Adds findings with koksma__finding; adds none where the property does not apply to this number of points or
-     * dimensions. */
+     * dimensions. NULL: the property before adds its findings. */
     koksma_status (*look)(koksma__verification *v);
     size_t base; /* the B of net-base-B; unused by other properties */
 } koksma__property;

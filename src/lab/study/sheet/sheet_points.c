@@ -114,7 +114,7 @@ static void put_matrix(const koksma__sheet *sheet, const koksma_findings *findin
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__doc_head(d, sheet->samplers[s]->text);
     }
-    for (size_t p = 0; (property = koksma_property_at(p)); p++) {
+    for (size_t p = 0; (property = koksma_property_at(p)) && !property->of_sets; p++) { /* those of sets come last */
         char text[48];
         koksma__doc_row(d);
         koksma__doc_text(d, property->name);
