@@ -4,7 +4,7 @@
 #   ENGINE_SOURCES   all that is compiled once
 #   FAST_KERNELS     the kernels that are compiled once for each instruction set, with kernels/table.c
 macro(koksma_engine_sources folder)
-  koksma_table(unused ${folder}/patterns PATTERN patterns.def "" registry.c)
+  koksma_table(unused ${folder}/patterns PATTERN patterns.def "" modify.c registry.c)
   koksma_table(unused ${folder}/warps WARP warps.def "" registry.c)
   koksma_table(unused ${folder}/measures MEASURE measures.def "" registry.c)
   koksma_table(unused ${folder}/integrands INTEGRAND integrands.def "" registry.c product.c plane.c integral.c integration.c

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Makes src/engine/patterns/shared/sobol_groups.inc: direction numbers of Sobol' sequences (sobol:numbers=groups) whose
+ * Makes src/engine/patterns/nets/sobol_groups.inc: direction numbers of Sobol' sequences (sobol:numbers=groups) whose
  * consecutive pairs and quadruples are even in all prefixes of 2^m points, m = 4 .. 12. A program of its own, run by
  * hand, some ten minutes; the same bits on every machine:
  *
  *     cc -O3 -std=c11 -ffp-contract=off -Iinclude tools/make_sobol_groups.c build/release/src/libkoksma.a -lm -pthread \
  *         -o /tmp/make_sobol_groups
- *     /tmp/make_sobol_groups > /tmp/groups.inc && mv /tmp/groups.inc src/engine/patterns/shared/sobol_groups.inc
+ *     /tmp/make_sobol_groups > /tmp/groups.inc && mv /tmp/groups.inc src/engine/patterns/nets/sobol_groups.inc
  *
  * Dimension k has the primitive polynomial number k, in the order of Joe & Kuo: by degree, then by value. The initial
  * numbers m_2 .. m_s of four dimensions at a time, 4 g .. 4 g + 3, are searched by threshold accepting, which flips one
@@ -80,7 +80,7 @@ static void make_polynomials(void)
     }
 }
 
-/* Columns by the recurrence of Sobol' (1967), as in src/engine/patterns/shared/sobol_table.c; then their rows. */
+/* Columns by the recurrence of Sobol' (1967), as in src/engine/patterns/nets/sobol_table.c; then their rows. */
 static void expand(const numbers *n, matrix *out)
 {
     uint32_t columns[MOST_M];

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes src/engine/patterns/shared/sobol_joe_kuo.inc and sobol_bratley_fox.inc.
+"""Writes src/engine/patterns/nets/sobol_joe_kuo.inc and sobol_bratley_fox.inc.
 
 Usage: tools/make_sobol_tables.py [FOLDER]   (needs scipy and the GSL library, which hold the published numbers)
 

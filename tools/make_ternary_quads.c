@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Makes src/engine/patterns/shared/ternary_quads.inc: the matrices N of the pattern ternary-quads, one for each group of
+ * Makes src/engine/patterns/nets/ternary_quads.inc: the matrices N of the pattern ternary-quads, one for each group of
  * four dimensions from the second group on. A program of its own, run by hand, some minutes; the same bits on every
  * machine:
  *
  *     cc -O3 -std=c11 tools/make_ternary_quads.c -o /tmp/make_ternary_quads
- *     /tmp/make_ternary_quads > /tmp/quads.inc && mv /tmp/quads.inc src/engine/patterns/shared/ternary_quads.inc
+ *     /tmp/make_ternary_quads > /tmp/quads.inc && mv /tmp/quads.inc src/engine/patterns/nets/ternary_quads.inc
  *
  * Dimension 4 g + b has the generator matrix C_b N_g in base 3: the C_b (src/engine/patterns/ternary_quads.c has their
  * definition) make every group of four even, and N_g, upper triangular with ones on the diagonal, only decides in what

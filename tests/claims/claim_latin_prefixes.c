@@ -2,7 +2,7 @@
 /* latin-prefixes: on axis k, each of the intervals [j/b^m, (j+1)/b^m) has one of the first b^m points, where b is
    the k-th prime. */
 #include "claims/claims.h"
-#include "patterns/shared/primes.h"
+#include "patterns/nets/nets.h"
 
 void claim_LATIN_PREFIXES(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {

@@ -2,7 +2,7 @@
 /* net-prefixes: in d dimensions, for every m, the first b^m points are a (0,m,d)-net in base b, where b is the
    smallest prime >= d. */
 #include "claims/claims.h"
-#include "patterns/shared/primes.h"
+#include "patterns/nets/nets.h"
 
 void claim_NET_PREFIXES(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {

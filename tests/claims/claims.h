@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "patterns/shared/packing.h"
+#include "patterns/spacing/spacing.h"
 #include "test.h"
 
 typedef void claim_check(const koksma_spec *spec, const koksma_points *points, uint64_t seed);

@@ -7,7 +7,7 @@
 #include "claims/claims.h"
 #include "core/modifiers.h"
 #include "core/random.h"
-#include "patterns/shared/modify.h"
+#include "patterns/patterns.h"
 #include "test.h"
 
 static const struct {

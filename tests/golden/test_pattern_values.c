@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "patterns/shared/radical.h"
+#include "patterns/nets/nets.h"
 #include "test.h"
 
 typedef struct row {

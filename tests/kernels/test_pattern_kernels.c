@@ -4,7 +4,7 @@
 
 #include "core/random.h"
 #include "kernels/kernels.h"
-#include "patterns/shared/sobol_table.h"
+#include "patterns/nets/nets.h"
 #include "test.h"
 
 enum { MAX = 300 };

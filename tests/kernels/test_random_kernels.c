@@ -4,7 +4,7 @@
 
 #include "core/random.h"
 #include "kernels/kernels.h"
-#include "patterns/shared/cells.h"
+#include "patterns/grids/grids.h"
 #include "test.h"
 
 enum { MAX = 200 };

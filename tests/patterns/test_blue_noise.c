@@ -4,8 +4,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "patterns/shared/elimination.h"
-#include "patterns/shared/packing.h"
+#include "patterns/spacing/spacing.h"
 #include "sets.h"
 #include "test.h"
 

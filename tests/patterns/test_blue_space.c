@@ -4,9 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "patterns/shared/ball_cover.h"
-#include "patterns/shared/elimination.h"
-#include "patterns/shared/space_forces.h"
+#include "patterns/darts/darts.h"
+#include "patterns/spacing/spacing.h"
 #include "sets.h"
 #include "test.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "lattices.h"
-#include "patterns/shared/unit_sums.h"
+#include "patterns/lattices/lattices.h"
 #include "test.h"
 
 enum { MAX_DIM = 64, MOST_BITS = test_repeats(20, 14) };

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "patterns/shared/packing.h"
+#include "patterns/spacing/spacing.h"
 #include "test.h"
 
 static void exactly_n_points(void **state)

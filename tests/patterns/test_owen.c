@@ -7,7 +7,7 @@
 #include "claims/claims.h"
 #include "core/permutation.h"
 #include "core/random.h"
-#include "patterns/shared/primes.h"
+#include "patterns/nets/nets.h"
 #include "test.h"
 
 enum { MOST_DIM = 7 };

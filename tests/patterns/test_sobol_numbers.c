@@ -4,7 +4,7 @@
    definition, is what the search reached and below that of Joe & Kuo's numbers. */
 #include <string.h>
 
-#include "patterns/shared/sobol_table.h"
+#include "patterns/nets/nets.h"
 #include "test.h"
 
 enum { DIM = 128, LEAST_M = 4, MOST_M = 12, MOST_N = 1 << MOST_M };

@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "kernels/kernels.h"
-#include "patterns/shared/torus_grid.h"
-#include "patterns/shared/torus_rows.h"
+#include "patterns/spacing/spacing.h"
 #include "test.h"
 
 static const size_t counts[] = {1, 2, 3, 5, 16, 37, 100, 257};

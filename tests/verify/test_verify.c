@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "claims/claims.h"
-#include "patterns/shared/packing.h"
+#include "patterns/spacing/spacing.h"
 #include "test.h"
 
 static const koksma_finding *find(const koksma_findings *all, const char *property, const char *subject)

@@ -11,9 +11,8 @@
 #include "core/points.h"
 #include "core/spec.h"
 #include "core/status.h"
-#include "patterns/shared/file_names.h"
-#include "patterns/shared/file_sets.h"
-#include "patterns/shared/modify.h"
+#include "patterns/files/files.h"
+#include "patterns/patterns.h"
 
 /* Checks the parts of a spec that do not depend on the dimension: the path and the modifiers. */
 static koksma_status check_spec(const koksma_spec *spec, const koksma_pattern *p)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The table of modifiers: maps of the cube to itself that any pattern takes after its own parameters. Each row lists
- * the claims of a pattern (claims.def) and the measures that the modifier preserves; patterns/shared/modify.c has the
+ * the claims of a pattern (claims.def) and the measures that the modifier preserves; patterns/modify.c has the
  * maps, in the same order. tests/core/test_modifiers.c tests every entry for every pattern.
  */
 #include "core/modifiers.h"

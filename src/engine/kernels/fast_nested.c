@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Nested uniform (Owen) scrambling in a small odd base, for several strata at once. Each stratum contains one point
    that is known and its relatives: points that agree with it in the digits before the current one
-   (patterns/shared/owen_digits.c). The digits that have not been drawn yet are stored as the 4-bit parts of one word.
+   (patterns/nets/owen_digits.c). The digits that have not been drawn yet are stored as the 4-bit parts of one word.
    Coordinates are stored as whole numbers below 2^53 in doubles; the arguments of lanes64_floor are below 2^52, as it
    requires. */
 #include <string.h>

@@ -342,7 +342,7 @@ INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, s
     return i;
 }
 
-/* Returns the same as koksma__in_cell of patterns/shared/cells.h. */
+/* Returns the same as koksma__in_cell of patterns/grids/grids.h. */
 static double in_cell(double cell, uint32_t word, double n)
 {
     const double x = (cell + word * 0x1p-32) / n, end = (cell + 1) / n;

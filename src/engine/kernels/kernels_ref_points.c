@@ -173,7 +173,7 @@ void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count,
     }
 }
 
-/* Returns the same as koksma__in_cell of patterns/shared/cells.h. */
+/* Returns the same as koksma__in_cell of patterns/grids/grids.h. */
 static double in_cell(double cell, double u, double m)
 {
     const double x = (cell + u) / m, end = (cell + 1) / m;

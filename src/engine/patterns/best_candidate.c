@@ -13,7 +13,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/torus_grid.h"
+#include "patterns/spacing/spacing.h"
 
 enum { MAX_DIM = 8, LOOKS = 1 << 24 };
 

@@ -15,9 +15,8 @@
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/sobol_table.h"
 
 enum { BITS = 32, MOST_LEVELS = 31 };
 

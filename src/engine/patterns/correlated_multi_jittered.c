@@ -19,9 +19,9 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/grids/grids.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
-#include "patterns/shared/columns.h"
 
 enum { FEW = 256, BLOCK = 256 };
 

@@ -8,8 +8,8 @@
  * Source: Mitchell 1992 ("dart-throwing Poisson disk"; he does not state the distance: f = 0.75 fits his tables).
  * Dart throwing jams at f = 0.777 on average (random sequential packing covers 0.547 of the plane). A jammed set is
  * discarded and thrown again from the start, at most 200 times. The points are distributed as if all
- * darts were uniform in the square (shared/dart_cover.h). For a small f most darts fit; they are then thrown one by one
- * and checked against a grid of n cells. The cells of dart_cover.h are smaller than d, so there would be far more of
+ * darts were uniform in the square (darts/darts.h). For a small f most darts fit; they are then thrown one by one
+ * and checked against a grid of n cells. The cells of darts.h are smaller than d, so there would be far more of
  * them than points.
  */
 #include <string.h>
@@ -17,11 +17,9 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "patterns/darts/darts.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/dart_cover.h"
-#include "patterns/shared/dart_tiles.h"
-#include "patterns/shared/packing.h"
-#include "patterns/shared/torus_grid.h"
+#include "patterns/spacing/spacing.h"
 
 enum { RESTARTS = 200 };
 

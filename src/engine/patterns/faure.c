@@ -10,11 +10,8 @@
  *     scramble=owen  Owen's nested uniform scrambling (1995) in base b, drawn exactly, by stochastic generation
  * (Helmer, Christensen & Kensler 2021); coordinates are multiples of b^-M, where b^M is the largest power up to 2^53
  */
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/digit_sequence.h"
-#include "patterns/shared/owen_sequence.h"
-#include "patterns/shared/primes.h"
-#include "patterns/shared/scramble.h"
 
 /* Points r and b^l d + r', with l = `level`, agree in the first l digits of y = P^k a if in these digits P^k (r' + d e)
    = P^k r, where e is the unit vector of digit l. Therefore r' is r plus d times the first l entries of column l of

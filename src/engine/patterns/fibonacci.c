@@ -9,8 +9,8 @@
  * is the analogue for any n.
  */
 #include "core/status.h"
+#include "patterns/lattices/lattices.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/lattice.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

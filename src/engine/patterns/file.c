@@ -13,8 +13,8 @@
 
 #include "core/points_io.h"
 #include "core/status.h"
+#include "patterns/files/files.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/file_names.h"
 
 /* Reads the file for n points (0: any number of points) and a seed, cut to the dimensions of `out`. */
 static koksma_status read_set(size_t n, uint64_t seed, const koksma_args *args, koksma_points *out)

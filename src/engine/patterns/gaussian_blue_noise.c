@@ -34,7 +34,7 @@
  * position (in 20 sets of 100 points the smallest distance, divided by that of the densest packing, was 0.56 at sigma
  * = 1.05, 0.48 at 1.1 and 0.36 at 1.15).
  *
- * With order=progressive the finished set is put into Yuksel's progressive order (2015; shared/elimination.c): the
+ * With order=progressive the finished set is put into Yuksel's progressive order (2015; spacing/elimination.c): the
  * points are the same, and every prefix is blue noise, too. The plain order is random.
  */
 #include <math.h>
@@ -44,11 +44,9 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/elimination.h"
-#include "patterns/shared/fill.h"
-#include "patterns/shared/space_forces.h"
-#include "patterns/shared/torus_rows.h"
+#include "patterns/spacing/spacing.h"
 
 enum { BLOCK = 1024, BLOCK_IN_SPACE = 64, STIFF_STEPS = 128, LEAST_STEPS = 400, MOST_STEPS = 2000, PATIENCE = 200 };
 

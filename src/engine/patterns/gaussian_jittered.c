@@ -14,10 +14,9 @@
 #include "core/elementary.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "patterns/grids/grids.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/fill.h"
 
 typedef struct bell {
     double scale, erf_a; /* scale is sqrt(2) sigma, erf_a is erf(0.5 / scale) */

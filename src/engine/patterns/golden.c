@@ -9,8 +9,8 @@
  * Known exactly, n = 16: D* = 0.148558813, L2 star = 0.052896127.
  */
 #include "kernels/kernels.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
 
 static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {

@@ -7,8 +7,8 @@
  *
  * Source: Shirley 1991, section 5.5.3 and figure 5.19 ("semijittered, 0.5 maximum shift").
  */
+#include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

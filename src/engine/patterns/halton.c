@@ -18,9 +18,8 @@
  */
 #include "core/random.h"
 #include "core/status.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/owen_digits.h"
-#include "patterns/shared/radical.h"
 
 enum { NONE, AFFINE, OWEN };
 

@@ -15,10 +15,8 @@
 #include <math.h>
 
 #include "core/status.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/owen_hammersley.h"
-#include "patterns/shared/radical.h"
 
 enum { NONE, OWEN };
 

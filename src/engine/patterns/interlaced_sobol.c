@@ -20,8 +20,8 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/sobol_table.h"
 
 enum {
     BLOCK = 4096,

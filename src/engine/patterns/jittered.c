@@ -7,8 +7,8 @@
  * Source: Cook, Porter & Carpenter 1984; Shirley 1991, section 5.5.3: classical stratified sampling.
  * Known exactly, m x m points in 2D: E(S^2) = ((m-1)/6 + 5/36) / m^4 for the L2 star discrepancy S.
  */
+#include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

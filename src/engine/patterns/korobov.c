@@ -16,8 +16,8 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "patterns/lattices/lattices.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/lattice.h"
 
 enum { MAX_DIM = 256, ALL = 2048, WORK = 1 << 22 };
 

@@ -16,12 +16,8 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/grow.h"
-#include "patterns/shared/owen_hammersley.h"
-#include "patterns/shared/scramble.h"
-#include "patterns/shared/sobol_table.h"
 
 static void fill_directions(uint32_t directions[32])
 {

@@ -24,9 +24,9 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "patterns/files/files.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/number_lines.h"
 
 typedef struct vector {
     uint64_t base, points; /* points = base^m */

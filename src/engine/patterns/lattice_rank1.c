@@ -10,7 +10,7 @@
  * fewer dimensions consists of the first coordinates of the set in more dimensions.
  *
  * Sources: Sloan & Reztsov 2002 for the construction with gamma = 1, Nuyens & Cools 2006 and 2006a for evaluating all
- * multipliers at once in O(n log n) (shared/unit_sums.c), Sloan & Wozniakowski 1998 and Dick, Kuo & Sloan 2013 for
+ * multipliers at once in O(n log n) (lattices/unit_sums.c), Sloan & Wozniakowski 1998 and Dick, Kuo & Sloan 2013 for
  * weights, Hickernell 1998 for l2-wraparound.
  *
  * Why gamma is small: with gamma = 1 the terms of many coordinates outweigh the terms of all pairs of coordinates.
@@ -45,8 +45,8 @@
 #include <math.h>
 
 #include "core/status.h"
+#include "patterns/lattices/lattices.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/lattice.h"
 
 enum { MAX_DIM = 256, MOST_ORDER = 8 };
 

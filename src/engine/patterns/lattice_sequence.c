@@ -18,12 +18,11 @@
  */
 #include <koksma/sampler.h>
 
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/parts.h"
 
 static const uint32_t z[] = {
-#include "patterns/shared/lattice_sequence.inc"
+#include "patterns/lattices/lattice_sequence.inc"
 };
 
 /* Returns bits 32 to 52 of z_k, as a multiple of 2^32. */

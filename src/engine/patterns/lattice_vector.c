@@ -13,8 +13,8 @@
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "patterns/lattices/lattices.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/lattice.h"
 
 /* Largest number of components that fit into a spec: each needs at least two characters, a digit and a colon. */
 enum { MOST = KOKSMA_MAX_SPEC / 2 };

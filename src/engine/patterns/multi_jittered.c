@@ -13,9 +13,8 @@
 
 #include "core/random.h"
 #include "core/status.h"
+#include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
-#include "patterns/shared/fill.h"
 
 enum { FEW = 256 };
 

@@ -16,10 +16,9 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/grids/grids.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/fill.h"
 
 enum { FEW = 256 };
 

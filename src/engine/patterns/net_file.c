@@ -34,9 +34,9 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "patterns/files/files.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/number_lines.h"
 
 enum { MOST_COLUMNS = 64, MOST_DIGITS = 53, LARGEST_BASE = 256, SOBOL_COLUMNS = 53, LARGEST_DEGREE = 31 };
 

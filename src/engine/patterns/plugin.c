@@ -20,8 +20,8 @@
 #include "core/read_file.h"
 #include "core/spec.h"
 #include "core/status.h"
+#include "patterns/files/files.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/file_names.h"
 
 #ifdef __EMSCRIPTEN__
 

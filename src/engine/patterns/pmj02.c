@@ -28,11 +28,8 @@
 
 #include "core/random.h"
 #include "kernels/kernels.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/grow.h"
-#include "patterns/shared/hash_owen.h"
-#include "patterns/shared/parts.h"
 
 /* Computes the columns of the matrix of coordinate k: column l follows from point 2^l, which is in the empty half of
    the stratum of its partner. */
@@ -58,7 +55,7 @@ static void columns_of(int k, uint64_t columns[KOKSMA__DIGITS])
     }
 }
 
-/* The points of one part (patterns/shared/parts.h). */
+/* The points of one part (patterns/nets/nets.h). */
 typedef struct job {
     uint64_t seed, part;
     bool shuffle;

@@ -36,8 +36,8 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/grow.h"
 
 enum { MOST_LEVELS = 10, SWEEPS = 2 };
 

@@ -24,8 +24,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/packing.h"
-#include "patterns/shared/torus_grid.h"
+#include "patterns/spacing/spacing.h"
 
 enum { REJECTIONS = 3000, RESTARTS = 200, FEW = 256, LOOKS = 1 << 24 };
 

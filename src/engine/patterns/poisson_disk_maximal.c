@@ -10,12 +10,12 @@
  *
  * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree of the free area. The points have the
  * distribution of dart throwing and are thus unbiased. Free areas narrower than 2^-30 are ignored. The time is about
- * n log n. In 3 to 6 dimensions (shared/ball_cover.h) sets have n V (d/2)^dim = 0.384, 0.260, 0.171 and 0.109, V the
+ * n log n. In 3 to 6 dimensions (darts/darts.h) sets have n V (d/2)^dim = 0.384, 0.260, 0.171 and 0.109, V the
  * volume of the unit ball: the saturation of random sequential addition (Zhang & Torquato 2013). Time and memory are
  * proportional to n and grow by a factor of 6 to 10 with each dimension: 400 points take 0.01, 0.2 and 2 s in 3, 4
  * and 5 dimensions.
  *
- * With order=progressive the finished set is put into Yuksel's progressive order (2015; shared/elimination.c): the
+ * With order=progressive the finished set is put into Yuksel's progressive order (2015; spacing/elimination.c): the
  * points are the same, and every prefix is blue noise, too. In the plain order, in which the darts were thrown,
  * prefixes are not blue noise: the first eighth of 512 points in the plane has a relative radius of 0.30, in
  * progressive order 0.64.
@@ -25,13 +25,9 @@
 
 #include "core/random.h"
 #include "core/status.h"
+#include "patterns/darts/darts.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/ball_cover.h"
-#include "patterns/shared/dart_cover.h"
-#include "patterns/shared/dart_tiles.h"
-#include "patterns/shared/elimination.h"
-#include "patterns/shared/maximal_search.h"
-#include "patterns/shared/packing.h"
+#include "patterns/spacing/spacing.h"
 
 enum { TRIES = 100, SEARCHES = 8, MANY = 100000 };
 

@@ -8,9 +8,8 @@
  * Source: Mitchell 1992, table 2 ("Poisson-Time").
  * Known exactly, n = m^2: E(S^2) = ((m-1)^2/24 + 5(m-1)/36 + 19/216) / n^2 for the L2 star discrepancy S.
  */
+#include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
-#include "patterns/shared/jittered_time.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

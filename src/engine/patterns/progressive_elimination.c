@@ -4,7 +4,7 @@
  * many uniform random points, in Yuksel's progressive order: elimination removes half of the points, then half of the
  * rest, and so on. The points are listed in the reverse order of their removal.
  *
- * Source: Yuksel 2015, section on progressive sampling; shared/elimination.c gives the formulas. The first n points
+ * Source: Yuksel 2015, section on progressive sampling; spacing/elimination.c gives the formulas. The first n points
  * of a sequence do not depend on n, but they depend on `length`. Generating n points always takes the time of the
  * whole sequence, so choose a small `length`.
  */
@@ -13,7 +13,7 @@
 
 #include "core/status.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/elimination.h"
+#include "patterns/spacing/spacing.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

@@ -22,9 +22,8 @@
 #include <koksma/sampler.h>
 
 #include "kernels/kernels.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/parts.h"
 
 enum { MAX_DIM = 64 };
 

@@ -8,8 +8,8 @@
  * Known exactly: E(S^2) = (2^-dim - 3^-dim) / n for the L2 star discrepancy S.
  */
 #include "core/random.h"
+#include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/fill.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

@@ -8,8 +8,8 @@
  * are the cells' centres: corners give 0.4375.
  * Known exactly, 4 x 4: D = 15/64, T = 7/16, S^2 = 1/9 - 2 (43/128)^2 + (11/32)^2.
  */
+#include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

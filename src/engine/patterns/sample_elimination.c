@@ -6,7 +6,7 @@
  *     weight of i = sum over j with d_ij < d_max of (1 - max(d_ij, d_min) / d_max)^8
  *     d_max = the distance of the densest packing of n points,  d_min = d_max (1 - factor^-1.5) 0.65 (dim <= 3)
  *
- * Source: Yuksel 2015, in any dimension; shared/elimination.c gives the formulas in detail. The points come in the
+ * Source: Yuksel 2015, in any dimension; spacing/elimination.c gives the formulas in detail. The points come in the
  * order in which they were drawn; progressive-elimination orders them so that the first k are blue noise, too.
  * Relative radius at n = 1024 in the plane, mean of 10 sets: 0.696 at factor 5, 0.770 at factor 20.
  *
@@ -16,7 +16,7 @@
  * the paper's limit, here as in Yuksel's program, 0.099, and of random points 0.103.
  */
 #include "patterns/patterns.h"
-#include "patterns/shared/elimination.h"
+#include "patterns/spacing/spacing.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

@@ -15,9 +15,8 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
-#include "patterns/shared/jittered_time.h"
 
 typedef struct scan {
     const koksma_points *out;

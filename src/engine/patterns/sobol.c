@@ -37,12 +37,8 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/grow.h"
-#include "patterns/shared/hash_owen.h"
-#include "patterns/shared/parts.h"
-#include "patterns/shared/sobol_table.h"
 
 enum { NONE, DIGITAL_SHIFT, LMS, OWEN, HASH_OWEN };
 
@@ -54,7 +50,7 @@ typedef struct job {
     int scramble, numbers;
     bool shuffle;
     const uint32_t (*matrices)[32]; /* only with lms: the scrambled direction numbers of all dimensions */
-    uint64_t part;                  /* the points are 2^32 part + args->first, ... (patterns/shared/parts.h) */
+    uint64_t part;                  /* the points are 2^32 part + args->first, ... (patterns/nets/nets.h) */
     const uint64_t *sums;           /* NULL in part 0: the digits that `part` adds to each dimension */
 } job;
 

@@ -32,9 +32,8 @@
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
-#include "patterns/shared/parts.h"
 
 enum { MOST_DIM = 256 };
 
@@ -81,7 +80,7 @@ static uint32_t column_of(int d, int b)
     return koksma_mirror(d & 1 ? koksma_pascal(z) : z);
 }
 
-/* Returns the digits that all points of a part have in common (patterns/shared/parts.h). */
+/* Returns the digits that all points of a part have in common (patterns/nets/nets.h). */
 static uint64_t sum_of(int d, uint64_t part)
 {
     return koksma__mirror_digits(multiply(1, d & 1, multiply_three(d, part << 32)));

@@ -33,16 +33,14 @@
  *     scramble=owen  Owen's nested uniform scrambling (1995) in base 3, drawn exactly, by stochastic generation
  * (Helmer, Christensen & Kensler 2021); it keeps t in base 3
  */
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/digit_sequence.h"
-#include "patterns/shared/owen_sequence.h"
-#include "patterns/shared/scramble.h"
 
 enum { BASE = 3, DIGITS = 33, EARLY = 20, QUAD = 4, MOST_DIM = 128, GROUPS = MOST_DIM / QUAD - 1 };
 
 /* Columns 1 to 19 of all groups, then columns 20 to 32, which points from 3^20 on need. */
 static const uint64_t searched[GROUPS * (DIGITS - 1)] = {
-#include "patterns/shared/ternary_quads.inc"
+#include "patterns/nets/ternary_quads.inc"
 };
 
 /* Returns column c > 0 of N_g above its diagonal, g > 0: its entries are the digits of a number in base 3. */

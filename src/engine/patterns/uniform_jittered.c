@@ -11,8 +11,8 @@
  * 1/m apart, on the torus too.
  */
 #include "core/random.h"
+#include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/cells.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

@@ -15,10 +15,8 @@
  *                    scramble=owen, because folding permutes the digits at each position, and a uniform scrambling
  *                    has the same distribution after any such permutation
  */
+#include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/owen_hammersley.h"
-#include "patterns/shared/radical.h"
-#include "patterns/shared/scramble.h"
 
 static uint32_t fold(const void *context, uint32_t base, int j, uint32_t a)
 {

@@ -4,7 +4,7 @@
  * divide and conquer finds the closest pair in O(n log n) (core/closest_pair.c). In other dimensions d a sweep over
  * the points sorted by their first coordinate compares only pairs whose first coordinates differ by less than the
  * smallest distance found so far: O(n^2 d) at worst, about n^(2 - 1/d) for evenly distributed points. Findings also
- * give the smallest distance divided by that of the densest packing of n points (patterns/shared/packing.h); the
+ * give the smallest distance divided by that of the densest packing of n points (patterns/spacing/spacing.h); the
  * latter is exact for up to 30 points in the square, and an upper bound otherwise.
  */
 #include <math.h>
@@ -15,8 +15,7 @@
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
-#include "patterns/shared/packing.h"
-#include "patterns/shared/torus_grid.h"
+#include "patterns/spacing/spacing.h"
 #include "verify/verify.h"
 
 enum { PAIRS_AT_ONCE = 1 << 22 };

@@ -4,7 +4,7 @@
  * such a method. These methods choose among candidates, which are independent and have the wanted density:
  *
  *   random                 the first n candidates
- *   elimination            n of factor * n candidates, chosen by patterns/shared/elimination.c, which also makes the
+ *   elimination            n of factor * n candidates, chosen by patterns/spacing/elimination.c, which also makes the
  *                          progressive order; its radius d_max is that for n points in the unit square, times the square
  *                          root of the domain's area
  *   poisson-disk           the candidates in turn, except those that are too near to one already chosen (dart_grid.c);
@@ -15,7 +15,7 @@
  *                          O(n (c + n log c)) in the plane
  *
  * poisson-disk-maximal and dart-throwing (maximal.c), and gaussian-blue-noise (gaussian.c), work differently. With
- * order=progressive, patterns/shared/elimination.c orders the points that they have made. Each part of a domain has a
+ * order=progressive, patterns/spacing/elimination.c orders the points that they have made. Each part of a domain has a
  * unit of distance; the distance of two points is measured in the smaller of their two units. Where the pattern's d
  * decides how many points there are, the method counts them.
  */
@@ -31,7 +31,7 @@
 #include "domains/dart_grid.h"
 #include "domains/gaussian.h"
 #include "domains/maximal.h"
-#include "patterns/shared/elimination.h"
+#include "patterns/spacing/spacing.h"
 
 enum { REJECTIONS = 20000 };
 

@@ -5,7 +5,7 @@
 #define KOKSMA_DOMAINS_IMAGE_DENSITY_H
 
 #include "domains/domain.h"
-#include "patterns/shared/cells.h"
+#include "patterns/grids/grids.h"
 
 typedef struct koksma__image_density {
     size_t width, height;

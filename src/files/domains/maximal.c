@@ -13,7 +13,7 @@
  * dart-throwing throws darts in the same way, but until there are n points. A set that becomes maximal with fewer
  * points is discarded and another one is made, at most 200 in all.
  *
- * d=0 searches for the distance at which a maximal set has exactly n points (patterns/shared/maximal_search.h). The
+ * d=0 searches for the distance at which a maximal set has exactly n points (patterns/darts/darts.h). The
  * search starts at an estimated distance, which is multiplied by about the square root of (number of points that fit) /
  * n until between 3/4 n and n points fit.
  *
@@ -32,8 +32,8 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "domains/dart_grid.h"
-#include "patterns/shared/maximal_search.h"
-#include "patterns/shared/packing.h"
+#include "patterns/darts/darts.h"
+#include "patterns/spacing/spacing.h"
 
 enum { DEEPEST = 30, ESTIMATES = 30, SEARCHES = 8, RESTARTS = 200 };
 

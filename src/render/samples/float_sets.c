@@ -14,7 +14,7 @@
  * The patterns `random` and `jittered` compute corner + scale x word in each coordinate. The pattern `n-rooks` takes
  * the same strata in two orders, one per coordinate. Correlated multi-jitter (Kensler 2013) permutes the corners by
  * columns and by rows, then puts the points in a random order. Nets are Owen-scrambled by stochastic generation
- * (patterns/shared/grow.h).
+ * (patterns/nets/nets.h).
  */
 #include "render/samples/float_sets.h"
 
@@ -23,9 +23,8 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "patterns/shared/cells.h"
-#include "patterns/shared/grow.h"
-#include "patterns/shared/sobol_table.h"
+#include "patterns/grids/grids.h"
+#include "patterns/nets/nets.h"
 
 static const float nowhere[2] = {0, 0};
 

@@ -11,7 +11,7 @@
 #include "core/permutation.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/shared/file_names.h"
+#include "patterns/files/files.h"
 #include "render/samples/sampler.h"
 #include "render/samples/use_patterns.h"
 #include "render/samples/uses.h"

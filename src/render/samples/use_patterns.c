@@ -12,7 +12,7 @@
 
 #include "core/status.h"
 #include "core/suggestion.h"
-#include "patterns/shared/file_names.h"
+#include "patterns/files/files.h"
 #include "render/samples/uses.h"
 
 /* ---- Checks ---------------------------------------------------------------------------------------------- */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sorts points of the plane into square cells by a counting sort, O(n + cells): the points of a cell, and those of a
-   row of cells, are contiguous in memory. Patterns that insert points one by one use patterns/shared/torus_grid.c,
-   whose cells are lists. Patterns that sort repeatedly use patterns/shared/torus_rows.c, which reuses its memory and
+   row of cells, are contiguous in memory. Patterns that insert points one by one use patterns/spacing/torus_grid.c,
+   whose cells are lists. Patterns that sort repeatedly use patterns/spacing/torus_rows.c, which reuses its memory and
    stores the index of each point. */
 #include "measures/shared/torus_cells.h"
 

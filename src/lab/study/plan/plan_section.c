@@ -11,7 +11,7 @@
 #include <koksma/study.h>
 
 #include "core/status.h"
-#include "patterns/shared/file_names.h"
+#include "patterns/files/files.h"
 #include "render/samples/use_patterns.h"
 #include "study/plan/image_patterns.h"
 

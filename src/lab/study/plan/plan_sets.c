@@ -11,7 +11,7 @@
 #include "core/capacity.h"
 #include "core/points.h"
 #include "core/status.h"
-#include "patterns/shared/file_names.h"
+#include "patterns/files/files.h"
 #include "render/samples/use_patterns.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_section.h"

@@ -16,7 +16,7 @@
 
 #include "core/read_file.h"
 #include "core/status.h"
-#include "patterns/shared/file_names.h"
+#include "patterns/files/files.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/made_by.h"
 

@@ -20,7 +20,7 @@
 #include "core/status.h"
 #include "image/coherence.h"
 #include "image/metrics/metrics.h"
-#include "patterns/shared/file_names.h"
+#include "patterns/files/files.h"
 #include "study/run/references.h"
 #include "study/run/task_limits.h"
 

@@ -16,7 +16,7 @@
 #include <koksma/render.h>
 
 #include "core/status.h"
-#include "patterns/shared/file_names.h"
+#include "patterns/files/files.h"
 
 enum { MOST_POINTS = 4096, MOST_POINTS_QUICK = 1024, MOST_SPP = 256 };
 

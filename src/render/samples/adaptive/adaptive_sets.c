@@ -12,7 +12,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "patterns/shared/file_names.h"
+#include "patterns/files/files.h"
 #include "render/aov.h"
 #include "render/filters/filter_table.h"
 #include "render/samples/adaptive/adaptive_sets.h"

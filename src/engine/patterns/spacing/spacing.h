@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Distances and forces between points: what blue noise of several kinds is made with. Each section is the interface of the file of its name. */
+#ifndef KOKSMA_PATTERNS_SPACING_SPACING_H
+#define KOKSMA_PATTERNS_SPACING_SPACING_H
+
+#include <koksma/koksma.h>
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "core/torus.h"
+#include "core/visibility.h"
+
+/* ---- Packing --------------------------------------------------------------------------------------------- */
+
+/* Returns the largest d such that n points of [0,1]^dim can all be at least d apart, in the cube or on the torus. The
+   result is exact for up to 30 points in the square and an upper bound in all other cases: in 2D within 10 % for many
+   points and 20 % too large for 3 points on the torus; in more dimensions it is further from the optimum. */
+KOKSMA__LAB double koksma__packing_distance(size_t n, int dim, bool torus);
+
+/* ---- Torus grid ------------------------------------------------------------------------------------------ */
+
+/* A grid of cells for points of the 2D torus, which finds the points near a position. */
+
+typedef struct koksma__torus_grid {
+    uint32_t cells;   /* cells on a side */
+    uint32_t *head;   /* the point that was added last to each cell, or KOKSMA__NO_POINT */
+    uint32_t *next;   /* for each point, the point that was added before it to the same cell, or KOKSMA__NO_POINT */
+    const double *xs; /* x and y of each point; the caller owns this array */
+} koksma__torus_grid;
+
+#define KOKSMA__NO_POINT UINT32_MAX
+
+/* Makes an empty grid for up to n points of xs, with about n cells. */
+koksma_status koksma__torus_grid_init(koksma__torus_grid *grid, size_t n, const double *xs);
+void koksma__torus_grid_fini(koksma__torus_grid *grid);
+
+void koksma__torus_grid_clear(koksma__torus_grid *grid);
+void koksma__torus_grid_add(koksma__torus_grid *grid, uint32_t point);
+
+/* Returns the squared distance from (x, y) to the nearest point in the grid, or 1 if the grid is empty. If the
+   distance is at most `enough`, the function may return any value up to `enough`. */
+double koksma__torus_grid_nearest(const koksma__torus_grid *grid, double x, double y, double enough);
+
+/* Returns whether a point in the grid is closer than d to (x, y), on the torus or, with torus = false, in the square.
+   */
+bool koksma__torus_grid_near(const koksma__torus_grid *grid, double x, double y, double d, bool torus);
+
+/* ---- Torus rows ------------------------------------------------------------------------------------------ */
+
+/* Points of the 2D torus sorted into cells, for sums over neighbours: the points near a position are a few contiguous
+   runs in memory. */
+
+typedef struct koksma__torus_rows {
+    uint32_t cells;  /* number of cells on a side; a cell has about one point */
+    uint32_t *start; /* index of each cell's first sorted point, row by row; cells^2 + 1 numbers */
+    uint32_t *order; /* the original number of each sorted point */
+    double *xs, *ys; /* the sorted points, followed by eight elements that kernels may read */
+} koksma__torus_rows;
+
+/* A run of sorted points, numbers first .. end - 1. */
+typedef struct koksma__run_of_points {
+    uint32_t first, end;
+} koksma__run_of_points;
+
+koksma_status koksma__torus_rows_init(koksma__torus_rows *rows, size_t n);
+void koksma__torus_rows_fini(koksma__torus_rows *rows);
+
+/* Sorts n points, each a pair of coordinates in [0, 1). */
+void koksma__torus_rows_sort(koksma__torus_rows *rows, size_t n, const double *points);
+
+/* Returns the largest number of runs that koksma__torus_rows_near can return for a radius of at most 1/2. */
+size_t koksma__torus_rows_most(const koksma__torus_rows *rows, double radius);
+
+/* Finds runs that contain all points within the radius of (x, y), and some points further away; no point is in two
+   runs. Returns the number of runs. */
+size_t koksma__torus_rows_near(const koksma__torus_rows *rows, double x, double y, double radius,
+                               koksma__run_of_points *runs);
+
+/* ---- Space forces ---------------------------------------------------------------------------------------- */
+
+/* Forces between points of the torus in 3 to 6 dimensions that repel each other with Gaussians, for
+   gaussian-blue-noise. */
+
+enum { KOKSMA__FORCE_DIMS = 6 };
+
+typedef struct koksma__space_forces {
+    int dim;
+    size_t n;
+    uint32_t side;           /* number of cells along an axis */
+    double s;                /* standard deviation of the Gaussian */
+    double *sorted;          /* the points, cell by cell */
+    double *table;           /* if s > 1/10: four coefficients of each piece of the periodic Gaussian; else NULL */
+    uint32_t *start, *order; /* index of the first sorted point of each cell; original number of each sorted point */
+} koksma__space_forces;
+
+koksma_status koksma__space_forces_init(koksma__space_forces *f, size_t n, int dim, double s);
+void koksma__space_forces_fini(koksma__space_forces *f);
+
+/* Copies the points into f->sorted, cell by cell; the functions below read these copies. */
+void koksma__space_forces_sort(koksma__space_forces *f, const double *xs);
+
+/* Computes the force on sorted point number `at`: with w(t) = exp(-|t|^2 / (2 s^2)), the sum of t w(t) over the other
+   points and their periodic images, t the difference to an image. For s <= 1/10 points further away than 5 s are left
+   out. */
+void koksma__space_force(const koksma__space_forces *f, size_t at, double *force);
+
+/* ---- Elimination ----------------------------------------------------------------------------------------- */
+
+/* Weighted sample elimination on the torus (Yuksel 2015), for the patterns sample-elimination and
+   progressive-elimination. */
+
+/* Returns the radius of the weight function, which is twice the largest Poisson disk radius of n points in [0,1)^dim.
+   In 1 to 3 dimensions it follows from the densest packing; in more, from balls that fill the whole volume, as in the
+   paper. */
+KOKSMA__LAB double koksma__elimination_radius(size_t n, int dim);
+
+/* Returns the weight limit d_min / d_max if n of m points remain in `dim` dimensions: distances below d_min have the same
+   weight as d_min. It is 0 above 3 dimensions. */
+KOKSMA__LAB double koksma__elimination_limit(size_t n, size_t m, int dim);
+
+/* Removes the heaviest of `count` points, one after the other, until `keep` are left. The weight of a point is the
+   sum over the other points with d < d_max of (1 - max(d, d_min) / d_max)^8, where d is the distance on the torus;
+   in 4 to 8 dimensions with d_max > 1/2 the sum is over all periodic images of the other points. Of points with
+   equal weights the one with the lowest number is removed first.
+       order[0] .. order[keep - 1]       the points left, in the order in which they are given
+       order[keep] .. order[count - 1]   the points removed, the last one first */
+koksma_status koksma__eliminate(size_t count, int dim, const double *points, size_t keep, double d_max, double d_min,
+                                const koksma_run *run, uint32_t *order);
+
+/* How distances are measured. units has a unit of distance for each point; the distance of a pair is divided by the
+   smaller unit of its two points ("smaller disks", Mitchell, Rand, Ebeida & Bajaj 2012). lengths[k] is what a coordinate
+   of 1 measures along axis k. Both may be NULL: all are 1. Without torus distances do not wrap around. */
+typedef struct koksma__metric {
+    const double *units, *lengths;
+    bool torus;
+} koksma__metric;
+
+/* Does the same as koksma__eliminate with a metric other than that of the unit torus. */
+KOKSMA__LAB koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *points,
+                                                   const koksma__metric *metric, size_t keep, double d_max,
+                                                   double d_min, const koksma_run *run, uint32_t *order);
+
+/* Puts points into Yuksel's progressive order, in which every prefix is blue noise: elimination halves the set again and
+   again, and each point comes after those that remain when it is removed.
+       volume_dim   dimension of what the points fill: 2 for those on a surface, else dim
+       d_max        argument of koksma__eliminate for the whole set; each halving has a larger one
+       d_min        argument of koksma__eliminate for the whole set; all halvings use it
+       order[k]     number of the k-th point in progressive order
+   Errors: MEMORY, INTERRUPTED. */
+KOKSMA__LAB koksma_status koksma__progressive_order(size_t count, int dim, const double *points,
+                                                    const koksma__metric *metric, int volume_dim, double d_max,
+                                                    double d_min, const koksma_run *run, uint32_t *order);
+
+/* Puts a finished set on the torus into progressive order. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__order_progressively(const koksma_run *run, koksma_points *points);
+
+/* Makes n points by elimination from factor * n uniform random points. The points are in the order in which they were
+   drawn or, with `progressive`, in Yuksel's progressive order, whose prefixes are blue noise, too. `name` is the name
+   of the pattern in error messages. */
+koksma_status koksma__eliminated_set(const char *name, uint64_t seed, size_t n, int dim, size_t factor,
+                                     bool progressive, const koksma_run *run, double *xs);
+
+#endif
