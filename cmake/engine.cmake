@@ -5,13 +5,11 @@
 #   FAST_KERNELS     the kernels that are compiled once for each instruction set, with kernels/table.c
 macro(koksma_engine_sources folder)
   koksma_table(unused ${folder}/patterns PATTERN patterns.def "" modify.c registry.c)
-  koksma_table(unused ${folder}/warps WARP warps.def "" registry.c)
   koksma_table(unused ${folder}/measures MEASURE measures.def "" registry.c)
-  koksma_table(unused ${folder}/integrands INTEGRAND integrands.def "" registry.c product.c plane.c integral.c integration.c
-               anova.c component.c)
+  koksma_table(unused ${folder}/integrands INTEGRAND integrands.def "" closed_forms.c integral.c integration.c anova.c)
   koksma_table(unused ${folder}/verify PROPERTY properties.def verify_ verify.c)
-  koksma_table(unused ${folder}/optimise METHOD methods.def method_ descent.c methods.c optimise.c radial_power.c sequence.c
-               start.c swaps.c value.c)
+  koksma_table(unused ${folder}/optimise METHOD methods.def method_ descent.c optimise.c radial_power.c sequence.c start.c swaps.c
+               value.c)
   set(engine ${CMAKE_CURRENT_SOURCE_DIR}/${folder})
   file(GLOB ENGINE_SOURCES CONFIGURE_DEPENDS ${engine}/core/*.c ${engine}/api/*.c ${engine}/patterns/*.c ${engine}/patterns/*/*.c
        ${engine}/measures/*.c ${engine}/measures/*/*.c ${engine}/warps/*.c ${engine}/integrands/*.c ${engine}/verify/*.c

@@ -7,7 +7,6 @@
 
 #include <koksma/adaptive.h>
 #include <koksma/image.h>
-#include <koksma/warp.h>
 
 #include "image/formats.h"
 #include "image/metrics/metrics.h"
@@ -15,7 +14,7 @@
 #include "integrands/integrands.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
-#include "optimise/methods.h"
+#include "optimise/optimise.h"
 #include "patterns/patterns.h"
 #include "render/filters/filters.h"
 #include "render/lights/lights.h"
@@ -23,7 +22,6 @@
 #include "render/samples/adaptive/adaptive.h"
 #include "render/samples/uses.h"
 #include "render/shapes/shapes.h"
-#include "warps/warps.h"
 
 /* ---- Tables that are lists ---------------------------------------------------------------------------------- */
 
@@ -54,10 +52,6 @@ static void names_are_those_of_files(void **state)
                 koksma_measure_find(koksma__measure_##line.name));                                                   \
     n[1]++;
 #include "measures/measures.def"
-#define WARP(line)                                                                                                   \
-    expect_name(#line, koksma__warp_##line.name, &koksma__warp_##line, koksma_warp_find(koksma__warp_##line.name));  \
-    n[2]++;
-#include "warps/warps.def"
 #define METHOD(line)                                                                                                 \
     expect_name(#line, koksma__method_##line.name, &koksma__method_##line,                                           \
                 koksma_method_find(koksma__method_##line.name));                                                     \
@@ -66,7 +60,7 @@ static void names_are_those_of_files(void **state)
 #define INTEGRAND(line)                                                                                              \
     expect_name(#line, koksma__integrand_##line.name, &koksma__integrand_##line,                                     \
                 koksma_integrand_find(koksma__integrand_##line.name));                                               \
-    n[10]++;
+    n[2]++;
 #include "integrands/integrands.def"
 #define FILTER(line)                                                                                                 \
     expect_name(#line, koksma__filter_##line.name, &koksma__filter_##line,                                           \
@@ -106,13 +100,12 @@ static void names_are_those_of_files(void **state)
     assert_null(koksma_metric_at(n[10]));
     assert_null(koksma_pattern_at(n[0]));
     assert_null(koksma_measure_at(n[1]));
-    assert_null(koksma_warp_at(n[2]));
+    assert_null(koksma_integrand_at(n[2]));
     assert_null(koksma_filter_at(n[3]));
     assert_null(koksma__bsdfs[n[4]]);
     assert_null(koksma__light_types[n[7]]);
     assert_null(koksma__shape_types[n[8]]);
     assert_null(koksma_method_at(n[9]));
-    assert_null(koksma_integrand_at(n[10]));
     assert_null(koksma_adaptive_at(n[5]));
     assert_null(koksma__image_format_at(n[6]));
     for (int i = 0; i < 11; i++) {

@@ -63,7 +63,7 @@ def small_tables(site):
         lambda: [(n, r["what"], r["source"], f"src/render/samples/adaptive/adapt_{n.replace('-', '_')}.c",
           counts(program, n, size)) for r, n in of("adaptive", "method")])
     add("warps", "Warps", "from the square to a lens, a triangle, a hemisphere, a sphere: <code>koksma measure --warp</code>",
-        lambda: [(n, r["what"], r["source"], f"src/engine/warps/{n.replace('-', '_')}.c", "") for r, n in of("warps", "warp")])
+        lambda: [(n, r["what"], r["source"], "src/engine/warps", "") for r, n in of("warps", "warp")])
     table = (ROOT / "src/engine/integrands/integrands.def").read_text(encoding="utf-8")
     file_of = {n: f or n for n, f in re.findall(r"^INTEGRAND(?:_OF)?\((\w+)(?:, (\w+))?\)", table, re.M)}
     add("integrands", "Integrands", "functions with known integrals: <code>koksma integrate</code>",

@@ -58,6 +58,7 @@ MAY_USE = {
 # Headers that declare what several files of their directory define, and why; so do headers that have their directory's name,
 # if no .c file has it (measures/star/star.h).
 INTERNAL = {
+    "src/engine/optimise/optimise.h": "what the methods of a search share, a section a file",
     "src/lab/study/plan/plan.h": "the data of a plan, which plan.c and the parsers of its sections fill",
     "src/lab/study/store/store.h": "the interface of the store, whose files are parts of one object",
     "src/lab/study/store/store_internal.h": "the store's object, for its own files only",

@@ -5,7 +5,7 @@
 #include "kernels/kernels.h"
 #include "measures/disk/disk.h"
 #include "measures/edge/edge.h"
-#include "measures/shared/orientation.h"
+#include "measures/shared/shared.h"
 #include "sets.h"
 
 #if defined(__SIZEOF_FLOAT128__)

@@ -3,7 +3,7 @@
  */
 #include <stdlib.h>
 
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 #include "sets.h"
 
 typedef struct entry {

@@ -3,9 +3,8 @@
    caps, and the advantage of the concentric map. */
 #include <koksma/warp.h>
 
-#include "measures/shared/quadrature.h"
-#include "measures/shared/warp_caps.h"
-#include "measures/shared/warp_domains.h"
+#include "measures/shared/shared.h"
+#include "measures/warped/warped.h"
 #include "sets.h"
 
 static koksma_value warped(const char *warp, const char *measure, const koksma_points *points)

@@ -9,8 +9,7 @@
 #include <time.h>
 
 #include "core/spec.h"
-#include "optimise/radial_power.h"
-#include "optimise/value.h"
+#include "optimise/optimise.h"
 #include "test.h"
 
 /* Calls f for each measure with a gradient, with each choice of its law, in its first dimensions. */

@@ -4,7 +4,7 @@
 
 #include <koksma/warp.h>
 
-#include "measures/shared/warp_domains.h"
+#include "measures/warped/warped.h"
 #include "sets.h"
 
 enum { GRID = 256 };

@@ -9,17 +9,15 @@
 
 #include <koksma/warp.h>
 
-#include "api/evaluate.h"
+#include "api/api.h"
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "core/sum.h"
 #include "measures/disk/disk.h"
-#include "measures/shared/sampled.h"
-#include "measures/shared/warp_caps.h"
-#include "measures/shared/warp_domains.h"
-#include "measures/shared/warp_l2_disk.h"
+#include "measures/shared/shared.h"
+#include "measures/warped/warped.h"
 
 enum { ROWS_PER_BLOCK = 32 };
 

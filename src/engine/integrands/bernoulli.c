@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "core/status.h"
-#include "integrands/product.h"
+#include "integrands/closed_forms.h"
 
 enum { MOST = 8 };
 

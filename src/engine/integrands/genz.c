@@ -32,7 +32,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "core/sum.h"
-#include "integrands/product.h"
+#include "integrands/closed_forms.h"
 
 /* Draws a and u from the seed. */
 static koksma_status draw(koksma_integral *f)

@@ -21,6 +21,13 @@
 
 enum { BLOCK = 1024, NAME = 64 };
 
+static const koksma_integrand *const integrands[] = {
+#define INTEGRAND(name) &koksma__integrand_##name,
+#include "integrands/integrands.def"
+#undef INTEGRAND
+};
+
+KOKSMA__LOOKUP(koksma_integrand, integrands)
 KOKSMA__NAME_AT(koksma_integrand)
 
 static koksma_integral *new_integral(int dim)

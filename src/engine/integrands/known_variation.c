@@ -12,7 +12,7 @@
  */
 #include <math.h>
 
-#include "integrands/plane.h"
+#include "integrands/closed_forms.h"
 
 #define MEMBER(id, text, says, n_axes, function, ...)                                                                \
     KOKSMA__CLOSED_MEMBER(id, text, says, "niederreiter1992", n_axes, function, __VA_ARGS__)

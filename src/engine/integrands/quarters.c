@@ -8,7 +8,7 @@
  */
 #include <math.h>
 
-#include "integrands/plane.h"
+#include "integrands/closed_forms.h"
 
 #define R_CUBED 0.50794908747392775808 /* (2 / pi)^(3/2) */
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Distance tests of dart throwing (see dart_cells.h), without branches. They find the darts that are far enough from
+/* Distance tests of dart throwing (see kernels.h), without branches. They find the darts that are far enough from
    all points, and the quarters of squares that no point covers. */
 #include "core/random.h"
 #include "kernels/kernels.h"

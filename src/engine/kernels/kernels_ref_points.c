@@ -224,7 +224,7 @@ size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t c
     return found;
 }
 
-/* Returns the difference of two places (see dart_cells.h) in one coordinate. */
+/* Returns the difference of two places (see kernels.h) in one coordinate. */
 static int32_t from_to(uint32_t a, uint32_t b)
 {
     const uint32_t steps = (b - a) & 0xffff;

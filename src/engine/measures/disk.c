@@ -25,7 +25,7 @@
 #include "core/status.h"
 #include "measures/disk/disk.h"
 #include "measures/measures.h"
-#include "measures/shared/deadline.h"
+#include "measures/shared/shared.h"
 
 enum { PAIRS_TO = 64 };
 

@@ -16,7 +16,7 @@
 #include "core/status.h"
 #include "measures/disk/disk.h"
 #include "measures/measures.h"
-#include "measures/shared/sampled.h"
+#include "measures/shared/shared.h"
 
 enum { DISKS_PER_BLOCK = 256 };
 

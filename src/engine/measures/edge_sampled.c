@@ -19,7 +19,7 @@
 #include "kernels/kernels.h"
 #include "measures/edge/edge.h"
 #include "measures/measures.h"
-#include "measures/shared/sampled.h"
+#include "measures/shared/shared.h"
 
 enum { LANES = 16, LINES_PER_BLOCK = 512 };
 

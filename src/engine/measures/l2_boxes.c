@@ -11,8 +11,6 @@
  * and two dimensions the sums are exact or have 106 bits, and the relative error of the value is 1e-11 for 10^6
  * points. In more dimensions the error of the square is about 1e-16 times its terms (l2-star: 1e-17).
  */
-#include "measures/l2_boxes.h"
-
 #include "measures/l2/l2.h"
 #include "measures/measures.h"
 

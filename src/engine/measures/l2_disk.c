@@ -36,8 +36,8 @@
 #include "core/sum.h"
 #include "kernels/kernels.h"
 #include "measures/disk/disk.h"
+#include "measures/distances/distances.h"
 #include "measures/measures.h"
-#include "measures/shared/torus_cells.h"
 
 enum { BLOCK = 64, MIN_COLUMNS = 4 };
 

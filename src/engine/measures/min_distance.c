@@ -10,9 +10,8 @@
  */
 #include <math.h>
 
+#include "measures/distances/distances.h"
 #include "measures/measures.h"
-#include "measures/shared/closest_space.h"
-#include "measures/shared/neighbours.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {

@@ -22,8 +22,8 @@
  */
 #include <math.h>
 
+#include "measures/distances/distances.h"
 #include "measures/measures.h"
-#include "measures/shared/neighbours.h"
 
 static double centre_density(int dim)
 {

@@ -22,7 +22,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/measures.h"
-#include "measures/shared/deadline.h"
+#include "measures/shared/shared.h"
 #include "measures/star/star.h"
 
 enum { FIRST_STEPS = 200, FIRST_RESTARTS = 1 };

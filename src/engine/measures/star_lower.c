@@ -11,7 +11,7 @@
  * to 16 dimensions, proves the bound. The distance to the supremum is unknown, so the upper bound is 1.
  */
 #include "measures/measures.h"
-#include "measures/shared/deadline.h"
+#include "measures/shared/shared.h"
 #include "measures/star/star.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)

@@ -3,9 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "optimise/descent.h"
-#include "optimise/radial_power.h"
-#include "optimise/value.h"
+#include "optimise/optimise.h"
 
 /* What a call costs beside its terms: with few points, most of its time. */
 static const double CALL = 1000;

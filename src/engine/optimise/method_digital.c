@@ -19,9 +19,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "optimise/methods.h"
-#include "optimise/sequence.h"
-#include "optimise/value.h"
+#include "optimise/optimise.h"
 
 enum { MOVES = 200, LOWER = 10, DIGITS = KOKSMA__SEQUENCE_DIGITS };
 

@@ -20,7 +20,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "optimise/swaps.h"
+#include "optimise/optimise.h"
 
 /* The number of coordinates that one search reads, with stored kernels and without: some hundredths and some tenths of
    a second. The temperature is that of ROUND proposals. */

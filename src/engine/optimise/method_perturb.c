@@ -9,8 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "optimise/methods.h"
-#include "optimise/value.h"
+#include "optimise/optimise.h"
 
 enum { MOVES = 200 };
 

@@ -39,8 +39,8 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
-#include "measures/shared/order.h"
-#include "optimise/methods.h"
+#include "measures/shared/shared.h"
+#include "optimise/optimise.h"
 
 enum { MAX_N = 4096, PATIENCE = 2000, CYCLES = 256, GUIDES = 16, MAX_EDGES = 16, NONE = UINT32_MAX };
 

@@ -27,8 +27,8 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
-#include "measures/shared/order.h"
-#include "optimise/descent.h"
+#include "measures/shared/shared.h"
+#include "optimise/optimise.h"
 
 enum { MAX_N = 1024, ITERATIONS = 20, DRAWS = 16, STALE = 60, CAPACITY = 1 << 18, LANES = 32 };
 

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "core/parallel.h"
-#include "optimise/methods.h"
+#include "optimise/optimise.h"
 
 enum { MOVES = 200 };
 

@@ -21,17 +21,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/evaluate.h"
+#include "api/api.h"
 #include "core/clock.h"
+#include "core/lookup.h"
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
 #include "measures/measures.h"
-#include "optimise/methods.h"
-#include "optimise/radial_power.h"
-#include "optimise/sequence.h"
-#include "optimise/start.h"
-#include "optimise/value.h"
+#include "optimise/optimise.h"
+
+static const koksma_method *const methods[] = {
+#define METHOD(name) &koksma__method_##name,
+#include "optimise/methods.def"
+#undef METHOD
+};
+
+KOKSMA__LOOKUP(koksma_method, methods)
 
 enum { SEARCHES = 8, MOST_PROCESSES = 1024, RANDOM_SHARE = 8 };
 

@@ -5,7 +5,7 @@
  * points 2^c and r (Niederreiter 1992). The digits of coordinate k of point 2^c are then column c of the generator
  * matrix of coordinate k. So searches exchange only points; the matrices can be recovered from the points.
  */
-#include "optimise/sequence.h"
+#include "optimise/optimise.h"
 
 #include <inttypes.h>
 #include <string.h>

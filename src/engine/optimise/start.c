@@ -9,7 +9,7 @@
  * of length 1/n; such a set is also tried with its coordinates moved to the middles of these intervals. Net: in the
  * plane the patterns that claim (0,m,2)-nets, in other dimensions Sobol' points. Sequence: what the points show.
  */
-#include "optimise/start.h"
+#include "optimise/optimise.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +18,6 @@
 
 #include "core/points.h"
 #include "core/status.h"
-#include "optimise/sequence.h"
 
 koksma_status koksma__search_default(const koksma_optimise_options *o, const koksma_run *run, koksma_points *points)
 {

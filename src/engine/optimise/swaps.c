@@ -10,14 +10,14 @@
  * The kernels of all pairs are stored, one matrix for each coordinate: a change is a sum along rows, in fixed order,
  * and a swap of coordinate k exchanges two rows and two columns of matrix k.
  */
-#include "optimise/swaps.h"
+#include "optimise/optimise.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 
 enum { LANES = 8 };
 

@@ -8,7 +8,7 @@
  * prefixes of 2, 4, ..., n points and over the projections: a gain of 1 % counts as much at 2 points as at n, although
  * measures decrease with n at different rates.
  */
-#include "optimise/value.h"
+#include "optimise/optimise.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,7 +16,6 @@
 #include "core/parallel.h"
 #include "core/spec.h"
 #include "core/status.h"
-#include "optimise/radial_power.h"
 
 koksma_status koksma__search_check(const koksma_optimise_options *o)
 {

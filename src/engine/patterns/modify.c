@@ -28,7 +28,6 @@
 #include "core/permutation.h"
 #include "core/random.h"
 #include "kernels/kernels.h"
-#include "kernels/nested_node.h"
 
 enum { DIGITS = KOKSMA__NESTED_DIGITS };
 

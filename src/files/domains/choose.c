@@ -23,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/generate.h"
+#include "api/api.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/torus.h"

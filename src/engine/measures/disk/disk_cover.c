@@ -23,7 +23,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/shared/deadline.h"
+#include "measures/shared/shared.h"
 
 enum {
     FIRST_COLUMNS = 16,

@@ -19,8 +19,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/shared/deadline.h"
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 
 enum { FIRST_CUTS = 32, MAX_CUTS = 1 << 20 };
 

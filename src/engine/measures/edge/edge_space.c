@@ -32,8 +32,8 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/shared/deadline.h"
 #include "measures/shared/double_double.h"
+#include "measures/shared/shared.h"
 
 /* SECONDS: number of second points in a block. With 1024 points, a block then takes some ten milliseconds, after which
    the caller is asked whether to go on. */

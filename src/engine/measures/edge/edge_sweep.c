@@ -31,8 +31,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/shared/deadline.h"
-#include "measures/shared/orientation.h"
+#include "measures/shared/shared.h"
 
 enum { PIVOTS_PER_BLOCK = 16, DIGIT = 11 };
 

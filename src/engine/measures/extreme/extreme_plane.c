@@ -21,8 +21,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "measures/shared/deadline.h"
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 
 enum { LANES = 16, COARSE = 32, DEPTH = 4, GROUPS = 8, FIRST_LEVELS = 48, MAX_ROWS = 64 };
 

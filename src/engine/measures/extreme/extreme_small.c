@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/shared/deadline.h"
+#include "measures/shared/shared.h"
 
 enum { MAX_N_3D = 128 };
 

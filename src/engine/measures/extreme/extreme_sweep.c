@@ -19,7 +19,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "measures/shared/deadline.h"
+#include "measures/shared/shared.h"
 
 typedef struct line {
     double count, slope; /* count - w slope */

@@ -39,7 +39,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "measures/shared/double_double.h"
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 
 typedef koksma__dd dd;
 

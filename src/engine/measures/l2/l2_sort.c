@@ -25,7 +25,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/shared/double_double.h"
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 
 #ifndef __SIZEOF_INT128__
 /* Compilers for 32-bit processors have no 128-bit integers. With these compilers the pairs are summed in O(n^2). */

@@ -5,7 +5,7 @@
  * 1987, Alexander 1990). The table has the exponent `logs` and the author of the theorem for the measures and
  * dimensions where this exponent is known.
  */
-#include "measures/shared/lower_bounds.h"
+#include "measures/shared/shared.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sorts doubles by a radix sort of their first 32 bits after the binary point; numbers that agree in these bits are
    then sorted by comparison. */
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 
 #include <stdlib.h>
 #include <string.h>

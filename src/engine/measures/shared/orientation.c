@@ -3,7 +3,7 @@
    bound. If the bound leaves the sign open, the 16 exact products of the exact differences are summed as an
    expansion, and the sign of its largest part is the result. Before this the numbers are multiplied by a power of
    two, so that no part of a product underflows. */
-#include "measures/shared/orientation.h"
+#include "measures/shared/shared.h"
 
 #include <math.h>
 

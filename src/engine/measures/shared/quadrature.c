@@ -4,7 +4,7 @@
  * 1/16. Complete elliptic integrals by the arithmetic-geometric mean, which converges quadratically, so that 16 steps
  * are more than enough.
  */
-#include "measures/shared/quadrature.h"
+#include "measures/shared/shared.h"
 
 #include <math.h>
 

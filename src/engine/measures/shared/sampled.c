@@ -3,7 +3,7 @@
  * Computes the root mean square of samples and its standard error, which is the standard error of the mean square
  * divided by twice the root (delta method).
  */
-#include "measures/shared/sampled.h"
+#include "measures/shared/shared.h"
 
 #include <math.h>
 

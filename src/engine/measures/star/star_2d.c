@@ -11,7 +11,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 
 enum { CROSSOVER = 2000, POINTS_PER_BLOCK = 1 << 15 };
 

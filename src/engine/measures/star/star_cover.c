@@ -11,7 +11,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/shared/deadline.h"
+#include "measures/shared/shared.h"
 
 enum { MAX_BOXES = 1 << 19, POINTS_PER_CHECK = 1 << 16 };
 

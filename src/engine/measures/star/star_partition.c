@@ -20,8 +20,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "measures/shared/deadline.h"
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 
 enum { LEAVES_PER_CHECK = 256 };
 

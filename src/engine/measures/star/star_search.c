@@ -22,8 +22,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "measures/shared/deadline.h"
-#include "measures/shared/order.h"
+#include "measures/shared/shared.h"
 
 enum { DIMS = KOKSMA__STAR_MAX_DIM, MANY = 1 << 14 };
 

@@ -54,7 +54,7 @@ typedef struct koksma__disks {
                        covered */
     int level;         /* squares are 2^-level cells wide */
     size_t n_squares, square_room, spare_room, first_room;
-    void *squares, *spare; /* squares by tile: packed words (kernels/dart_cells.h) up to KOKSMA__PACKED_LEVEL, then
+    void *squares, *spare; /* squares by tile: packed words (kernels/kernels.h) up to KOKSMA__PACKED_LEVEL, then
                               koksma__square */
     size_t *first;         /* index of the first square of each tile; at the end the number of squares */
     koksma__dart *waiting;
@@ -153,7 +153,7 @@ static inline uint32_t koksma__disks_who(const koksma__disks *s, uint32_t cell_x
  * are then decided in order of time. The points therefore have the same distribution as with a single tile, and most
  * darts access only memory in the cache.
  *
- * Positions are also stored as fixed-point numbers in units of 2^-12 of a cell (kernels/dart_cells.h), which decide
+ * Positions are also stored as fixed-point numbers in units of 2^-12 of a cell (kernels/kernels.h), which decide
  * almost all cases; only the closest ones are decided with doubles. Darts are drawn in batches of some hundreds.
  * The darts of a batch that are too near to points of earlier batches are dropped in one pass; the others are decided
  * one by one. The cover may contain squares without free area, because all darts in them are dropped anyway.

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "measures/shared/lower_bounds.h"
+#include "measures/shared/shared.h"
 #include "stats/slopes.h"
 #include "study/report/means.h"
 #include "study/report/questions/topic.h"

@@ -7,7 +7,7 @@
  * torus the distance of two boxes is the shorter way around in each coordinate. The search takes O(n log n) for
  * evenly spread points in few dimensions, and O(n^2) in many dimensions, where most boxes are near each other.
  */
-#include "measures/shared/closest_space.h"
+#include "measures/distances/distances.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
    row of cells, are contiguous in memory. Patterns that insert points one by one use patterns/spacing/torus_grid.c,
    whose cells are lists. Patterns that sort repeatedly use patterns/spacing/torus_rows.c, which reuses its memory and
    stores the index of each point. */
-#include "measures/shared/torus_cells.h"
+#include "measures/distances/distances.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
  * uniform area. By Stolarsky's invariance principle the mean square follows from mean distances between points, and
  * between points and the domain (the formula is in warp_caps.h): O(n^2).
  */
-#include "measures/shared/warp_caps.h"
+#include "measures/warped/warped.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/sum.h"
-#include "measures/shared/quadrature.h"
+#include "measures/shared/shared.h"
 
 enum { BLOCK = 32 };
 

@@ -4,7 +4,7 @@
  * that one of them separates two points, the integral of this probability over the second point (potential), and the
  * integral of the potential (constant).
  */
-#include "measures/shared/warp_domains.h"
+#include "measures/warped/warped.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
  * sum over points and a constant. The sum over points and the constant consist of integrals over rings about the
  * origin (quadrature.c). O(n^2).
  */
-#include "measures/shared/warp_l2_disk.h"
+#include "measures/warped/warped.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,8 +14,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
-#include "measures/shared/quadrature.h"
-#include "measures/shared/warp_domains.h"
+#include "measures/shared/shared.h"
 
 enum { BLOCK = 64 };
 

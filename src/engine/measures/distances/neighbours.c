@@ -4,7 +4,7 @@
    share few cells, the smallest distance is found by divide and conquer (core/closest_pair.c) in O(n log n). Both
    methods square the same differences, so that they give the same bits. closest_space.c handles points that are not
    in the plane. */
-#include "measures/shared/neighbours.h"
+#include "measures/distances/distances.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,8 +17,6 @@
 #include "core/points.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "measures/shared/closest_space.h"
-#include "measures/shared/torus_cells.h"
 
 /* Makes cells at least r wide with about one point or more on average. With 1 or 2 columns every cell is a neighbour
    of every other. */

@@ -10,12 +10,11 @@
  * The variation in the sense of Hardy and Krause, anchored at 1, is the sum over all u of Vitali's variations of
  * f(x_u, 1), each a product.
  */
-#include "integrands/product.h"
-
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "integrands/closed_forms.h"
 
 koksma_status koksma__integral_factors(koksma_integral *f)
 {
@@ -65,5 +64,30 @@ koksma_status koksma__integral_of_rows(koksma_integral *f)
         f->factors[i] = rows[i];
     }
     koksma__integral_of_product(f);
+    return KOKSMA_OK;
+}
+
+/* ---- Functions of the plane -------------------------------------------------------------------------------------- */
+
+/* Functions of the plane that are not products: regions whose edges are not along an axis. The sum of variations over
+   the rectangles of a grid grows without limit along such an edge as the grid is refined, so the variation in the
+   sense of Hardy and Krause is infinite. */
+
+static double explained_of_plane(const koksma_integral *f, const bool *held)
+{
+    const koksma__plane *p = f->integrand->constants;
+    const double mean = p->value * p->value;
+    return held[0] ? (held[1] ? p->square : p->of_x) - mean : held[1] ? p->of_y - mean : 0;
+}
+
+koksma_status koksma__integral_of_plane(koksma_integral *f)
+{
+    const koksma__plane *p = f->integrand->constants;
+    f->value = p->value;
+    f->variance = p->square - p->value * p->value;
+    f->variation = HUGE_VAL;
+    f->lowest = 0;
+    f->highest = 1;
+    f->explained = explained_of_plane;
     return KOKSMA_OK;
 }

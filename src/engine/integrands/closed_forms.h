@@ -1,9 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The constants of a function of the plane that is not a product. */
-#ifndef KOKSMA_INTEGRANDS_PLANE_H
-#define KOKSMA_INTEGRANDS_PLANE_H
+/* Functions with closed forms: products of functions of one coordinate each, and functions of the plane that are none. */
+#ifndef KOKSMA_INTEGRANDS_CLOSED_FORMS_H
+#define KOKSMA_INTEGRANDS_CLOSED_FORMS_H
 
-#include "integrands/product.h"
+#include "integrands/integrands.h"
+
+/* Allocates the factors of the axes. Errors: MEMORY. */
+koksma_status koksma__integral_factors(koksma_integral *f);
+
+/* Computes the integral, variances and variation of a product from its factors. offset and scale must be set. */
+void koksma__integral_of_product(koksma_integral *f);
+
+/* The function prepare() of products whose factors, one for each axis, are constants of the integrand. */
+koksma_status koksma__integral_of_rows(koksma_integral *f);
 
 /* square: the integral of f^2; of_x, of_y: the integrals of E(f | x)^2 and E(f | y)^2. The function's range is [0,1],
    and its variation is infinite. */

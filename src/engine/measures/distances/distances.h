@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Nearest neighbours, for measures of distances. Each section is the interface of the file of its name. */
+#ifndef KOKSMA_MEASURES_DISTANCES_DISTANCES_H
+#define KOKSMA_MEASURES_DISTANCES_DISTANCES_H
+
+#include <koksma/koksma.h>
+
+/* ---- Torus cells ----------------------------------------------------------------------------------------- */
+
+/* Points sorted into cells, which are numbered row by row. The points of cell c are start[c] .. start[c+1]-1. */
+typedef struct koksma__torus_cells {
+    size_t n, columns; /* columns x columns cells */
+    double *xs, *ys;   /* coordinates in order of the cells; within a cell in the original order */
+    size_t *start;
+} koksma__torus_cells;
+
+/* Sorts points into columns x columns cells; columns is a whole number and at least 1. wrap: the coordinate 1 becomes
+   0, as on the torus. Errors: MEMORY. */
+koksma_status koksma__torus_cells_init(koksma__torus_cells *cells, const koksma_points *points, double columns,
+                                       bool wrap);
+void koksma__torus_cells_fini(koksma__torus_cells *cells);
+
+/* ---- Closest space --------------------------------------------------------------------------------------- */
+
+enum { KOKSMA__CLOSEST_DIM = 16 };
+
+/* Computes the smallest distance between two of n >= 2 points of up to KOKSMA__CLOSEST_DIM dimensions, in the unit
+   cube or on the torus. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__closest_in_space(const koksma_points *points, bool torus, const koksma_run *run,
+                                       double *distance);
+
+/* ---- Neighbours ------------------------------------------------------------------------------------------ */
+
+/* The smallest distance between points. */
+
+/* Computes the smallest distance between two points in up to KOKSMA__CLOSEST_DIM dimensions. In the plane it takes
+   O(n) for evenly spread points and O(n log n) for others; in more dimensions it uses a k-d tree. name: the name of
+   the measure, for the error message for a single point. Errors: N, MEMORY, INTERRUPTED. */
+koksma_status koksma__min_distance(const char *name, const koksma_points *points, bool torus, const koksma_run *run,
+                                   double *distance);
+
+#endif
