@@ -226,27 +226,12 @@ static void l2_star_equals_its_integral(void **state)
     compare_sets("l2-star", brute_l2_star, 3, 8, 600, 1e-14);
 }
 
-/* Every witness shows its value to anyone who counts the points in it. */
-static void witness_shows_the_value(void **state)
-{
-    (void)state;
-    static const char *const measures[] = {"star", "extreme"};
-    for (int s = 0; s < 2400; s++) {
-        const int dim = 2 + s / 2 % 2;
-        koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 8, dim, s % SETS_KINDS, (uint64_t)s);
-        const koksma_value v = test_measure(measures[s % 2], &p);
-        assert_int_equal(v.witness.kind, KOKSMA_WITNESS_BOX);
-        assert_near(deviation(&p, v.witness.lo, v.witness.hi, v.witness.closed, s % 2 == 0), v.value, 1e-15);
-        koksma_points_fini(&p);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(star_equals_brute_force),         cmocka_unit_test(extreme_equals_brute_force),
         cmocka_unit_test(extreme_grid_equals_brute_force), cmocka_unit_test(star_grid_equals_brute_force),
-        cmocka_unit_test(l2_star_equals_its_integral),     cmocka_unit_test(witness_shows_the_value),
+        cmocka_unit_test(l2_star_equals_its_integral),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

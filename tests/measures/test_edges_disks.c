@@ -320,25 +320,6 @@ static void angles_of_random_lines(void **state)
     }
 }
 
-static void threads_change_no_bit(void **state)
-{
-    (void)state;
-    static const char *const measures[] = {"edge",         "l2-edge", "l2-edge:law=mitchell",
-                                           "edge-sampled", "disk",    "l2-disk"};
-    koksma_points p = test_points("random", 70, 2, 9);
-    for (size_t m = 0; m < sizeof measures / sizeof *measures; m++) {
-        koksma_spec spec;
-        koksma_value one, other;
-        assert_ok(koksma_measure_spec(measures[m], &spec));
-        assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &one));
-        for (int threads = 2; threads <= 8; threads += 2) {
-            assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = threads}, &other));
-            assert_true(one.value == other.value && one.witness.count == other.witness.count);
-        }
-    }
-    koksma_points_fini(&p);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -346,8 +327,7 @@ int main(void)
         cmocka_unit_test(signs_are_exact),           cmocka_unit_test(potentials_are_integrals),
         cmocka_unit_test(exact_agrees_with_sampled), cmocka_unit_test(disk_equals_fine_search),
         cmocka_unit_test(kernels_equal_reference),   cmocka_unit_test(angles_of_random_lines),
-        cmocka_unit_test(threads_change_no_bit),     cmocka_unit_test(bounds_of_edge_hold),
-        cmocka_unit_test(edge_obeys_its_time_limit),
+        cmocka_unit_test(bounds_of_edge_hold),       cmocka_unit_test(edge_obeys_its_time_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

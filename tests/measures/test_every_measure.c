@@ -98,7 +98,7 @@ static bool are_equal(const koksma_value *a, const koksma_value *b)
 
 static void look_at_threads(const koksma_spec *spec, const koksma_points *points, const koksma_value *value)
 {
-    for (int threads = 2; threads <= 4; threads += 2) {
+    for (int threads = 2; threads <= 8; threads += 3) {
         const koksma_value other = value_of(spec, points, threads);
         if (!are_equal(value, &other)) {
             fail_measure(spec, points, "%.17g on one thread, %.17g on %d", value->value, other.value, threads);
@@ -256,10 +256,39 @@ static void look_at_witness(const koksma_spec *spec, const koksma_points *points
     }
 }
 
+/* Small sets, and those that are cut into blocks: with the n of a measure here, or 70. */
 static void values_do_not_depend_on_threads(void **state)
 {
     (void)state;
+    static const struct {
+        const char *measure;
+        int dim;
+        size_t n;
+    } sizes_of[] = {{"star", 3, 150},  {"extreme", 2, 200}, {"l2-disk", 2, 777}, {"edge", 3, 40},
+                    {"l2-", 2, 40000}, {"l2-", 3, 700},     {"l2-edge", 2, 70},  {"diaphony", 2, 40000}};
+    const koksma_measure *m;
     walk(look_at_threads);
+    for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
+        koksma_spec specs[MOST_SPECS];
+        const size_t n_specs = specs_of(m, specs);
+        for (size_t c = 0; c < 2 * n_specs; c++) {
+            const int dim = c % 2 ? 3 : 2;
+            size_t n = dim == 2 ? 70 : 20;
+            for (size_t s = 0; s < sizeof sizes_of / sizeof *sizes_of; s++) { /* the last that fits counts */
+                const bool fits = !strncmp(m->name, sizes_of[s].measure, strlen(sizes_of[s].measure));
+                n = fits && sizes_of[s].dim == dim && (m->family == KOKSMA_FAMILY_BOXES || sizes_of[s].n < 1000)
+                        ? sizes_of[s].n
+                        : n;
+            }
+            koksma_points points = test_points("random", n, dim, 4);
+            koksma_value value;
+            if (dim >= m->min_dim && dim <= m->max_dim &&
+                !koksma_evaluate(&specs[c / 2], &points, &(koksma_run){.threads = 1}, &value)) {
+                look_at_threads(&specs[c / 2], &points, &value);
+            }
+            koksma_points_fini(&points);
+        }
+    }
 }
 
 static void values_do_not_depend_on_order(void **state)

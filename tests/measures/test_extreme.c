@@ -311,30 +311,14 @@ static void large_sets_obey_the_time_limit(void **state)
     }
 }
 
-static void threads_change_no_bit(void **state)
-{
-    (void)state;
-    koksma_points p = test_points("random", 200, 2, 9);
-    koksma_spec spec;
-    koksma_value one, other;
-    assert_ok(koksma_measure_spec("extreme", &spec));
-    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &one));
-    for (int threads = 2; threads <= 8; threads++) {
-        assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = threads}, &other));
-        assert_memory_equal(&one, &other, sizeof one);
-    }
-    koksma_points_fini(&p);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plane_equals_plain_search), cmocka_unit_test(hammersley_has_its_value),
-        cmocka_unit_test(sweep_equals_plain_search), cmocka_unit_test(sweep_equals_bounding),
-        cmocka_unit_test(strips_equal_reference),    cmocka_unit_test(short_time_gives_bounds),
-        cmocka_unit_test(threads_change_no_bit),     cmocka_unit_test(large_sets_obey_the_time_limit),
-        cmocka_unit_test(witness_of_a_grid),         cmocka_unit_test(runs_equal_plain_search),
-        cmocka_unit_test(runs_bound_their_strips),
+        cmocka_unit_test(plane_equals_plain_search),      cmocka_unit_test(hammersley_has_its_value),
+        cmocka_unit_test(sweep_equals_plain_search),      cmocka_unit_test(sweep_equals_bounding),
+        cmocka_unit_test(strips_equal_reference),         cmocka_unit_test(short_time_gives_bounds),
+        cmocka_unit_test(large_sets_obey_the_time_limit), cmocka_unit_test(witness_of_a_grid),
+        cmocka_unit_test(runs_equal_plain_search),        cmocka_unit_test(runs_bound_their_strips),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -348,25 +348,6 @@ static void halton_keeps_its_digits(void **state)
     koksma_points_fini(&p);
 }
 
-static void threads_change_no_bit(void **state)
-{
-    (void)state;
-    for (int kind = 0; kind < KOKSMA__L2_KINDS; kind++) {
-        for (int dim = 2; dim <= 3; dim++) {
-            koksma_points p = test_points("random", dim == 2 ? 40000 : 700, dim, 4);
-            koksma_spec spec;
-            koksma_value one, other;
-            assert_ok(koksma_measure_spec(names[kind], &spec));
-            assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &one));
-            for (int threads = 2; threads <= 8; threads += 3) {
-                assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = threads}, &other));
-                assert_true(one.value == other.value && one.square == other.square);
-            }
-            koksma_points_fini(&p);
-        }
-    }
-}
-
 /* Dividing against all pairs, in 3 and 4 dimensions, with ties and repeats; the number of products. */
 static void dividing_equals_pairs(void **state)
 {
@@ -524,7 +505,7 @@ int main(void)
         cmocka_unit_test(centre_has_known_values),
         cmocka_unit_test(hammersley_keeps_its_digits),
         cmocka_unit_test(halton_keeps_its_digits),
-        cmocka_unit_test(threads_change_no_bit),
+
         cmocka_unit_test(dividing_equals_pairs),
         cmocka_unit_test(dividing_keeps_digits),
     };

@@ -186,24 +186,6 @@ static void cells_change_nothing(void **state)
     }
 }
 
-static void threads_change_no_bit(void **state)
-{
-    (void)state;
-    static const char *const specs[] = {"l2-disk", "l2-disk:law=area", "l2-disk:r=0.05", "disk-sampled"};
-    koksma_points p = sets_points(777, 2, 0, 5);
-    for (size_t s = 0; s < 4; s++) {
-        koksma_spec spec;
-        koksma_value one, many;
-        assert_ok(koksma_measure_spec(specs[s], &spec));
-        assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &one));
-        for (int threads = 2; threads <= 8; threads += 3) {
-            assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = threads}, &many));
-            assert_true(one.value == many.value && one.standard_error == many.standard_error);
-        }
-    }
-    koksma_points_fini(&p);
-}
-
 /* The means of the square over random sets, within 4 standard errors. */
 static void random_sets(void **state)
 {
@@ -253,8 +235,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_sets),           cmocka_unit_test(definition_by_monte_carlo),
-        cmocka_unit_test(cells_change_nothing), cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(random_sets),          cmocka_unit_test(sampled_agrees),
+        cmocka_unit_test(cells_change_nothing), cmocka_unit_test(random_sets),
+        cmocka_unit_test(sampled_agrees),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
