@@ -303,8 +303,8 @@ KOKSMA_API bool koksma_has_one_set(const koksma_spec *spec);
 
 /* Returns whether a pattern with these parameters is unbiased: the pattern or a modifier claims UNBIASED, or a
    parameter scramble or torus, which makes each point uniform, is set. The mean over the points is then right in the
-   mean over the seeds, for every integrand. The other patterns are not known to be: what they have of bias is in the error of
-   each trial, and no number of trials averages it away. False for the spec of a measure. */
+   mean over the seeds, for every integrand. The other patterns are not known to be: what they have of bias is in the
+   error of each trial, and no number of trials averages it away. False for the spec of a measure. */
 KOKSMA_API bool koksma_is_unbiased(const koksma_spec *spec);
 
 /* Returns whether, for every k <= n, the first k of n points of a pattern are its set of k points: it claims SEQUENCE,

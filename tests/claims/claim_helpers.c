@@ -2,6 +2,8 @@
 /* What the tests of several claims use. They read points; nothing here makes patterns but make_sets_of_means. */
 #include "claims/claims.h"
 
+#include <koksma/verify.h>
+
 koksma_spec quick_spec_of(const koksma_pattern *pattern)
 {
     koksma_spec spec;
@@ -104,62 +106,14 @@ bool is_net2_block(const koksma_points *points, size_t first, size_t n)
     return ok;
 }
 
-static const double means_side[2] = {0.37, 0.61};
-
-/* What of the first n points lies in a box with sides 0.37, 0.61, ... */
-static double share_of_box(const koksma_points *points, size_t n)
-{
-    double inside = 0;
-    for (size_t i = 0; i < n; i++) {
-        bool in = true;
-        for (int k = 0; k < points->dim; k++) {
-            in = in && points->xs[i * (size_t)points->dim + (size_t)k] < means_side[k % 2];
-        }
-        inside += in ? 1.0 / (double)n : 0;
-    }
-    return inside;
-}
-
-/* What of their coordinates lies in a band of width 0.04: that about 0 and 1, or another one. */
-static double share_of_band(const koksma_points *points, size_t n, double from)
-{
-    const size_t count = n * (size_t)points->dim;
-    double inside = 0;
-    for (size_t i = 0; i < count; i++) {
-        const double x = points->xs[i], turned = x < from ? x + 1 - from : x - from;
-        inside += turned < 0.04 ? 1.0 / (double)count : 0;
-    }
-    return inside;
-}
-
 void check_means_of(const koksma_spec *spec, const koksma_points *sets, bool first_only)
 {
-    enum { BANDS = 3 };
-    static const double bands[BANDS] = {0.98, 0.105, 0.355};
-    double sum[BANDS + 1] = {0}, square[BANDS + 1] = {0}, volume = 1;
-    for (size_t s = 0; s < MEANS_SETS; s++) {
-        const size_t n = first_only ? 1 : sets[s].n;
-        for (int b = 0; b <= BANDS; b++) {
-            const double inside = b < BANDS ? share_of_band(&sets[s], n, bands[b]) : share_of_box(&sets[s], n);
-            sum[b] += inside;
-            square[b] += inside * inside;
-        }
+    koksma_findings found;
+    assert_ok(koksma_verify_sets(sets, MEANS_SETS, NULL, &found));
+    if (!found.items[first_only].holds) {
+        fail_claim(spec, sets, "%s", found.items[first_only].detail);
     }
-    for (int k = 0; k < sets->dim; k++) {
-        volume *= means_side[k % 2];
-    }
-    for (int b = 0; b <= BANDS; b++) {
-        const double expected = b < BANDS ? 0.04 : volume, mean = sum[b] / MEANS_SETS;
-        /* a whole number of mean m has a variance of at least f (1 - f), f the fraction of m; few sets may show less */
-        const double m = (first_only ? 1 : (double)sets->n) * (b < BANDS ? sets->dim : 1),
-                     whole = floor(m * expected);
-        const double least = (m * expected - whole) * (1 - m * expected + whole) / (m * m);
-        const double variance = fmax(fmax(square[b] / MEANS_SETS - mean * mean, least), 1e-6);
-        if (fabs(mean - expected) > 4.5 * sqrt(variance / MEANS_SETS) + 1e-3) {
-            fail_claim(spec, sets, "a %s of volume %.4f holds %.4f of the points in the mean",
-                       b < BANDS ? "band" : "box", expected, mean);
-        }
-    }
+    koksma_findings_fini(&found);
 }
 
 void make_sets_of_means(const koksma_spec *spec, size_t n, int dim, koksma_points sets[MEANS_SETS])

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The tests of claims, one file each: tests/claims/claim_<id>.c defines claim_<ID> for a line of <koksma/claims.def>.
+ * The tests of claims: claims.c defines claim_<ID> for each line of <koksma/claims.def>.
  * It looks at one set of points of a pattern that makes the claim and fails by fail_claim; where the claim says
  * nothing about this n or dim it returns. test_claims.c walks the patterns.
  */
@@ -65,7 +65,7 @@ enum { MEANS_SETS = test_repeats(120, 40), MEANS_SEED = 1000 };
 void make_sets_of_means(const koksma_spec *spec, size_t n, int dim, koksma_points sets[MEANS_SETS]);
 void free_sets_of_means(koksma_points sets[MEANS_SETS]);
 
-/* Fails unless the mean over the sets of what a box and bands hold of all points, or of the first, is their volume. */
+/* Fails unless the sets are unbiased or, with first_only, each sample is uniform (koksma_verify_sets). */
 void check_means_of(const koksma_spec *spec, const koksma_points *sets, bool first_only);
 
 /* The same for sets that it makes, of a few points in up to 3 dimensions; only for the seed 0. It keeps the last sets: the

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Each defect that `koksma verify` is there for, planted in points that have none, is found; and only it. */
-#include <koksma/study.h>
 #include <koksma/verify.h>
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "claims/claims.h"
 #include "patterns/spacing/spacing.h"
 #include "test.h"
 
@@ -380,8 +378,6 @@ static void points_outside_are_refused(void **state)
 
 /* ---- Properties of sets ------------------------------------------------------------------------------------ */
 
-enum { SETS = test_repeats(300, 50) };
-
 static koksma_findings of_sets(const koksma_spec *spec, size_t n, int dim, size_t n_sets)
 {
     koksma_points *sets = calloc(n_sets, sizeof *sets);
@@ -398,27 +394,6 @@ static koksma_findings of_sets(const koksma_spec *spec, size_t n, int dim, size_
     free(sets);
     assert_int_equal(all.count, 2);
     return all;
-}
-
-static void patterns_that_claim_it_are_unbiased(void **state)
-{
-    (void)state;
-    static const size_t counts[] = {4, 16, 27};
-    const koksma_pattern *p;
-    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
-        for (size_t c = 0; c < 3 && p->claims & KOKSMA_CLAIM_UNBIASED; c++) {
-            const int dim = c < 2 && p->min_dim <= 2 ? 2 : 3;
-            if (dim > p->max_dim || koksma_plan_try(p->name, counts[c], dim)) {
-                continue;
-            }
-            const koksma_spec spec = quick_spec_of(p);
-            koksma_findings all = of_sets(&spec, counts[c], dim, SETS);
-            if (!all.items[0].holds || (p->claims & KOKSMA_CLAIM_EXCHANGEABLE && !all.items[1].holds)) {
-                fail_msg("%s, n = %zu: %s; %s", p->name, counts[c], all.items[0].detail, all.items[1].detail);
-            }
-            koksma_findings_fini(&all);
-        }
-    }
 }
 
 /* With their boxes: the middle halves of cells; sides, where darts have fewer neighbours; a first cell that comes first;
@@ -489,7 +464,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(healthy_points_pass),
-        cmocka_unit_test(patterns_that_claim_it_are_unbiased),
         cmocka_unit_test(biases_are_found),
         cmocka_unit_test(a_gap_is_named),
         cmocka_unit_test(every_property_looks_alike_on_any_threads),

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Dart throwing without wasted darts, in the plane and in 3 to 6 dimensions. Each section is the interface of the file of its name. */
+/* Dart throwing without wasted darts, in the plane and in 3 to 6 dimensions. Each section is the interface of the file
+   of its name. */
 #ifndef KOKSMA_PATTERNS_DARTS_DARTS_H
 #define KOKSMA_PATTERNS_DARTS_DARTS_H
 

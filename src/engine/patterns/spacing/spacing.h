@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Distances and forces between points: what blue noise of several kinds is made with. Each section is the interface of the file of its name. */
+/* Distances and forces between points: what blue noise of several kinds is made with. Each section is the interface of
+   the file of its name. */
 #ifndef KOKSMA_PATTERNS_SPACING_SPACING_H
 #define KOKSMA_PATTERNS_SPACING_SPACING_H
 
