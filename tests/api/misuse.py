@@ -51,6 +51,7 @@ VALID = {
     "koksma_export_format": "KOKSMA_EXPORT_CSV", "koksma_study_row *": "a_buffer(sizeof(koksma_study_row))", "_Bool *": "a_buffer(sizeof(bool))",
     "koksma_images_row **": "a_buffer(sizeof(void *))", "koksma_rank_options *": "rank_options()",
     "koksma_rank_row *": "a_buffer(2 * sizeof(koksma_rank_row))", "koksma_ranking *": "a_buffer(sizeof(koksma_ranking))",
+    "koksma_verify_sets.sets": "many_sets()", "koksma_verify_sets.n_sets": "KOKSMA_VERIFY_SETS",
     "koksma_findings *": "a_buffer(sizeof(koksma_findings))",
     "koksma_points_init.n": "4", "koksma_points_init.dim": "2", "koksma_points_init.points": "a_buffer(sizeof(koksma_points))",
     "koksma_points_fini.points": "a_zero(sizeof(koksma_points))", "koksma_points_read.path": "work_path(\"in.npy\")",

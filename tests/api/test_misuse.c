@@ -111,6 +111,15 @@ static void *points_of(size_t n)
     return a_copy(&points, sizeof points);
 }
 
+static void *many_sets(void)
+{
+    koksma_points sets[KOKSMA_VERIFY_SETS];
+    for (uint64_t s = 0; s < KOKSMA_VERIFY_SETS; s++) {
+        sets[s] = test_points("jittered", 4, 2, s);
+    }
+    return a_copy(sets, sizeof sets);
+}
+
 static void *points_in_space(void)
 {
     koksma_points points = test_points("jittered", 8, 3, 1);

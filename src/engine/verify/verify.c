@@ -90,13 +90,14 @@ koksma_status koksma_verify_sets(const koksma_points *sets, size_t n_sets, const
     KOKSMA__REQUIRE(sets, findings);
     KOKSMA__REQUIRE_RUN(run);
     *findings = (koksma_findings){0};
+    KOKSMA__TRY(koksma__array_check("n_sets", sets, n_sets, sizeof *sets));
     KOKSMA__FAIL_IF(n_sets < KOKSMA_VERIFY_SETS, KOKSMA_N,
-                    "verify: %zu sets are too few for a distribution; it takes %d or more, one for each seed", n_sets,
+                    "verify: n_sets: %zu sets are too few for a distribution; it takes %d or more, one for each seed", n_sets,
                     KOKSMA_VERIFY_SETS);
     for (size_t i = 0; i < n_sets; i++) {
         KOKSMA__TRY(koksma__points_check(&sets[i]));
         KOKSMA__FAIL_IF(sets[i].n != sets->n || sets[i].dim != sets->dim, KOKSMA_N,
-                        "verify: the sets have different sizes: %zu points in %d dimensions, then %zu in %d", sets->n,
+                        "verify: sets of different sizes: %zu points in %d dimensions, then %zu in %d", sets->n,
                         sets->dim, sets[i].n, sets[i].dim);
     }
     koksma__verification v = {.points = sets, .n_sets = n_sets, .run = run, .findings = findings};
