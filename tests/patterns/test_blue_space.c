@@ -300,23 +300,6 @@ static void prefixes_are_blue_in_space(void **state)
     }
 }
 
-static void threads_change_nothing(void **state)
-{
-    (void)state;
-    for (int dim = 3; dim <= 5; dim++) {
-        koksma_spec spec;
-        koksma_points one = test_points("gaussian-blue-noise:steps=12", 200, dim, 5), many;
-        assert_ok(koksma_pattern_spec("gaussian-blue-noise:steps=12", &spec));
-        assert_ok(koksma_points_init(&many, 200, dim));
-        for (int threads = 1; threads <= 4; threads += 3) {
-            assert_ok(koksma_generate(&spec, 5, &(koksma_run){.threads = threads}, &many));
-            assert_memory_equal(many.xs, one.xs, 200 * (size_t)dim * sizeof *one.xs);
-        }
-        koksma_points_fini(&one);
-        koksma_points_fini(&many);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -328,7 +311,6 @@ int main(void)
         cmocka_unit_test(relative_radii_in_space),
         cmocka_unit_test(blue_noise_keeps_apart_in_all_dimensions),
         cmocka_unit_test(prefixes_are_blue_in_space),
-        cmocka_unit_test(threads_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

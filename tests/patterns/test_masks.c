@@ -103,56 +103,6 @@ static void masks_keep_their_bits(void **state)
     }
 }
 
-/* The mean power of the pixels below `count` at frequencies below `radius`, in which random pixels have 1 - count/n.
- */
-static double low_power(const uint32_t *ranks, int size, uint32_t count, double radius)
-{
-    double sum = 0, cosine[64], sine[64];
-    assert_true(size <= 64);
-    for (int p = 0; p < size; p++) {
-        cosine[p] = cos(2 * 3.14159265358979323846 * p / size);
-        sine[p] = sin(2 * 3.14159265358979323846 * p / size);
-    }
-    int bins = 0;
-    for (int v = -(int)radius; v <= radius; v++) {
-        for (int u = 0; u <= radius; u++) {
-            if (u * u + v * v == 0 || u * u + v * v > radius * radius) {
-                continue;
-            }
-            double re = 0, im = 0;
-            for (int p = 0; p < size * size; p++) {
-                if (ranks[p] < count) {
-                    const int phase = ((u * (p % size) + v * (p / size)) % size + size) % size;
-                    re += cosine[phase];
-                    im += sine[phase];
-                }
-            }
-            sum += (re * re + im * im) / count;
-            bins++;
-        }
-    }
-    return sum / bins;
-}
-
-/* Blue noise at every threshold: below 0.4 of the frequency sqrt(density) there is a tenth of white noise's
-   power at most. */
-static void thresholded_masks_are_blue(void **state)
-{
-    (void)state;
-    enum { SIZE = 64, N = SIZE * SIZE };
-    for (uint64_t seed = 0; seed < 2; seed++) {
-        uint32_t *ranks = mask_of(SIZE, seed);
-        for (int percent = 5; percent <= 50; percent += 15) {
-            const uint32_t count = (uint32_t)(N * percent / 100);
-            const double power = low_power(ranks, SIZE, count, 0.4 * sqrt(count));
-            if (!(power < 0.1 * (1 - percent / 100.0))) {
-                fail_msg("%d %%: power %.4f", percent, power);
-            }
-        }
-        free(ranks);
-    }
-}
-
 /* Ulichney's rules in three dimensions, by the definition: Gaussians cut off at 4 voxels along each axis. */
 static double energy_of_voxel(const uint32_t *ranks, const int *sides, int at, uint32_t below)
 {
@@ -203,35 +153,6 @@ static void masks_in_time_are_ulichneys(void **state)
     uint32_t none[64];
     assert_int_equal(koksma_mask_void_and_cluster_3d(3, 4, 3, NULL, none), KOKSMA_ARGUMENT);
     assert_int_equal(koksma_mask_void_and_cluster_3d(4, KOKSMA_MASK_MAX_3D + 1, 3, NULL, none), KOKSMA_ARGUMENT);
-}
-
-/* Power of the voxels below a threshold at frequencies (u, v, w) of a mask of 16 x 16 x 16: of random voxels 1 - share. */
-static void thresholded_masks_in_time_are_blue(void **state)
-{
-    (void)state;
-    enum { SIDE = 16, N = SIDE * SIDE * SIDE };
-    static uint32_t ranks[N];
-    assert_ok(koksma_mask_void_and_cluster_3d(SIDE, SIDE, 5, NULL, ranks));
-    for (int percent = 10; percent <= 50; percent += 20) {
-        const uint32_t count = N * (uint32_t)percent / 100;
-        double sum = 0;
-        int bins = 0;
-        for (int f = 1; f < 125; f++) {
-            const int u = f % 5 - 2, v = f / 5 % 5 - 2, w = f / 25 - 2;
-            double re = 0, im = 0;
-            for (int p = 0; p < N && u * u + v * v + w * w; p++) {
-                const double phase =
-                    0.39269908169872414 * (u * (p % SIDE) + v * (p / SIDE % SIDE) + w * (p / SIDE / SIDE));
-                re += ranks[p] < count ? cos(phase) : 0;
-                im += ranks[p] < count ? sin(phase) : 0;
-            }
-            sum += (re * re + im * im) / count;
-            bins += (u || v || w);
-        }
-        if (!(sum / bins < 0.1 * (1 - percent / 100.0))) {
-            fail_msg("%d %%: power %.4f", percent, sum / bins);
-        }
-    }
 }
 
 /* The points of mask-offset with given masks. */
@@ -455,14 +376,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(masks_are_ulichneys),
         cmocka_unit_test(masks_keep_their_bits),
-        cmocka_unit_test(thresholded_masks_are_blue),
         cmocka_unit_test(the_header_has_the_patterns_points),
         cmocka_unit_test(a_pixel_can_have_its_vector),
         cmocka_unit_test(pixels_have_nets),
         cmocka_unit_test(pixels_err_like_independent_ones),
         cmocka_unit_test(neighbours_errors_cancel),
         cmocka_unit_test(masks_in_time_are_ulichneys),
-        cmocka_unit_test(thresholded_masks_in_time_are_blue),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

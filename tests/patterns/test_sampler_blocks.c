@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What koksma/sampler.h promises inside a domain, for every function that draws: nets, runs of the R-sequence, cells
-   and strata. tests/patterns/test_sampler_domains.c has what it promises between domains. */
+/* What koksma/sampler.h promises inside a domain, for every function that draws: nets, and that all forms have the same
+   numbers. test_sampler.c has that they are the library's, whose claims are tested; test_sampler_domains.c has what it
+   promises between domains. */
 #include <koksma/keys.h>
 #include <koksma/sampler.h>
 
@@ -21,16 +22,6 @@ static void sobol4(koksma_domain domain, uint32_t i, double *xs)
 static void pmj02(koksma_domain domain, uint32_t i, double *xs)
 {
     koksma_pmj02_2d(domain, i, xs);
-}
-
-static void r(koksma_domain domain, uint32_t i, double *xs)
-{
-    koksma_r_2d(domain, i, xs);
-}
-
-static void r_late(koksma_domain domain, uint32_t i, double *xs)
-{
-    koksma_r_2d(domain, ((uint64_t)5 << 32) + i, xs);
 }
 
 typedef void (*sample)(koksma_domain domain, uint32_t i, double *xs);
@@ -98,62 +89,6 @@ static void quads_of_an_image_are_nets(void **state)
             }
             assert_is_net("koksma_z_rank", xs, 2, quad * n, n);
         }
-    }
-}
-
-/* Samples a 2^m .. (a + 1) 2^m - 1 differ from the first of them by k (1/g, 1/g^2) on the torus, k being 2^m
-   consecutive whole numbers and g the root of g^3 = g + 1. */
-static void assert_block_is_run(const char *name, sample f, uint32_t first, uint32_t n)
-{
-    const double g = 1.32471795724474602596, alpha[2] = {1 / g, 1 / (g * g)};
-    const koksma_domain domain = koksma_domain_of_pixel(4, first, n);
-    bool seen[2 * BLOCK] = {false};
-    int least = 0, most = 0;
-    double start[2];
-    f(domain, first, start);
-    for (uint32_t i = 0; i < n; i++) {
-        double xs[2];
-        int k = -(int)n;
-        f(domain, first + i, xs);
-        for (; k < (int)n; k++) {
-            const double a = xs[0] - start[0] - k * alpha[0], b = xs[1] - start[1] - k * alpha[1];
-            if (fabs(a - floor(a + 0.5)) < 1e-12 && fabs(b - floor(b + 0.5)) < 1e-12) {
-                break;
-            }
-        }
-        if (k == (int)n || seen[k + (int)n]) {
-            fail_msg("%s: samples %u and %u are not of one run of %u points", name, first, first + i, n);
-        }
-        seen[k + (int)n] = true;
-        least = k < least ? k : least;
-        most = k > most ? k : most;
-    }
-    assert_int_equal(most - least, n - 1);
-}
-
-static void aligned_blocks_of_r_are_runs(void **state)
-{
-    (void)state;
-    for (uint32_t n = 1; n <= BLOCK; n *= 2) {
-        const uint32_t firsts[] = {0, n, 5 * n, 11 * n, 1u << 31, 0u - n};
-        for (size_t b = 0; b < sizeof firsts / sizeof *firsts; b++) {
-            assert_block_is_run("koksma_r_2d", r, firsts[b], n);
-            assert_block_is_run("koksma_r_2d from 5 2^32 on", r_late, firsts[b], n);
-        }
-    }
-}
-
-static void cmj_fills_cells_and_strata(void **state)
-{
-    (void)state;
-    static const uint32_t grids[][2] = {{1, 1}, {3, 5}, {16, 16}, {7, 30}, {64, 4}};
-    for (size_t t = 0; t < sizeof grids / sizeof *grids; t++) {
-        const uint32_t columns = grids[t][0], n = columns * grids[t][1];
-        double xs[2 * BLOCK];
-        for (uint32_t i = 0; i < n; i++) {
-            koksma_cmj_2d(koksma_domain_of_pixel(5, n, columns), i, columns, n / columns, xs + 2 * (size_t)i);
-        }
-        assert_true(one_in_each(xs, 2, n, columns) && one_in_each(xs, 2, n, 1) && one_in_each(xs, 2, n, n));
     }
 }
 
@@ -255,34 +190,12 @@ static void parts_of_samples_are_nets(void **state)
     assert_is_net("all parts", xs, 2, 0, SAMPLES * PARTS);
 }
 
-/* One sample in each of 2^m intervals, in each dimension, whatever the function is. */
-static void every_axis_is_stratified(void **state)
-{
-    (void)state;
-    for (uint32_t n = 1; n <= 1024; n *= 4) {
-        for (uint32_t block = 0; block < 3; block++) {
-            const koksma_domain domain = koksma_domain_of_pixel(8, n, block);
-            unsigned char seen[4][1024] = {{0}};
-            for (uint32_t i = 0; i < n; i++) {
-                double xs[4];
-                koksma_sobol_4d(domain, (block * 77777) * n + i, xs);
-                for (int k = 0; k < 4; k++) {
-                    const size_t stratum = (size_t)(xs[k] * n);
-                    assert_true(!seen[k][stratum]);
-                    seen[k][stratum] = 1;
-                }
-            }
-        }
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(aligned_blocks_are_nets),      cmocka_unit_test(quads_of_an_image_are_nets),
-        cmocka_unit_test(aligned_blocks_of_r_are_runs), cmocka_unit_test(cmj_fills_cells_and_strata),
-        cmocka_unit_test(all_forms_are_equal),          cmocka_unit_test(forms_of_other_draws_are_equal),
-        cmocka_unit_test(parts_of_samples_are_nets),    cmocka_unit_test(every_axis_is_stratified),
+        cmocka_unit_test(aligned_blocks_are_nets),   cmocka_unit_test(quads_of_an_image_are_nets),
+        cmocka_unit_test(all_forms_are_equal),       cmocka_unit_test(forms_of_other_draws_are_equal),
+        cmocka_unit_test(parts_of_samples_are_nets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -433,52 +433,11 @@ static void domains_that_are_alike_are_independent(void **state)
     }
 }
 
-/* The ranks of two domains at one pixel, over domains: all 16 x 16 pairs are as likely. */
-static void z_ranks_of_two_domains_are_independent(void **state)
-{
-    (void)state;
-    enum { IMAGES = 8192 };
-    int counts[16][16] = {{0}};
-    double chi_squared = 0;
-    for (uint32_t seed = 0; seed < IMAGES; seed++) {
-        const koksma_domain image = {seed};
-        counts[koksma_z_rank(koksma_domain_of_use(image, 0), 1, 2, 2)]
-              [koksma_z_rank(koksma_domain_of_use(image, 1), 1, 2, 2)]++;
-    }
-    for (int c = 0; c < 256; c++) {
-        const double off = counts[c / 16][c % 16] - IMAGES / 256.0;
-        chi_squared += off * off / (IMAGES / 256.0);
-    }
-    assert_near(chi_squared, 255, 4.5 * sqrt(2 * 255.0)); /* its mean and standard deviation */
-}
-
-/* Each 2^32 samples of koksma_r_2d are paired at random with those before, too. */
-static void parts_of_r_have_orders_of_their_own(void **state)
-{
-    (void)state;
-    enum { N = 4096 };
-    bool seen[256] = {false};
-    int filled = 0;
-    const koksma_domain domain = {99};
-    for (uint32_t i = 0; i < N; i++) {
-        double u[2], v[2];
-        koksma_r_2d(domain, i, u);
-        koksma_r_2d(domain, ((uint64_t)5 << 32) + i, v);
-        seen[(int)(u[0] * 16) * 16 + (int)(v[0] * 16)] = true;
-    }
-    for (int c = 0; c < 256; c++) {
-        filled += seen[c];
-    }
-    assert_true(filled >= 255);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(uses_are_independent),
         cmocka_unit_test(domains_that_are_alike_are_independent),
-        cmocka_unit_test(z_ranks_of_two_domains_are_independent),
-        cmocka_unit_test(parts_of_r_have_orders_of_their_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

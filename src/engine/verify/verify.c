@@ -92,8 +92,8 @@ koksma_status koksma_verify_sets(const koksma_points *sets, size_t n_sets, const
     *findings = (koksma_findings){0};
     KOKSMA__TRY(koksma__array_check("n_sets", sets, n_sets, sizeof *sets));
     KOKSMA__FAIL_IF(n_sets < KOKSMA_VERIFY_SETS, KOKSMA_N,
-                    "verify: n_sets: %zu sets are too few for a distribution; it takes %d or more, one for each seed", n_sets,
-                    KOKSMA_VERIFY_SETS);
+                    "verify: n_sets: %zu sets are too few for a distribution; it takes %d or more, one for each seed",
+                    n_sets, KOKSMA_VERIFY_SETS);
     for (size_t i = 0; i < n_sets; i++) {
         KOKSMA__TRY(koksma__points_check(&sets[i]));
         KOKSMA__FAIL_IF(sets[i].n != sets->n || sets[i].dim != sets->dim, KOKSMA_N,
