@@ -19,6 +19,7 @@ koksma generate n-rooks -n 16 -q -o points.txt &&
   koksma render ball -n 1 --size 16x16 -q -o ball.exr >/dev/null &&
   koksma render ball -n 4 --size 16x16 -q -o reference.exr >/dev/null && cp reference.exr truth.exr &&
   cp ball.exr mine_regular_1_0.exr || exit 1
+for seed in $(seq 0 31); do koksma generate random -n 4 -s "$seed" -q -o "my_4_$seed.npy" >/dev/null; done
 count=0 failed=0 sheets=0
 sed -n 's/^    \(koksma .*\)/\1/p' "$root/README.md" "$root/docs/commands.md" | sed 's/  *# .*//' | sed 's/-o DIR/-o dir/' >commands
 for command in $(koksma --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
