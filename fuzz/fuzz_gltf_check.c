@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Mutator: fuzz/mutate_json.c */
 /* A glTF file in memory, JSON or binary. Files that it names are looked for in the current folder. */
-#include "meshes/gltf_read.h"
+#include "meshes/readers.h"
 #include "target.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)

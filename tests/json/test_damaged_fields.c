@@ -8,7 +8,7 @@
 
 #include <jansson.h>
 
-#include "meshes/gltf_read.h"
+#include "meshes/readers.h"
 #include "scene/scene.h"
 #include "study/plan/plan.h"
 #include "study/plan/plan_owned.h"

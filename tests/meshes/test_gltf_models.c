@@ -9,7 +9,7 @@
 #include <koksma/render.h>
 
 #include "meshes.h"
-#include "meshes/mesh_read.h"
+#include "meshes/mesh_file.h"
 #include "render/lights/lights.h"
 #include "scene/scene.h"
 

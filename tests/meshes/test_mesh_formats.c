@@ -9,8 +9,7 @@
 #include <unistd.h>
 
 #include "meshes.h"
-#include "meshes/mesh_read.h"
-#include "meshes/mesh_serialized.h"
+#include "meshes/mesh_file.h"
 #include "meshes/mesh_text.h"
 
 static void write_bytes(const char *path, const void *bytes, size_t size)

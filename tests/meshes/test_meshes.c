@@ -12,7 +12,6 @@
 #include "core/random.h"
 #include "meshes.h"
 #include "meshes/mesh.h"
-#include "meshes/mesh_loop.h"
 
 enum { SIDE = 48 };
 

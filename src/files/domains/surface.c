@@ -16,7 +16,7 @@
 #include "core/status.h"
 #include "domains/choose.h"
 #include "domains/surface_field.h"
-#include "meshes/mesh_read.h"
+#include "meshes/mesh_file.h"
 
 typedef struct surface {
     koksma__mesh mesh;

@@ -1,8 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Access to lists and members of a glTF file's JSON, for the other gltf_*.c files. A missing list counts as empty. */
+/*
+ * Reads a glTF 2.0 file, as JSON (.gltf) or binary (.glb): checks it, loads its buffers, finds the nodes of its
+ * scene, and reads the meshes and materials that they use. Parts of the file that are not supported are counted or
+ * named, for warnings. Specification: Khronos, "glTF 2.0" (2021), and the extensions that gltf_schema.c lists.
+ *
+ * The bytes are in buffers: files beside the model, base64 in it, or the second chunk of a binary file. Views are parts of
+ * buffers, and accessors list the elements in a view, which are contiguous or `byteStride` apart (sections 3.6.1 and 4.4).
+ * Numbers are little-endian on every machine. A missing buffer is an error only if data in it are needed.
+ */
 #include "meshes/gltf.h"
 
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+#include "core/read_file.h"
+
 typedef koksma__json_node field;
+
+/* ---- Lists and members; a missing list counts as empty ------------------------------------------------------ */
 
 koksma_status koksma__gltf_list(const field *object, const char *key, field *list, size_t *n)
 {
@@ -14,7 +31,6 @@ koksma_status koksma__gltf_list(const field *object, const char *key, field *lis
     return status ? status : koksma__json_length(list, KOKSMA__GLTF_ITEMS, n);
 }
 
-/* Follows the path `keys` into nested objects; returns false if a key is missing. */
 bool koksma__gltf_find(const field *from, const char *const keys[], field *out)
 {
     field at = *from;
@@ -31,4 +47,293 @@ bool koksma__gltf_find(const field *from, const char *const keys[], field *out)
 koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i)
 {
     return koksma__json_item(&g->lists[which], i);
+}
+
+/* ---- Buffers ------------------------------------------------------------------------------------------------ */
+
+static int base64_value(char c)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char *at = c ? strchr(digits, c) : NULL;
+    return at ? (int)(at - digits) : -1;
+}
+
+/* Gives the bytes to the koksma__mesh_file, which frees them when it is closed. */
+static koksma_status keep(koksma__gltf *g, unsigned char *bytes, size_t size, koksma__gltf_bytes *out)
+{
+    unsigned char **kept = koksma__list_add(&g->out->owned, 1, sizeof *kept);
+    if (!kept) {
+        free(bytes);
+        return KOKSMA_MEMORY;
+    }
+    *kept = bytes;
+    *out = (koksma__gltf_bytes){bytes, size};
+    return KOKSMA_OK;
+}
+
+/* RFC 4648, section 4. */
+koksma_status koksma__gltf_decode(koksma__gltf *g, const field *f, const char *uri, koksma__gltf_bytes *out)
+{
+    static const char base64[] = ";base64";
+    const char *text = strchr(uri, ',');
+    const size_t mark = strlen(base64);
+    KOKSMA__JSON_FAIL_IF(!text || (size_t)(text - uri) < mark || strncmp(text - mark, base64, mark) != 0, f,
+                         "uri: only data in base64 can be read");
+    const size_t length = strlen(++text);
+    unsigned char *bytes = malloc(length / 4 * 3 + 4);
+    uint32_t bits = 0;
+    int n_bits = 0;
+    size_t size = 0;
+    KOKSMA__REQUIRE_MEMORY(bytes, length / 4 * 3 + 4);
+    for (size_t i = 0; i < length && text[i] != '='; i++) {
+        const int value = base64_value(text[i]);
+        if (value < 0) {
+            free(bytes);
+            return koksma__json_fail(f, "uri: character %zu of the data is not base64", i);
+        }
+        bits = bits << 6 | (uint32_t)value;
+        n_bits += 6;
+        if (n_bits >= 8) {
+            n_bits -= 8;
+            bytes[size++] = (unsigned char)(bits >> n_bits & 0xff);
+        }
+    }
+    return keep(g, bytes, size, out);
+}
+
+/* Loads a buffer. files: the buffers that are files, by koksma__file_key; each file is read once, under whatever names. */
+static koksma_status load(koksma__gltf *g, const field *f, const char *uri, koksma__names *files,
+                          koksma__gltf_bytes *out)
+{
+    char file[KOKSMA__MAX_PATH], key[KOKSMA__FILE_KEY];
+    unsigned char *bytes = NULL;
+    size_t size = 0, known;
+    if (!strncmp(uri, "data:", 5)) {
+        return koksma__gltf_decode(g, f, uri, out);
+    }
+    if (!koksma__find_named(g->out->path, uri, file)) {
+        return KOKSMA_OK;
+    }
+    koksma__file_key(file, key);
+    if (koksma__names_find(files, key, strlen(key), &known)) {
+        *out = g->buffers[known];
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__names_put(files, key, strlen(key), (size_t)(out - g->buffers)));
+    KOKSMA__TRY(koksma__file_count(g->out->sizes, file));
+    KOKSMA__TRY(koksma__read_file(file, KOKSMA__FILE_BUFFER, KOKSMA__BY_FILE, NULL, &bytes, &size));
+    koksma__mesh_file_hash(g->out, bytes, size);
+    return keep(g, bytes, size, out);
+}
+
+/* Loads all buffers whose data exist. */
+static koksma_status load_buffers(koksma__gltf *g)
+{
+    koksma_status status = KOKSMA_OK;
+    koksma__names files = {0};
+    for (size_t i = 0; !status && i < g->n[KOKSMA__GLTF_BUFFERS]; i++) {
+        const field f = koksma__gltf_item(g, KOKSMA__GLTF_BUFFERS, i);
+        koksma__gltf_bytes *b = &g->buffers[i];
+        const char *uri = NULL;
+        long long length = 0;
+        status = koksma__json_get_text(&f, "uri", false, &uri);
+        status = status ? status : koksma__json_get_whole(&f, "byteLength", true, 0, 1 << 30, &length);
+        if (!status && uri) {
+            status = load(g, &f, uri, &files, b);
+        } else if (!i) {
+            *b = g->binary;
+        }
+        if (!status && b->bytes && b->size < (size_t)length) {
+            status = koksma__json_fail(&f, "byteLength is %lld, but there are only %zu bytes", length, b->size);
+        }
+    }
+    koksma__names_fini(&files);
+    return status;
+}
+
+/* ---- Views and accessors ------------------------------------------------------------------------------------ */
+
+koksma_status koksma__gltf_view(const koksma__gltf *g, size_t view, koksma__gltf_bytes *out, size_t *stride)
+{
+    const field f = koksma__gltf_item(g, KOKSMA__GLTF_VIEWS, view);
+    long long number = 0, offset = 0, length = 0, step = 0;
+    KOKSMA__TRY(koksma__json_get_whole(&f, "buffer", true, 0, KOKSMA__GLTF_ITEMS, &number));
+    KOKSMA__TRY(koksma__json_get_whole(&f, "byteOffset", false, 0, 1 << 30, &offset));
+    KOKSMA__TRY(koksma__json_get_whole(&f, "byteLength", true, 0, 1 << 30, &length));
+    KOKSMA__TRY(koksma__json_get_whole(&f, "byteStride", false, 0, 252, &step));
+    if (!g->buffers[number].bytes) {
+        const field buffer = koksma__gltf_item(g, KOKSMA__GLTF_BUFFERS, (size_t)number);
+        const char *uri = NULL;
+        KOKSMA__TRY(koksma__json_get_text(&buffer, "uri", false, &uri));
+        return koksma__json_fail(&buffer, uri ? "uri: there is no file '%.300s'" : "there is no uri%s",
+                                 uri ? uri : ", and the file has no binary chunk");
+    }
+    *out = (koksma__gltf_bytes){g->buffers[number].bytes + offset, (size_t)length};
+    *stride = (size_t)step;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const field *object, const char *key,
+                                       koksma__gltf_elements *out, long long *number)
+{
+    static const char *const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    long long n = 0, component = 0, view = 0, offset = 0;
+    const char *type = "";
+    koksma__gltf_bytes bytes = {0};
+    size_t stride = 0;
+    *out = (koksma__gltf_elements){0};
+    KOKSMA__TRY(koksma__json_get_whole(object, key, true, 0, KOKSMA__GLTF_ITEMS, number));
+    const field f = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, (size_t)*number);
+    KOKSMA__TRY(koksma__json_get_whole(&f, "count", true, 1, (long long)KOKSMA__MAX_VERTICES, &n));
+    KOKSMA__TRY(koksma__json_get_whole(&f, "componentType", true, 5120, 5126, &component));
+    KOKSMA__TRY(koksma__json_get_text(&f, "type", true, &type));
+    KOKSMA__TRY(koksma__json_get_flag(&f, "normalized", false, &out->normalised));
+    KOKSMA__TRY(koksma__json_get_whole(&f, "byteOffset", false, 0, 1 << 30, &offset));
+    KOKSMA__JSON_FAIL_IF(!koksma__json_has(&f, "bufferView"), &f, "no bufferView: its elements are all 0");
+    KOKSMA__TRY(koksma__json_get_whole(&f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &view));
+    KOKSMA__TRY(koksma__gltf_view(g, (size_t)view, &bytes, &stride));
+    for (int i = 0; i < 4; i++) {
+        out->width = strcmp(type, types[i]) ? out->width : i + 1;
+    }
+    const size_t size = koksma__gltf_component_size((int)component) * (size_t)out->width;
+    out->first = bytes.bytes + offset;
+    out->n = (size_t)n;
+    out->component = (int)component;
+    out->stride = stride > size ? stride : size;
+    return KOKSMA_OK;
+}
+
+size_t koksma__gltf_component_size(int component)
+{
+    static const unsigned char sizes[] = {1, 1, 2, 2, 0, 4, 4}; /* of 5120 to 5126 */
+    return sizes[component - 5120];
+}
+
+size_t koksma__gltf_whole(const koksma__gltf_elements *e, size_t i)
+{
+    return koksma__bits_at(e->first + i * e->stride, koksma__gltf_component_size(e->component), false);
+}
+
+/* Normalised integers (glTF 2.0, section 3.6.2.2): unsigned ones are c / 255 or c / 65535, signed ones max(c / 127,
+   -1) or max(c / 32767, -1). */
+float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k)
+{
+    const unsigned char *at = e->first + i * e->stride;
+    float value = 0, full = 0;
+    if (e->component == 5126 || e->component == 5125) {
+        const uint32_t bits = (uint32_t)koksma__bits_at(at + 4 * k, 4, false);
+        memcpy(&value, &bits, sizeof value);
+        return e->component == 5126 ? value : (float)bits;
+    }
+    if (e->component < 5122) {
+        value = e->component == 5121 ? (float)at[k] : (float)(signed char)at[k];
+        full = e->component == 5121 ? 255 : 127;
+    } else {
+        const uint32_t bits = (uint32_t)koksma__bits_at(at + 2 * k, 2, false);
+        value = e->component == 5123 ? (float)bits : (float)(int16_t)bits;
+        full = e->component == 5123 ? 65535 : 32767;
+    }
+    return !e->normalised ? value : value < -full ? -1 : value / full;
+}
+
+/* ---- The file ----------------------------------------------------------------------------------------------- */
+
+static size_t number_at(const unsigned char *at)
+{
+    return (size_t)koksma__bits_at(at, 4, false);
+}
+
+/* Splits a binary file, a header followed by chunks with length and kind, into the JSON's text and the binary chunk,
+   if there is one. */
+static koksma_status split(const char *path, koksma__gltf_bytes *text, koksma__gltf_bytes *binary)
+{
+    const unsigned char *file = text->bytes;
+    const size_t size = text->size;
+    if (size < 4 || memcmp(file, "glTF", 4) != 0) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__FAIL_IF(size < 20 || number_at(file + 4) != 2 || memcmp(file + 16, "JSON", 4) != 0 ||
+                        number_at(file + 12) > size - 20,
+                    KOKSMA_MALFORMED, "%s: not a glTF 2 file in binary form, or cut short", path);
+    *text = (koksma__gltf_bytes){file + 20, number_at(file + 12)};
+    const size_t next = 20 + text->size;
+    KOKSMA__FAIL_IF(number_at(file + 8) != size ||
+                        (next < size && (size - next < 8 || number_at(file + next) > size - next - 8)),
+                    KOKSMA_MALFORMED, "%s: the lengths of its chunks do not add up to the length of the file", path);
+    if (next < size && text->size % 4) { /* glTF 2.0, section 4.4.3.1 */
+        return koksma__fail(KOKSMA_MALFORMED, "%s: its first chunk has %zu bytes, which is not a multiple of 4", path,
+                            text->size);
+    }
+    if (next < size && !memcmp(file + next + 4, "BIN", 4)) {
+        *binary = (koksma__gltf_bytes){file + next + 8, number_at(file + next)};
+    }
+    return KOKSMA_OK;
+}
+
+/* Allocates zeroed arrays that are as long as the file's lists. */
+static koksma_status make_arrays(koksma__gltf *g)
+{
+    g->buffers = calloc(g->n[KOKSMA__GLTF_BUFFERS] + 1, sizeof *g->buffers);
+    g->images = calloc(g->n[KOKSMA__GLTF_IMAGES] + 1, sizeof *g->images);
+    g->beyond = calloc(g->n[KOKSMA__GLTF_ACCESSORS] + 1, sizeof *g->beyond);
+    g->mesh_shown = calloc(g->n[KOKSMA__GLTF_MESHES] + 1, sizeof *g->mesh_shown);
+    g->material_used = calloc(g->n[KOKSMA__GLTF_MATERIALS] + 1, sizeof *g->material_used);
+    g->material_tinted = calloc(g->n[KOKSMA__GLTF_MATERIALS] + 1, sizeof *g->material_tinted);
+    const bool all = g->material_tinted && g->buffers && g->images && g->beyond && g->mesh_shown && g->material_used;
+    return all ? KOKSMA_OK : koksma__fail_memory(g->n[KOKSMA__GLTF_ACCESSORS] * sizeof *g->beyond);
+}
+
+/* Records the names of unsupported extensions that the file uses, for a warning. */
+static koksma_status note_extensions(koksma__gltf *g)
+{
+    koksma__unread *unread = &g->out->unread;
+    field list;
+    size_t n = 0;
+    KOKSMA__TRY(koksma__gltf_list(&g->root, "extensionsUsed", &list, &n));
+    for (size_t i = 0; i < n; i++) {
+        const field item = koksma__json_item(&list, i);
+        const char *name = "";
+        KOKSMA__TRY(koksma__json_text(&item, &name));
+        KOKSMA__TRY(koksma__names_put(&g->listed, name, strlen(name), i));
+        if (!koksma__gltf_reads(name)) {
+            const size_t used = strlen(unread->extension);
+            snprintf(unread->extension + used, sizeof unread->extension - used, "%s%s", used ? ", " : "", name);
+            unread->extensions++;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status read_all(koksma__gltf *g)
+{
+    koksma__unread *unread = &g->out->unread;
+    field list;
+    KOKSMA__TRY(note_extensions(g));
+    KOKSMA__TRY(koksma__gltf_name_unknown(g));
+    KOKSMA__TRY(koksma__gltf_check(g));
+    KOKSMA__TRY(make_arrays(g));
+    KOKSMA__TRY(koksma__gltf_list(&g->root, "animations", &list, &unread->animations));
+    unread->skins = g->n[KOKSMA__GLTF_SKINS];
+    KOKSMA__TRY(load_buffers(g));
+    KOKSMA__TRY(koksma__gltf_read_nodes(g));
+    KOKSMA__TRY(koksma__gltf_read_meshes(g));
+    return koksma__gltf_read_materials(g);
+}
+
+koksma_status koksma__gltf_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out)
+{
+    koksma__gltf g = {.out = out};
+    koksma__json *document;
+    koksma__gltf_bytes text = {bytes, size};
+    KOKSMA__TRY(split(out->path, &text, &g.binary));
+    koksma_status status = koksma__json_open("glTF", out->path, (const char *)text.bytes, text.size, &document);
+    if (!status) {
+        g.root = koksma__json_root(document);
+        g.text_size = text.size;
+        status = read_all(&g);
+    }
+    koksma__json_close(document);
+    koksma__names_fini(&g.listed);
+    KOKSMA__FREE(g.buffers, g.images, g.beyond, g.mesh_shown, g.material_used, g.material_tinted, g.shown.items);
+    return status;
 }

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reader of glTF 2.0, JSON and buffers, in several files: gltf_check.c checks that the parts fit together;
-   gltf_read.c opens the file; gltf_materials.c reads its materials and gltf_buffers.c its buffers and accessors;
-   gltf_meshes.c makes meshes from primitives; gltf_nodes.c places them and reads the lights and the camera. This
-   header declares what these files share. */
+/* The reader of glTF 2.0, JSON and buffers, in several files: gltf.c opens the file and reads its buffers and accessors;
+   gltf_schema.c checks that the parts fit together; gltf_materials.c reads its materials; gltf_meshes.c makes meshes from
+   primitives; gltf_nodes.c places them and reads the lights and the camera. This header declares what these files share. */
 #ifndef KOKSMA_MESHES_GLTF_H
 #define KOKSMA_MESHES_GLTF_H
 
-#include "meshes/mesh_file.h"
+#include "meshes/readers.h"
 #include "json/json.h"
 
 enum { KOKSMA__GLTF_ITEMS = 1 << 20 }; /* of a list */
@@ -61,5 +60,58 @@ koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i);
 
 /* Follows the path `keys` into nested objects; returns false if a key is missing. */
 bool koksma__gltf_find(const koksma__json_node *from, const char *const keys[], koksma__json_node *out);
+
+/* The position and type of an accessor's elements. */
+typedef struct koksma__gltf_elements {
+    const unsigned char *first;
+    size_t n, stride;
+    int component; /* glTF's number of the component type, 5120 to 5126 */
+    int width;     /* number of components of an element */
+    bool normalised;
+} koksma__gltf_elements;
+
+/* Decodes a data URI in base64 into bytes that the koksma__mesh_file owns; errors name the field f. Errors:
+   MALFORMED, MEMORY. */
+koksma_status koksma__gltf_decode(koksma__gltf *g, const koksma__json_node *f, const char *uri,
+                                  koksma__gltf_bytes *out);
+
+/* The bytes of a buffer view. Errors: MALFORMED (its buffer is missing). */
+koksma_status koksma__gltf_view(const koksma__gltf *g, size_t view, koksma__gltf_bytes *out, size_t *stride);
+
+/* The accessor whose index is the member `key` of the object. Errors: MALFORMED. */
+koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const koksma__json_node *object, const char *key,
+                                       koksma__gltf_elements *out, long long *number);
+
+/* Size of a component in bytes; 0: there is no such type. */
+size_t koksma__gltf_component_size(int component);
+
+/* Returns element i of an accessor of integers with one component, such as indices. */
+size_t koksma__gltf_whole(const koksma__gltf_elements *e, size_t i);
+
+/* Returns component k of element i. For integers of a normalised accessor it lies between -1 and 1. */
+float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k);
+
+/* gltf_schema.c. Names each member of the file's objects that glTF 2.0 does not have, in g->out->unknown. Error: MEMORY. */
+koksma_status koksma__gltf_name_unknown(koksma__gltf *g);
+
+/* Finds the lists of the root object, and checks that every index of another item is in range, every buffer view and
+   accessor lies within its buffer or view, and nodes form trees. Errors: MALFORMED, MEMORY. */
+koksma_status koksma__gltf_check(koksma__gltf *g);
+
+/* Whether the reader supports the extension of this name. */
+bool koksma__gltf_reads(const char *extension);
+
+/* gltf_materials.c. Reads the materials that g->material_used marks; they keep the file's indices. Errors: MALFORMED, MEMORY. */
+koksma_status koksma__gltf_read_materials(koksma__gltf *g);
+
+/* The set of texture coordinates, 0 or 1, for meshes of a material: that of the material's first texture. */
+int koksma__gltf_uv_set(const koksma__gltf *g, size_t material);
+
+/* gltf_meshes.c. Checks all meshes, and reads those that the scene shows, with their placements. Errors: MALFORMED, MEMORY. */
+koksma_status koksma__gltf_read_meshes(koksma__gltf *g);
+
+/* gltf_nodes.c. Adds the placements of meshes to g->shown, and the lights and the camera to the mesh file. Errors: MALFORMED,
+   MEMORY. */
+koksma_status koksma__gltf_read_nodes(koksma__gltf *g);
 
 #endif

@@ -7,7 +7,7 @@
  * first texture of its material uses; textures with another set are counted for a warning. Specification: Khronos,
  * "glTF 2.0" (2021), section 3.9, and the specifications of the extensions.
  */
-#include "meshes/gltf_materials.h"
+#include "meshes/gltf.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +15,6 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "meshes/gltf_buffers.h"
 
 typedef koksma__json_node field;
 

@@ -6,14 +6,12 @@
  * as there are positions, and every index names a position (glTF 2.0, section 3.7.2). Only meshes that a node of the
  * scene shows are kept.
  */
-#include "meshes/gltf_meshes.h"
+#include "meshes/gltf.h"
 
 #include <stdlib.h>
 
 #include "core/read_file.h"
 #include "core/status.h"
-#include "meshes/gltf_buffers.h"
-#include "meshes/gltf_materials.h"
 
 typedef koksma__json_node field;
 
@@ -34,7 +32,6 @@ static koksma_status take_attribute(const koksma__gltf *g, const field *list, co
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__gltf_elements_at(g, list, key, out, &number));
-    koksma_status status = KOKSMA_OK;
     const bool normalised = out->normalised && (out->component == 5121 || out->component == 5123);
     KOKSMA__JSON_FAIL_IF((out->width != width && !(wide && out->width == width + 1)) ||
                              (out->component != 5126 && (floats || !normalised)),
@@ -42,11 +39,9 @@ static koksma_status take_attribute(const koksma__gltf *g, const field *list, co
                          number, out->width, out->component, width,
                          floats ? "" : ", or normalized ones of 5121 or 5123");
     if (p && out->n != p->positions.n) {
-        status = koksma__json_get_whole(list, "POSITION", true, 0, KOKSMA__GLTF_ITEMS, &positions);
-        return status ? status
-                      : koksma__json_fail(list,
-                                          "%s: accessor %lld has %zu elements, but accessor %lld has %zu positions",
-                                          key, number, out->n, positions, p->positions.n);
+        KOKSMA__TRY(koksma__json_get_whole(list, "POSITION", true, 0, KOKSMA__GLTF_ITEMS, &positions));
+        return koksma__json_fail(list, "%s: accessor %lld has %zu elements, but accessor %lld has %zu positions", key,
+                                 number, out->n, positions, p->positions.n);
     }
     return KOKSMA_OK;
 }
@@ -58,22 +53,21 @@ static koksma_status take_indices(koksma__gltf *g, const field *f, const field *
     if (!koksma__json_has(f, "indices")) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__gltf_elements_at(g, f, "indices", e, &number);
-    if (!status && (e->width != 1 || (e->component != 5121 && e->component != 5123 && e->component != 5125))) {
+    KOKSMA__TRY(koksma__gltf_elements_at(g, f, "indices", e, &number));
+    if (e->width != 1 || (e->component != 5121 && e->component != 5123 && e->component != 5125)) {
         const field accessor = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, (size_t)number);
         const char *type = "";
-        status = koksma__json_get_text(&accessor, "type", true, &type);
-        return status ? status
-                      : koksma__json_fail(f,
-                                          "indices: accessor %lld has %.16s of component type %d; indices are "
-                                          "SCALAR of 5121, 5123 or 5125",
-                                          number, type, e->component);
+        KOKSMA__TRY(koksma__json_get_text(&accessor, "type", true, &type));
+        return koksma__json_fail(f,
+                                 "indices: accessor %lld has %.16s of component type %d; indices are SCALAR of 5121, "
+                                 "5123 or 5125",
+                                 number, type, e->component);
     }
     /* Computed once for each accessor, because many primitives may share an accessor. All accessors may share the same
        bytes, too; those that don't are no longer together than a buffer may be. */
-    if (!status && !g->beyond[number]) {
+    if (!g->beyond[number]) {
         const size_t most = koksma__file_most(KOKSMA__FILE_BUFFER);
-        g->index_bytes += e->n * (e->component == 5121 ? 1 : e->component == 5123 ? 2 : 4);
+        g->index_bytes += e->n * koksma__gltf_component_size(e->component);
         KOKSMA__JSON_FAIL_IF(g->index_bytes > most, f,
                              "indices: accessors of more than %zu MiB of indices up to here; let primitives with the "
                              "same indices share an accessor",
@@ -83,18 +77,17 @@ static koksma_status take_indices(koksma__gltf *g, const field *f, const field *
             g->beyond[number] = after > g->beyond[number] ? after : g->beyond[number];
         }
     }
-    for (size_t i = 0; !status && g->beyond[number] > p->positions.n && i < e->n; i++) {
+    for (size_t i = 0; g->beyond[number] > p->positions.n && i < e->n; i++) {
         const size_t vertex = koksma__gltf_whole(e, i);
         if (vertex >= p->positions.n) {
-            status = koksma__json_get_whole(attributes, "POSITION", true, 0, KOKSMA__GLTF_ITEMS, &positions);
-            return status ? status
-                          : koksma__json_fail(f,
-                                              "indices: number %zu of accessor %lld is vertex %zu, but accessor %lld "
-                                              "has %zu vertices, numbered from 0",
-                                              i, number, vertex, positions, p->positions.n);
+            KOKSMA__TRY(koksma__json_get_whole(attributes, "POSITION", true, 0, KOKSMA__GLTF_ITEMS, &positions));
+            return koksma__json_fail(f,
+                                     "indices: number %zu of accessor %lld is vertex %zu, but accessor %lld has %zu "
+                                     "vertices, numbered from 0",
+                                     i, number, vertex, positions, p->positions.n);
         }
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Reads a primitive. A primitive without positions has n = 0 and shows nothing. */
@@ -102,18 +95,18 @@ static koksma_status take_primitive(koksma__gltf *g, const field *f, primitive *
 {
     field list;
     *p = (primitive){.mode = TRIANGLES, .material = (long long)g->n[KOKSMA__GLTF_MATERIALS]};
-    koksma_status status = koksma__json_member(f, "attributes", &list);
-    if (status || !koksma__json_has(&list, "POSITION")) {
-        return status;
+    KOKSMA__TRY(koksma__json_member(f, "attributes", &list));
+    if (!koksma__json_has(&list, "POSITION")) {
+        return KOKSMA_OK;
     }
-    status = koksma__json_get_whole(f, "mode", false, 0, FAN, &p->mode);
-    status = status ? status : koksma__json_get_whole(f, "material", false, 0, p->material, &p->material);
-    status = status ? status : take_attribute(g, &list, "POSITION", 3, true, false, NULL, &p->positions);
-    status = status ? status : take_attribute(g, &list, "NORMAL", 3, true, false, p, &p->normals);
+    KOKSMA__TRY(koksma__json_get_whole(f, "mode", false, 0, FAN, &p->mode));
+    KOKSMA__TRY(koksma__json_get_whole(f, "material", false, 0, p->material, &p->material));
     const char *const uvs = koksma__gltf_uv_set(g, (size_t)p->material) ? "TEXCOORD_1" : "TEXCOORD_0";
-    status = status ? status : take_attribute(g, &list, uvs, 2, false, false, p, &p->uvs);
-    status = status ? status : take_attribute(g, &list, "COLOR_0", 3, false, true, p, &p->colours);
-    return status ? status : take_indices(g, f, &list, p);
+    KOKSMA__TRY(take_attribute(g, &list, "POSITION", 3, true, false, NULL, &p->positions));
+    KOKSMA__TRY(take_attribute(g, &list, "NORMAL", 3, true, false, p, &p->normals));
+    KOKSMA__TRY(take_attribute(g, &list, uvs, 2, false, false, p, &p->uvs));
+    KOKSMA__TRY(take_attribute(g, &list, "COLOR_0", 3, false, true, p, &p->colours));
+    return take_indices(g, f, &list, p);
 }
 
 /* The vertex at corner k of triangle t; every second triangle of a strip has the opposite order (glTF 2.0, section

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads the nodes of a glTF file's scene: where they place meshes, lights (KHR_lights_punctual) and the camera. A
- * node's matrix is the product of the matrices from its root down to the node, in double precision. gltf_check.c has
+ * node's matrix is the product of the matrices from its root down to the node, in double precision. gltf_schema.c has
  * checked that nodes form trees.
  */
-#include "meshes/gltf_nodes.h"
+#include "meshes/gltf.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -67,7 +67,6 @@ static koksma_status walk(graph *s, size_t i, const double parent[12], int depth
     KOKSMA__JSON_FAIL_IF(s->shown[i], &node, "the scene names this node twice");
     s->shown[i] = true;
     KOKSMA__TRY(own_matrix(&node, own));
-    koksma_status status = KOKSMA_OK;
     koksma__matrix_multiply(parent, own, s->matrices[i]);
     if (koksma__json_has(&node, "mesh")) {
         koksma__file_placement *to = koksma__list_add(&g->shown, 1, sizeof *to);
@@ -76,13 +75,13 @@ static koksma_status walk(graph *s, size_t i, const double parent[12], int depth
         g->mesh_shown[number] = true;
         memcpy(to->matrix, s->matrices[i], sizeof to->matrix);
     }
-    status = koksma__gltf_list(&node, "children", &list, &n);
-    for (size_t c = 0; !status && c < n; c++) {
+    KOKSMA__TRY(koksma__gltf_list(&node, "children", &list, &n));
+    for (size_t c = 0; c < n; c++) {
         const field child = koksma__json_item(&list, c);
-        status = koksma__json_whole(&child, 0, KOKSMA__GLTF_ITEMS, &number);
-        status = status ? status : walk(s, (size_t)number, s->matrices[i], depth + 1);
+        KOKSMA__TRY(koksma__json_whole(&child, 0, KOKSMA__GLTF_ITEMS, &number));
+        KOKSMA__TRY(walk(s, (size_t)number, s->matrices[i], depth + 1));
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Visits the scene that the file names as its default, or else its first scene. */
@@ -96,13 +95,13 @@ static koksma_status walk_scene(graph *s)
     KOKSMA__TRY(koksma__json_get_whole(&g->root, "scene", false, 0, KOKSMA__GLTF_ITEMS, &scene));
     KOKSMA__JSON_FAIL_IF(!g->n[KOKSMA__GLTF_SCENES], &g->root, "the file has no scenes: nothing is shown");
     const field shown = koksma__gltf_item(g, KOKSMA__GLTF_SCENES, (size_t)scene);
-    koksma_status status = koksma__gltf_list(&shown, "nodes", &list, &n);
-    for (size_t i = 0; !status && i < n; i++) {
+    KOKSMA__TRY(koksma__gltf_list(&shown, "nodes", &list, &n));
+    for (size_t i = 0; i < n; i++) {
         const field item = koksma__json_item(&list, i);
-        status = koksma__json_whole(&item, 0, KOKSMA__GLTF_ITEMS, &number);
-        status = status ? status : walk(s, (size_t)number, identity, 0);
+        KOKSMA__TRY(koksma__json_whole(&item, 0, KOKSMA__GLTF_ITEMS, &number));
+        KOKSMA__TRY(walk(s, (size_t)number, identity, 0));
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* ---- Lights and cameras ------------------------------------------------------------------------------------- */

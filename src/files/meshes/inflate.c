@@ -5,7 +5,7 @@
  * decompressed only as far as the caller asks, so that a file that would decompress to more than it claims costs
  * nothing.
  */
-#include "meshes/inflate.h"
+#include "meshes/readers.h"
 
 #include <stdlib.h>
 

@@ -8,7 +8,6 @@
 #include "core/read_file.h"
 #include "meshes/mesh.h"
 #include "meshes/names.h"
-#include "meshes/unknown.h"
 
 enum { KOKSMA__FILE_KEY = 64 }; /* size of the text of koksma__file_key */
 
@@ -82,7 +81,7 @@ typedef struct koksma__file_light {
 typedef struct koksma__mesh_file {
     const char *path;
     koksma__file_sizes *sizes; /* NULL, or counts the model and its buffers */
-    /* sum of the hashes of all files read: the model's as often as mesh_read.c explains, those that it names once, three
+    /* sum of the hashes of all files read: the model's as often as mesh_file.c explains, those that it names once, three
        times, five times, ..., so that their order counts */
     uint64_t hash;
     size_t n_named; /* the number of files that it names and that were read */
@@ -157,5 +156,33 @@ koksma_status koksma__file_count(koksma__file_sizes *sizes, const char *path);
    in glTF are URIs, see RFC 3986, section 2.1), or with \ replaced by / (OBJ files from Windows). Returns false if
    there is no such file. A folder is found as well, so that opening it says what is wrong. */
 bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MAX_PATH]);
+
+/* ---- Whole files ---- */
+
+/* Whether a file's name has the ending of a mesh file (.obj .ply .ply.gz .off .gltf .glb .serialized). */
+bool koksma__is_mesh_file(const char *path);
+
+/* Reads a mesh file and the files that it names. The caller must call koksma__mesh_file_fini even after an error.
+   Errors: MISSING, MALFORMED, MEMORY. */
+koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma__mesh_file *out);
+
+/* Reads all triangles of a mesh file as one checked mesh. sizes: NULL, or counts the files that were read. out must be
+   zeroed except for its name. Errors: MISSING, MALFORMED, MEMORY. */
+koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__file_sizes *sizes, koksma__mesh *out);
+
+/* A .serialized file whose meshes are read one by one; zeroed at first. */
+typedef struct koksma__serialized {
+    unsigned char *bytes; /* NULL: it is closed */
+    size_t size;          /* length of the file, also after it is closed */
+    uint64_t read;        /* number of bytes to which the meshes that were read decompress */
+} koksma__serialized;
+
+/* Reads the file and checks its dictionary. Errors: MISSING, MALFORMED, MEMORY. */
+koksma_status koksma__serialized_open(const char *path, koksma__serialized *file);
+void koksma__serialized_close(koksma__serialized *file);
+
+/* Reads mesh number `part`, from 0, of an open file as a checked mesh. Of all meshes that are read of a file, the same
+   one again too, no more may be decompressed than a model may have. *out must be zeroed. Errors as above. */
+koksma_status koksma__serialized_mesh(koksma__serialized *file, const char *path, long part, koksma__mesh *out);
 
 #endif

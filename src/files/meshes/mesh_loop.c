@@ -15,7 +15,7 @@
  * of that for indices that are chosen so that their hashes agree. Normals are computed from the fine triangles,
  * weighted by angles; they approach the normals of the limit surface.
  */
-#include "meshes/mesh_loop.h"
+#include "meshes/mesh.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -7,7 +7,7 @@
  * equal to the first. Format: Wavefront's
  * "Advanced Visualizer Manual", section 2.3 (Pm, Pr and map_Ke: the PBR extension of 2013).
  */
-#include "meshes/mesh_mtl.h"
+#include "meshes/readers.h"
 
 #include <math.h>
 #include <stdio.h>

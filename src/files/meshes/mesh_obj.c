@@ -13,14 +13,13 @@
  *
  * Format: Wavefront's "Advanced Visualizer Manual", appendix B1.
  */
-#include "meshes/mesh_obj.h"
+#include "meshes/readers.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "core/hash.h"
-#include "meshes/mesh_mtl.h"
 #include "meshes/mesh_text.h"
 
 enum { MAX_LINE = 1 << 15, MAX_LIBRARIES = 64 };

@@ -6,7 +6,7 @@
  * it becomes a fan of triangles. The variants with a prefix (COFF, NOFF, STOFF, 4OFF, nOFF) and the binary form are
  * recognised by their first line and rejected. Format: http://www.geomview.org/docs/html/OFF.html.
  */
-#include "meshes/mesh_off.h"
+#include "meshes/readers.h"
 
 #include <stdlib.h>
 

@@ -13,7 +13,7 @@
  *
  * Format: G. Turk, "The PLY Polygon File Format" (1994); texcoord and TextureFile are MeshLab's.
  */
-#include "meshes/mesh_ply.h"
+#include "meshes/readers.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds things of a scene or mesh file by their names, of which there may be a million. */
+/* Names in a scene or mesh file: finds things by their names, of which there may be a million, and lists what the readers
+   do not read. */
 #ifndef KOKSMA_MESHES_NAMES_H
 #define KOKSMA_MESHES_NAMES_H
 
-#include <koksma/koksma.h>
+#include "core/status.h"
 
 /* A name in the tree. */
 typedef struct koksma__names_node {
@@ -26,5 +27,29 @@ koksma_status koksma__names_put(koksma__names *names, const char *name, size_t l
 bool koksma__names_find(const koksma__names *names, const char *name, size_t length, size_t *index);
 
 void koksma__names_fini(koksma__names *names);
+
+/* ---- What is not read, with file and line ---- */
+
+/* A feature of another renderer's scene that is not supported, and its replacement, or a name in a model's file that its
+   format does not have. */
+typedef struct koksma__unknown {
+    char file[64], text[256];
+    unsigned long line; /* line of the first occurrence in `file`; there are n occurrences */
+    size_t n;
+} koksma__unknown;
+
+/* A list of them, of which those with equal texts are one. */
+enum { KOKSMA__MOST_UNKNOWN = 256 };
+
+/* Counts an occurrence of a text, also in the last entry if the list is full; returns false if the text is new and the list
+   has room for it. */
+bool koksma__unknown_count(koksma__unknown *list, size_t n, const char *text);
+
+/* Returns `status`; if it is MALFORMED, the last text of the list, which may be its cause, is put behind the error's. */
+koksma_status koksma__unknown_explain(koksma_status status, const koksma__unknown *list, size_t n);
+
+/* Adds a text that is new. Error: MEMORY. */
+koksma_status koksma__unknown_add(koksma__unknown **list, size_t *n, const char *file, unsigned long line,
+                                  const char *text);
 
 #endif

@@ -8,7 +8,7 @@
 #define KOKSMA_SCENE_IMPORT_H
 
 #include "core/read_file.h"
-#include "meshes/mesh_serialized.h"
+#include "meshes/mesh_file.h"
 #include "meshes/names.h"
 #include "render/description.h"
 #include "render/scene_images.h"

@@ -20,7 +20,6 @@
 #include "core/capacity.h"
 #include "core/vector.h"
 #include "meshes/mesh_file.h"
-#include "meshes/mesh_read.h"
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"

@@ -11,7 +11,7 @@
 
 #include "core/capacity.h"
 #include "core/hash.h"
-#include "meshes/inflate.h"
+#include "meshes/readers.h"
 #include "scene/import_limits.h"
 
 enum { MOST_INCLUDES = 4096, MOST_RATIO = 16, MOST_SURPLUS = 256 << 20 };

@@ -16,7 +16,7 @@
 #include "core/vector.h"
 #include "image/formats.h"
 #include "image/image.h"
-#include "meshes/mesh_read.h"
+#include "meshes/mesh_file.h"
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"

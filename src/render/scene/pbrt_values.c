@@ -16,7 +16,7 @@
 
 #include "core/c_locale.h"
 #include "core/capacity.h"
-#include "meshes/mesh_loop.h"
+#include "meshes/mesh.h"
 #include "render/fields.h"
 #include "render/materials/materials.h"
 #include "scene/import_limits.h"

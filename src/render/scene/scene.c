@@ -12,7 +12,7 @@
 #include "core/read_file.h"
 #include "core/status.h"
 #include "core/suggestion.h"
-#include "meshes/mesh_read.h"
+#include "meshes/mesh_file.h"
 #include "render/scene_images.h"
 #include "render/scene_warnings.h"
 #include "scene/import_open.h"

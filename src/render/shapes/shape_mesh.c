@@ -9,7 +9,7 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "meshes/mesh_read.h"
+#include "meshes/mesh_file.h"
 #include "render/placements.h"
 #include "render/shapes/shapes.h"
 

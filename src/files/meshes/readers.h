@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The readers of mesh files, one for each format, and zlib for those that are compressed. A reader adds the contents of a
+   file, which is in memory, followed by a zero byte, and not empty, to `out`; out->path is set. Errors: MALFORMED, MEMORY,
+   and what else is said below. */
+#ifndef KOKSMA_MESHES_READERS_H
+#define KOKSMA_MESHES_READERS_H
+
+#include "meshes/mesh_file.h"
+
+typedef koksma_status koksma__mesh_reader(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+
+koksma__mesh_reader koksma__obj_read;  /* with its material files; MISSING */
+koksma__mesh_reader koksma__gltf_read; /* JSON or binary, with its buffers; MISSING */
+koksma__mesh_reader koksma__ply_read;
+koksma__mesh_reader koksma__off_read;
+koksma__mesh_reader koksma__serialized_read; /* Mitsuba's; UNSUPPORTED (this build lacks zlib) */
+
+/* Checks the two bytes with which a .serialized file begins. */
+koksma__check_start koksma__serialized_start;
+
+/* ---- Material files of OBJ ---- */
+
+typedef struct koksma__mtl_name {
+    char *name;      /* owned */
+    size_t material; /* index of the material in the mesh file */
+    bool made;       /* whether a material file defines the material; otherwise only usemtl lines name it */
+} koksma__mtl_name;
+
+typedef struct koksma__mtl_names {
+    koksma__list names;   /* in the order of the file */
+    koksma__names places; /* the index of each in that list */
+} koksma__mtl_names;
+
+/* The entry of the name; a new name gets an entry with a grey material. NULL when memory runs out. The pointer is
+   valid until the next call. */
+koksma__mtl_name *koksma__mtl_find(koksma__mtl_names *names, koksma__mesh_file *f, const char *name, size_t length);
+void koksma__mtl_names_fini(koksma__mtl_names *names);
+
+/* Reads the material file at `path` into the materials of f, and adds its hash to f's hash. Errors: MISSING,
+   MALFORMED, MEMORY. */
+koksma_status koksma__mtl_read(const char *path, koksma__mtl_names *names, koksma__mesh_file *f);
+
+/* ---- Compressed bytes: zlib and gzip streams (RFC 1950 and 1952) ---- */
+
+/* The largest ratio that deflate reaches: its longest match, 258 bytes, in two bits. If a header claims more bytes
+   than this ratio times the compressed size, it is wrong. */
+#define KOKSMA__INFLATE_RATIO 1032
+
+typedef struct koksma__inflate koksma__inflate;
+
+/* Starts to decompress a stream. koksma__inflate_close ends it, also after an error, and accepts NULL. The error
+   texts of these functions do not name the file. Errors: UNSUPPORTED (this build lacks zlib), MEMORY. */
+koksma_status koksma__inflate_open(const unsigned char *bytes, size_t size, koksma__inflate **out);
+void koksma__inflate_close(koksma__inflate *in);
+
+/* Reads the next n decompressed bytes. Errors: MALFORMED (the stream is damaged, or fewer bytes are left), MEMORY. */
+koksma_status koksma__inflate_read(koksma__inflate *in, void *to, size_t n);
+
+/* Decompresses a whole gzip file, which has one or several streams, and adds a zero byte; the caller frees *out.
+   Memory grows with the bytes that were decompressed. Errors: those above, and MALFORMED (more than `most` bytes). */
+koksma_status koksma__inflate_all(const unsigned char *bytes, size_t size, size_t most, unsigned char **out,
+                                  size_t *out_size);
+
+#endif
