@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/suggestion.h"
+#include "core/lookup.h"
 #include "core/vector.h"
 #include "render/scene_images.h"
 

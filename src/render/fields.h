@@ -13,7 +13,7 @@
 
 #include <koksma/render.h>
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "core/status.h"
 #include "json/json.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Decimal numbers against libc's strtod and printf, which round once: every fraction of 2^16, every decimal of 6 digits,
    neighbours of powers of ten, ties, random numbers of every kind of pattern, and what the quick road refuses. */
-#include "core/decimal.h"
 
 #include <stdlib.h>
 #include <string.h>

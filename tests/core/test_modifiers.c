@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "claims/claims.h"
-#include "core/modifiers.h"
 #include "core/random.h"
+#include "core/spec.h"
 #include "patterns/patterns.h"
 #include "test.h"
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/sha256.h"
+#include "core/hash.h"
 
 static void expect(const char *bytes, size_t size, size_t piece, const char *expected)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The kernels of the star discrepancy against their twins: maxima of the same numbers, to the bit; lists longer than
    the fast form's chunks among them. */
-#include "core/permutation.h"
+#include "core/random.h"
 #include "kernels/kernels.h"
 #include "sets.h"
 

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "claims/claims.h"
-#include "core/permutation.h"
 #include "core/random.h"
 #include "patterns/nets/nets.h"
 #include "test.h"

@@ -8,8 +8,8 @@
 
 #include <koksma/render.h>
 
-#include "core/modifiers.h"
 #include "core/random.h"
+#include "core/spec.h"
 #include "render/samples/float_sets.h"
 #include "render/samples/pixel_samples.h"
 #include "render/samples/sampler.h"

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "core/modifiers.h"
 #include "core/points.h"
 #include "core/spec.h"
 #include "core/status.h"

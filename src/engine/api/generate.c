@@ -6,8 +6,6 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "core/allow.h"
-#include "core/modifiers.h"
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/points_io.h"

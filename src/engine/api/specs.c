@@ -5,10 +5,8 @@
 #include <string.h>
 
 #include "core/lookup.h"
-#include "core/modifiers.h"
 #include "core/spec.h"
 #include "core/status.h"
-#include "core/suggestion.h"
 
 KOKSMA__NAME_AT(koksma_pattern)
 KOKSMA__NAME_AT(koksma_measure)

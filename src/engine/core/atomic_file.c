@@ -17,7 +17,7 @@
  * any more, and makes a new one. On a file system without locks, left-over files are not removed.
  */
 #define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH, renameat2 */
-#include "core/atomic_file.h"
+#include "core/files.h"
 
 #include <dirent.h>
 #include <errno.h>

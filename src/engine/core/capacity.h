@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Arrays that grow, and a macro that frees several blocks of memory. */
+/* Memory: arrays that grow, a macro that frees several blocks, and large pages. */
 #ifndef KOKSMA_CORE_CAPACITY_H
 #define KOKSMA_CORE_CAPACITY_H
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,5 +53,10 @@ static inline void koksma__free_all(void *const *blocks, size_t n)
         free(blocks[i]);
     }
 }
+
+/* Asks the system for large pages in a new block of many megabytes; for smaller blocks it does nothing. This pays
+   because the first access to each page of a new block takes longer than filling the page several times. The system
+   may ignore the request. */
+void koksma__large_pages(void *memory, size_t bytes);
 
 #endif

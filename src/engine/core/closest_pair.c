@@ -6,7 +6,7 @@
  * line and their y differ by less than d; few pairs meet these conditions. On the torus a second search covers the
  * points near a side together with copies of the points near the opposite side.
  */
-#include "core/closest_pair.h"
+#include "core/points.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 
 enum { PAIRS_AT_ONCE = 1 << 20 };
 

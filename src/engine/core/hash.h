@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Hashes of bytes. */
 #ifndef KOKSMA_CORE_HASH_H
 #define KOKSMA_CORE_HASH_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+#include "core/visibility.h"
 
 /* 64-bit hash of a byte string: FNV-1a, then the finalizer of SplitMix64, so that each input bit affects all output
    bits. The seeds of a study's jobs are computed from this hash, so it must never change. To hash a string in pieces,
@@ -29,5 +32,21 @@ static inline uint64_t koksma__hash(const void *bytes, size_t size)
 {
     return koksma__hash_end(koksma__hash_more(KOKSMA__HASH_START, bytes, size));
 }
+
+/* ---- SHA-256 (FIPS 180-4): the fingerprints of reference images, of a study's rows and of its plan ---- */
+
+enum { KOKSMA__SHA256_TEXT = 65 };
+
+typedef struct koksma__sha256 {
+    uint32_t state[8];
+    uint64_t size; /* number of bytes added so far */
+    unsigned char block[64];
+} koksma__sha256;
+
+KOKSMA__LAB void koksma__sha256_init(koksma__sha256 *hash);
+KOKSMA__LAB void koksma__sha256_add(koksma__sha256 *hash, const void *bytes, size_t size);
+
+/* Writes the hash of all bytes that were added as 64 hexadecimal digits. */
+KOKSMA__LAB void koksma__sha256_finish(koksma__sha256 *hash, char text[KOKSMA__SHA256_TEXT]);
 
 #endif

@@ -9,7 +9,7 @@
  *
  *     KOKSMA__NAME_AT(koksma_pattern)
  *
- * defines koksma_pattern_name_at(NULL, i) for koksma__fail_unknown() (core/suggestion.h).
+ * defines koksma_pattern_name_at(NULL, i) for koksma__fail_unknown() below.
  */
 #ifndef KOKSMA_CORE_LOOKUP_H
 #define KOKSMA_CORE_LOOKUP_H
@@ -41,5 +41,19 @@
         (void)unused;                                                                                                \
         return type##_at(i) ? type##_at(i)->name : NULL;                                                             \
     }
+
+/* ---- The name that a misspelt word probably means, for messages: koksma_closest_name() of koksma.h ---- */
+
+enum { KOKSMA__MEANT = 96 };
+
+/* Writes "did you mean 'NAME'? " with the nearest name of a table (koksma_closest_name()), or "" if none is near.
+   Returns text. */
+KOKSMA__LAB const char *koksma__meant(const char *word, koksma_name_at *name, const void *table,
+                                      char text[KOKSMA__MEANT]);
+
+/* Fails with KOKSMA_UNKNOWN and "no WHAT 'WORD'; did you mean 'NAME'? WHERE", where WHERE says how to list the known
+   names. `name` and `table` are those of koksma_closest_name(). */
+KOKSMA__LAB koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_name_at *name,
+                                               const void *table, const char *where);
 
 #endif

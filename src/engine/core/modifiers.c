@@ -4,7 +4,7 @@
  * the claims of a pattern (claims.def) and the measures that the modifier preserves; patterns/modify.c has the
  * maps, in the same order. tests/core/test_modifiers.c tests every entry for every pattern.
  */
-#include "core/modifiers.h"
+#include "core/spec.h"
 
 #include <stdbool.h>
 #include <string.h>

@@ -11,7 +11,7 @@
  * b^m, divided by b^(m-k) and rounded down; for each coordinate the index among b^m is computed only once. There are
  * C(m - t + s - 1, s - 1) shapes of intervals with m - t digits, and each shape takes one pass over the points.
  */
-#include "core/net.h"
+#include "core/points.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #ifdef __linux__
 #define _DEFAULT_SOURCE /* madvise */
 #endif
-#include "core/pages.h"
+#include "core/capacity.h"
 
 #include <stdint.h>
 

@@ -4,6 +4,9 @@
  * the assignment of blocks to threads differs from run to run, and results must not depend on it. New threads are
  * made for each job, and the caller's thread takes blocks, too. The first failure stops the job, and its error text
  * is copied to the caller's thread.
+ *
+ * The permission to run external code is one number per thread, which a thread passes to those that it starts. Only the
+ * caller of the library can give this permission; no spec, plan, scene or store can contain it.
  */
 #include "core/parallel.h"
 
@@ -14,11 +17,10 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "core/allow.h"
 #include "core/clock.h"
 #include "core/status.h"
 
-enum { MAX_THREADS = 256, LOOK_EVERY = 1 << 12 };
+enum { MAX_THREADS = 256, LOOK_EVERY = 1 << 12, MOST_EXEC_SECONDS = 86400 };
 
 typedef struct pool {
     koksma__block_function f;
@@ -30,9 +32,23 @@ typedef struct pool {
     pthread_mutex_t lock; /* guards the members below */
     pthread_cond_t ended; /* a helper has */
     int running;          /* helpers */
-    double exec_s;        /* the caller's permission to run programs (core/allow.h) */
+    double exec_s;        /* the caller's permission to run programs */
     char text[512];
 } pool;
+
+static _Thread_local double allowed_s;
+
+double koksma_allow_exec(double seconds)
+{
+    const double before = allowed_s;
+    allowed_s = !(seconds > 0) ? 0 : seconds < MOST_EXEC_SECONDS ? seconds : MOST_EXEC_SECONDS;
+    return before;
+}
+
+double koksma__exec_seconds(void)
+{
+    return allowed_s;
+}
 
 int koksma__threads(const koksma_run *run)
 {

@@ -64,4 +64,11 @@ typedef struct koksma__pacing {
 
 KOKSMA__LAB bool koksma__paced(void *pacing, double fraction_done);
 
+/* koksma_allow_exec decides whether a pattern may run the program or library that its path names. */
+
+/* Returns the number of seconds for which the calling thread lets a pattern's program run; 0: the thread allows no
+   programs. A function that starts threads reads this number before, and each new thread passes it to
+   koksma_allow_exec. */
+KOKSMA__LAB double koksma__exec_seconds(void);
+
 #endif

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "core/pages.h"
+#include "core/capacity.h"
 #include "core/status.h"
 
 koksma_status koksma__points_fit(size_t n, int dim)

@@ -8,10 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/npy.h"
 #include "core/points.h"
-#include "core/points_npy.h"
-#include "core/points_text.h"
 #include "core/status.h"
 
 koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points)

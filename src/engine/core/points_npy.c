@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* NumPy's .npy, versions 1 to 3: little- or big-endian arrays of shape (n, dim) or (n,), in C or Fortran order, of float16,
    float32, float64, or integers. An unsigned integer of b bits is a fraction of 2^b, as in the tables of renderers; a
-   signed integer is that number, and so 0 or 1. Format:
+   signed integer is that number, and so 0 or 1. A file is the magic bytes, the version, the length of a Python dictionary,
+   the dictionary padded with spaces so that the data begin at a multiple of 64 bytes, and the data. Format:
    https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html */
-#include "core/points_npy.h"
+#include "core/points_io.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/npy.h"
 #include "core/parallel.h"
 #include "core/status.h"
 
-enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 2048, WRITTEN_AT_ONCE = 1 << 18 };
+enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 2048, /* read, or converted */ WRITTEN_AT_ONCE = 1 << 18 };
 
 typedef struct layout {
     size_t n, dim;
@@ -221,6 +221,43 @@ koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_poi
         koksma_points_fini(points);
     }
     return status;
+}
+
+void koksma__npy_put_header(FILE *stream, const char *descr, const char *shape)
+{
+    char header[KOKSMA__NPY_HEADER];
+    const int size =
+        snprintf(header, sizeof header, "{'descr': %s, 'fortran_order': False, 'shape': %s, }", descr, shape);
+    const int total = (10 + size + 1 + 63) / 64 * 64, length = total - 10;
+    fprintf(stream, "%cNUMPY%c%c%c%c", 0x93, 1, 0, length & 255, length >> 8);
+    fprintf(stream, "%-*s\n", length - 1, header);
+}
+
+/* Returns whether a double's lowest byte comes first in memory, so that doubles can be written without conversion. */
+static bool is_little_endian(void)
+{
+    const double one = 1;
+    unsigned char bytes[sizeof one];
+    memcpy(bytes, &one, sizeof one);
+    return bytes[7] == 0x3f;
+}
+
+void koksma__npy_put_doubles(FILE *stream, const double *xs, size_t count)
+{
+    if (is_little_endian()) {
+        fwrite(xs, sizeof *xs, count, stream);
+        return;
+    }
+    for (size_t i = 0; i < count && !ferror(stream); i += ITEMS_AT_ONCE) {
+        unsigned char bytes[8 * ITEMS_AT_ONCE];
+        const size_t n = count - i < ITEMS_AT_ONCE ? count - i : ITEMS_AT_ONCE;
+        for (size_t j = 0; j < n; j++) {
+            uint64_t bits;
+            memcpy(&bits, &xs[i + j], sizeof bits);
+            koksma__npy_set_word(bytes + 8 * j, bits);
+        }
+        fwrite(bytes, 8, n, stream);
+    }
 }
 
 koksma_status koksma__points_put_npy(FILE *stream, const koksma_points *points, koksma__progress progress)

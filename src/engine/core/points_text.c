@@ -5,16 +5,15 @@
    after such a line are an error. If there
    is a line `# n N` or `# dim D`, it must match the points. Test files with known values have another form: a preamble
    of lines `key number`, ended by a line `points`. Its lines `n N` and `dim D` must also match. */
-#include "core/points_text.h"
+#include "core/points_io.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/c_locale.h"
-#include "core/decimal.h"
+#include "core/files.h"
 #include "core/parallel.h"
-#include "core/read_file.h"
 #include "core/status.h"
 
 enum { MAX_LINE = 1 << 18, BLOCK = 2 * MAX_LINE, SHOWN = 40 };

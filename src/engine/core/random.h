@@ -84,4 +84,7 @@ static inline uint32_t koksma__below(uint32_t word, uint32_t n)
     return (uint32_t)(((uint64_t)word * n) >> 32);
 }
 
+/* Fills permutation with a random order of 0 .. n-1, n < 2^32 (Fisher-Yates; Durstenfeld 1964). */
+KOKSMA__LAB void koksma__random_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation);
+
 #endif

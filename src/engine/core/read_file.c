@@ -8,7 +8,7 @@
  * stat(). A fifo that the user names is opened without O_NONBLOCK; otherwise reading would end before another program
  * has begun to write.
  */
-#include "core/read_file.h"
+#include "core/files.h"
 
 #include <errno.h>
 #include <fcntl.h>

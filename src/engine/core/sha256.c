@@ -3,7 +3,7 @@
    constants are the first 32 bits of the fractional parts of the cube roots of the first 64 primes, and of the square
    roots of the first eight. If an x86 processor has instructions for SHA-256, one of which does two rounds, hashing
    is eight times as fast. They are not used if the environment has KOKSMA_KERNELS=ref or =baseline. */
-#include "core/sha256.h"
+#include "core/hash.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>

@@ -9,10 +9,9 @@
 #include <string.h>
 
 #include "core/c_locale.h"
-#include "core/modifiers.h"
+#include "core/lookup.h"
 #include "core/spec.h"
 #include "core/status.h"
-#include "core/suggestion.h"
 
 static const char *choice_at(const void *choices, size_t i)
 {

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/suggestion.h"
+#include "core/lookup.h"
 
 enum { MAX_WORD = 64 };
 

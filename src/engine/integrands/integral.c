@@ -15,7 +15,6 @@
 #include "core/points.h"
 #include "core/spec.h"
 #include "core/status.h"
-#include "core/suggestion.h"
 #include "core/sum.h"
 #include "integrands/integrands.h"
 

@@ -6,7 +6,6 @@
 
 #include <koksma/sampler.h>
 
-#include "core/permutation.h"
 #include "core/random.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"

@@ -12,7 +12,7 @@
  * (core/net.c). A coordinate that was rounded to fewer digits, as in a text file with six digits, may fall into the
  * next lower interval. A coordinate of 1 is counted in the last interval.
  */
-#include "core/net.h"
+#include "core/points.h"
 #include "core/status.h"
 #include "measures/measures.h"
 

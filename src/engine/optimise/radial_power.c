@@ -27,8 +27,8 @@
 #include <unistd.h>
 
 #include "core/c_locale.h"
+#include "core/files.h"
 #include "core/parallel.h"
-#include "core/read_file.h"
 #include "core/status.h"
 
 #include <koksma/spectrum.h>

@@ -10,7 +10,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/points.h"
 #include "core/points_io.h"
 #include "core/status.h"

@@ -15,7 +15,7 @@
 
 #include <stdlib.h>
 
-#include "core/pages.h"
+#include "core/capacity.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"

@@ -17,10 +17,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/allow.h"
 #include "core/child.h"
-#include "core/points_npy.h"
-#include "core/points_text.h"
+#include "core/parallel.h"
+#include "core/points_io.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
 

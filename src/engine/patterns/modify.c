@@ -24,9 +24,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "core/modifiers.h"
-#include "core/permutation.h"
 #include "core/random.h"
+#include "core/spec.h"
 #include "kernels/kernels.h"
 
 enum { DIGITS = KOKSMA__NESTED_DIGITS };

@@ -17,7 +17,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/permutation.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/grids/grids.h"

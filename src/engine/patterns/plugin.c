@@ -17,7 +17,7 @@
 #include <koksma/plugin.h>
 
 #include "core/capacity.h"
-#include "core/read_file.h"
+#include "core/files.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "patterns/files/files.h"

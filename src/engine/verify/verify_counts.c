@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/net.h"
+#include "core/points.h"
 #include "verify/verify.h"
 
 /* ---- Strata ------------------------------------------------------------------------------------------------------ */

@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/closest_pair.h"
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"

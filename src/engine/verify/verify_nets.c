@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/net.h"
+#include "core/points.h"
 #include "verify/verify.h"
 
 enum { MAX_NET_DIM = 8 };

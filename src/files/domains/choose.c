@@ -26,7 +26,7 @@
 #include "api/api.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 #include "domains/choose.h"
 #include "domains/dart_grid.h"
 #include "domains/gaussian.h"

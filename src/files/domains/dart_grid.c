@@ -13,7 +13,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 
 #define NONE UINT32_MAX
 

@@ -14,7 +14,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 #include "domains/image_density.h"
 
 enum { DEEPEST = 26, LEAST_POINTS = 4, ROOTS = 8 };

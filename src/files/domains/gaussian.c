@@ -33,7 +33,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 #include "domains/field.h"
 #include "domains/source_tree.h"
 

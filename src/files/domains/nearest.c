@@ -13,8 +13,8 @@
 #include <string.h>
 
 #include "core/parallel.h"
-#include "core/select.h"
 #include "core/status.h"
+#include "core/vector.h"
 
 enum { LEAF = 4 };
 

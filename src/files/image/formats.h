@@ -6,7 +6,7 @@
 
 #include <koksma/image.h>
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "modules/module.h"
 
 /* A growing array of bytes. */

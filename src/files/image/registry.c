@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/atomic_file.h"
 #include "core/c_locale.h"
+#include "core/files.h"
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"

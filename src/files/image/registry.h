@@ -5,11 +5,11 @@
 
 #include <koksma/image.h>
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "image/formats.h"
 
 /* Reads an image as koksma_image_read does; `kind` is the kind of the file, and `by` tells whether the user or
-   another file named it (core/read_file.h). */
+   another file named it (core/files.h). */
 koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out);
 
 /* The part of an image file to read. COLOURS: in linear light. SRGB: in linear light, with levels read as sRGB

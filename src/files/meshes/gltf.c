@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
-#include "core/read_file.h"
+#include "core/files.h"
 
 typedef koksma__json_node field;
 

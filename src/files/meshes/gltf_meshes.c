@@ -10,7 +10,7 @@
 
 #include <stdlib.h>
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "core/status.h"
 
 typedef koksma__json_node field;

@@ -5,7 +5,7 @@
 #ifndef KOKSMA_MESHES_MESH_FILE_H
 #define KOKSMA_MESHES_MESH_FILE_H
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "meshes/mesh.h"
 #include "meshes/names.h"
 

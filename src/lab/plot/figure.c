@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/status.h"
 #include "plot/chart.h"
 #include "plot/scatter.h"

@@ -8,7 +8,6 @@
 
 #include <stdlib.h>
 
-#include "core/permutation.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/files/files.h"

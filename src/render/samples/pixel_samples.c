@@ -14,9 +14,9 @@
 
 #include <stdlib.h>
 
-#include "core/modifiers.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "core/spec.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/files/files.h"

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/lookup.h"
 #include "core/status.h"
-#include "core/suggestion.h"
 #include "patterns/files/files.h"
 #include "render/samples/uses.h"
 

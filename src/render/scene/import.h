@@ -7,7 +7,7 @@
 #ifndef KOKSMA_SCENE_IMPORT_H
 #define KOKSMA_SCENE_IMPORT_H
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "meshes/mesh_file.h"
 #include "meshes/names.h"
 #include "render/description.h"

@@ -3,7 +3,7 @@
 #ifndef KOKSMA_SCENE_IMPORT_OPEN_H
 #define KOKSMA_SCENE_IMPORT_OPEN_H
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "render/description.h"
 
 /* Whether a file with this name (.pbrt, .xml) is a scene of another renderer. */

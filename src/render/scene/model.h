@@ -3,7 +3,7 @@
 #ifndef KOKSMA_SCENE_MODEL_H
 #define KOKSMA_SCENE_MODEL_H
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "render/description.h"
 
 /* Fills an empty scene from a mesh file. If the file has no camera, the scene gets one that sees everything; if

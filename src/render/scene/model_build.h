@@ -3,7 +3,7 @@
 #ifndef KOKSMA_SCENE_MODEL_BUILD_H
 #define KOKSMA_SCENE_MODEL_BUILD_H
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "render/description.h"
 
 /* Reads everything in a file into the empty scene: meshes where its nodes place them, materials, cameras, lights.

@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/files.h"
 #include "core/hash.h"
-#include "core/read_file.h"
+#include "core/lookup.h"
 #include "core/status.h"
-#include "core/suggestion.h"
 #include "meshes/mesh_file.h"
 #include "render/scene_images.h"
 #include "render/scene_warnings.h"

@@ -3,7 +3,7 @@
 #ifndef KOKSMA_SCENE_SCENE_H
 #define KOKSMA_SCENE_SCENE_H
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "render/description.h"
 
 /* Opens a scene as koksma_scene_open does; `by` tells whether the user or a file named it. */

@@ -14,9 +14,8 @@
 #include <string.h>
 
 #include "core/parallel.h"
-#include "core/select.h"
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 
 enum { LEAF = 8, PAIRS_AT_ONCE = 1 << 16, MOST = KOKSMA__CLOSEST_DIM };
 

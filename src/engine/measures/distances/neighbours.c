@@ -12,7 +12,6 @@
 
 #include <koksma/spectrum.h>
 
-#include "core/closest_pair.h"
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"

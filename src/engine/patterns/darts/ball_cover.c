@@ -18,7 +18,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 
 enum { LOOK_EVERY = 1 << 10, CHILDREN = 1 << KOKSMA__BALL_DIMS };
 

@@ -20,7 +20,6 @@
 #include <string.h>
 
 #include "core/capacity.h"
-#include "core/pages.h"
 #include "core/parallel.h"
 #include "core/status.h"
 

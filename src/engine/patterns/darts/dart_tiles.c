@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "core/capacity.h"
-#include "core/pages.h"
 #include "core/status.h"
 
 enum {

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "core/status.h"
 
 static bool is_blank(char c)

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/pages.h"
+#include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"

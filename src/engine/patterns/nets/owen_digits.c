@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/pages.h"
+#include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"

@@ -36,7 +36,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 #include "patterns/grids/grids.h"
 
 enum { MAX_LIMITED_DIM = 3, GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22, SINK = 32 };

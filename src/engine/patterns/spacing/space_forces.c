@@ -22,7 +22,7 @@
 
 #include "core/elementary.h"
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 
 enum { PIECES = 1024 };
 

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "core/torus.h"
+#include "core/vector.h"
 #include "core/visibility.h"
 
 /* ---- Packing --------------------------------------------------------------------------------------------- */

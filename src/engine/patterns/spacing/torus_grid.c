@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 
 koksma_status koksma__torus_grid_init(koksma__torus_grid *g, size_t n, const double *xs)
 {

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "core/torus.h"
+#include "core/vector.h"
 
 enum { SPARE = 8 };
 

@@ -18,7 +18,6 @@
 #include "core/lookup.h"
 #include "core/spec.h"
 #include "core/status.h"
-#include "core/suggestion.h"
 #include "core/sum.h"
 #include "image/formats.h"
 #include "image/image.h"

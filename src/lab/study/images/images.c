@@ -12,7 +12,7 @@
 
 #include <koksma/series.h>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "image/registry.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Writes the plan of a program that makes plans into a study's folder. The text is checked before anything is written,
    and an existing file is never replaced: it may be a user's own plan. The name is the program's choice, so that a
-   link there is not followed (core/atomic_file.h). */
+   link there is not followed (core/files.h). */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,8 +10,7 @@
 
 #include <koksma/study.h>
 
-#include "core/atomic_file.h"
-#include "core/read_file.h"
+#include "core/files.h"
 #include "core/status.h"
 #include "study/plan/plan_owned.h"
 

@@ -14,7 +14,7 @@
 
 #include <koksma/render.h>
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
 #include "study/plan/image_patterns.h"

@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 
 #include "core/capacity.h"
-#include "core/read_file.h"
+#include "core/files.h"
 #include "core/status.h"
 #include "render/placements.h"
 #include "scene/scene.h"

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/lookup.h"
 #include "core/status.h"
-#include "core/suggestion.h"
 #include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 

@@ -7,12 +7,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/atomic_file.h"
+#include "core/c_locale.h"
 #include "core/capacity.h"
-#include "core/csv.h"
+#include "core/files.h"
 #include "core/json_writer.h"
-#include "core/npy.h"
 #include "core/parallel.h"
+#include "core/points_io.h"
 #include "core/status.h"
 #include "study/report/export.h"
 #include "study/run/study.h"

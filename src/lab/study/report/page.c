@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "study/report/page_text.h"
 
 static const char *const titles[] = {[KOKSMA__PAGE_STUDY] = "koksma: report of a study",

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/clock.h"
 #include "core/parallel.h"
-#include "core/processor_clock.h"
 #include "core/status.h"
 #include "study/run/mpi_rank.h"
 #include "study/run/references.h"

@@ -10,9 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/allow.h"
+#include "core/clock.h"
 #include "core/parallel.h"
-#include "core/processor_clock.h"
 #include "core/status.h"
 #include "study/run/mpi_messages.h"
 #include "study/run/mpi_rank.h"

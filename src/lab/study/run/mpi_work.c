@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
-#include "core/processor_clock.h"
+#include "core/clock.h"
 #include "core/status.h"
 #include "study/run/mpi_messages.h"
 #include "study/run/mpi_rank.h"

@@ -14,10 +14,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/atomic_file.h"
 #include "core/capacity.h"
+#include "core/files.h"
 #include "core/hash.h"
-#include "core/sha256.h"
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"

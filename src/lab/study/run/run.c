@@ -7,8 +7,8 @@
 #include <sys/utsname.h>
 #include <time.h>
 
+#include "core/clock.h"
 #include "core/parallel.h"
-#include "core/processor_clock.h"
 #include "core/status.h"
 #include "study/run/left_out.h"
 #include "study/run/mpi_rank.h"

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
+#include "core/clock.h"
 #include "core/parallel.h"
-#include "core/processor_clock.h"
 
 /* Calls the caller's keep_going before comparing the time with the limit: after a long job both may demand a stop,
    and an interruption by the caller takes precedence. The clock is read once, for the limit and for the progress. */

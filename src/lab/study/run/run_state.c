@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/clock.h"
 #include "core/parallel.h"
-#include "core/processor_clock.h"
 #include "core/status.h"
 #include "study/run/mpi_rank.h"
 

@@ -9,11 +9,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/atomic_file.h"
 #include "core/capacity.h"
-#include "core/read_file.h"
+#include "core/files.h"
+#include "core/lookup.h"
 #include "core/status.h"
-#include "core/suggestion.h"
 #include "study/plan/plan_owned.h"
 #include "study/run/left_out.h"
 #include "study/run/mpi_rank.h"

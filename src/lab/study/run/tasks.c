@@ -13,8 +13,8 @@
 #include <koksma/integrate.h>
 #include <koksma/warp.h>
 
+#include "core/c_locale.h"
 #include "core/capacity.h"
-#include "core/csv.h"
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/status.h"

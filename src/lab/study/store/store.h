@@ -6,7 +6,7 @@
 
 #include <koksma/koksma.h>
 
-#include "core/sha256.h"
+#include "core/hash.h"
 
 typedef struct koksma__store koksma__store;
 

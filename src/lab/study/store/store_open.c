@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/status.h"
 #include "study/store/store_internal.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/processor_clock.h"
+#include "core/clock.h"
 #include "core/status.h"
 #include "study/store/store_internal.h"
 

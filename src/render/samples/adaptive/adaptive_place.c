@@ -18,7 +18,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/permutation.h"
 #include "core/random.h"
 #include "render/samples/adaptive/adaptive_place.h"
 #include "render/samples/uses.h"

@@ -6,7 +6,6 @@
 #include "core/lookup.h"
 #include "core/spec.h"
 #include "core/status.h"
-#include "core/suggestion.h"
 #include "render/samples/adaptive/adaptive.h"
 
 static const koksma_adaptive *const table[] = {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A random permutation by the inside-out form of the Fisher-Yates shuffle. It takes O(n), with one random word for each
    element. */
-#include "core/permutation.h"
 
 #include "core/random.h"
 
