@@ -10,7 +10,6 @@
 
 #include "image/formats.h"
 #include "image/metrics/metrics.h"
-#include "image/registry.h"
 #include "integrands/integrands.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"

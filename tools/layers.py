@@ -63,6 +63,21 @@ INTERNAL = {
     "src/lab/study/store/store.h": "the interface of the store, whose files are parts of one object",
     "src/lab/study/store/store_internal.h": "the store's object, for its own files only",
     "src/lab/study/plan/plan_section.h": "the parsers of a plan's sections, one file each, for plan.c's table",
+    "src/engine/core/files.h": "files that are read and files that are written",
+    "src/engine/core/points_io.h": "files of points, one .c file a format",
+    "src/engine/core/points.h": "checks of points, and what several measures ask of them",
+    "src/engine/core/spec.h": "specs and the modifiers at their end",
+    "src/engine/core/lookup.h": "tables of names, and the name that was meant",
+    "src/engine/core/hash.h": "short and long hashes",
+    "src/engine/core/random.h": "random numbers and permutations",
+    "src/engine/core/capacity.h": "memory: arrays that grow, and large pages",
+    "src/files/image/formats.h": "image files, one .c file a format",
+    "src/files/image/codec.h": "the formats whose library is a module",
+    "src/files/image/coherence.h": "spectra of pictures and of their errors",
+    "src/files/meshes/readers.h": "the readers of mesh files, one .c file a format",
+    "src/files/meshes/mesh_file.h": "mesh files and their readers' common parts",
+    "src/files/meshes/mesh.h": "triangle meshes and their subdivision",
+    "src/files/meshes/gltf.h": "the reader of glTF, in several files",
 }
 
 

@@ -3,7 +3,7 @@
 #ifndef KOKSMA_RENDER_SCENE_IMAGES_H
 #define KOKSMA_RENDER_SCENE_IMAGES_H
 
-#include "image/registry.h"
+#include "image/formats.h"
 #include "render/description.h"
 
 /* How an image is read: which part of it, and what its levels v become: first v^gamma (0: they stay), then, if `average`,

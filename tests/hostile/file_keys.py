@@ -5,7 +5,7 @@
 The rows of a study are kept under the hash of their scene: if two scenes had one hash, a row would mix both. For each way
 in which a file of a scene names another (CASES), one pixel, byte or number of the named file is changed, then all of it. Both
 must give another hash; the picture of the second must differ too, which shows that the scene uses the file. A way that
-file_inputs.py knows, a kind of file (src/engine/core/file_kinds.def) and a kind of mesh (src/files/meshes/mesh_file.c) without a case
+file_inputs.py knows, a kind of file (src/engine/core/file_kinds.def) and a kind of mesh (src/files/meshes/mesh_read.c) without a case
 are failures. Then the files of scenes that name several are exchanged, or change together.
 """
 import base64
@@ -346,7 +346,7 @@ def check_ways(checks, bench):
         bench.case(f"{way} in {top[0] if top else named}", top, named, made, others)
     checks.check(known <= seen, f"no case for {known - seen}")
     checks.check({kind for kind, _ in seen} == set(file_inputs.limits()) - NO_SCENES, "a kind of file without a case")
-    with open(os.path.join(file_inputs.SOURCE, "src/files/meshes/mesh_file.c"), encoding="utf-8") as stream:
+    with open(os.path.join(file_inputs.SOURCE, "src/files/meshes/mesh_read.c"), encoding="utf-8") as stream:
         readers = set(re.findall(r'\{"(\.[a-z.]+)", koksma__', stream.read()))
     checks.check(readers and readers <= endings, f"no case for meshes {readers - endings}")
 

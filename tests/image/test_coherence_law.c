@@ -2,7 +2,7 @@
 /* How large the peak of a white error's spectrum is by chance, against tables and closed forms. */
 #include <math.h>
 
-#include "image/coherence_law.h"
+#include "image/coherence.h"
 #include "test.h"
 
 static void tails_are_the_known_ones(void **state)

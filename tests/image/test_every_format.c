@@ -10,7 +10,6 @@
 
 #include "image/formats.h"
 #include "image/image.h"
-#include "image/registry.h"
 #include "sets.h"
 
 static const int shapes[][2] = {{1, 1}, {3, 2}, {1, 9}, {17, 1}, {16, 5}, {7, 33}};

@@ -8,7 +8,6 @@
 
 #include "core/random.h"
 #include "image/formats.h"
-#include "image/registry.h"
 #include "test.h"
 
 static koksma_image noise(int width, int height, int channels)

@@ -5,7 +5,7 @@
 
 #include <koksma/image.h>
 
-#include "image/registry.h"
+#include "image/formats.h"
 #include "made_file.h"
 #include "test.h"
 

@@ -23,7 +23,7 @@ only() {
 only 'png\.h' src/files/image/png.c
 only 'zlib\.h' src/files/meshes/inflate.c
 only 'openexr\.h' src/files/image/exr_openexr.c
-only 'OpenEXR/' src/files/image/exr_rgba.c
+only 'OpenEXR/' src/files/image/exr_openexr.c
 only 'jpeglib\.h' src/files/image/jpeg_turbo.c
 only 'cairo' src/lab/plot/cairo.c
 only 'sqlite3\.h' src/lab/study/store/database.c

@@ -40,7 +40,7 @@ enum { KOKSMA__FILE_START = 512 };
 typedef koksma_status koksma__check_start(const unsigned char *bytes, size_t size);
 
 /* Fails with MALFORMED if the bytes contain a zero, because the file is then UTF-16 or not a text. */
-KOKSMA__LAB koksma__check_start koksma__check_text;
+KOKSMA__LAB koksma_status koksma__check_text(const unsigned char *bytes, size_t size);
 
 /* Reads a whole file into memory and appends a zero byte; the caller frees *bytes. check may be NULL. Errors: those
    of koksma__file_open and check, MEMORY. */

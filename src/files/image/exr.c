@@ -4,7 +4,9 @@
  * file is read or written, does the reading and writing.
  *
  * OpenEXR takes time quadratic in the numbers of attributes and channels: 100,000 channels, in 2.4 MB, take a minute. So
- * both are counted, over all parts of a file, before OpenEXR sees the file. Films have some hundreds of channels.
+ * both are counted, over all parts of a file, before OpenEXR sees the file. Films have some hundreds of channels. Its C++
+ * library, which reads some files, allocates as much memory as the attributes claim, and ignores the stated size of some
+ * types: both are checked here.
  *
  * The attribute `chromaticities` says which colours red, green, blue and white are; without it they are those of Rec. 709,
  * as everywhere here. Colours of others are converted: to CIE XYZ, and from there, without adaptation to another white.
@@ -15,15 +17,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "image/exr.h"
+#include "image/codec.h"
 
-#include "core/status.h"
-#include "image/image.h"
-#include "image/layers.h"
-
-static const koksma__exr_host host = {koksma__bytes_put, koksma__image_claim, koksma__layer_channel,
-                                      koksma__layers_find, koksma_image_fini};
-static const koksma__module module = {"exr", "OpenEXR", {koksma__fail, koksma__fail_memory, &host}};
+static const koksma__module module = {
+    "exr", "OpenEXR", {koksma__fail, koksma__fail_memory, &koksma__codec_functions}};
 
 static bool recognises(const unsigned char *bytes, size_t size)
 {
@@ -33,6 +30,11 @@ static bool recognises(const unsigned char *bytes, size_t size)
 
 enum { MOST_ATTRIBUTES = 4096, MOST_CHANNELS = 4096 };
 
+static uint32_t word_at(const unsigned char *b)
+{
+    return (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0];
+}
+
 /* The position after the text at `at` and its zero byte; `size` if it has no end. */
 static size_t skip_text(const unsigned char *bytes, size_t size, size_t at)
 {
@@ -40,14 +42,56 @@ static size_t skip_text(const unsigned char *bytes, size_t size, size_t at)
     return end ? (size_t)(end - bytes) + 1 : size;
 }
 
-/* A channel is its name with a zero byte and 16 more bytes; an empty name ends the list. */
-static size_t count_channels(const unsigned char *value, size_t size)
+/* A channel is its name with a zero byte and 16 more bytes; an empty name ends the list. *whole: whether the list has
+   exactly `size` bytes. */
+static size_t count_channels(const unsigned char *value, size_t size, bool *whole)
 {
-    size_t n = 0;
-    for (size_t at = 0; at < size && value[at]; n++) {
+    size_t n = 0, at = 0;
+    for (; at < size && value[at]; n++) {
         at = skip_text(value, size, at) + 16;
     }
+    *whole = at + 1 == size;
     return n;
+}
+
+/* Whether a value's stated size is that of its type, for the types in the table below. For these the C++ library
+   ignores the stated size: if it differed from the type's, the library would find the next attribute at another
+   position than readers that use the stated size. For all other types the C++ library uses the stated size. */
+static bool value_fits(const char *type, size_t size)
+{
+    static const struct {
+        const char *type;
+        size_t size;
+    } known[] = {{"box2i", 16},
+                 {"box2f", 16},
+                 {"chromaticities", 32},
+                 {"compression", 1},
+                 {"deepImageState", 1},
+                 {"double", 8},
+                 {"envmap", 1},
+                 {"float", 4},
+                 {"int", 4},
+                 {"keycode", 28},
+                 {"lineOrder", 1},
+                 {"m33f", 36},
+                 {"m33d", 72},
+                 {"m44f", 64},
+                 {"m44d", 128},
+                 {"rational", 8},
+                 {"tiledesc", 9},
+                 {"timecode", 8},
+                 {"v2i", 8},
+                 {"v2f", 8},
+                 {"v2d", 16},
+                 {"v3i", 12},
+                 {"v3f", 12},
+                 {"v3d", 24}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (!strcmp(known[i].type, type)) {
+            return size == known[i].size;
+        }
+    }
+    return true;
 }
 
 /* What the header of the first part says: the place of its chromaticities, or NULL, and its compression. */
@@ -66,36 +110,35 @@ static void note_attribute(const char *name, const unsigned char *value, size_t 
 }
 
 /* An attribute is name, type, size and value; an empty name ends a header, and an empty header ends the headers of a
-   file of several parts (https://openexr.com/en/latest/OpenEXRFileLayout.html). At a size that is wrong counting ends,
-   as reading does. */
+   file of several parts (https://openexr.com/en/latest/OpenEXRFileLayout.html). */
 static koksma_status check_header(const unsigned char *bytes, size_t size, header *out)
 {
     const bool parts = size > 8 && (bytes[5] & 0x10);
-    size_t attributes = 0, channels = 0;
-    bool first = true;
-    for (size_t at = 8; at < size && bytes[at] && attributes <= MOST_ATTRIBUTES && channels <= MOST_CHANNELS;) {
+    size_t attributes = 0, channels = 0, at = 8;
+    bool first = true, fits = true;
+    while (fits && at < size && bytes[at] && attributes <= MOST_ATTRIBUTES && channels <= MOST_CHANNELS) {
         const size_t type = skip_text(bytes, size, at), length = skip_text(bytes, size, type);
-        if (size - length < 4) {
-            break;
+        const size_t left = size - length < 4 ? 0 : size - length - 4;
+        const size_t value = left ? word_at(bytes + length) : SIZE_MAX;
+        const unsigned char *from = bytes + length + 4;
+        fits = value <= left && value_fits((const char *)bytes + type, value);
+        if (fits) {
+            attributes++;
+            channels += strcmp((const char *)bytes + type, "chlist") ? 0 : count_channels(from, value, &fits);
+            if (first) {
+                note_attribute((const char *)bytes + at, from, value, out);
+            }
+            at = length + 4 + value;
+            first &= at < size && bytes[at];
+            at += parts && at + 1 < size && !bytes[at]; /* the next header, or the empty one that ends the list */
         }
-        const size_t value = bytes[length] | (size_t)bytes[length + 1] << 8 | (size_t)bytes[length + 2] << 16 |
-                             (size_t)bytes[length + 3] << 24;
-        const size_t left = size - length - 4;
-        attributes++;
-        if (first && value <= left) {
-            note_attribute((const char *)bytes + at, bytes + length + 4, value, out);
-        }
-        channels += strcmp((const char *)bytes + type, "chlist") != 0
-                        ? 0
-                        : count_channels(bytes + length + 4, value < left ? value : left);
-        at = value < left ? length + 4 + value : size;
-        first &= at < size && bytes[at];
-        at += parts && at + 1 < size && !bytes[at];
     }
     if (attributes > MOST_ATTRIBUTES || channels > MOST_CHANNELS) {
         return koksma__refused(koksma__fail(KOKSMA_MALFORMED, "as an EXR: more than %d attributes or %d channels",
                                             MOST_ATTRIBUTES, MOST_CHANNELS));
     }
+    KOKSMA__FAIL_IF(!fits || at >= size, KOKSMA_MALFORMED,
+                    "as an EXR: cut short, or an attribute of its header states a wrong size");
     return KOKSMA_OK;
 }
 
@@ -143,7 +186,7 @@ static bool to_xyz(const double xy[8], double columns[3][3])
 
 static double float_at(const unsigned char *b)
 {
-    const uint32_t word = (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0];
+    const uint32_t word = word_at(b);
     float x;
     memcpy(&x, &word, sizeof x);
     return (double)x;
@@ -198,10 +241,7 @@ static koksma_status read_as(const unsigned char *bytes, size_t size, bool conve
 {
     header h = {.compression = 0};
     KOKSMA__TRY(check_header(bytes, size, &h));
-    const void *functions;
-    koksma_status status = koksma__module_load(&module, &functions);
-    KOKSMA__TRY(status);
-    status = ((const koksma__exr_functions *)functions)->read(bytes, size, out);
+    const koksma_status status = koksma__codec_read(&module, bytes, size, out);
     if (status == KOKSMA_MALFORMED && h.compression >= 10) {
         return fail_compression(h.compression);
     }
@@ -220,15 +260,13 @@ static koksma_status read_numbers(const unsigned char *bytes, size_t size, koksm
 
 static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
-    const void *functions;
     size_t channels = 0;
     for (size_t i = 0; i < n; i++) {
         channels += (size_t)layers[i].image->channels;
     }
     KOKSMA__FAIL_IF(channels > MOST_CHANNELS, KOKSMA_ARGUMENT, "layers of %zu channels: an EXR has at most %d here",
                     channels, MOST_CHANNELS);
-    const koksma_status status = koksma__module_load(&module, &functions);
-    return status ? status : ((const koksma__exr_functions *)functions)->write(layers, n, metadata, out);
+    return koksma__codec_write(&module, layers, n, metadata, out);
 }
 
 const koksma__image_format koksma__format_exr = {.name = "exr",

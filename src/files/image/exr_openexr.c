@@ -2,20 +2,29 @@
 /*
  * The module koksma-exr.so reads and writes EXR files by the C library OpenEXRCore. It reads a file's first part, in
  * scan lines or tiles, with channels R G B or Y (or a single channel of any name); it writes floats, ZIP-compressed.
- * OpenEXRCore 3.1.5 lacks DWAA and DWAB, and decodes B44 and B44A wrongly without an error: exr_rgba.c reads those
- * four.
+ *
+ * OpenEXRCore 3.1.5 lacks DWAA and DWAB, and decodes B44 and B44A wrongly without an error: those four are read by the C
+ * interface of OpenEXR's C++ library. That interface opens files only by name, so the bytes are copied to a file in
+ * memory (memfd). It returns half floats. It keeps its last error in a variable that all threads share: the text of
+ * an error may be that of another thread, but the status is right.
  *
  * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
  * reader takes such a stream for uncompressed pixels. So each file is read back after writing; if a bit differs, the
  * file is written again without compression.
  */
+#define _GNU_SOURCE /* memfd_create */
+#include <errno.h>
 #include <math.h>
 #include <openexr.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
-#include "image/exr.h"
-#include "image/exr_rgba.h"
+#include <OpenEXR/ImfCRgbaFile.h>
+
+#include "image/codec.h"
 #include "modules/module_side.h"
 
 enum { SHORT_NAME = 31 }; /* the longest channel name, in bytes, that every EXR reader accepts */
@@ -102,7 +111,78 @@ static int count_channels(const exr_attr_chlist_t *list)
     return rgb == 3 ? 3 : y || list->num_channels == 1 ? 1 : 0;
 }
 
-/* Reads a file by exr_rgba.c. Y is accepted only as the single channel, because OpenEXR's library turns Y beside
+/* ---- B44 and DWA ------------------------------------------------------------------------------------- */
+
+/* Fails with the library's message, without the name of the file in memory, which it has in quotes. */
+static koksma_status fail_rgba(const char *path)
+{
+    char name[72];
+    const char *text = ImfErrorMessage();
+    const int length = snprintf(name, sizeof name, " \"%s\"", path);
+    const char *at = strstr(text, name);
+    return koksma__fail(KOKSMA_MALFORMED, "as an EXR: %.*s%s", at ? (int)(at - text) : (int)strlen(text), text,
+                        at ? at + length : "");
+}
+
+static koksma_status read_rgba_pixels(ImfInputFile *file, const char *path, size_t size, int channels, bool wide,
+                                      koksma_image *out)
+{
+    int low_x, low_y, high_x, high_y;
+    ImfHeaderDataWindow(ImfInputHeader(file), &low_x, &low_y, &high_x, &high_y);
+    KOKSMA__TRY(KOKSMA__CODEC_HOST->image_claim((long long)high_x - low_x + 1, (long long)high_y - low_y + 1,
+                                                channels, size, 4096, out));
+    const size_t width = (size_t)out->width;
+    ImfRgba *row = malloc(width * sizeof *row);
+    KOKSMA__REQUIRE_MEMORY(row, width * sizeof *row);
+    bool whole = true, fits = true;
+    for (int y = low_y; whole && y <= high_y; y++) {
+        /* the library expects the address that pixel (0, 0) would have */
+        ImfRgba *base = (ImfRgba *)((uintptr_t)row - (uintptr_t)((ptrdiff_t)low_x * (ptrdiff_t)sizeof *row));
+        whole = ImfInputSetFrameBuffer(file, base, 1, 0) && ImfInputReadPixels(file, y, y);
+        for (size_t x = 0; whole && x < width; x++) {
+            const float colour[3] = {ImfHalfToFloat(row[x].r), ImfHalfToFloat(row[x].g), ImfHalfToFloat(row[x].b)};
+            const size_t at = width * (size_t)(y - low_y) + x;
+            for (size_t k = 0; k < (size_t)channels; k++) {
+                out->pixels[at * (size_t)channels + k] = colour[k];
+                fits &= !wide || isfinite(colour[k]);
+            }
+        }
+    }
+    free(row);
+    if (!whole) {
+        return fail_rgba(path);
+    }
+    return fits ? KOKSMA_OK
+                : koksma__fail(KOKSMA_MALFORMED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
+}
+
+/* wide: whether the file's numbers are not halves; one that is too large for a half is then an error. */
+static koksma_status read_halves(const unsigned char *bytes, size_t size, int channels, bool wide, koksma_image *out)
+{
+    char path[64];
+    const int descriptor = memfd_create("koksma", MFD_CLOEXEC);
+    ssize_t n = descriptor < 0 ? -1 : 0;
+    for (size_t done = 0; n >= 0 && done < size; done += (size_t)(n > 0 ? n : 0)) {
+        n = write(descriptor, bytes + done, size - done);
+    }
+    koksma_status status = KOKSMA_OK;
+    if (n < 0) {
+        status = koksma__fail(KOKSMA_SYSTEM, "as an EXR: can't make a file in memory: %s", strerror(errno));
+    } else {
+        snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
+        ImfInputFile *file = ImfOpenInputFile(path);
+        status = file ? read_rgba_pixels(file, path, size, channels, wide, out) : fail_rgba(path);
+        if (file) {
+            ImfCloseInputFile(file);
+        }
+    }
+    if (descriptor >= 0) {
+        close(descriptor);
+    }
+    return status;
+}
+
+/* Reads such a file. Y is accepted only as the single channel, because OpenEXR's library turns Y beside
    other channels into colours. */
 static koksma_status read_rgba(const source *s, const exr_attr_chlist_t *list, int channels, koksma_image *out)
 {
@@ -116,8 +196,10 @@ static koksma_status read_rgba(const source *s, const exr_attr_chlist_t *list, i
     return others || y != (channels == 1)
                ? koksma__fail(KOKSMA_MALFORMED,
                               "as an EXR: of B44 and DWA files only those with R, G, B or with Y alone are read")
-               : koksma__exr_rgba_read(s->bytes, s->size, channels, wide, out);
+               : read_halves(s->bytes, s->size, channels, wide, out);
 }
+
+/* ---- All others --------------------------------------------------------------------------------------- */
 
 /* Points the decoder's channels at the pixels of the chunk whose first pixel is (x, y). */
 static void aim(exr_decode_pipeline_t *decoder, koksma_image *image, int x, int y)
@@ -266,8 +348,8 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
         return read_rgba(s, list, channels, out);
     }
     const koksma_status status =
-        KOKSMA__EXR_HOST->image_claim((long long)window.max.x - window.min.x + 1,
-                                      (long long)window.max.y - window.min.y + 1, channels, s->size, 1032, out);
+        KOKSMA__CODEC_HOST->image_claim((long long)window.max.x - window.min.x + 1,
+                                        (long long)window.max.y - window.min.y + 1, channels, s->size, 1032, out);
     if (status) {
         return status;
     }
@@ -290,7 +372,7 @@ static exr_context_initializer_t begin(source *s)
     return how;
 }
 
-static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+static koksma_status read_exr(const unsigned char *bytes, size_t size, koksma_image *out)
 {
     source s = {.bytes = bytes, .size = size};
     exr_context_t file;
@@ -314,7 +396,7 @@ static int64_t write_bytes(exr_const_context_t file, void *user, const void *buf
 {
     (void)file;
     (void)error;
-    return KOKSMA__EXR_HOST->bytes_put(((source *)user)->out, offset, buffer, size) ? (int64_t)size : -1;
+    return KOKSMA__CODEC_HOST->bytes_put(((source *)user)->out, offset, buffer, size) ? (int64_t)size : -1;
 }
 
 static exr_result_t put_header(exr_context_t file, const koksma_layer *layers, size_t n, const char *metadata,
@@ -328,7 +410,7 @@ static exr_result_t put_header(exr_context_t file, const koksma_layer *layers, s
     for (size_t l = 0; l < n; l++) {
         for (int k = 0; !r && k < layers[l].image->channels; k++) {
             const exr_perceptual_treatment_t kind = l ? EXR_PERCEPTUALLY_LINEAR : EXR_PERCEPTUALLY_LOGARITHMIC;
-            KOKSMA__EXR_HOST->layer_channel(&layers[l], k, name);
+            KOKSMA__CODEC_HOST->layer_channel(&layers[l], k, name);
             r = strlen(name) > SHORT_NAME ? exr_set_longname_support(file, 1) : r;
             r = r ? r : exr_add_channel(file, 0, name, EXR_PIXEL_FLOAT, kind, 1, 1);
         }
@@ -345,7 +427,8 @@ static void aim_encoder(exr_encode_pipeline_t *encoder, const koksma_layer *laye
     for (int c = 0; c < encoder->channel_count; c++) {
         exr_coding_channel_info_t *channel = &encoder->channels[c];
         int k;
-        const koksma_image *image = layers[KOKSMA__EXR_HOST->layers_find(layers, n, channel->channel_name, &k)].image;
+        const koksma_image *image =
+            layers[KOKSMA__CODEC_HOST->layers_find(layers, n, channel->channel_name, &k)].image;
         const size_t channels = (size_t)image->channels, pixel = sizeof(float) * channels;
         channel->encode_from_ptr = (const uint8_t *)(image->pixels + (size_t)k + (size_t)y * width * channels);
         channel->user_bytes_per_element = sizeof(float);
@@ -399,14 +482,14 @@ static koksma_status read_back(const koksma__bytes *bytes, const koksma_image *i
 {
     koksma_image back = {0};
     const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-    const koksma_status status = read(bytes->data, bytes->size, &back);
+    const koksma_status status = read_exr(bytes->data, bytes->size, &back);
     *same = !status && back.width == image->width && back.height == image->height &&
             back.channels == image->channels && !memcmp(back.pixels, image->pixels, count * sizeof *image->pixels);
-    KOKSMA__EXR_HOST->image_fini(&back);
+    KOKSMA__CODEC_HOST->image_fini(&back);
     return status == KOKSMA_MEMORY ? status : KOKSMA_OK;
 }
 
-static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
+static koksma_status write_exr(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
     bool same = false;
     koksma_status status = encode(layers, n, metadata, EXR_COMPRESSION_ZIP, out);
@@ -418,5 +501,5 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
     return encode(layers, n, metadata, EXR_COMPRESSION_NONE, out);
 }
 
-static const koksma__exr_functions functions = {read, write};
+static const koksma__codec functions = {read_exr, write_exr};
 KOKSMA__MODULE(functions)

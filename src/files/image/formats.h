@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of image formats. Files are read from memory and written into memory, so that a format needs no file, a
+/* Image files: the table of formats, reading and writing, and layers. Files are read from memory and written into memory, so that a format needs no file, a
    file is written whole or not at all, and a fuzzer can call the readers. */
 #ifndef KOKSMA_IMAGE_FORMATS_H
 #define KOKSMA_IMAGE_FORMATS_H
@@ -7,13 +7,8 @@
 #include <koksma/image.h>
 
 #include "core/files.h"
+#include "image/image.h"
 #include "modules/module.h"
-
-/* A growing array of bytes. */
-typedef struct koksma__bytes {
-    unsigned char *data;
-    size_t size, capacity;
-} koksma__bytes;
 
 typedef struct koksma__image_format {
     const char *name;
@@ -46,10 +41,56 @@ typedef struct koksma__image_format {
 /* maximum length of a layer's name; capacity for a channel's name: the layer's name, ".R" and the final 0 */
 enum { KOKSMA__LAYER_NAME = 63, KOKSMA__CHANNEL_NAME = KOKSMA__LAYER_NAME + 3 };
 
-/* The maximum number of pixels of an image that a scene or model names: 8192 x 8192. */
-enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
+/* ---- Reading and writing ---- */
 
-/* Luminance of linear red, green and blue (Rec. 709), in doubles. */
-#define KOKSMA__LUMINANCE(rgb) (0.2126 * (rgb)[0] + 0.7152 * (rgb)[1] + 0.0722 * (rgb)[2])
+/* Reads an image as koksma_image_read does; `kind` is the kind of the file, and `by` tells whether the user or
+   another file named it (core/files.h). */
+koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out);
+
+/* The part of an image file to read. COLOURS: in linear light. SRGB: in linear light, with levels read as sRGB
+   whatever transfer function the file states. NUMBERS: the numbers of the file, without a transfer function. ALPHA:
+   the transparency, which a file may lack. After an error *out has no pixels, but the size of those that were allocated
+   and perhaps decoded before it. */
+typedef enum koksma__image_part {
+    KOKSMA__IMAGE_COLOURS,
+    KOKSMA__IMAGE_SRGB,
+    KOKSMA__IMAGE_NUMBERS,
+    KOKSMA__IMAGE_ALPHA
+} koksma__image_part;
+koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, koksma__image_part part,
+                                      koksma_image *out);
+
+/* Sets the text of koksma_image_remark for the image that this thread reads. */
+void koksma__image_remark(const char *format, ...) KOKSMA_PRINTF(1, 2);
+
+/* A check for koksma__read_file: fails unless the file begins like an image in a supported format. Errors: MALFORMED,
+   UNSUPPORTED. */
+koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size);
+
+/* Writes an image as koksma_image_write does, to the file `name` in `folder`; the program, not the user, has chosen
+   the name (koksma__atomic_open). */
+koksma_status koksma__image_write_in(const char *folder, const char *name, const koksma_image *image,
+                                     const char *metadata);
+
+/* Format i of the table; NULL past the end. */
+const koksma__image_format *koksma__image_format_at(size_t i);
+
+/* Reads an image file in memory, whose format is found by its content; kind: IMAGE or TEXTURE. Errors do not name the
+   file. */
+koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
+                                       koksma_image *out);
+
+/* ---- Layers: the images of one file ---- */
+
+/* Writes the name of channel k of a layer. */
+void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME]);
+
+/* Returns the index of the first layer that has a channel of this name, or n if none has; *k is set to the index of
+   the channel in the layer. */
+size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k);
+
+/* Fails with ARGUMENT unless the layers are images of one size, and no two channels have the same name. Errors do not
+   name the file. */
+koksma_status koksma__layers_check(const koksma_layer *layers, size_t n);
 
 #endif

@@ -5,7 +5,15 @@
 
 #include <koksma/image.h>
 
-#include "image/formats.h"
+#include <math.h>
+
+#include "core/status.h"
+
+/* A growing array of bytes. */
+typedef struct koksma__bytes {
+    unsigned char *data;
+    size_t size, capacity;
+} koksma__bytes;
 
 /* Writes data at an offset of the array, which grows if needed, and fills a gap before it with zeros; returns false
    if memory runs out. */
@@ -30,5 +38,34 @@ koksma_status koksma__image_claim(long long width, long long height, int channel
 
 /* Returns the luminance of a pixel. */
 double koksma__luminance(const koksma_image *image, size_t pixel);
+
+/* Fails with ARGUMENT unless the image has pixels and valid dimensions. */
+koksma_status koksma__image_usable(const koksma_image *image);
+
+/* Fails with ARGUMENT unless both images have pixels and the same width and height. */
+koksma_status koksma__image_check_sizes(const koksma_image *a, const koksma_image *b);
+
+/* The maximum number of pixels of an image that a scene or model names: 8192 x 8192. */
+enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
+
+/* Luminance of linear red, green and blue (Rec. 709), in doubles. */
+#define KOKSMA__LUMINANCE(rgb) (0.2126 * (rgb)[0] + 0.7152 * (rgb)[1] + 0.0722 * (rgb)[2])
+
+/* The transfer function of sRGB (IEC 61966-2-1): linear light of a level of [0,1], its inverse, and the level of 8 bits. */
+static inline double koksma__from_srgb(double level)
+{
+    return level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
+}
+
+static inline double koksma__to_srgb(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+}
+
+static inline unsigned char koksma__srgb_byte(float linear)
+{
+    const double x = linear >= 0 ? fmin((double)linear, 1) : 0; /* NaN is 0 */
+    return (unsigned char)(255 * koksma__to_srgb(x) + 0.5);
+}
 
 #endif

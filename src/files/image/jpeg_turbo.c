@@ -11,7 +11,6 @@
  * reader, because each scan takes as long as decoding the whole picture; encoders write at most about 20. When libjpeg
  * reports an error, on_error() returns to the caller by longjmp.
  */
-#include <math.h>
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,10 +20,8 @@
 
 #include <jerror.h>
 
-#include "image/jpeg.h"
+#include "image/codec.h"
 #include "modules/module_side.h"
-
-#define HOST ((const koksma__jpeg_host *)koksma__own_host->functions)
 
 enum { SCANS = 100, PADDING = 16 };
 
@@ -110,12 +107,6 @@ static koksma_status fail(const errors *e)
 
 /* ---- Reading ------------------------------------------------------------------------------------------ */
 
-static float to_linear(int level)
-{
-    const double s = level / 255.0;
-    return (float)(s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4));
-}
-
 /* Reads the header. This function and read_rows may be left by longjmp, and so own nothing that needs releasing. */
 static bool read_head(struct jpeg_decompress_struct *jpeg, errors *e, const unsigned char *bytes, size_t size)
 {
@@ -161,7 +152,7 @@ static bool read_rows(struct jpeg_decompress_struct *jpeg, errors *e, unsigned c
     const size_t count = (size_t)out->width * (size_t)out->channels;
     float table[256];
     for (int i = 0; i < 256; i++) {
-        table[i] = to_linear(i);
+        table[i] = (float)koksma__from_srgb(i / 255.0);
     }
     if (setjmp(e->back)) {
         return false;
@@ -193,7 +184,8 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     if (!status) {
         const int channels = jpeg.num_components == 1 ? 1 : 3;
         jpeg.progress = &progress;
-        status = HOST->image_claim(jpeg.image_width, jpeg.image_height, channels, size, pixels_a_byte(&jpeg), out);
+        status = KOKSMA__CODEC_HOST->image_claim(jpeg.image_width, jpeg.image_height, channels, size,
+                                                 pixels_a_byte(&jpeg), out);
         unsigned char *row = status ? NULL : malloc((size_t)out->width * (size_t)channels);
         if (!status && !row) {
             status = koksma__fail_memory((size_t)out->width * (size_t)channels);
@@ -206,13 +198,6 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------ */
-
-static unsigned char to_level(float linear)
-{
-    const double x = linear >= 0 ? fmin((double)linear, 1) : 0; /* NaN is 0 */
-    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
-    return (unsigned char)(255 * s + 0.5);
-}
 
 static bool write_rows(struct jpeg_compress_struct *jpeg, errors *e, const koksma_image *image, const char *metadata,
                        unsigned char *row, unsigned char **bytes, unsigned long *size)
@@ -234,7 +219,7 @@ static bool write_rows(struct jpeg_compress_struct *jpeg, errors *e, const koksm
     jpeg_write_marker(jpeg, JPEG_COM, (const JOCTET *)metadata, (unsigned)(length < 65000 ? length : 65000));
     while (jpeg->next_scanline < jpeg->image_height) {
         for (size_t i = 0; i < count; i++) {
-            row[i] = to_level(image->pixels[jpeg->next_scanline * count + i]);
+            row[i] = koksma__srgb_byte(image->pixels[jpeg->next_scanline * count + i]);
         }
         jpeg_write_scanlines(jpeg, &row, 1);
     }
@@ -242,13 +227,15 @@ static bool write_rows(struct jpeg_compress_struct *jpeg, errors *e, const koksm
     return true;
 }
 
-static koksma_status write(const koksma_image *image, const char *metadata, koksma__bytes *out)
+static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
+    const koksma_image *image = layers->image; /* a file holds one layer */
     struct jpeg_compress_struct jpeg;
     errors e = {.no_memory = false};
     unsigned char *bytes = NULL;
     unsigned long size = 0;
     const size_t count = (size_t)image->width * (size_t)image->channels;
+    (void)n;
     if (image->width > JPEG_MAX_DIMENSION || image->height > JPEG_MAX_DIMENSION) {
         return koksma__fail(KOKSMA_ARGUMENT, "a JPEG has at most %ld pixels a side", (long)JPEG_MAX_DIMENSION);
     }
@@ -262,7 +249,7 @@ static koksma_status write(const koksma_image *image, const char *metadata, koks
     koksma_status status = KOKSMA_OK;
     if (!write_rows(&jpeg, &e, image, metadata, row, &bytes, &size)) {
         status = fail(&e);
-    } else if (!HOST->bytes_put(out, 0, bytes, size)) {
+    } else if (!KOKSMA__CODEC_HOST->bytes_put(out, 0, bytes, size)) {
         status = koksma__fail_memory(size);
     }
     jpeg_destroy_compress(&jpeg);
@@ -271,5 +258,5 @@ static koksma_status write(const koksma_image *image, const char *metadata, koks
     return status;
 }
 
-static const koksma__jpeg_functions functions = {read, write};
+static const koksma__codec functions = {read, write};
 KOKSMA__MODULE(functions)

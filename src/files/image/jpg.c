@@ -3,11 +3,10 @@
    JPEG file is read or written, does the reading and writing. */
 #include <string.h>
 
-#include "image/image.h"
-#include "image/jpeg.h"
+#include "image/codec.h"
 
-static const koksma__jpeg_host host = {koksma__bytes_put, koksma__image_claim};
-static const koksma__module module = {"jpeg", "libjpeg-turbo", {koksma__fail, koksma__fail_memory, &host}};
+static const koksma__module module = {
+    "jpeg", "libjpeg-turbo", {koksma__fail, koksma__fail_memory, &koksma__codec_functions}};
 
 static bool recognises(const unsigned char *bytes, size_t size)
 {
@@ -17,25 +16,18 @@ static bool recognises(const unsigned char *bytes, size_t size)
 
 static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
 {
-    const void *functions;
-    const koksma_status status = koksma__module_load(&module, &functions);
-    return status ? status : ((const koksma__jpeg_functions *)functions)->read(bytes, size, out);
+    return koksma__codec_read(&module, bytes, size, out);
 }
 
 static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
-    const void *functions;
-    const koksma_status status = koksma__module_load(&module, &functions);
-    (void)n; /* a file holds one layer */
-    return status ? status : ((const koksma__jpeg_functions *)functions)->write(layers->image, metadata, out);
+    return koksma__codec_write(&module, layers, n, metadata, out);
 }
 
+/* The error is that of four levels at 1, where the sRGB curve is steepest. */
 const koksma__image_format koksma__format_jpg = {.name = "jpg",
                                                  .recognises = recognises,
                                                  .read = read,
                                                  .write = write,
-                                                 .error = 4.0 / 255 * 2.4 /
-                                                          /* error of four levels at 1, where the sRGB curve is
-                                                             steepest */
-                                                          1.055,
+                                                 .error = 4.0 / 255 * 2.4 / 1.055,
                                                  .module = &module};

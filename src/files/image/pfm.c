@@ -14,8 +14,6 @@
 #include "core/c_locale.h"
 #include "core/status.h"
 #include "image/formats.h"
-#include "image/image.h"
-#include "image/registry.h"
 
 static bool recognises(const unsigned char *bytes, size_t size)
 {

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reads and writes PNG files of 1 to 16 bits by libpng. Levels are read as sRGB, whose curve (IEC 61966-2-1) is
- * applied here in double precision:
- *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
- * A gAMA chunk with the value g replaces this curve by linear = s^(1/g), unless the file also has a chunk sRGB or
+ * Reads and writes PNG files of 1 to 16 bits by libpng. Levels are read as sRGB, whose curve (image.h) is applied here in
+ * double precision. A gAMA chunk with the value g replaces this curve by linear = s^(1/g), unless the file also has a chunk sRGB or
  * iCCP, which take precedence (PNG, 3rd edition, section 13.13). A g within 5 % of 1/2.2 is read as sRGB, because
  * writers of sRGB files often store such a g. read_srgb ignores gAMA. Transparency does not change the colours, so
  * that albedos and comparisons use each pixel's colour; read_alpha reads the transparency alone. Files are written as
@@ -17,7 +15,6 @@
 
 #include "core/status.h"
 #include "image/formats.h"
-#include "image/image.h"
 
 static bool recognises(const unsigned char *bytes, size_t size)
 {
@@ -161,9 +158,7 @@ static koksma_status to_linear(const unsigned char *levels, const head *h, size_
     KOKSMA__REQUIRE_MEMORY(table, n * sizeof *table);
     for (size_t i = 0; i < n; i++) {
         const double s = (double)i / (double)(n - 1);
-        table[i] = (float)(h->power > 0   ? pow(s, h->power)
-                           : s <= 0.04045 ? s / 12.92
-                                          : pow((s + 0.055) / 1.055, 2.4));
+        table[i] = (float)(h->power > 0 ? pow(s, h->power) : koksma__from_srgb(s));
     }
     for (size_t i = 0; i < count; i++) {
         out[i] = table[h->level_bytes == 1 ? levels[i] : levels[2 * i] << 8 | levels[2 * i + 1]];
@@ -250,13 +245,6 @@ static koksma_status read_alpha(const unsigned char *bytes, size_t size, koksma_
 
 /* ---- Writing ------------------------------------------------------------------------------------------ */
 
-static unsigned char to_srgb(float linear)
-{
-    const double x = linear >= 0 ? fmin((double)linear, 1) : 0; /* NaN is 0 */
-    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
-    return (unsigned char)(255 * s + 0.5);
-}
-
 static void put(png_structp png, png_bytep data, size_t size)
 {
     stream *s = png_get_io_ptr(png);
@@ -297,7 +285,7 @@ static bool put_image(png_structp png, png_infop info, const koksma_image *image
     const size_t count = (size_t)image->width * (size_t)image->channels;
     for (int y = 0; y < image->height; y++) {
         for (size_t i = 0; i < count; i++) {
-            row[i] = to_srgb(image->pixels[(size_t)y * count + i]);
+            row[i] = koksma__srgb_byte(image->pixels[(size_t)y * count + i]);
         }
         png_write_row(png, row);
     }

@@ -1,19 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Allocates images, accesses their pixels, and reads and writes image files in the formats of formats.def. */
-#include "image/registry.h"
+/* Reads and writes image files in the formats of formats.def; checks which layers may be written together, and names their
+   channels. */
+#include "image/codec.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/c_locale.h"
-#include "core/files.h"
 #include "core/status.h"
-#include "image/formats.h"
-#include "image/image.h"
-#include "image/layers.h"
 
 static const koksma__image_format *const formats[] = {
 #define FORMAT(name) &koksma__format_##name,
@@ -120,8 +116,7 @@ static void uncurve(koksma_image *image)
 {
     const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
     for (size_t i = 0; i < n; i++) {
-        const double x = (double)image->pixels[i];
-        image->pixels[i] = (float)(x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055);
+        image->pixels[i] = (float)koksma__to_srgb((double)image->pixels[i]);
     }
 }
 
@@ -166,6 +161,87 @@ koksma_status koksma_image_read(const char *path, koksma_image *out)
 {
     return koksma__image_read(path, KOKSMA__FILE_IMAGE, KOKSMA__BY_USER, out);
 }
+
+/* ---- Layers --------------------------------------------------------------------------------------------- */
+
+void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME])
+{
+    const char *dot = *layer->name ? "." : "";
+    if (layer->image->channels == 1 && *layer->name) {
+        snprintf(name, KOKSMA__CHANNEL_NAME, "%s", layer->name);
+    } else {
+        snprintf(name, KOKSMA__CHANNEL_NAME, "%s%s%c", layer->name, dot,
+                 "YRGB"[layer->image->channels == 3 ? k + 1 : 0]);
+    }
+}
+
+size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k)
+{
+    char name[KOKSMA__CHANNEL_NAME];
+    for (size_t l = 0; l < n; l++) {
+        for (*k = 0; *k < layers[l].image->channels; ++*k) {
+            koksma__layer_channel(&layers[l], *k, name);
+            if (!strcmp(name, wanted)) {
+                return l;
+            }
+        }
+    }
+    return n;
+}
+
+static koksma_status check_layer(const koksma_layer *layer, const koksma_image *first)
+{
+    KOKSMA__FAIL_IF(!layer->name || !layer->image, KOKSMA_ARGUMENT, "a layer without %s",
+                    layer->name ? "an image" : "a name");
+    KOKSMA__TRY(koksma__image_usable(layer->image));
+    KOKSMA__FAIL_IF(strlen(layer->name) > KOKSMA__LAYER_NAME, KOKSMA_ARGUMENT, "the layer's name '%s' is too long",
+                    layer->name);
+    KOKSMA__FAIL_IF(layer->image->width != first->width || layer->image->height != first->height, KOKSMA_ARGUMENT,
+                    "layer '%s' is of another size", layer->name);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__layers_check(const koksma_layer *layers, size_t n)
+{
+    char name[KOKSMA__CHANNEL_NAME];
+    koksma_status status = n ? koksma__array_check("layers", layers, n, sizeof *layers)
+                             : koksma__fail(KOKSMA_ARGUMENT, "no image to write");
+    for (size_t l = 0; !status && l < n; l++) {
+        status = check_layer(&layers[l], layers->image);
+    }
+    for (size_t l = 0; !status && l < n; l++) {
+        for (int k = 0; k < layers[l].image->channels; k++) {
+            int first;
+            koksma__layer_channel(&layers[l], k, name);
+            KOKSMA__FAIL_IF(koksma__layers_find(layers, n, name, &first) != l || first != k, KOKSMA_ARGUMENT,
+                            "two layers have a channel '%s'", name);
+        }
+    }
+    return status;
+}
+
+/* ---- Modules ------------------------------------------------------------------------------------------- */
+
+const koksma__codec_host koksma__codec_functions = {koksma__bytes_put, koksma__image_claim, koksma__layer_channel,
+                                                    koksma__layers_find, koksma_image_fini};
+
+koksma_status koksma__codec_read(const koksma__module *module, const unsigned char *bytes, size_t size,
+                                 koksma_image *out)
+{
+    const void *codec;
+    KOKSMA__TRY(koksma__module_load(module, &codec));
+    return ((const koksma__codec *)codec)->read(bytes, size, out);
+}
+
+koksma_status koksma__codec_write(const koksma__module *module, const koksma_layer *layers, size_t n,
+                                  const char *metadata, koksma__bytes *out)
+{
+    const void *codec;
+    KOKSMA__TRY(koksma__module_load(module, &codec));
+    return ((const koksma__codec *)codec)->write(layers, n, metadata, out);
+}
+
+/* ---- Writing -------------------------------------------------------------------------------------------- */
 
 static const koksma__image_format *format_of_name(const char *path)
 {

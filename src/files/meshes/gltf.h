@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reader of glTF 2.0, JSON and buffers, in several files: gltf.c opens the file and reads its buffers and accessors;
+/* The reader of glTF 2.0, JSON and buffers, in several files: gltf_read.c opens the file; gltf.c reads its buffers and accessors;
    gltf_schema.c checks that the parts fit together; gltf_materials.c reads its materials; gltf_meshes.c makes meshes from
    primitives; gltf_nodes.c places them and reads the lights and the camera. This header declares what these files share. */
 #ifndef KOKSMA_MESHES_GLTF_H
 #define KOKSMA_MESHES_GLTF_H
 
-#include "meshes/readers.h"
+#include "meshes/mesh_file.h"
 #include "json/json.h"
 
 enum { KOKSMA__GLTF_ITEMS = 1 << 20 }; /* of a list */
@@ -69,6 +69,9 @@ typedef struct koksma__gltf_elements {
     int width;     /* number of components of an element */
     bool normalised;
 } koksma__gltf_elements;
+
+/* Loads all buffers whose data exist. Errors: MISSING, MALFORMED, MEMORY. */
+koksma_status koksma__gltf_load_buffers(koksma__gltf *g);
 
 /* Decodes a data URI in base64 into bytes that the koksma__mesh_file owns; errors name the field f. Errors:
    MALFORMED, MEMORY. */

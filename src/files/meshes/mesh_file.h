@@ -81,7 +81,7 @@ typedef struct koksma__file_light {
 typedef struct koksma__mesh_file {
     const char *path;
     koksma__file_sizes *sizes; /* NULL, or counts the model and its buffers */
-    /* sum of the hashes of all files read: the model's as often as mesh_file.c explains, those that it names once, three
+    /* sum of the hashes of all files read: the model's as often as mesh_read.c explains, those that it names once, three
        times, five times, ..., so that their order counts */
     uint64_t hash;
     size_t n_named; /* the number of files that it names and that were read */

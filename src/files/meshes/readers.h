@@ -7,16 +7,18 @@
 
 #include "meshes/mesh_file.h"
 
-typedef koksma_status koksma__mesh_reader(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+/* OBJ with its material files; also MISSING. */
+koksma_status koksma__obj_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
 
-koksma__mesh_reader koksma__obj_read;  /* with its material files; MISSING */
-koksma__mesh_reader koksma__gltf_read; /* JSON or binary, with its buffers; MISSING */
-koksma__mesh_reader koksma__ply_read;
-koksma__mesh_reader koksma__off_read;
-koksma__mesh_reader koksma__serialized_read; /* Mitsuba's; UNSUPPORTED (this build lacks zlib) */
+/* glTF, JSON or binary, with its buffers; also MISSING. */
+koksma_status koksma__gltf_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
 
-/* Checks the two bytes with which a .serialized file begins. */
-koksma__check_start koksma__serialized_start;
+koksma_status koksma__ply_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+koksma_status koksma__off_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+
+/* Mitsuba's .serialized files; also UNSUPPORTED (this build lacks zlib). The second function checks their first bytes. */
+koksma_status koksma__serialized_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+koksma_status koksma__serialized_start(const unsigned char *bytes, size_t size);
 
 /* ---- Material files of OBJ ---- */
 

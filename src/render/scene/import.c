@@ -21,7 +21,6 @@
 #include "core/vector.h"
 #include "image/formats.h"
 #include "image/image.h"
-#include "image/registry.h"
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"

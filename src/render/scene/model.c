@@ -20,7 +20,6 @@
 #include "core/status.h"
 #include "core/vector.h"
 #include "image/formats.h"
-#include "image/registry.h"
 #include "render/materials/materials.h"
 #include "render/medium.h"
 #include "render/scene_images.h"

@@ -22,7 +22,6 @@
 #include "image/formats.h"
 #include "image/image.h"
 #include "image/metrics/metrics.h"
-#include "image/usable.h"
 
 enum { BLOCK = 512 };
 

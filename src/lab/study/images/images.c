@@ -15,7 +15,7 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "image/registry.h"
+#include "image/formats.h"
 #include "stats/slopes.h"
 #include "stats/statistics.h"
 #include "study/images/image_names.h"

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "image/registry.h"
+#include "image/formats.h"
 #include "study/report/document.h"
 #include "study/report/page.h"
 

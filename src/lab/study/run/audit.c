@@ -19,7 +19,7 @@
 #include "core/c_locale.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "image/registry.h"
+#include "image/formats.h"
 #include "stats/log_gamma.h"
 #include "study/run/audit_series.h"
 #include "study/run/mpi_rank.h"

@@ -20,7 +20,6 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"
-#include "image/registry.h"
 #include "render/render.h"
 #include "study/plan/point_files.h"
 #include "study/run/study.h"
@@ -249,7 +248,7 @@ koksma_status koksma__reference_read(const koksma_study *study, koksma__referenc
 /* The mean of many independent renders, and its expected error. For k replicates with the sample standard deviation
    s of a pixel's luminance, a normal error of standard deviation s / sqrt k has the mean absolute value sqrt(2/pi) s
    / sqrt k. The mean of this value over the pixels is the expected absolute error of the picture itself (in
-   luminance, like all errors of images: image/compare.c). Squared deviations are updated by Welford's method (1962),
+   luminance, like all errors of images: image/image.c). Squared deviations are updated by Welford's method (1962),
    so that equal replicates have a deviation of exactly 0. */
 
 size_t koksma__replicates_numbers(const koksma__replicates *s)
