@@ -9,36 +9,28 @@
  * The temporary name has 64 random bits, and O_EXCL makes a new file: a file that somebody else placed there under
  * the same name is never opened. A process number in the name would not be unique, because processes in different
  * containers often have equal numbers. All steps use the folder's descriptor, which refers to the same folder even
- * when a folder above it is renamed.
- *
- * The writer locks (flock) its temporary file until it ends. A file with a temporary name that belongs to the user,
- * has no other hard link and can be locked was left by a process that died; the next writer into the folder removes
- * it. If another process removed the new file before the writer locked it, the writer finds that its file has no link
- * any more, and makes a new one. On a file system without locks, left-over files are not removed.
+ * when a folder above it is renamed. A process that is killed while it writes leaves its temporary file, which no later
+ * run touches.
  */
-#define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH, renameat2 */
+#define _GNU_SOURCE /* fopencookie, getentropy, O_PATH, renameat2 */
 #include "core/files.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <stdatomic.h>
+#include <libgen.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/capacity.h"
 #include "core/status.h"
 
-static const char prefix[] = ".koksma-";
-
-enum { PREFIX = sizeof prefix - 1, RANDOM = 16, TRIES = 100, MOST_LINKS = 40 /* as Linux follows */ };
+enum { MOST_LINKS = 40 /* as Linux follows */ };
 
 typedef struct koksma__output {
     char *path, *name; /* path: name of the file in messages; name: its name within the folder */
-    char temporary[PREFIX + RANDOM + 1];
+    char temporary[32];
     int folder; /* descriptor of the folder; -1: the target is not a plain file */
     int descriptor;
     int reason; /* errno of the first write that failed */
@@ -56,64 +48,6 @@ static ssize_t put(void *cookie, const char *bytes, size_t size)
         o->reason = n < 0 && errno != EINTR ? errno : 0;
     }
     return (ssize_t)done;
-}
-
-/* ---- Leftovers ------------------------------------------------------------------------------------------- */
-
-static bool is_temporary(const char *name)
-{
-    return !strncmp(name, prefix, PREFIX) && strlen(name) == PREFIX + RANDOM &&
-           strspn(name + PREFIX, "0123456789abcdef") == RANDOM;
-}
-
-static bool is_ours(const struct stat *info)
-{
-    return S_ISREG(info->st_mode) && info->st_uid == geteuid() && info->st_nlink == 1;
-}
-
-static void remove_if_dead(int folder, const char *name)
-{
-    struct stat info, opened;
-    if (fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) || !is_ours(&info)) {
-        return;
-    }
-    /* NFS locks a file only if it is open for writing */
-    const int descriptor = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor >= 0 && !fstat(descriptor, &opened) && is_ours(&opened) && opened.st_ino == info.st_ino &&
-        !flock(descriptor, LOCK_EX | LOCK_NB)) {
-        unlinkat(folder, name, 0);
-    }
-    if (descriptor >= 0) {
-        close(descriptor);
-    }
-}
-
-/* Removes temporary files that dead processes left. A process that writes many files into one folder, one after the
-   other, searches the folder for such files only once. */
-static void remove_leftovers(int folder)
-{
-    static atomic_ullong last;
-    struct stat info;
-    if (fstat(folder, &info)) {
-        return;
-    }
-    /* Inode numbers are unique on one device only. */
-    const unsigned long long id = (unsigned long long)info.st_ino ^ (unsigned long long)info.st_dev << 40;
-    if (atomic_exchange(&last, id) == id) {
-        return;
-    }
-    const int again = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    DIR *entries = again < 0 ? NULL : fdopendir(again);
-    for (const struct dirent *e; entries && (e = readdir(entries));) {
-        if (is_temporary(e->d_name)) {
-            remove_if_dead(folder, e->d_name);
-        }
-    }
-    if (entries) {
-        closedir(entries);
-    } else if (again >= 0) {
-        close(again);
-    }
 }
 
 /* ---- Opening --------------------------------------------------------------------------------------------- */
@@ -137,30 +71,17 @@ static int above_streams(int descriptor)
     return other;
 }
 
-/* Makes a new temporary file and locks it. If it fails, it returns false and sets errno. */
+/* Makes a new temporary file. If it fails, it returns false and sets errno. */
 static bool make_temporary(output *o)
 {
-    struct stat info;
-    for (int tries = 0; tries < TRIES; tries++) {
-        unsigned long long random = 0;
-        if (getentropy(&random, sizeof random)) {
-            return false;
-        }
-        snprintf(o->temporary, sizeof o->temporary, "%s%016llx", prefix, random);
-        o->descriptor = openat(o->folder, o->temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-        o->descriptor = above_streams(o->descriptor);
-        if (o->descriptor < 0 && errno == EEXIST) {
-            continue;
-        }
-        const bool locked = o->descriptor >= 0 && (!flock(o->descriptor, LOCK_EX | LOCK_NB) || errno != EWOULDBLOCK);
-        if (o->descriptor < 0 || (locked && !fstat(o->descriptor, &info) && info.st_nlink > 0)) {
-            return o->descriptor >= 0;
-        }
-        close(o->descriptor); /* another process is removing the file as a leftover */
-        o->descriptor = -1;
+    unsigned long long random = 0;
+    if (getentropy(&random, sizeof random)) {
+        return false;
     }
-    errno = EAGAIN;
-    return false;
+    snprintf(o->temporary, sizeof o->temporary, ".koksma-%016llx", random);
+    o->descriptor =
+        above_streams(openat(o->folder, o->temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+    return o->descriptor >= 0;
 }
 
 /* Returns the number of the descriptor that a path such as "/dev/stdout" or "/dev/fd/3" names; -1 for any other path.
@@ -259,11 +180,7 @@ static bool open_within(int folder, const char *path, output *o)
     }
     o->folder = folder;
     o->name = folder < 0 ? NULL : strdup(path);
-    if (!o->name) {
-        return false;
-    }
-    remove_leftovers(folder);
-    if (!make_temporary(o)) {
+    if (!o->name || !make_temporary(o)) {
         return false;
     }
     if (!fstatat(folder, path, &info, AT_SYMLINK_NOFOLLOW) && S_ISREG(info.st_mode)) {
@@ -366,21 +283,14 @@ static bool sync_folder(int folder)
 /* Syncs the folder that holds `path`. If it fails, it returns false and sets errno. */
 static bool sync_above(const char *path)
 {
-    size_t length = strlen(path);
-    while (length > 1 && path[length - 1] == '/') {
-        length--;
-    }
-    while (length > 0 && path[length - 1] != '/') {
-        length--;
-    }
-    char *above = length ? strndup(path, length) : strdup(".");
-    const int folder = above ? open_folder(AT_FDCWD, above, 0) : -1;
+    char *copy = strdup(path);
+    const int folder = copy ? open_folder(AT_FDCWD, dirname(copy), 0) : -1;
     const bool synced = folder >= 0 && sync_folder(folder);
     const int reason = errno;
     if (folder >= 0) {
         close(folder);
     }
-    free(above);
+    free(copy);
     errno = reason;
     return synced;
 }
@@ -410,12 +320,6 @@ static int rename_new(const output *o)
     return renameat(o->folder, o->temporary, o->folder, o->name);
 }
 
-/* Gives the temporary file its name. Returns -1 and sets errno if it fails. */
-static int place(const output *o)
-{
-    return o->made ? rename_new(o) : renameat(o->folder, o->temporary, o->folder, o->name);
-}
-
 koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
 {
     output *o = file->output;
@@ -431,7 +335,7 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     if (o->folder >= 0 && keep && !o->reason) {
         if (fsync(o->descriptor)) {
             o->reason = errno;
-        } else if (place(o)) {
+        } else if (o->made ? rename_new(o) : renameat(o->folder, o->temporary, o->folder, o->name)) {
             o->reason = o->made && errno == EEXIST ? 0 : errno;
             what = "can't be written";
         } else {

@@ -1,19 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SHA-256 (FIPS 180-4, section 6.2): blocks of 64 bytes are mixed into a state of eight words by 64 rounds. The
    constants are the first 32 bits of the fractional parts of the cube roots of the first 64 primes, and of the square
-   roots of the first eight. If an x86 processor has instructions for SHA-256, one of which does two rounds, hashing
-   is eight times as fast. They are not used if the environment has KOKSMA_KERNELS=ref or =baseline. */
+   roots of the first eight. */
 #include "core/hash.h"
 
-#include <stdatomic.h>
-#include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
-
-#ifdef KOKSMA_X86_KERNELS
-#include <cpuid.h>
-#include <immintrin.h>
-#endif
 
 static const uint32_t constants[64] = {
     0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
@@ -41,7 +32,7 @@ static inline void mix_round(uint32_t s[8], unsigned k, uint32_t add)
     s[(15 - k) % 8] = t + (rotate(a, 2) ^ rotate(a, 13) ^ rotate(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
 }
 
-static void mix_plain(uint32_t state[8], const unsigned char block[64])
+static void mix(uint32_t state[8], const unsigned char block[64])
 {
     uint32_t w[64], s[8];
     for (int i = 0; i < 16; i++) {
@@ -68,82 +59,6 @@ static void mix_plain(uint32_t state[8], const unsigned char block[64])
         state[i] += s[i];
     }
 }
-
-#ifdef KOKSMA_X86_KERNELS
-#define WITH_SHA __attribute__((target("sha,sse4.1,ssse3")))
-
-/* The state in the order that the instructions need: words a, b, e, f in one register and c, d, g, h in the other,
-   beginning with the highest word. */
-typedef struct lanes {
-    __m128i abef, cdgh;
-} lanes;
-
-/* Four rounds with four words of the message. */
-WITH_SHA static inline void mix_4(lanes *s, __m128i words, const uint32_t *add)
-{
-    const __m128i sum = _mm_add_epi32(words, _mm_loadu_si128((const __m128i *)(const void *)add));
-    s->cdgh = _mm_sha256rnds2_epu32(s->cdgh, s->abef, sum);
-    s->abef = _mm_sha256rnds2_epu32(s->abef, s->cdgh, _mm_shuffle_epi32(sum, 0x0e));
-}
-
-/* Computes the next four words of the message from the last 16; w[0] has the oldest four. */
-WITH_SHA static inline __m128i next_4(__m128i w0, __m128i w1, __m128i w2, __m128i w3)
-{
-    return _mm_sha256msg2_epu32(_mm_add_epi32(_mm_sha256msg1_epu32(w0, w1), _mm_alignr_epi8(w3, w2, 4)), w3);
-}
-
-WITH_SHA static void mix_fast(uint32_t state[8], const unsigned char block[64])
-{
-    const __m128i big_endian = _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203);
-    __m128i *const halves = (__m128i *)(void *)state, w[4];
-    const __m128i cdab = _mm_shuffle_epi32(_mm_loadu_si128(halves), 0xb1);
-    const __m128i efgh = _mm_shuffle_epi32(_mm_loadu_si128(halves + 1), 0x1b);
-    const lanes before = {_mm_alignr_epi8(cdab, efgh, 8), _mm_blend_epi16(efgh, cdab, 0xf0)};
-    lanes s = before;
-    for (int i = 0; i < 4; i++) {
-        w[i] = _mm_shuffle_epi8(_mm_loadu_si128((const __m128i *)(const void *)(block + 16 * i)), big_endian);
-        mix_4(&s, w[i], &constants[4 * i]);
-    }
-    for (int i = 16; i < 64; i += 16) {
-        w[0] = next_4(w[0], w[1], w[2], w[3]);
-        mix_4(&s, w[0], &constants[i]);
-        w[1] = next_4(w[1], w[2], w[3], w[0]);
-        mix_4(&s, w[1], &constants[i + 4]);
-        w[2] = next_4(w[2], w[3], w[0], w[1]);
-        mix_4(&s, w[2], &constants[i + 8]);
-        w[3] = next_4(w[3], w[0], w[1], w[2]);
-        mix_4(&s, w[3], &constants[i + 12]);
-    }
-    const __m128i feba = _mm_shuffle_epi32(_mm_add_epi32(s.abef, before.abef), 0x1b);
-    const __m128i dchg = _mm_shuffle_epi32(_mm_add_epi32(s.cdgh, before.cdgh), 0xb1);
-    _mm_storeu_si128(halves, _mm_blend_epi16(feba, dchg, 0xf0));
-    _mm_storeu_si128(halves + 1, _mm_alignr_epi8(dchg, feba, 8));
-}
-
-static bool can_mix_fast(void)
-{
-    const char *wish = getenv("KOKSMA_KERNELS");
-    unsigned a, b, c, d;
-    return (!wish || (strcmp(wish, "ref") != 0 && strcmp(wish, "baseline") != 0)) &&
-           __builtin_cpu_supports("sse4.1") && __get_cpuid_count(7, 0, &a, &b, &c, &d) && b >> 29 & 1;
-}
-
-static void mix(uint32_t state[8], const unsigned char block[64])
-{
-    static atomic_int fast = -1; /* -1: unknown */
-    int use = atomic_load_explicit(&fast, memory_order_relaxed);
-    if (use < 0) {
-        use = can_mix_fast();
-        atomic_store_explicit(&fast, use, memory_order_relaxed);
-    }
-    (use ? mix_fast : mix_plain)(state, block);
-}
-#else
-static void mix(uint32_t state[8], const unsigned char block[64])
-{
-    mix_plain(state, block);
-}
-#endif
 
 void koksma__sha256_init(koksma__sha256 *h)
 {

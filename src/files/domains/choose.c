@@ -27,10 +27,8 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/vector.h"
-#include "domains/choose.h"
 #include "domains/dart_grid.h"
-#include "domains/gaussian.h"
-#include "domains/maximal.h"
+#include "domains/domain.h"
 #include "patterns/spacing/spacing.h"
 
 enum { REJECTIONS = 20000 };

@@ -55,4 +55,24 @@ typedef struct koksma__choice {
    sum is above the sum before it. */
 size_t koksma__domain_find(const double *sums, size_t count, double at);
 
+/* Makes *n points of a domain by the method of the pattern that the spec names. If *n is 0, the pattern's d decides how
+   many there are, and *n receives their number. The caller frees *points, also after an error; it is NULL on entry.
+   Errors: ARGUMENT, UNSUPPORTED, N, IMPOSSIBLE, MEMORY, INTERRUPTED. */
+koksma_status koksma__domain_choose(const koksma__point_domain *domain, const koksma_spec *spec, uint64_t seed,
+                                    const koksma_run *run, size_t *n, koksma__domain_point **points);
+
+/* ---- Methods in files of their own (choose.c has the others) ---- */
+
+/* poisson-disk-maximal, and the same whatever number of points the parameter d gives: sets choice->n and allocates
+   choice->points. Errors: N (too many points), MEMORY, INTERRUPTED. */
+koksma_status koksma__choose_maximal(const koksma__choice *choice);
+koksma_status koksma__choose_by_distance(koksma__choice *choice);
+
+/* dart-throwing: throws darts until there are n points, none closer than the parameter f times the distance of n points in
+   the densest packing of the plane, times the root of the domain's area. */
+koksma_status koksma__choose_fraction(const koksma__choice *choice);
+
+/* gaussian-blue-noise */
+koksma_status koksma__choose_gaussian(const koksma__choice *choice);
+
 #endif

@@ -25,7 +25,7 @@
  * 2011 for widths that follow the density. The time of a step is proportional to n times the number of points and nodes
  * within reach of a point, about 200.
  */
-#include "domains/gaussian.h"
+#include "domains/field.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,8 +34,6 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/vector.h"
-#include "domains/field.h"
-#include "domains/source_tree.h"
 
 enum { BLOCK = 8, SETTLING = 128, LOCKED = 400, LEAST_STEPS = 600, MOST_STEPS = 2000, PATIENCE = 200 };
 

@@ -21,7 +21,7 @@
  * radii that vary (their rule "smaller disks"). One set takes O((n + number of parts) log n); the search makes 20 to
  * 40 sets.
  */
-#include "domains/maximal.h"
+#include "domains/domain.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
  * Ericson, Real-Time Collision Detection (2005), 5.1.5. Building takes O(n log n); a search takes about O(log n) if it
  * starts near the result.
  */
-#include "domains/nearest.h"
+#include "domains/field.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ struct koksma__nearest {
     double *centroids, *corners; /* three and nine coordinates of each triangle */
 };
 
-static void corners_of(const koksma__point_domain *domain, uint32_t part, double corners[3][3])
+void koksma__triangle_corners(const koksma__point_domain *domain, uint32_t part, double corners[3][3])
 {
     static const double at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
     for (int c = 0; c < 3; c++) {
@@ -53,7 +53,7 @@ static koksma_status build(const koksma__nearest *s, size_t node, size_t first, 
     box all = empty, centroids = empty;
     for (size_t i = first; i < end; i++) {
         double corners[3][3];
-        corners_of(s->domain, s->order[i], corners);
+        koksma__triangle_corners(s->domain, s->order[i], corners);
         for (int c = 0; c < 3; c++) {
             add_to_box(&all, corners[c]);
         }
@@ -91,7 +91,7 @@ koksma_status koksma__nearest_open(const koksma__point_domain *domain, const kok
         const koksma__domain_point centre = {(uint32_t)i, {1.0 / 3, 1.0 / 3}};
         s->order[i] = (uint32_t)i;
         domain->place(domain->data, &centre, s->centroids + 3 * i);
-        corners_of(domain, (uint32_t)i, (double(*)[3])(s->corners + 9 * i));
+        koksma__triangle_corners(domain, (uint32_t)i, (double(*)[3])(s->corners + 9 * i));
     }
     *out = s; /* the caller closes it, also after an interruption */
     return build(s, 0, 0, n, run);
@@ -102,33 +102,25 @@ void koksma__nearest_close(koksma__nearest *s)
     free(s);
 }
 
-static double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Returns the t in [0,1] for which the point from + t (to - from) of an edge is nearest to x. */
 static double along_edge(const double *x, const double *from, const double *to)
 {
     double edge[3], way[3];
-    for (int k = 0; k < 3; k++) {
-        edge[k] = to[k] - from[k];
-        way[k] = x[k] - from[k];
-    }
-    const double square = dot(edge, edge);
-    return square > 0 ? fmin(fmax(dot(edge, way) / square, 0), 1) : 0;
+    koksma__subtract(to, from, edge);
+    koksma__subtract(x, from, way);
+    const double square = koksma__dot(edge, edge);
+    return square > 0 ? fmin(fmax(koksma__dot(edge, way) / square, 0), 1) : 0;
 }
 
 /* Computes the position of a triangle that is nearest to x, as the weights of its corners 1 and 2. */
 static void nearest_on(const double c[3][3], const double *x, double at[2])
 {
     double e1[3], e2[3], way[3], best = INFINITY;
-    for (int k = 0; k < 3; k++) {
-        e1[k] = c[1][k] - c[0][k];
-        e2[k] = c[2][k] - c[0][k];
-        way[k] = x[k] - c[0][k];
-    }
-    const double a = dot(e1, e1), b = dot(e1, e2), d = dot(e2, e2), p = dot(e1, way), q = dot(e2, way);
+    koksma__subtract(c[1], c[0], e1);
+    koksma__subtract(c[2], c[0], e2);
+    koksma__subtract(x, c[0], way);
+    const double a = koksma__dot(e1, e1), b = koksma__dot(e1, e2), d = koksma__dot(e2, e2), p = koksma__dot(e1, way),
+                 q = koksma__dot(e2, way);
     const double area = a * d - b * b, u = (d * p - b * q) / area, v = (a * q - b * p) / area;
     if (area > 0 && u >= 0 && v >= 0 && u + v <= 1) {
         at[0] = u;
@@ -142,8 +134,8 @@ static void nearest_on(const double c[3][3], const double *x, double at[2])
         for (int k = 0; k < 3; k++) {
             off[k] = tries[i][0] * e1[k] + tries[i][1] * e2[k] - way[k];
         }
-        if (dot(off, off) < best) {
-            best = dot(off, off);
+        if (koksma__dot(off, off) < best) {
+            best = koksma__dot(off, off);
             memcpy(at, tries[i], 2 * sizeof *at);
         }
     }

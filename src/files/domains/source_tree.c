@@ -9,7 +9,7 @@
  * the forces on a point take about O(log n + number of sources in reach). The order in which forces are added depends
  * only on the sources.
  */
-#include "domains/source_tree.h"
+#include "domains/field.h"
 
 #include <math.h>
 #include <stdlib.h>

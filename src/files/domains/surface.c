@@ -4,6 +4,7 @@
  * triangle that is drawn with probability proportional to its area, by bisection in the running sums of the areas;
  * the warp `triangle` maps the unit square to the triangle. The methods of choose.c get positions that are scaled so
  * that the smallest cube about the model becomes the unit cube.
+ *
  */
 #include <koksma/density.h>
 #include <koksma/warp.h>
@@ -11,12 +12,187 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/points.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "domains/choose.h"
-#include "domains/surface_field.h"
+#include "core/vector.h"
+#include "domains/field.h"
 #include "meshes/mesh_file.h"
+
+/* ---- The field ---- */
+
+enum { DEEPEST = 24, NODES_A_POINT = 8 };
+
+typedef struct surface_field {
+    const koksma__point_domain *domain;
+    koksma__nearest *nearest;
+    koksma__field *field;
+    const koksma_run *run; /* only while the field is opened */
+    size_t capacity;
+    double width, per_area; /* number of points per area */
+} surface_field;
+
+static double width(const void *data, const double *x)
+{
+    (void)x;
+    return ((const surface_field *)data)->width;
+}
+
+static bool settle(const void *data, double *x, koksma__domain_point *point)
+{
+    const surface_field *f = data;
+    koksma__nearest_find(f->nearest, x, point);
+    f->domain->place(f->domain->data, point, x);
+    return true;
+}
+
+/* Computes the corners of a triangle and the cross product of two of its edges. */
+static void edges_of(const koksma__point_domain *domain, uint32_t part, double c[3][3], double normal[3])
+{
+    double e[2][3];
+    koksma__triangle_corners(domain, part, c);
+    koksma__subtract(c[1], c[0], e[0]);
+    koksma__subtract(c[2], c[0], e[1]);
+    koksma__cross(e[0], e[1], normal);
+}
+
+static void along(const void *data, const koksma__domain_point *point, double *vector)
+{
+    const surface_field *f = data;
+    double corners[3][3], normal[3];
+    edges_of(f->domain, point->part, corners, normal);
+    const double square = koksma__dot(normal, normal), part = square > 0 ? koksma__dot(normal, vector) / square : 0;
+    for (int k = 0; k < 3; k++) {
+        vector[k] -= part * normal[k];
+    }
+}
+
+static void close_field(void *data)
+{
+    surface_field *f = data;
+    koksma__nearest_close(f->nearest);
+    free(f);
+}
+
+/* Adds the node of a triangle or, if it is too large, of its quarters. The covariance matrix of a triangle with edges
+   of lengths a, b and c has the trace (a^2 + b^2 + c^2) / 36. */
+static koksma_status add_triangle(surface_field *f, const double c[3][3], int depth)
+{
+    double e[3][3], longest = 0, squares = 0, normal[3], middle[3][3];
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            e[i][k] = c[(i + 1) % 3][k] - c[i][k];
+            middle[i][k] = (c[(i + 1) % 3][k] + c[i][k]) / 2;
+        }
+        squares += koksma__dot(e[i], e[i]);
+        longest = fmax(longest, koksma__dot(e[i], e[i]));
+    }
+    /* an equilateral triangle with sides of sqrt 2 times that of a square has the variance of the square */
+    const double least = M_SQRT2 * KOKSMA__NODE_WIDTHS * f->width;
+    if (longest > least * least && depth < DEEPEST) {
+        for (int i = 0; i < 4; i++) {
+            double quarter[3][3];
+            for (int k = 0; k < 3; k++) {
+                quarter[0][k] = i < 3 ? c[i][k] : middle[0][k];
+                quarter[1][k] = i < 3 ? middle[i][k] : middle[1][k];
+                quarter[2][k] = i < 3 ? middle[(i + 2) % 3][k] : middle[2][k];
+            }
+            KOKSMA__TRY(add_triangle(f, quarter, depth + 1));
+        }
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__look(f->run, f->field->n_nodes, 0));
+    koksma__cross(e[0], e[1], normal);
+    koksma__field_node node = {.mass = f->per_area * 0.5 * sqrt(koksma__dot(normal, normal)),
+                               .square = f->width * f->width + squares / 36};
+    for (int k = 0; k < 3; k++) {
+        node.x[k] = (c[0][k] + c[1][k] + c[2][k]) / 3;
+    }
+    return node.mass > 0 ? koksma__field_add(f->field, &f->capacity, node) : KOKSMA_OK;
+}
+
+/* Compares the cubes that contain two nodes; positions are in units of a cube's side. */
+static int by_cube(const koksma__field_node *p, const koksma__field_node *q)
+{
+    for (int k = 0; k < 3; k++) {
+        const double i = floor(p->x[k]), j = floor(q->x[k]);
+        if (i != j) {
+            return i < j ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+/* Compares the cubes, then the positions, then the masses; nodes that agree in all of these may be in any order. */
+static int by_all(const void *a, const void *b)
+{
+    const koksma__field_node *p = a, *q = b;
+    int order = by_cube(p, q);
+    for (int k = 0; k < 3 && !order; k++) {
+        order = (p->x[k] > q->x[k]) - (p->x[k] < q->x[k]);
+    }
+    return order ? order : (p->mass > q->mass) - (p->mass < q->mass);
+}
+
+/* Replaces the nodes in each cube of side width / 2 by one node at their centroid, weighted by mass, with the sum of
+   their masses. Its `square` (field.h) has the variance of their positions about the centroid; their own variances are
+   left out. */
+static void merge(surface_field *f)
+{
+    koksma__field_node *nodes = f->field->nodes;
+    const double side = f->width / 2;
+    const size_t n = f->field->n_nodes;
+    for (size_t i = 0; i < n; i++) {
+        for (int k = 0; k < 3; k++) {
+            nodes[i].x[k] /= side;
+        }
+    }
+    qsort(nodes, n, sizeof *nodes, by_all);
+    size_t merged = 0;
+    for (size_t i = 0, end; i < n; i = end) {
+        koksma__field_node sum = {.mass = 0};
+        double spread = 0;
+        for (end = i; end < n && by_cube(&nodes[i], &nodes[end]) == 0; end++) {
+            sum.mass += nodes[end].mass;
+            for (int k = 0; k < 3; k++) {
+                sum.x[k] += nodes[end].mass * nodes[end].x[k] * side;
+                spread += nodes[end].mass * nodes[end].x[k] * nodes[end].x[k] * side * side;
+            }
+        }
+        for (int k = 0; k < 3; k++) {
+            sum.x[k] /= sum.mass;
+        }
+        spread = fmax(spread / sum.mass - koksma__dot(sum.x, sum.x), 0);
+        sum.square = f->width * f->width + spread; /* spread: twice the variance along an axis of the surface */
+        nodes[merged++] = sum;
+    }
+    f->field->n_nodes = merged;
+}
+
+static koksma_status open_field(const koksma__point_domain *domain, size_t n, double sigma, const koksma_run *run,
+                                koksma__field *field)
+{
+    surface_field *f = malloc(sizeof *f);
+    KOKSMA__REQUIRE_MEMORY(f, sizeof *f);
+    *f = (surface_field){.domain = domain, .field = field, .run = run};
+    f->width = sigma * sqrt(domain->area / (double)n);
+    f->per_area = (double)n / domain->area;
+    *field = (koksma__field){.data = f, .width = width, .settle = settle, .along = along, .close = close_field};
+    KOKSMA__TRY(
+        koksma__nearest_open(domain, run, &f->nearest)); /* the caller closes the field, also after an error */
+    for (size_t part = 0; part < domain->n_parts; part++) {
+        double corners[3][3], normal[3];
+        edges_of(domain, (uint32_t)part, corners, normal);
+        KOKSMA__TRY(add_triangle(f, corners, 0));
+    }
+    if (field->n_nodes > NODES_A_POINT * n) {
+        merge(f);
+    }
+    return KOKSMA_OK;
+}
+
+/* ---- The domain ---- */
 
 typedef struct surface {
     koksma__mesh mesh;
@@ -42,16 +218,13 @@ static triangle triangle_of(const koksma__mesh *mesh, size_t t)
         a.edge[0][k] = (double)p[1][k] - (double)p[0][k];
         a.edge[1][k] = (double)p[2][k] - (double)p[0][k];
     }
-    for (int k = 0; k < 3; k++) {
-        const int u = (k + 1) % 3, v = (k + 2) % 3;
-        a.normal[k] = a.edge[0][u] * a.edge[1][v] - a.edge[0][v] * a.edge[1][u];
-    }
+    koksma__cross(a.edge[0], a.edge[1], a.normal);
     return a;
 }
 
 static double length(const double v[3])
 {
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    return sqrt(koksma__dot(v, v));
 }
 
 static void draw(const void *data, uint64_t seed, uint64_t i, koksma__domain_point *point)
@@ -140,7 +313,7 @@ static koksma_status choose(surface *s, const koksma_spec *spec, uint64_t seed, 
                                          .place = place,
                                          .share = share,
                                          .unit_of = unit_of,
-                                         .open_field = koksma__surface_field_open};
+                                         .open_field = open_field};
     size_t count = out->n;
     koksma__domain_point *points = NULL;
     koksma_status status = koksma__domain_choose(&domain, spec, seed, run, &count, &points);
