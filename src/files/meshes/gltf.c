@@ -7,6 +7,7 @@
  */
 #include "meshes/gltf.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,12 +27,15 @@ koksma_status koksma__gltf_list(const field *object, const char *key, field *lis
     return status ? status : koksma__json_length(list, KOKSMA__GLTF_ITEMS, n);
 }
 
-bool koksma__gltf_find(const field *from, const char *const keys[], field *out)
+bool koksma__gltf_find(const field *from, const char *path, field *out)
 {
     field at = *from;
-    for (; *keys; keys++) {
+    for (size_t length; *path; path += length + (path[length] == '/')) {
         const field object = at;
-        if (!koksma__json_has(&object, *keys) || koksma__json_member(&object, *keys, &at)) {
+        char key[40];
+        length = strcspn(path, "/");
+        snprintf(key, sizeof key, "%.*s", (int)length, path);
+        if (!koksma__json_has(&object, key) || koksma__json_member(&object, key, &at)) {
             return false;
         }
     }

@@ -58,8 +58,8 @@ koksma_status koksma__gltf_list(const koksma__json_node *object, const char *key
 /* Item i of the list `which` of the root object; i must be in range. */
 koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i);
 
-/* Follows the path `keys` into nested objects; returns false if a key is missing. */
-bool koksma__gltf_find(const koksma__json_node *from, const char *const keys[], koksma__json_node *out);
+/* Follows a path of keys, "extensions/KHR_materials_ior", into nested objects. Returns false if a key is missing. */
+bool koksma__gltf_find(const koksma__json_node *from, const char *path, koksma__json_node *out);
 
 /* The position and type of an accessor's elements. */
 typedef struct koksma__gltf_elements {

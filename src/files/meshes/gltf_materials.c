@@ -60,10 +60,9 @@ static koksma_status take_image(koksma__gltf *g, size_t number, koksma__file_tex
    upwards: 1 - v. */
 static koksma_status take_transform(const field *info, koksma__file_texture *out)
 {
-    static const char *const transform[] = {"extensions", "KHR_texture_transform", NULL};
     double offset[2] = {0, 0}, scale[2] = {1, 1}, turn = 0;
     field f;
-    if (!koksma__gltf_find(info, transform, &f)) {
+    if (!koksma__gltf_find(info, "extensions/KHR_texture_transform", &f)) {
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__json_get_numbers(&f, "offset", false, -1e6, 1e6, 2, offset));
@@ -99,11 +98,10 @@ static koksma_status take_sampler(const koksma__gltf *g, const field *texture, k
 /* The number of the set of texture coordinates that a texture uses. */
 static koksma_status take_set(const field *info, long long *set)
 {
-    static const char *const transform[] = {"extensions", "KHR_texture_transform", NULL};
     field f;
     *set = 0;
     KOKSMA__TRY(koksma__json_get_whole(info, "texCoord", false, 0, KOKSMA__GLTF_ITEMS, set));
-    return koksma__gltf_find(info, transform, &f)
+    return koksma__gltf_find(info, "extensions/KHR_texture_transform", &f)
                ? koksma__json_get_whole(&f, "texCoord", false, 0, KOKSMA__GLTF_ITEMS, set)
                : KOKSMA_OK;
 }
@@ -133,10 +131,9 @@ static koksma_status take_texture(koksma__gltf *g, size_t material, const field 
 
 int koksma__gltf_uv_set(const koksma__gltf *g, size_t material)
 {
-    static const char *const textures[][3] = {{"pbrMetallicRoughness", "baseColorTexture"},
-                                              {"pbrMetallicRoughness", "metallicRoughnessTexture"},
-                                              {"normalTexture"},
-                                              {"emissiveTexture"}};
+    static const char *const textures[] = {"pbrMetallicRoughness/baseColorTexture",
+                                           "pbrMetallicRoughness/metallicRoughnessTexture", "normalTexture",
+                                           "emissiveTexture"};
     long long set = 0;
     for (size_t i = 0; material < g->n[KOKSMA__GLTF_MATERIALS] && i < sizeof textures / sizeof *textures; i++) {
         const field f = koksma__gltf_item(g, KOKSMA__GLTF_MATERIALS, material);
@@ -153,18 +150,16 @@ int koksma__gltf_uv_set(const koksma__gltf *g, size_t material)
 /* Reads factors and textures of colour, metal and roughness. */
 static koksma_status take_surface(koksma__gltf *g, size_t i, const field *f, koksma__file_material *m)
 {
-    static const char *const metal[] = {"pbrMetallicRoughness", NULL};
-    static const char *const index[] = {"extensions", "KHR_materials_ior", NULL};
     double colour[4] = {1, 1, 1, 1}, metallic = 1, roughness = 1;
     field found;
-    if (koksma__gltf_find(f, metal, &found)) {
+    if (koksma__gltf_find(f, "pbrMetallicRoughness", &found)) {
         KOKSMA__TRY(koksma__json_get_numbers(&found, "baseColorFactor", false, -WIDEST, WIDEST, 4, colour));
         KOKSMA__TRY(koksma__json_get_number(&found, "metallicFactor", false, -WIDEST, WIDEST, &metallic));
         KOKSMA__TRY(koksma__json_get_number(&found, "roughnessFactor", false, -WIDEST, WIDEST, &roughness));
         KOKSMA__TRY(take_texture(g, i, &found, "baseColorTexture", &m->colour_map));
         KOKSMA__TRY(take_texture(g, i, &found, "metallicRoughnessTexture", &m->surface_map));
     }
-    if (koksma__gltf_find(f, index, &found)) {
+    if (koksma__gltf_find(f, "extensions/KHR_materials_ior", &found)) {
         KOKSMA__TRY(koksma__json_get_number(&found, "ior", false, 0, WIDEST, &m->ior));
     }
     for (int k = 0; k < 3; k++) {
@@ -178,12 +173,11 @@ static koksma_status take_surface(koksma__gltf *g, size_t i, const field *f, kok
 
 static koksma_status take_emission(koksma__gltf *g, size_t i, const field *f, koksma__file_material *m)
 {
-    static const char *const strength[] = {"extensions", "KHR_materials_emissive_strength", NULL};
     double glow[3] = {0, 0, 0}, times = 1;
     field found;
     KOKSMA__TRY(koksma__json_get_numbers(f, "emissiveFactor", false, -WIDEST, WIDEST, 3, glow));
     KOKSMA__TRY(take_texture(g, i, f, "emissiveTexture", &m->glow_map));
-    if (koksma__gltf_find(f, strength, &found)) {
+    if (koksma__gltf_find(f, "extensions/KHR_materials_emissive_strength", &found)) {
         KOKSMA__TRY(koksma__json_get_number(&found, "emissiveStrength", false, 0, 1e6, &times));
     }
     for (int k = 0; k < 3; k++) {
@@ -194,7 +188,6 @@ static koksma_status take_emission(koksma__gltf *g, size_t i, const field *f, ko
 
 static koksma_status take_material(koksma__gltf *g, size_t i, koksma__file_material *m)
 {
-    static const char *const normal[] = {"normalTexture", NULL};
     const field f = koksma__gltf_item(g, KOKSMA__GLTF_MATERIALS, i);
     const char *alpha = "OPAQUE";
     double scale = 1, cutoff = 0.5;
@@ -202,7 +195,7 @@ static koksma_status take_material(koksma__gltf *g, size_t i, koksma__file_mater
     KOKSMA__TRY(take_surface(g, i, &f, m));
     KOKSMA__TRY(take_emission(g, i, &f, m));
     KOKSMA__TRY(take_texture(g, i, &f, "normalTexture", &m->normal_map));
-    if (koksma__gltf_find(&f, normal, &found)) {
+    if (koksma__gltf_find(&f, "normalTexture", &found)) {
         KOKSMA__TRY(koksma__json_get_number(&found, "scale", false, -WIDEST, WIDEST, &scale));
     }
     KOKSMA__TRY(koksma__json_get_flag(&f, "doubleSided", false, &m->two_sided));

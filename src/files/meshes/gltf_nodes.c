@@ -17,7 +17,7 @@ typedef koksma__json_node field;
 enum { MAX_DEPTH = 512 /* of nodes */ };
 #define WIDEST 1e30 /* largest magnitude of a node's numbers; the resulting positions are checked later */
 
-static const char *const punctual[] = {"extensions", "KHR_lights_punctual", NULL};
+static const char punctual[] = "extensions/KHR_lights_punctual";
 
 typedef struct graph {
     koksma__gltf *g;
@@ -109,10 +109,9 @@ static koksma_status walk_scene(graph *s)
 /* A spot's angles. */
 static koksma_status take_cone(const field *from, koksma__file_light *light)
 {
-    static const char *const spot[] = {"spot", NULL};
     field f;
     light->outer = M_PI / 4;
-    if (!koksma__gltf_find(from, spot, &f)) {
+    if (!koksma__gltf_find(from, "spot", &f)) {
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__json_get_number(&f, "outerConeAngle", false, 0, M_PI, &light->outer));
@@ -159,7 +158,6 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
 /* Takes the perspective camera of the first node that has one. */
 static koksma_status take_camera(const graph *s)
 {
-    static const char *const perspective[] = {"perspective", NULL};
     koksma__gltf *g = s->g;
     long long best = (long long)g->n[KOKSMA__GLTF_CAMERAS];
     koksma_status status = KOKSMA_OK;
@@ -170,7 +168,7 @@ static koksma_status take_camera(const graph *s)
         status = koksma__json_get_whole(&node, "camera", false, 0, KOKSMA__GLTF_ITEMS, &number);
         if (!status && number < best && s->shown[i]) {
             const field camera = koksma__gltf_item(g, KOKSMA__GLTF_CAMERAS, (size_t)number);
-            if (koksma__gltf_find(&camera, perspective, &found)) {
+            if (koksma__gltf_find(&camera, "perspective", &found)) {
                 best = number;
                 memcpy(g->out->camera, s->matrices[i], sizeof g->out->camera);
                 status = koksma__json_get_number(&found, "yfov", true, 0, M_PI, &g->out->yfov_rad);
