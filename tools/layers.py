@@ -71,6 +71,7 @@ INTERNAL = {
     "src/engine/core/hash.h": "short and long hashes",
     "src/engine/core/random.h": "random numbers and permutations",
     "src/engine/core/capacity.h": "memory: arrays that grow, and large pages",
+    "src/engine/core/clock.h": "clocks",
     "src/files/domains/domain.h": "a domain of points, and the methods that choose on it",
     "src/files/domains/field.h": "the target of gaussian-blue-noise, and what finds its forces",
     "src/files/image/formats.h": "image files, one .c file a format",

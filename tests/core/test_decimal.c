@@ -13,10 +13,7 @@ static void assert_reads(const char *text)
 {
     char *end = NULL, *expected_end;
     const double expected = strtod(text, &expected_end);
-    double found = -1;
-    if (!koksma__decimal_read(text, &end, &found)) {
-        found = koksma__strtod(text, &end);
-    }
+    const double found = koksma__strtod(text, &end);
     if (end != expected_end || memcmp(&found, &expected, sizeof found) != 0) {
         fail_msg("'%s' is read as %.17g up to '%s', not %.17g up to '%s'", text, found, end, expected, expected_end);
     }

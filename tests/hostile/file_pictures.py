@@ -16,7 +16,7 @@ import zlib
 import files
 from file_inputs import scene
 
-MOST = 1 << 26  # pixels: src/files/image/formats.h
+MOST = 1 << 26  # pixels: src/files/image/image.h
 LIMIT = 1 << 30  # bytes of a texture's file: src/engine/core/file_kinds.def
 
 

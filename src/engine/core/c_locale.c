@@ -55,7 +55,10 @@ static double quotient(uint64_t w, unsigned k)
     return (double)q * power;
 }
 
-bool koksma__decimal_read(const char *text, char **end, double *out)
+/* Reads a number as strtod does if it is only digits and at most one point, with at most 19 digits without leading
+   zeros and at most 27 digits after the point. Returns false for any other number, which the caller leaves to strtod.
+   *end: the first character after the number. */
+static bool read_decimal(const char *text, char **end, double *out)
 {
     enum { MOST = 19 };
     uint64_t w = 0;
@@ -123,7 +126,7 @@ size_t koksma__decimal_write(double x, char text[KOKSMA__DECIMAL_ROOM])
     return 0;
 }
 #else
-bool koksma__decimal_read(const char *text, char **end, double *out)
+static bool read_decimal(const char *text, char **end, double *out)
 {
     (void)text, (void)end, (void)out;
     return false;
@@ -159,7 +162,7 @@ double koksma__strtod(const char *text, char **end)
 {
     double quick;
     char *stop;
-    if (koksma__decimal_read(text, &stop, &quick)) {
+    if (read_decimal(text, &stop, &quick)) {
         if (end) {
             *end = stop;
         }

@@ -23,13 +23,6 @@ KOKSMA__LAB float koksma__strtof(const char *text, char **end);
 KOKSMA__LAB int koksma__snprintf(char *text, size_t size, const char *format, ...) KOKSMA_PRINTF(3, 4);
 KOKSMA__LAB int koksma__vsnprintf(char *text, size_t size, const char *format, va_list arguments) KOKSMA_PRINTF(3, 0);
 
-/* ---- Fast conversions, which are correctly rounded ---- */
-
-/* Reads a number as strtod does if it is only digits and at most one point, with at most 19 digits without leading
-   zeros and at most 27 digits after the point. Returns false for any other number, which the caller leaves to strtod.
-   *end: the first character after the number. */
-bool koksma__decimal_read(const char *text, char **end, double *out);
-
 enum { KOKSMA__DECIMAL_ROOM = 32 };
 
 /* Writes x as "%.17g" does in the C locale, without a terminating 0. Returns the number of characters, or 0 where the

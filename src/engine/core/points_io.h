@@ -81,7 +81,4 @@ static inline void koksma__npy_set_word(unsigned char bytes[8], uint64_t word)
     }
 }
 
-/* Writes count doubles. */
-void koksma__npy_put_doubles(FILE *stream, const double *xs, size_t count);
-
 #endif

@@ -242,7 +242,7 @@ static bool is_little_endian(void)
     return bytes[7] == 0x3f;
 }
 
-void koksma__npy_put_doubles(FILE *stream, const double *xs, size_t count)
+static void put_doubles(FILE *stream, const double *xs, size_t count)
 {
     if (is_little_endian()) {
         fwrite(xs, sizeof *xs, count, stream);
@@ -268,7 +268,7 @@ koksma_status koksma__points_put_npy(FILE *stream, const koksma_points *points, 
         if (!koksma__keep_going(progress.run, progress.done + progress.share * (double)i / (double)count)) {
             return koksma__fail_interrupted();
         }
-        koksma__npy_put_doubles(stream, points->xs + i, n);
+        put_doubles(stream, points->xs + i, n);
     }
     return KOKSMA_OK;
 }

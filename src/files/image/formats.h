@@ -80,17 +80,4 @@ const koksma__image_format *koksma__image_format_at(size_t i);
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
                                        koksma_image *out);
 
-/* ---- Layers: the images of one file ---- */
-
-/* Writes the name of channel k of a layer. */
-void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME]);
-
-/* Returns the index of the first layer that has a channel of this name, or n if none has; *k is set to the index of
-   the channel in the layer. */
-size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k);
-
-/* Fails with ARGUMENT unless the layers are images of one size, and no two channels have the same name. Errors do not
-   name the file. */
-koksma_status koksma__layers_check(const koksma_layer *layers, size_t n);
-
 #endif

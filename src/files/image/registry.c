@@ -96,21 +96,6 @@ koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size)
     return find_format(bytes, size, &format);
 }
 
-koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
-                                       koksma_image *out)
-{
-    const koksma__image_format *format;
-    *out = (koksma_image){0};
-    koksma_status status = find_format(bytes, size, &format);
-    *remark = 0;
-    koksma__image_limit(kind == KOKSMA__FILE_TEXTURE ? KOKSMA__TEXTURE_PIXELS : KOKSMA_MAX_PIXELS);
-    status = status ? status : format->read(bytes, size, out);
-    if (status) {
-        koksma_image_fini(out);
-    }
-    return status;
-}
-
 /* Applies the inverse sRGB curve, to undo the curve that png.c and jpeg_turbo.c apply. */
 static void uncurve(koksma_image *image)
 {
@@ -120,14 +105,15 @@ static void uncurve(koksma_image *image)
     }
 }
 
-koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, koksma__image_part part,
-                                      koksma_image *out)
+/* Reads a part of an image that has at most so many pixels. After an error *out has no pixels, but their size. */
+static koksma_status read_part(const unsigned char *bytes, size_t size, koksma__image_part part, size_t most,
+                               koksma_image *out)
 {
     const koksma__image_format *format;
     *out = (koksma_image){0};
-    KOKSMA__TRY(find_format(bytes, size, &format));
-    koksma__image_limit(KOKSMA__TEXTURE_PIXELS);
     *remark = 0;
+    KOKSMA__TRY(find_format(bytes, size, &format));
+    koksma__image_limit(most);
     koksma_status status = KOKSMA_OK;
     if (part == KOKSMA__IMAGE_ALPHA) {
         status = format->read_alpha ? format->read_alpha(bytes, size, out) : KOKSMA_OK;
@@ -141,6 +127,23 @@ koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, k
         out->pixels = NULL;
     } else if (part == KOKSMA__IMAGE_NUMBERS && format->error > 0) {
         uncurve(out);
+    }
+    return status;
+}
+
+koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, koksma__image_part part,
+                                      koksma_image *out)
+{
+    return read_part(bytes, size, part, KOKSMA__TEXTURE_PIXELS, out);
+}
+
+koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
+                                       koksma_image *out)
+{
+    const size_t most = kind == KOKSMA__FILE_TEXTURE ? KOKSMA__TEXTURE_PIXELS : KOKSMA_MAX_PIXELS;
+    const koksma_status status = read_part(bytes, size, KOKSMA__IMAGE_COLOURS, most, out);
+    if (status) {
+        *out = (koksma_image){0};
     }
     return status;
 }
@@ -164,7 +167,8 @@ koksma_status koksma_image_read(const char *path, koksma_image *out)
 
 /* ---- Layers --------------------------------------------------------------------------------------------- */
 
-void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME])
+/* Writes the name of channel k of a layer. */
+static void layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME])
 {
     const char *dot = *layer->name ? "." : "";
     if (layer->image->channels == 1 && *layer->name) {
@@ -175,12 +179,14 @@ void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__C
     }
 }
 
-size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k)
+/* Returns the index of the first layer that has a channel of this name, or n if none has; *k is set to the index of
+   the channel in the layer. */
+static size_t layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k)
 {
     char name[KOKSMA__CHANNEL_NAME];
     for (size_t l = 0; l < n; l++) {
         for (*k = 0; *k < layers[l].image->channels; ++*k) {
-            koksma__layer_channel(&layers[l], *k, name);
+            layer_channel(&layers[l], *k, name);
             if (!strcmp(name, wanted)) {
                 return l;
             }
@@ -201,7 +207,8 @@ static koksma_status check_layer(const koksma_layer *layer, const koksma_image *
     return KOKSMA_OK;
 }
 
-koksma_status koksma__layers_check(const koksma_layer *layers, size_t n)
+/* Fails with ARGUMENT unless the layers are images of one size, and no two channels have the same name. */
+static koksma_status check_layers(const koksma_layer *layers, size_t n)
 {
     char name[KOKSMA__CHANNEL_NAME];
     koksma_status status = n ? koksma__array_check("layers", layers, n, sizeof *layers)
@@ -212,8 +219,8 @@ koksma_status koksma__layers_check(const koksma_layer *layers, size_t n)
     for (size_t l = 0; !status && l < n; l++) {
         for (int k = 0; k < layers[l].image->channels; k++) {
             int first;
-            koksma__layer_channel(&layers[l], k, name);
-            KOKSMA__FAIL_IF(koksma__layers_find(layers, n, name, &first) != l || first != k, KOKSMA_ARGUMENT,
+            layer_channel(&layers[l], k, name);
+            KOKSMA__FAIL_IF(layers_find(layers, n, name, &first) != l || first != k, KOKSMA_ARGUMENT,
                             "two layers have a channel '%s'", name);
         }
     }
@@ -222,8 +229,8 @@ koksma_status koksma__layers_check(const koksma_layer *layers, size_t n)
 
 /* ---- Modules ------------------------------------------------------------------------------------------- */
 
-const koksma__codec_host koksma__codec_functions = {koksma__bytes_put, koksma__image_claim, koksma__layer_channel,
-                                                    koksma__layers_find, koksma_image_fini};
+const koksma__codec_host koksma__codec_functions = {koksma__bytes_put, koksma__image_claim, layer_channel,
+                                                    layers_find, koksma_image_fini};
 
 koksma_status koksma__codec_read(const koksma__module *module, const unsigned char *bytes, size_t size,
                                  koksma_image *out)
@@ -280,7 +287,7 @@ static koksma_status write_file(const char *folder, const char *path, const koks
     KOKSMA__REQUIRE(path, layers);
     koksma__bytes bytes = {0};
     KOKSMA__TRY(koksma_image_check_path(path));
-    koksma_status status = koksma__layers_check(layers, n);
+    koksma_status status = check_layers(layers, n);
     status = status ? status : format_of_name(path)->write(layers, n, metadata ? metadata : "", &bytes);
     status = status ? koksma__fail_in(status, path) : koksma__atomic_put(folder, path, bytes.data, bytes.size);
     free(bytes.data);
@@ -311,7 +318,7 @@ koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **
     KOKSMA__REQUIRE(image, bytes, size);
     koksma__bytes out = {0};
     const koksma_layer only = {"", image};
-    koksma_status status = koksma__layers_check(&only, 1);
+    koksma_status status = check_layers(&only, 1);
     if (!status) {
         status = missing(&koksma__format_png) ? no_library(&koksma__format_png)
                                               : koksma__format_png.write(&only, 1, "", &out);
