@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Numbers as text, in the same way under every locale of the host program. After a program in Germany has called
-   setlocale(LC_ALL, ""), as Qt and GTK do, the functions of libc write 0,5 and read 0.5 as 0. All conversions of numbers with
-   a decimal point use these functions (tests/lint/locale.sh); whole numbers may use the functions of libc. The locale is
-   switched for the duration of the call and in its thread only, so that the host program's code never runs under a locale
-   that it did not choose. */
+   setlocale(LC_ALL, ""), as Qt and GTK do, the functions of libc write 0,5 and read 0.5 as 0. All conversions of
+   numbers with a decimal point use these functions (tests/lint/locale.sh); whole numbers may use the functions of libc.
+   The locale is switched for the duration of the call and in its thread only, so that the host program's code never
+   runs under a locale that it did not choose. */
 #ifndef KOKSMA_CORE_C_LOCALE_H
 #define KOKSMA_CORE_C_LOCALE_H
 

@@ -19,7 +19,7 @@ KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);
    any points. A distance below 1e-162 is returned as 0. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__closest_pair(const koksma_points *points, bool torus, const koksma_run *run, double *distance);
 
-/* ---- Strata of the unit interval, and the quality parameter t of points as a net: for koksma_verify and the measure t-value ---- */
+/* ---- Strata of the unit interval, and the quality parameter t of points as a net ---- */
 
 /* Returns the index of the stratum of x among m equal strata, whose bounds are the doubles nearest to j/m. x = 1 is
    in the last stratum. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Image files: the table of formats, reading and writing, and layers. Files are read from memory and written into memory, so that a format needs no file, a
-   file is written whole or not at all, and a fuzzer can call the readers. */
+/* Image files: the table of formats, reading and writing, and layers. Files are read from memory and written into
+   memory, so that a format needs no file, a file is written whole or not at all, and a fuzzer can call the readers. */
 #ifndef KOKSMA_IMAGE_FORMATS_H
 #define KOKSMA_IMAGE_FORMATS_H
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reader of glTF 2.0, JSON and buffers, in several files: gltf_read.c opens the file; gltf.c reads its buffers and accessors;
-   gltf_schema.c checks that the parts fit together; gltf_materials.c reads its materials; gltf_meshes.c makes meshes from
-   primitives; gltf_nodes.c places them and reads the lights and the camera. This header declares what these files share. */
+/* The reader of glTF 2.0, JSON and buffers, in several files: gltf_read.c opens the file; gltf.c reads its buffers and
+   accessors; gltf_schema.c checks that the parts fit together; gltf_materials.c reads its materials; gltf_meshes.c
+   makes meshes from primitives; gltf_nodes.c places them and reads the lights and the camera. This header declares what
+   these files share. */
 #ifndef KOKSMA_MESHES_GLTF_H
 #define KOKSMA_MESHES_GLTF_H
 
@@ -104,17 +105,16 @@ koksma_status koksma__gltf_check(koksma__gltf *g);
 /* Whether the reader supports the extension of this name. */
 bool koksma__gltf_reads(const char *extension);
 
-/* gltf_materials.c. Reads the materials that g->material_used marks; they keep the file's indices. Errors: MALFORMED, MEMORY. */
+/* gltf_materials.c. Reads the materials that g->material_used marks, at their indices. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_read_materials(koksma__gltf *g);
 
 /* The set of texture coordinates, 0 or 1, for meshes of a material: that of the material's first texture. */
 int koksma__gltf_uv_set(const koksma__gltf *g, size_t material);
 
-/* gltf_meshes.c. Checks all meshes, and reads those that the scene shows, with their placements. Errors: MALFORMED, MEMORY. */
+/* gltf_meshes.c. Checks all meshes, and reads those that the scene shows, placed. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_read_meshes(koksma__gltf *g);
 
-/* gltf_nodes.c. Adds the placements of meshes to g->shown, and the lights and the camera to the mesh file. Errors: MALFORMED,
-   MEMORY. */
+/* gltf_nodes.c. Adds the meshes' placements to g->shown, and lights and camera to the file. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_read_nodes(koksma__gltf *g);
 
 #endif

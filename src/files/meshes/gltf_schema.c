@@ -10,8 +10,8 @@
  *
  * A member "KEY:KIND" is an object of that kind or a list of such objects, "KEY>LIST" the index of an item of a list of the
  * file, "KEY=TEXT|TEXT" has a closed list of values, other members are values. Every object may have `extensions` and
- * `extras`; extras may hold anything, and extensions that are not read are named as such. Names: Khronos, "glTF 2.0" (2021),
- * section 5, and the specifications of the extensions that are read.
+ * `extras`; extras may hold anything, and extensions that are not read are named as such. Names: Khronos, "glTF 2.0"
+ * (2021), section 5, and the specifications of the extensions that are read.
  */
 #include "meshes/gltf.h"
 

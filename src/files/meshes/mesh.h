@@ -143,9 +143,9 @@ typedef struct koksma__unread {
     char extension[256];
 } koksma__unread;
 
-/* Loop's subdivision (mesh_loop.c): divides a checked mesh `levels` times, moves its vertices to the limit surface and gives them normals; the result has
-   4^levels times as many triangles, and no texture coordinates. out must be zeroed; the caller calls koksma__mesh_fini,
-   also after an error. Errors: MALFORMED (too many triangles), MEMORY. */
+/* Loop's subdivision (mesh_loop.c): divides a checked mesh `levels` times, moves its vertices to the limit surface and
+   gives them normals; the result has 4^levels times as many triangles, and no texture coordinates. out must be zeroed;
+   the caller calls koksma__mesh_fini, also after an error. Errors: MALFORMED (too many triangles), MEMORY. */
 koksma_status koksma__mesh_loop(const koksma__mesh *mesh, int levels, koksma__mesh *out);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Finding is by a digital search tree (Knuth, The Art of Computer Programming, volume 3, section 6.3): the bits of a name's hash lead
- * from the root down, to the node that has this hash or to where it belongs. Every node at depth d has the first d bits
- * of its hash in common with all nodes below it, so no path is longer than the hash's 64 bits, whatever names a file
- * has; a hash table would take as many steps as there are names whose hashes begin alike, which are easy to craft.
- * Names themselves are not compared: two of a scene's names have the same 64 bits by chance once in 10^7 scenes of a
- * million names, and a file that does it on purpose only confuses its own names.
+ * Finding is by a digital search tree (Knuth, The Art of Computer Programming, volume 3, section 6.3): the bits of a
+ * name's hash lead from the root down, to the node that has this hash or to where it belongs. Every node at depth d has
+ * the first d bits of its hash in common with all nodes below it, so no path is longer than the hash's 64 bits,
+ * whatever names a file has; a hash table would take as many steps as there are names whose hashes begin alike, which
+ * are easy to craft. Names themselves are not compared: two of a scene's names have the same 64 bits by chance once in
+ * 10^7 scenes of a million names, and a file that does it on purpose only confuses its own names.
  *
  * In the list of what the readers of scenes and models do not read, an entry has the file and the line of its first
  * occurrence; equal texts are one entry, which counts them. A list has at most KOKSMA__MOST_UNKNOWN entries, because a file

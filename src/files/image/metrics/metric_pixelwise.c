@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The metrics whose error of a pixel is a formula of that pixel alone, over n pixels; x is linear red, green, blue and Y the
- * luminance.
+ * The metrics whose error of a pixel is a formula of that pixel alone, over n pixels; x is linear red, green, blue and
+ * Y the luminance.
  *
- *   mae     the mean absolute error in luminance, sum |Y - Y_ref| / n (Shirley 1991, section 5.5.6). Bright parts of an image
- *           usually have larger errors than dark parts, and so contribute more to the mean
+ *   mae     the mean absolute error in luminance, sum |Y - Y_ref| / n (Shirley 1991, section 5.5.6). Bright parts
+ *           of an image usually have larger errors than dark parts, and so contribute more to the mean
  *   rmse    the root mean square error in luminance, sqrt(sum (Y - Y_ref)^2 / n). Errors are squared, so that a few
  *           fireflies can contribute most of the value
  *   relmse  the relative mean square error over pixels and channels, sum (x - x_ref)^2 / (x_ref^2 + epsilon) / (3 n)
@@ -12,8 +12,9 @@
  *           there. Most papers use 0.01, and 0.001 or 0.0001 for dark scenes. Values with different epsilon cannot be
  *           compared
  *   smape   the symmetric mean absolute percentage error over pixels and channels, as a fraction,
- *           sum |x - x_ref| / (|x| + |x_ref| + epsilon) / (3 n), epsilon = 0.01 (Vogels et al. 2018, section 4.2). The error
- *           of a pixel is at most 1, so that fireflies contribute little: this is the most robust of the relative metrics
+ *           sum |x - x_ref| / (|x| + |x_ref| + epsilon) / (3 n), epsilon = 0.01 (Vogels et al. 2018, section 4.2). The
+ *           error of a pixel is at most 1, so that fireflies contribute little: this is the most robust of the relative
+ *           metrics
  */
 #include <math.h>
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "image/formats.h"
 #include "image/coherence.h"
+#include "image/formats.h"
 #include "image/image.h"
 
 /* Averages the powers over rings. The errors are real, so the columns above W/2 mirror those below W/2, which
