@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/adaptive.h>
 #include <koksma/study.h>
 
 #include "cli.h"
@@ -34,6 +35,14 @@ typedef struct patterns {
     size_t n;
 } patterns;
 
+/* Returns false for a method of adaptive sampling that places its own samples, whatever the pattern is. method: NULL
+   or a text. */
+static bool method_uses_patterns(const char *method)
+{
+    koksma_adaptive_options adaptive;
+    return !method || koksma_adaptive_parse(method, &adaptive) || !adaptive.method->own_samples;
+}
+
 /* Reads --patterns. *spp receives N if a pattern is given as SPEC@N. Returns the exit code. */
 static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t *spp)
 {
@@ -41,6 +50,7 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
     if (cli_text(arguments, "with", NULL) && !cli_text(arguments, "patterns", NULL)) {
         return cli_usage_error(arguments, "--with needs --patterns, with names of samplers that the command knows");
     }
+    list = !method_uses_patterns(cli_text(arguments, "adaptive", NULL)) ? "n-rooks" : list;
     list = !strcmp(list, "thesis") ? thesis : !strcmp(list, "later") ? later : list;
     char item[KOKSMA_MAX_SPEC];
     for (size_t at = 0; cli_pattern_item(list, at, item); at++) {
@@ -114,6 +124,9 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     } else {
         cli_row_text(rows, "integrator", options->integrator->name);
         cli_row_text(rows, "filter", options->filter->name);
+    }
+    if (options->adaptive) {
+        cli_row_text(rows, "adaptive", options->adaptive);
     }
     cli_row_number(rows, "reference_error", ranking->reference_error);
     cli_row_flag(rows, "settled", ranking->settled);
@@ -254,13 +267,17 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     if (status) {
         return status;
     }
+    koksma_rank_options shown = *options;
+    if (!method_uses_patterns(options->adaptive)) { /* its own samples take the place of the pattern in the row */
+        shown.patterns = &shown.adaptive;
+    }
     for (size_t i = 0; i < options->n_patterns; i++) {
-        put_row(rows, options, table, i, &ranking, cli_flag(arguments, "json"));
+        put_row(rows, &shown, table, i, &ranking, cli_flag(arguments, "json"));
     }
     if (!cli_flag(arguments, "quiet")) {
-        cli_rank_advise(options, table, &ranking);
+        cli_rank_advise(&shown, table, &ranking);
     }
-    say_unranked(options, table, &ranking);
+    say_unranked(&shown, table, &ranking);
     *settled = ranking.settled;
     return KOKSMA_OK;
 }
@@ -268,7 +285,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
 /* Returns false, after an error, if an option is given that has no effect with, or without, --with. */
 static bool options_fit(const cli_arguments *arguments)
 {
-    static const char *const own[] = {"integrator", "filter", "unknown", "allow-exec"};
+    static const char *const own[] = {"integrator", "filter", "adaptive", "unknown", "allow-exec"};
     const bool with = cli_text(arguments, "with", NULL);
     for (size_t i = 0; with && i < sizeof own / sizeof *own; i++) {
         if (cli_flag(arguments, own[i])) {
@@ -279,12 +296,31 @@ static bool options_fit(const cli_arguments *arguments)
             return false;
         }
     }
+    const char *adaptive = cli_text(arguments, "adaptive", NULL);
+    if (!method_uses_patterns(adaptive) && cli_text(arguments, "patterns", NULL)) {
+        cli_usage_error(arguments, "--patterns has no effect: the adaptive method %.*s places its own samples",
+                        (int)strcspn(adaptive, ":"), adaptive);
+        return false;
+    }
     if (!with && cli_text(arguments, "reference", NULL)) {
         cli_usage_error(arguments,
                         "--reference needs --with, because Koksma's own references always use the pattern jittered");
         return false;
     }
     return true;
+}
+
+/* Reads --adaptive in its canonical form; *adaptive is NULL without it. Returns the exit code. */
+static int parse_adaptive(const cli_arguments *arguments, char text[KOKSMA_MAX_SPEC], const char **adaptive)
+{
+    koksma_adaptive_options method;
+    *adaptive = cli_text(arguments, "adaptive", NULL);
+    const koksma_status status = *adaptive ? koksma_adaptive_parse(*adaptive, &method) : KOKSMA_OK;
+    if (*adaptive && !status) {
+        koksma_adaptive_text(&method, text);
+        *adaptive = text;
+    }
+    return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
 static int run(const cli_arguments *arguments)
@@ -309,8 +345,10 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
     }
     uint64_t spp = 0;
-    char counted[24];
-    int code = parse_patterns(arguments, &p, &spp);
+    char counted[24], method[KOKSMA_MAX_SPEC];
+    const char *adaptive;
+    int code = parse_adaptive(arguments, method, &adaptive);
+    code = code ? code : parse_patterns(arguments, &p, &spp);
     if (code) {
         return code;
     }
@@ -348,6 +386,7 @@ static int run(const cli_arguments *arguments)
                                              .height = height,
                                              .integrator = integrator,
                                              .filter = filter,
+                                             .adaptive = adaptive,
                                              .metric = metric.specs,
                                              .time_limit_s = left_s / (double)(n_spp - i),
                                              .max_trials = (long long)max_trials,
@@ -360,7 +399,7 @@ static int run(const cli_arguments *arguments)
     }
     cli_work_end();
     code = status ? cli_fail(arguments, status) : all_settled ? CLI_YES : CLI_NO;
-    if (!status && !cli_text(arguments, "patterns", NULL) && !cli_flag(arguments, "quiet")) {
+    if (!status && p.n > 1 && !cli_text(arguments, "patterns", NULL) && !cli_flag(arguments, "quiet")) {
         fputs("these are the patterns of Shirley 1991; -p later ranks newer ones, too, such as sobol:scramble=owen\n",
               stderr);
     }
@@ -378,6 +417,7 @@ static const cli_option options[] = {
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
+    {0, "adaptive", "METHOD", "render all patterns adaptively, N being the budget; see 'koksma list adaptive'"},
     {'m', "metric", "METRIC",
      "error metric by which patterns are ranked: mae (default), rmse, relmse, smape, grain, ldr-flip or hdr-flip, "
      "with "
@@ -394,8 +434,8 @@ const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "rank patterns by the error that they leave in a scene",
     .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later|all] [--size WxH] [--one-size] "
-                "[--integrator INTEGRATOR] [--filter FILTER] [--metric METRIC] [--time-limit S] [--max-trials N] "
-                "[--with RENDERER [--reference PATTERN]] [--json]",
+                "[--integrator INTEGRATOR] [--filter FILTER] [--adaptive METHOD] [--metric METRIC] "
+                "[--time-limit S] [--max-trials N] [--with RENDERER [--reference PATTERN]] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
         "mean over the images of --metric, by default the mean absolute error in luminance. Each pattern is used "
@@ -437,6 +477,18 @@ const cli_command cli_command_rank = {
         "reference, which is the mean of 16 images, and with the 16 means that leave out one of these images. At 160 "
         "x 120 pixels this takes 0.7 s for hdr-flip and a millisecond for mae.\n"
         "\n"
+        "--adaptive ranks patterns as they are with a method of adaptive sampling: each image of each pattern is "
+        "that of\n"
+        "koksma render --adaptive METHOD --budget N, with a quarter of N in the first round (divided by the sets "
+        "that\n"
+        "the method's parameter 'first' asks for). So all patterns may take the same number of samples. The\n"
+        "reference has as many in every pixel. A method that places its own samples (hierarchical, selective) leaves "
+        "no\n"
+        "choice of patterns: the one row is the method's. The advice says in how many patterns' images the method "
+        "leaves\n"
+        "bands: samples that decide about further ones and then count make pixels of one edge err alike\n"
+        "(docs/findings/adaptive.md). Therefore no row is 'unbiased'.\n"
+        "\n"
         "Only the integrators path and irradiance-cache render light that surfaces reflect onto each other.\n"
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
         "thesis: the seven patterns of Shirley 1991. later: five of these and twelve newer ones.\n"
@@ -448,7 +500,8 @@ const cli_command cli_command_rank = {
         "Without --size images have the default size of the renderer, and other sizes are not checked. The reference "
         "is the mean\n"
         "of 16 images of 16 times as many samples by the sampler --reference, which must be unbiased and depend on "
-        "the seed. Only this option runs commands. --integrator, --filter, --unknown and --allow-exec, which concern "
+        "the seed. Only this option runs commands. --integrator, --filter, --adaptive, --unknown and --allow-exec, "
+        "which concern "
         "Koksma's own renderer, are refused with it. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of\n"
         "Koksma in a scene of Mitsuba. It needs a Python interpreter in which koksma and mitsuba are installed\n"
         "(environment variable KOKSMA_PYTHON; default: python3). It starts Mitsuba for every image and takes\n"
@@ -463,6 +516,7 @@ const cli_command cli_command_rank = {
                 "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"
                 "koksma rank cornell --integrator path --time-limit 300\n"
                 "koksma rank balls --spp 4 --size 32x24 --metric ldr-flip\n"
+                "koksma rank glossy --spp 16 --adaptive contrast -p random,n-rooks,pmj02\n"
                 "koksma rank s.xml -p a,b --with './r {scene} {pattern} {spp} {seed} {out}'\n",
     .options = options,
     .run = run,

@@ -291,9 +291,9 @@ static void warn_of_bias(const koksma_rank_options *options, const koksma_rank_r
 {
     size_t count = 0, done = 0;
     for (size_t i = 0; i < n; i++) {
-        count += rows[i].biased;
+        count += rows[i].biased && !options->adaptive;
     }
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n && count; i++) {
         if (rows[i].biased) {
             fprintf(stderr, "%s%s",
                     !done              ? "  not known to be unbiased: "
@@ -309,6 +309,23 @@ static void warn_of_bias(const koksma_rank_options *options, const koksma_rank_r
                 "away (modifiers such as shift=1 make patterns unbiased)\n",
                 count > 1 ? "their" : "its");
     }
+}
+
+/* Prints in words whether an adaptive method leaves bands, and where its bias is from. */
+static void say_of_method(const koksma_rank_options *options, const koksma_ranking *ranking)
+{
+    if (!options->adaptive || !ranking->n) {
+        return;
+    }
+    fprintf(stderr, "  adaptive by %s: ", options->adaptive);
+    if (ranking->n_coherent == 0) {
+        fprintf(stderr, "no visible bands in the error");
+    } else if (ranking->n == 1) {
+        fprintf(stderr, "visible bands in the error");
+    } else {
+        fprintf(stderr, "visible bands in the errors of %zu of %zu patterns", ranking->n_coherent, ranking->n);
+    }
+    fprintf(stderr, "; samples that decide where more are taken may bias a pixel\n");
 }
 
 /* The number of patterns whose robust errors the warning prints, the best first. */
@@ -367,6 +384,7 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
                                  : "; the trials were too few to decide every pair");
     warn_of_few_pixels(options, rows, ranking->n);
     warn_of_bias(options, rows, ranking->n);
+    say_of_method(options, ranking);
     if (ranking->settled && ranking->n > 1 && !options->one_size && (!options->render || options->width)) {
         advise_sizes(options, rows, ranking);
     }

@@ -350,6 +350,10 @@ typedef struct koksma_rank_options {
                                             at most 19,200 pixels */
     const koksma_integrator *integrator; /* NULL: distribution */
     const koksma_filter *filter;         /* NULL: box */
+    const char *adaptive;                /* method of adaptive sampling for the images of all patterns, as
+                                            koksma_adaptive_parse takes it, with spp as its budget and a quarter of it
+                                            in the first round (NULL: spp samples in every pixel). A method that places
+                                            its own samples takes one pattern. The reference is never adaptive */
     const koksma_metric_spec *metric;    /* metric of the image error by which patterns are ranked (NULL: mae) */
     double time_limit_s;                 /* time limit in seconds; 0: none. The limit ends the work early and changes
                                             nothing else */
@@ -390,8 +394,9 @@ typedef struct koksma_rank_row {
     size_t position; /* 1 + the number of patterns that are decided to have less error; 0: not ranked */
     koksma_rank_state state;
     koksma_rank_decision decision;
-    bool biased; /* a use has a pattern that is not known to be unbiased (koksma_is_unbiased); false for patterns of
-                    another renderer, of which nothing is known */
+    bool
+        biased; /* a use has a pattern that is not known to be unbiased (koksma_is_unbiased), or an adaptive method took
+                    the samples; false for patterns of another renderer, of which nothing is known */
     long long trials;
     double mean, low, high; /* mean over the trials of the metric, corrected for the error of the reference, and its
                                interval */

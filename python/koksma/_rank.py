@@ -157,7 +157,7 @@ class _Renderer:
 
 def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS, spp: SupportsIndex = 16, *,
          size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
-         filter: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
+         filter: Optional[str] = None, adaptive: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
          one_size: bool = False, threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
          reference: Optional[str] = None) -> Ranking:
     """Ranks patterns by the error of the pictures that they make of a scene, as `koksma rank` does.
@@ -175,6 +175,9 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         Without it the scene's own, halved until it has 19,200 pixels at most.
     integrator, filter : str, optional
         As of `render`.
+    adaptive : str, optional
+        A method of adaptive sampling, which renders the pictures of all patterns with a budget of spp samples a pixel and a quarter
+        of it in the first round (koksma.adaptive() names them). One that places its own samples takes one pattern.
     metric : str
         Of the error; mae is the mean absolute error in luminance (koksma.metrics() names them).
     time_limit : float or None
@@ -220,7 +223,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
                             time_limit_s=time_limit or 0.0, spp=whole("spp", spp, 1, s.MAX_SPP),
                             max_trials=whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS),
                             integrator=_found("integrator", "distribution" if integrator is None else integrator),
-                            filter=_found("filter", "box" if filter is None else filter), metric=pointer(spec))
+                            filter=_found("filter", "box" if filter is None else filter), metric=pointer(spec),
+                            adaptive=None if adaptive is None else text(adaptive, "adaptive"))
     if size is not None:
         width, height = pair("size", size)
         options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)

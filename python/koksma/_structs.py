@@ -291,7 +291,7 @@ RankRenderer = CFUNCTYPE(c_int, c_void_p, POINTER(RankPicture), POINTER(Run), PO
 
 class RankOptions(Structure):
     _fields_ = [("scene", c_char_p), ("patterns", POINTER(c_char_p)), ("n_patterns", c_size_t), ("spp", c_int),
-                ("width", c_int), ("height", c_int), ("integrator", c_void_p), ("filter", c_void_p),
+                ("width", c_int), ("height", c_int), ("integrator", c_void_p), ("filter", c_void_p), ("adaptive", c_char_p),
                 ("metric", POINTER(MetricSpec)), ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool), ("render", RankRenderer),
                 ("render_context", c_void_p), ("reference", c_char_p), ("best_only", c_bool)]
 

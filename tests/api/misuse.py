@@ -168,7 +168,7 @@ ALLOWED = [
     r"koksma_plot_figure .*(scatter\.(columns|rows|warp|witness)|panel\)->spectrum|cells->chart) = (0|NULL).*",
     r"koksma_plot_scatter options = NULL .*", r"\w+ options->seed = .*", r"koksma_render_adaptive adaptive->probes = 0 .*",
     r"koksma_study_open options->(folder = NULL|trials = LLONG_MAX) .*", r"koksma_study_table_row i = .*",
-    r"koksma_rank_patterns options->(width = 0|height = 0|integrator = NULL|filter = NULL|metric = NULL|time_limit_s = (INFINITY|0|1e308)) .*",
+    r"koksma_rank_patterns options->(width = 0|height = 0|integrator = NULL|filter = NULL|adaptive = NULL|metric = NULL|time_limit_s = (INFINITY|0|1e308)) .*",
     r"\w+ spectrum->sets = .*", r"koksma_image_check_finite name = .*", r"\w+ options->caption.*", r"\w+ \S*(caption|label) = .*",
     r"\w+ options->(columns|rows) = 0 .*", r"\w+ \S*(size|white|level|errors|warp|witness|splits|strata|aovs|curves) = (0|NULL) .*", r"\w+ \S*n(_splits|_curves)? = 0 .*",
     r"koksma_study_images folder = NULL .*", r"koksma_closest_name table = NULL.*", r"koksma_optimise options->first = NULL .*", r"koksma_optimise options->first.*absent.*",

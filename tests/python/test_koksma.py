@@ -285,6 +285,10 @@ class Rankings(unittest.TestCase):
     def test_rank(self):
         ranking = koksma.rank("checker", ["random", "n-rooks"], 4, size=(16, 12), time_limit=None)
         self.assertEqual((ranking.best, ranking.settled, ranking.complete, ranking.cut_short), ("n-rooks", True, True, False))
+        adaptive = koksma.rank("checker", ["random"], 8, size=(8, 6), max_trials=8, one_size=True, adaptive="contrast")
+        self.assertFalse(adaptive.rows[0].unbiased)
+        with self.assertRaisesRegex(koksma.ArgumentError, "places its own samples"):
+            koksma.rank("checker", ["random", "jittered"], 4, adaptive="selective")
         mixed = koksma.rank("checker", ["random", "sobol", "sobol:scramble=owen"], 4, size=(8, 6), max_trials=8, one_size=True)
         self.assertEqual({row.pattern: row.unbiased for row in mixed.rows}, {"random": True, "sobol": False, "sobol:scramble=owen": True})
         first, last = ranking.rows

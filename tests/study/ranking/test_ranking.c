@@ -12,6 +12,7 @@
 #include "stats/quantiles.h"
 #include "study/ranking/ranking_decisions.h"
 #include "study/ranking/ranking_reference.h"
+#include "study/run/picture.h"
 #include "test.h"
 
 /* ---- Invented errors ------------------------------------------------------------------------------------ */
@@ -512,6 +513,90 @@ static void coherence_is_that_of_the_pictures(void **state)
     koksma_scene_close(scene);
 }
 
+/* Renders trial t of a ranking with an adaptive method, as `koksma render --adaptive` does with that seed. */
+static void render_adaptively(const koksma_scene *scene, const char *pattern, size_t t, koksma_image *image)
+{
+    koksma_render_options options;
+    koksma_adaptive_options adaptive;
+    koksma_layers layers;
+    koksma_render_options_init(&options, scene);
+    assert_ok(koksma_render_patterns(pattern, &options));
+    assert_ok(koksma_adaptive_parse("contrast", &adaptive));
+    options.width = 48;
+    options.height = 36;
+    options.spp = 4; /* a quarter of the budget */
+    adaptive.budget = 16;
+    options.seed = koksma__job_seed("rank|%016llx|%s|adaptive=contrast|16|48x36|%zu",
+                                    (unsigned long long)koksma_scene_hash(scene), pattern, t);
+    assert_ok(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL));
+    *image = layers.image;
+    layers.image = (koksma_image){0};
+    koksma_layers_fini(&layers);
+}
+
+/* The error, robust error and coherence of a pattern with an adaptive method are those of eight images of the method and
+   the trials' seeds, against a reference that is not adaptive. The references differ by 1/16 of the error. */
+static void adaptive_rankings_are_those_of_the_pictures(void **state)
+{
+    (void)state;
+    enum { TRIALS = 8 };
+    static const char *const patterns[] = {"random", "n-rooks", "regular"};
+    koksma_rank_row rows[3];
+    koksma_ranking ranking;
+    koksma_scene *scene;
+    koksma_render_options o;
+    koksma_image image, reference;
+    koksma_rank_options rank = {.scene = "ball",
+                                .patterns = patterns,
+                                .n_patterns = 3,
+                                .spp = 16,
+                                .width = 48,
+                                .height = 36,
+                                .max_trials = TRIALS,
+                                .one_size = true,
+                                .adaptive = "contrast"};
+    double means[2];
+    assert_ok(koksma_rank_patterns(&rank, NULL, rows, &ranking));
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options_init(&o, scene);
+    o.width = 48;
+    o.height = 36;
+    o.spp = 4096;
+    assert_ok(koksma_pattern_spec("jittered", &o.pattern));
+    assert_ok(koksma_render(scene, &o, NULL, &reference));
+    for (size_t p = 0; p < 2; p++) {
+        const koksma_rank_row *row = row_of(rows, p);
+        koksma_coherence sums;
+        koksma_coherence_values values;
+        double robust = means[p] = 0;
+        assert_ok(koksma_coherence_init(&sums, 48, 36));
+        for (size_t t = 0; t < TRIALS; t++) {
+            koksma_metric_value value;
+            render_adaptively(scene, patterns[p], t, &image);
+            assert_ok(koksma_metric_evaluate(&(koksma_metric_spec){koksma_metric_find("mae"), {0}}, &image,
+                                             &reference, &value));
+            assert_ok(koksma_coherence_add(&sums, &image, &reference));
+            means[p] += value.value / TRIALS;
+            robust += value.robust / TRIALS;
+            koksma_image_fini(&image);
+        }
+        koksma_coherence_find(&sums, &values);
+        assert_true(row->trials == TRIALS && row->biased);
+        assert_near(row->mean / means[p], 1, 0.01);
+        assert_near(row->robust / robust, 1, 0.01);
+        assert_near(row->coherence.coherence / values.coherence, 1, 0.05);
+        assert_true(row->coherence.coherent == values.coherent);
+        koksma_coherence_fini(&sums);
+    }
+    assert_true(row_of(rows, (size_t)(means[1] < means[0]))->position == 1);
+    /* contrast needs other samples in each round, which regular does not have */
+    assert_true(row_of(rows, 2)->state == KOKSMA_RANK_REFUSED && strstr(row_of(rows, 2)->reason, "contrast"));
+    rank.adaptive = "hierarchical"; /* places its own samples, so that there is nothing to rank */
+    assert_int_equal(koksma_rank_patterns(&rank, NULL, rows, &ranking), KOKSMA_ARGUMENT);
+    koksma_image_fini(&reference);
+    koksma_scene_close(scene);
+}
+
 /* ---- Pictures under a test's clock ---------------------------------------------------------------------- */
 
 static atomic_ullong ticks;
@@ -846,6 +931,7 @@ int main(void)
         cmocka_unit_test(first_places_at_other_sizes),
         cmocka_unit_test(bands_are_found),
         cmocka_unit_test(coherence_is_that_of_the_pictures),
+        cmocka_unit_test(adaptive_rankings_are_those_of_the_pictures),
         cmocka_unit_test(time_limits_only_cut),
         cmocka_unit_test(interruptions_come_first),
         cmocka_unit_test(rows_of_many_samples_are_left),

@@ -161,31 +161,40 @@ void koksma__variant_of_reference(const char *text, char *out)
     }
 }
 
-void koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
-                          char out[KOKSMA__VARIANT_TEXT])
+koksma_status koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
+                                   const char *adaptive, char out[KOKSMA__VARIANT_TEXT])
 {
+    koksma_adaptive_options options;
+    char method[KOKSMA_MAX_SPEC];
     out[0] = '\0';
+    if (adaptive) {
+        KOKSMA__TRY(koksma_adaptive_parse(adaptive, &options));
+        koksma_adaptive_text(&options, method);
+    }
     for (int i = 0; i < N_KNOWN; i++) {
         if (known[i].set == set_filter && filter) {
             append(out, &known[i], filter->name);
         } else if (known[i].set == set_integrator && integrator) {
             append(out, &known[i], integrator->name);
+        } else if (known[i].set == set_adaptive && adaptive) {
+            append(out, &known[i], method);
         }
     }
+    return KOKSMA_OK;
 }
 
 /* ---- Rendering ----------------------------------------------------------------------------------------- */
 
-/* Samples per pixel in the first round of an adaptive method: a quarter of the budget, divided by the number of sets
-   with which the method begins. */
-static int first_spp(const koksma_adaptive_options *adaptive, int budget)
+/* In the first round an adaptive method takes a quarter of the budget, divided by the number of sets with which it
+   begins. */
+int koksma__variant_first_spp(const koksma__variant *variant, int spp)
 {
-    const koksma_param *params = adaptive->method->params;
+    const koksma_adaptive_options *adaptive = &variant->adaptive;
     double sets = 1;
-    for (size_t i = 0; params[i].name; i++) {
-        sets = strcmp(params[i].name, "first") == 0 ? adaptive->params[i] : sets;
+    for (size_t i = 0; adaptive->method && adaptive->method->params[i].name; i++) {
+        sets = strcmp(adaptive->method->params[i].name, "first") == 0 ? adaptive->params[i] : sets;
     }
-    return (int)fmax(budget / (4 * sets), 1);
+    return adaptive->method ? (int)fmax(spp / (4 * sets), 1) : spp;
 }
 
 koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__variant *variant, const koksma_run *run,
@@ -198,7 +207,7 @@ koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__va
     koksma_adaptive_options adaptive = variant->adaptive;
     koksma_layers layers;
     adaptive.budget = options.spp;
-    options.spp = first_spp(&adaptive, options.spp);
+    options.spp = koksma__variant_first_spp(variant, options.spp);
     const koksma_status status = koksma_render_adaptive(scene, &options, &adaptive, run, &layers, NULL);
     if (!status) {
         *out = layers.image;

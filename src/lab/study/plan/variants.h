@@ -30,6 +30,9 @@ koksma_status koksma__variants_parse(const koksma__json_node *node, koksma__text
    such as the pairing of samples, do not apply to a reference. Errors: ARGUMENT. */
 koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma__variant *variant);
 
+/* The number of points in the first sets of a pixel whose budget is spp: spp, or less with an adaptive method. */
+int koksma__variant_first_spp(const koksma__variant *variant, int spp);
+
 /* Renders a scene. With an adaptive method spp is the budget of all rounds (the first gets a quarter of it), so that
    variants are compared at equal numbers of samples. Allocates out. */
 koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__variant *variant, const koksma_run *run,
@@ -39,9 +42,10 @@ koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__va
    option, or options that can't be combined). */
 koksma_status koksma__variant_canonical(const char *text, char out[KOKSMA__VARIANT_TEXT]);
 
-/* Writes the canonical text of an integrator and a filter, each NULL for the default. */
-void koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
-                          char out[KOKSMA__VARIANT_TEXT]);
+/* Writes the canonical text of an integrator, a filter and the text of an adaptive method, each NULL for the default.
+   Errors: those of koksma_adaptive_parse. */
+koksma_status koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
+                                   const char *adaptive, char out[KOKSMA__VARIANT_TEXT]);
 
 /* Writes the canonical text of the options that change the exact image. */
 void koksma__variant_of_reference(const char *text, char *out);

@@ -35,7 +35,8 @@ enum { MOST_PIXELS = 160 * 120, CHECKED = 3, NOBODY = KOKSMA__RANK_NOBODY };
 typedef struct ranking {
     const koksma_rank_options *options;
     koksma__study_scene scene;
-    char variant[KOKSMA__VARIANT_TEXT]; /* integrator and filter where they differ from the defaults */
+    char variant
+        [KOKSMA__VARIANT_TEXT]; /* integrator, filter and adaptive method where they differ from the defaults */
     koksma__run_control control;
     double start_s;
     koksma__contest contest;
@@ -283,7 +284,8 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
         .pattern = c->contestants[i].pattern, .mean = NAN, .low = NAN, .high = NAN, .robust = NAN, .top_share = NAN};
     row->behind = row->behind_low = row->behind_high = NAN;
     row->biased =
-        !c->options->render && koksma__image_pattern_is_biased(c->options->patterns[c->contestants[i].pattern]);
+        !c->options->render &&
+        (c->options->adaptive || koksma__image_pattern_is_biased(c->options->patterns[c->contestants[i].pattern]));
     row->coherence = c->contestants[i].coherence;
     row->trials = (long long)e.n;
     row->state = table->entrants[i].out        ? KOKSMA_RANK_REFUSED
@@ -479,6 +481,20 @@ static void set_sizes(const koksma__study_scene *scene, koksma_ranking *out)
     out->checks[1] = (koksma_rank_check){.width = 2 * scene->width, .height = 2 * scene->height};
 }
 
+/* The patterns of a method that places its own samples would all be the same. */
+static koksma_status check_adaptive(const koksma_rank_options *options)
+{
+    koksma_adaptive_options adaptive;
+    KOKSMA__FAIL_IF(options->render, KOKSMA_ARGUMENT, "adaptive: another renderer has its own adaptive sampling");
+    KOKSMA__TRY(koksma_adaptive_parse(options->adaptive, &adaptive));
+    KOKSMA__FAIL_IF(
+        adaptive.method->own_samples && options->n_patterns > 1, KOKSMA_ARGUMENT,
+        "adaptive: %s places its own samples, whatever the pattern is: rank one pattern, or choose a method "
+        "that uses patterns, such as contrast",
+        adaptive.method->name);
+    return KOKSMA_OK;
+}
+
 static koksma_status check(const koksma_rank_options *options)
 {
     koksma_status status =
@@ -497,6 +513,7 @@ static koksma_status check(const koksma_rank_options *options)
     if (!status && options->metric) {
         status = koksma__metric_spec_check(options->metric);
     }
+    status = status || !options->adaptive ? status : check_adaptive(options);
     KOKSMA__FAIL_IF(!status && !(options->time_limit_s >= 0), KOKSMA_ARGUMENT,
                     "time_limit_s = %g: it must be 0 (no limit) or a number of seconds", options->time_limit_s);
     KOKSMA__FAIL_IF(
@@ -521,8 +538,8 @@ koksma_status koksma_rank_patterns(const koksma_rank_options *options, const kok
     koksma__run_control_begin(run, options->time_limit_s, &r.control);
     r.control.by_time = true; /* progress counts time, because the number of rounds is unknown */
     *out = (koksma_ranking){.reference_error = NAN};
-    koksma__variant_text(options->integrator, options->filter, r.variant);
-    koksma_status status = open_scene(options, &r.control, &r.scene);
+    koksma_status status = koksma__variant_text(options->integrator, options->filter, options->adaptive, r.variant);
+    status = status ? status : open_scene(options, &r.control, &r.scene);
     if (!status) {
         set_sizes(&r.scene, out);
         status = rank_scene(&r, rows, out);

@@ -354,7 +354,9 @@ static bool is_mistake(koksma_status status)
 
 koksma_status koksma__contest_try_patterns(koksma__contest *c)
 {
-    koksma_status status = KOKSMA_OK;
+    koksma__variant variant = {0};
+    koksma_status status = koksma__variant_apply(c->variant, false, &variant);
+    const int spp = koksma__variant_first_spp(&variant, c->options->spp);
     set_share(c, 0.25);
     for (size_t i = 0; !status && i < c->n; i++) {
         timed work = {.contest = c, .contestant = &c->contestants[i], .start_s = koksma__now_s()};
@@ -364,7 +366,7 @@ koksma_status koksma__contest_try_patterns(koksma__contest *c)
             status = koksma__image_pattern_text(c->options->patterns[work.contestant->pattern], text);
         }
         if (!status && !c->options->render) {
-            status = koksma__image_pattern_try(text, (size_t)c->options->spp, &run);
+            status = koksma__image_pattern_try(text, (size_t)spp, &run);
             status = is_mistake(status) ? status : take_out(&work, 0, status);
         }
         c->table.entrants[i].out = atomic_load(&work.contestant->refused);

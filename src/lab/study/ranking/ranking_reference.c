@@ -69,9 +69,11 @@ static void finish(koksma__rank_reference *reference, const double *squares)
 }
 
 koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, const koksma_metric_spec *metric,
-                                          const koksma__study_scene *scene, const char *pattern, const char *variant,
-                                          int spp, const koksma_run *run)
+                                          const koksma__study_scene *scene, const char *pattern,
+                                          const char *of_trials, int spp, const koksma_run *run)
 {
+    char variant[KOKSMA__VARIANT_TEXT];
+    koksma__variant_of_reference(of_trials, variant);
     const size_t pixels = (size_t)scene->width * (size_t)scene->height;
     *reference = (koksma__rank_reference){.metric = metric ? *metric : (koksma_metric_spec){&koksma__metric_mae, {0}},
                                           .width = scene->width,

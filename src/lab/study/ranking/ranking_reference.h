@@ -25,9 +25,10 @@ typedef struct koksma__rank_reference {
    replicate's samples are jittered. */
 long long koksma__rank_reference_spp(int spp);
 
-/* Renders the replicates. metric: NULL for mae. The reference has the scene's width and height. Errors: those of
-   rendering, IMPOSSIBLE (a pixel is not a finite number, or another renderer makes equal pictures for all seeds),
-   MEMORY, INTERRUPTED. koksma__rank_reference_fini also accepts a zeroed reference and one whose init failed. */
+/* Renders the replicates, never adaptively. metric: NULL for mae; variant: that of the trials. The reference has the
+   scene's width and height. Errors: those of rendering, IMPOSSIBLE (a pixel is not a finite number, or another renderer
+   makes equal pictures for all seeds), MEMORY, INTERRUPTED. koksma__rank_reference_fini also accepts a zeroed reference
+   and one whose init failed. */
 koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, const koksma_metric_spec *metric,
                                           const koksma__study_scene *scene, const char *pattern, const char *variant,
                                           int spp, const koksma_run *run);
