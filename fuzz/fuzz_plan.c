@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Mutator: fuzz/mutate_json.c */
 /* Fuzzes the parser of plans: any text gives a plan or an error. */
-#include "study/plan/plan.h"
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan_read.h"
 #include "target.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)

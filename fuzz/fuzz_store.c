@@ -18,7 +18,7 @@
 
 #include <koksma/study.h>
 
-#include "study/store/seal.h"
+#include "study/store/store_internal.h"
 #include "target.h"
 
 static const char plan[] =
@@ -181,7 +181,7 @@ static sqlite3_stmt *prepare(sqlite3 *store, const char *sql)
     return row;
 }
 
-/* Makes the seal that of the rows as they are now (seal.c). */
+/* Makes the seal that of the rows as they are now (store_tables.c). */
 static void seal_again(sqlite3 *store)
 {
     koksma__seal seal = {0};

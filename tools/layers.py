@@ -59,10 +59,9 @@ MAY_USE = {
 # if no .c file has it (measures/star/star.h).
 INTERNAL = {
     "src/engine/optimise/optimise.h": "what the methods of a search share, a section a file",
-    "src/lab/study/plan/plan.h": "the data of a plan, which plan.c and the parsers of its sections fill",
+    "src/lab/study/plan/plan.h": "the data of a plan, which the parsers of its sections fill",
     "src/lab/study/store/store.h": "the interface of the store, whose files are parts of one object",
     "src/lab/study/store/store_internal.h": "the store's object, for its own files only",
-    "src/lab/study/plan/plan_section.h": "the parsers of a plan's sections, one file each, for plan.c's table",
     "src/engine/core/files.h": "files that are read and files that are written",
     "src/engine/core/points_io.h": "files of points, one .c file a format",
     "src/engine/core/points.h": "checks of points, and what several measures ask of them",
@@ -81,6 +80,8 @@ INTERNAL = {
     "src/files/meshes/mesh_file.h": "mesh files and their readers' common parts",
     "src/files/meshes/mesh.h": "triangle meshes and their subdivision",
     "src/files/meshes/gltf.h": "the reader of glTF, in several files",
+    "src/lab/study/plan/plan_read.h": "the parsers of a plan's sections, one file each, for plan_read.c",
+    "src/lab/study/run/tasks.h": "tasks, which tasks.c lists and jobs.c does",
 }
 
 

@@ -10,8 +10,7 @@
 
 #include "meshes/readers.h"
 #include "scene/scene.h"
-#include "study/plan/plan.h"
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan_read.h"
 #include "test.h"
 
 typedef koksma_status (*reader)(const char *text, size_t size);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""reseal.py DIR...: writes the seal of DIR/results.sqlite anew, from src/lab/study/store/seal.c's description and not
+"""reseal.py DIR...: writes the seal of DIR/results.sqlite anew, from src/lab/study/store/store_tables.c's description and not
 its code: for tests that change rows by hand, as somebody who means to deceive would."""
 import sqlite3
 import struct

@@ -9,8 +9,7 @@
 #include <koksma/study.h>
 
 #include "stats/statistics.h"
-#include "study/plan/plan.h"
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan_read.h"
 #include "study/report/rho_words.h"
 #include "study/report/said.h"
 #include "study/run/references.h"

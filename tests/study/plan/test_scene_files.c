@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "study/plan/scene_files.h"
+#include "study/plan/plan.h"
 #include "test.h"
 
 static const char scene[] =

@@ -12,7 +12,7 @@
 #include "stats/quantiles.h"
 #include "study/ranking/ranking_decisions.h"
 #include "study/ranking/ranking_reference.h"
-#include "study/run/picture.h"
+#include "study/run/study.h"
 #include "test.h"
 
 /* ---- Invented errors ------------------------------------------------------------------------------------ */

@@ -7,7 +7,7 @@
 
 #include <koksma/study.h>
 
-#include "study/run/run_state.h"
+#include "study/run/run.h"
 #include "study/run/study.h"
 #include "test.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "study/run/task_limits.h"
+#include "study/run/tasks.h"
 #include "test.h"
 
 /* A block of sets of points and one of images; both count. */

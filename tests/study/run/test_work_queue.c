@@ -4,7 +4,7 @@
 
 #include "render/render.h"
 #include "rendering.h"
-#include "study/run/work_queue.h"
+#include "study/run/run.h"
 
 static void rows_have_the_bits_of_the_whole(void **state)
 {

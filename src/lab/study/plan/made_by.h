@@ -5,6 +5,10 @@
 #ifndef KOKSMA_STUDY_PLAN_MADE_BY_H
 #define KOKSMA_STUDY_PLAN_MADE_BY_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include <koksma/koksma.h>
 
 enum { KOKSMA__MADE_BY = 512 };
@@ -30,5 +34,46 @@ koksma_status koksma__find_made_by(bool image, const char *pattern, const char *
    MALFORMED. */
 koksma_status koksma__reference_parse(const char *text, char name[KOKSMA_MAX_SPEC], char pattern[KOKSMA_MAX_SPEC],
                                       long long *spp, long long *replicates);
+
+/* Hashes of the files of points that a study's patterns and references name. They are part of the keys of rows,
+   as the hashes of scenes are: when a file's contents change, results that depend on it get new rows. */
+
+/* The files that were hashed already, so that each is read once; {0}: none. A damaged store may name any number of files,
+   so they are in a balanced tree. */
+typedef struct koksma__point_files {
+    void *tree; /* of tsearch(3) */
+} koksma__point_files;
+
+enum { KOKSMA__HASH_TEXT = 40 };
+
+/* The texts of a row that may name files. Either may be "". */
+typedef struct koksma__row_texts {
+    /* whether the row is of an image, whose text has a pattern for each use; in the text of a set of points, which is one
+       pattern, ';' and '=' belong to a path */
+    bool image;
+    const char *patterns;
+    const char *reference; /* of an image: koksma__reference_parse */
+} koksma__row_texts;
+
+/* Writes the hash of a scene to out, followed by one hash of all files that the texts of a row name: those of its patterns,
+   then those of its reference. Of a sampler in a library it is the hash of the library. A file that can't be read has the
+   hash 0; koksma__points_can_be_read tells why. known may be NULL. */
+void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash, const koksma__row_texts *row,
+                              char out[KOKSMA__HASH_TEXT]);
+
+/* Fails if a file that a row names can't be read, with the reason; OK also if it names none. */
+koksma_status koksma__points_can_be_read(const koksma__row_texts *row);
+
+/* Whether a row names any files but programs and libraries. */
+bool koksma__points_read_files(const koksma__row_texts *row);
+
+/* The length in bytes of these files together, as a measure of the time to read one set; of a family, that of its longest
+   file and 4096 for each of its files, whose names are looked at. */
+uint64_t koksma__points_files_length(const koksma__row_texts *row);
+
+/* Whether a row names a family of files (file_names.h). */
+bool koksma__points_have_family(const koksma__row_texts *row);
+
+void koksma__point_files_fini(koksma__point_files *known);
 
 #endif

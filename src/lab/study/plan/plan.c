@@ -1,295 +1,268 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads a study's plan from JSON (studies/README.md lists the fields) and checks everything in it before any work
-   starts. */
-#define _GNU_SOURCE /* tdestroy */
+/* Joins and frees plans. A plan owns all its lists, texts and nested lists. Two plans are joined by moving the
+   items of one plan's lists to the end of the other's, so that no text is copied or freed twice. */
 #include "study/plan/plan.h"
 
-#include <search.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <koksma/render.h>
-#include <koksma/study.h>
-#include <koksma/warp.h>
-
+#include "core/capacity.h"
 #include "core/status.h"
-#include "study/plan/image_patterns.h"
-#include "study/plan/plan_owned.h"
-#include "study/plan/plan_section.h"
-#include "study/plan/plans_embedded.h"
-#include "study/plan/variants.h"
-#include "json/json.h"
 
-enum { MAX_TRIALS = 100000000, MAX_SPP = 1 << 20, MAX_NAME = 64, MAX_VARIANTS = 1 << 16 };
-
-const char *koksma_plan_name_at(size_t i)
+/* Moves the n_from items of *from to the end of the n items of *to. */
+static koksma_status join(void **to, size_t *n, void **from, size_t *n_from, size_t item_size)
 {
-    return i < sizeof embedded_texts / sizeof *embedded_texts ? embedded_texts[i].name : NULL;
+    if (*n_from == 0) {
+        return KOKSMA_OK;
+    }
+    char *all = realloc(*to, (*n + *n_from) * item_size);
+    KOKSMA__REQUIRE_MEMORY(all, (*n + *n_from) * item_size);
+    memcpy(all + *n * item_size, *from, *n_from * item_size);
+    free(*from);
+    *to = all;
+    *n += *n_from;
+    *from = NULL;
+    *n_from = 0;
+    return KOKSMA_OK;
 }
 
-const char *koksma__plan_shipped(const char *name, size_t *size)
+/* Appends `between` and `from` to *to; if *to is NULL, it becomes a copy of `from`. */
+static koksma_status join_text(char **to, const char *between, const char *from)
 {
-    for (size_t i = 0; koksma_plan_name_at(i); i++) {
-        if (!strcmp(embedded_texts[i].name, name)) {
-            *size = embedded_texts[i].size;
-            return embedded_texts[i].text;
+    if (!*to) {
+        *to = strdup(from);
+        return *to ? KOKSMA_OK : koksma__fail_memory(strlen(from));
+    }
+    const size_t size = strlen(*to) + strlen(between) + strlen(from) + 1;
+    char *text = malloc(size);
+    KOKSMA__REQUIRE_MEMORY(text, size);
+    snprintf(text, size, "%s%s%s", *to, between, from);
+    free(*to);
+    *to = text;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__plan_own(koksma__plan *p)
+{
+    koksma__plan_part *part = calloc(1, sizeof *part);
+    char *title = strdup(p->title), *about = p->about ? strdup(p->about) : NULL;
+    if (!part || !title || (p->about && !about)) {
+        free(part);
+        free(title);
+        free(about);
+        return koksma__fail_memory(sizeof *part + strlen(p->title));
+    }
+    *part = (koksma__plan_part){.title = title,
+                                .about = about,
+                                .order = p->order,
+                                .metric = p->metric,
+                                .asks = p->n_tables || p->n_questions,
+                                .discrepancies = {0, p->n_discrepancies},
+                                .images = {0, p->n_images},
+                                .figures = {0, p->n_figures}};
+    p->order = p->metric = NULL;
+    p->parts = part;
+    p->n_parts = 1;
+    return KOKSMA_OK;
+}
+
+/* Changes the indices of blocks and parts in q to those that they have after q's lists are appended to p's. */
+static void shift(const koksma__plan *p, koksma__plan *q)
+{
+    for (size_t i = 0; i < q->n_parts; i++) {
+        for (int end = 0; end < 2; end++) {
+            q->parts[i].discrepancies[end] += p->n_discrepancies;
+            q->parts[i].images[end] += p->n_images;
+            q->parts[i].figures[end] += p->n_figures;
+        }
+    }
+    for (size_t t = 0; t < q->n_tables; t++) {
+        q->tables[t].images += p->n_images;
+        q->tables[t].part += p->n_parts;
+    }
+    for (size_t i = 0; i < q->n_questions; i++) {
+        q->questions[i].part += p->n_parts;
+    }
+    for (size_t i = 0; i < q->n_conclusions; i++) {
+        q->conclusions[i].part += p->n_parts;
+    }
+}
+
+koksma_status koksma__plan_append(koksma__plan *p, koksma__plan *q)
+{
+    koksma_status status = join_text(&p->name, "+", q->name);
+    status = status ? status : join_text(&p->title, "; ", q->title);
+    shift(p, q);
+    if (!status && q->about) {
+        status = join_text(&p->about, " ", q->about);
+    }
+#define JOIN(items)                                                                                                  \
+    status = status ? status                                                                                         \
+                    : join((void **)&p->items, &p->n_##items, (void **)&q->items, &q->n_##items, sizeof *p->items)
+    JOIN(parts);
+    JOIN(discrepancies);
+    JOIN(images);
+    JOIN(tables);
+    JOIN(figures);
+    JOIN(questions);
+    JOIN(conclusions);
+#undef JOIN
+    koksma__plan_fini(q);
+    return status;
+}
+
+static void free_left_out(koksma__left_out *of)
+{
+    free(of->is);
+    free(of->unmeasured);
+    koksma__texts_fini(&of->lines);
+}
+
+void koksma__texts_fini(koksma__texts *texts)
+{
+    for (size_t i = 0; i < texts->n; i++) {
+        free(texts->at[i]);
+    }
+    free(texts->at);
+    *texts = (koksma__texts){0};
+}
+
+static void free_table(koksma__table *t)
+{
+    for (size_t r = 0; r < t->n_rows; r++) {
+        free(t->rows[r].pattern);
+        free(t->rows[r].label);
+    }
+    for (size_t n = 0; n < t->n_notes; n++) {
+        free(t->notes[n].pattern);
+        free(t->notes[n].reason);
+    }
+    KOKSMA__FREE(t->n.at, t->rows, t->notes, t->id, t->title, t->scene, t->measure, t->also);
+}
+
+static void free_conclusion(koksma__conclusion *c)
+{
+    koksma__texts *const lists[] = {&c->tables, &c->by, &c->patterns, &c->against};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        koksma__texts_fini(lists[i]);
+    }
+    KOKSMA__FREE(c->says, c->remark, c->images, c->discrepancies, c->metric);
+}
+
+static void free_image_block(koksma__image_block *b)
+{
+    free(b->id);
+    koksma__texts_fini(&b->scenes);
+    koksma__texts_fini(&b->variants);
+    koksma__texts_fini(&b->patterns);
+    free(b->spp.at);
+    free_left_out(&b->left_out);
+    for (size_t r = 0; r < b->n_references; r++) {
+        free(b->references[r].name);
+        free(b->references[r].pattern);
+    }
+    free(b->references);
+    koksma__texts_fini(&b->metrics);
+}
+
+void koksma__plan_fini(koksma__plan *p)
+{
+    for (size_t i = 0; i < p->n_discrepancies; i++) {
+        free(p->discrepancies[i].id);
+        koksma__texts_fini(&p->discrepancies[i].patterns);
+        koksma__texts_fini(&p->discrepancies[i].measures);
+        koksma__texts_fini(&p->discrepancies[i].warps);
+        free(p->discrepancies[i].n.at);
+        free_left_out(&p->discrepancies[i].left_out);
+    }
+    for (size_t i = 0; i < p->n_images; i++) {
+        free_image_block(&p->images[i]);
+    }
+    for (size_t i = 0; i < p->n_tables; i++) {
+        free_table(&p->tables[i]);
+    }
+    for (size_t i = 0; i < p->n_figures; i++) {
+        KOKSMA__FREE(p->figures[i].id, p->figures[i].title, p->figures[i].pattern, p->figures[i].scene,
+                     p->figures[i].variant, p->figures[i].adaptive, p->figures[i].warp, p->figures[i].printed);
+        koksma__texts_fini(&p->figures[i].spaces);
+    }
+    for (size_t i = 0; i < p->n_questions; i++) {
+        KOKSMA__FREE(p->questions[i].id, p->questions[i].title, p->questions[i].discrepancies, p->questions[i].images,
+                     p->questions[i].metric);
+        for (size_t g = 0; g < p->questions[i].n_groups; g++) {
+            free(p->questions[i].groups[g].title);
+            koksma__texts_fini(&p->questions[i].groups[g].scenes);
+        }
+        free(p->questions[i].groups);
+    }
+    for (size_t i = 0; i < p->n_conclusions; i++) {
+        free_conclusion(&p->conclusions[i]);
+    }
+    for (size_t i = 0; i < p->n_parts; i++) {
+        free(p->parts[i].title);
+        free(p->parts[i].about);
+        free(p->parts[i].order);
+        free(p->parts[i].metric);
+    }
+    koksma__texts_fini(&p->metrics);
+    KOKSMA__FREE(p->parts, p->questions, p->conclusions, p->discrepancies, p->images, p->tables, p->figures, p->name,
+                 p->title, p->about, p->order, p->metric);
+    *p = (koksma__plan){0};
+}
+
+koksma_status koksma__texts_add(koksma__texts *texts, const char *text)
+{
+    char **line = koksma__add_one(&texts->at, &texts->n, sizeof *line);
+    KOKSMA__TRY(line ? KOKSMA_OK : KOKSMA_MEMORY);
+    *line = strdup(text);
+    texts->n -= !*line;
+    return *line ? KOKSMA_OK : koksma__fail_memory(strlen(text));
+}
+
+bool koksma__texts_have(const koksma__texts *texts, const char *text)
+{
+    for (size_t i = 0; i < texts->n; i++) {
+        if (!strcmp(texts->at[i], text)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool koksma__wholes_have(const koksma__wholes *wholes, long long value)
+{
+    for (size_t i = 0; i < wholes->n; i++) {
+        if (wholes->at[i] == value) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
+                              long long n, long long dim)
+{
+    return !block->warps.n && block->dim == dim && koksma__texts_have(&block->measures, measure) &&
+           koksma__texts_have(&block->patterns, pattern) && koksma__wholes_have(&block->n, n);
+}
+
+const koksma__table *koksma__plan_table_of(const koksma__plan *p, size_t part, const char *id)
+{
+    for (size_t i = 0; i < p->n_tables; i++) {
+        if (p->tables[i].part == part && !strcmp(p->tables[i].id, id)) {
+            return &p->tables[i];
         }
     }
     return NULL;
 }
 
-/* ---- Fields that discrepancy blocks and image blocks share ----------------------------------------------- */
-
-/* Sets *out to a block's number of trials: the run's number if the run gives one; otherwise the block's `quick` in a
-   quick run, and the block's `trials` in other runs. */
-static koksma_status parse_trials(const koksma__json_node *node, const koksma__plan_trials *given, long long *out)
+const koksma__table_row *koksma__plan_row_of(const koksma__table *t, const char *pattern)
 {
-    long long quick = 0;
-    koksma_status status = koksma__json_get_whole(node, "trials", true, 1, MAX_TRIALS, out);
-    status = status ? status : koksma__json_get_whole(node, "quick", false, 1, MAX_TRIALS, &quick);
-    *out = given->quick && quick ? quick : *out;
-    *out = given->trials > 0 ? given->trials : *out;
-    return status;
-}
-
-/* Checks that every warp exists and supports every measure, by evaluating each pair on one point. */
-static koksma_status check_warps(const koksma__json_node *node, const koksma__discrepancy_block *b)
-{
-    double xs[] = {0.5, 0.5};
-    const koksma_points point = {1, 2, xs};
-    for (size_t w = 0; w < b->warps.n; w++) {
-        const koksma_warp *warp = koksma_warp_find(b->warps.at[w]);
-        KOKSMA__JSON_FAIL_IF(!warp, node, "no warp '%s'; 'koksma list warps' names them", b->warps.at[w]);
-        for (size_t m = 0; m < b->measures.n; m++) {
-            koksma_spec spec;
-            koksma_value value;
-            KOKSMA__JSON_FAIL_IF(koksma__integrand_of(b->measures.at[m]), node,
-                                 "warps can be combined with measures only, not with integrands");
-            koksma_status status = koksma_measure_spec(b->measures.at[m], &spec);
-            status = status ? status : koksma_warp_evaluate(warp, &spec, &point, NULL, &value);
-            if (status) {
-                return koksma__json_fail_in(node, status);
-            }
+    for (size_t r = 0; r < t->n_rows; r++) {
+        if (!strcmp(t->rows[r].pattern, pattern)) {
+            return &t->rows[r];
         }
     }
-    return b->warps.n && b->dim != 2 ? koksma__json_fail(node, "warps need dim 2") : KOKSMA_OK;
-}
-
-/* Reads the members "measures" and "integrands", of which a block has one or both. */
-static koksma_status parse_measures(const koksma__json_node *node, koksma__discrepancy_block *b)
-{
-    koksma__texts errors = {0};
-    koksma_status status = KOKSMA_OK;
-    const bool integrands = koksma__json_has(node, "integrands");
-    if (!integrands || koksma__json_has(node, "measures")) {
-        status = koksma__plan_texts(node, "measures", koksma__measure_text, &b->measures);
-    }
-    if (!status && integrands) {
-        status = koksma__plan_texts(node, "integrands", koksma__error_text, &errors);
-        status = status ? status : koksma__plan_join(&b->measures, &errors);
-    }
-    koksma__texts_fini(&errors);
-    return status;
-}
-
-static koksma_status parse_discrepancy(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    static const char *const keys[] = {"comment", "id",  "patterns", "measures", "integrands", "warps",
-                                       "n",       "dim", "trials",   "quick",    "skip",       NULL};
-    koksma__discrepancy_block *b = item;
-    long long dim = 2;
-    koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_id(node, false, &b->id);
-    status =
-        status ? status : koksma__plan_patterns(node, "patterns", koksma__pattern_text, trials->stored, &b->patterns);
-    status = status ? status : parse_measures(node, b);
-    if (!status && koksma__json_has(node, "warps")) {
-        status = koksma__plan_texts(node, "warps", NULL, &b->warps);
-    }
-    status = status ? status : koksma__plan_wholes(node, "n", 1, (long long)KOKSMA_MAX_COORDINATES, &b->n);
-    status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
-    status = status ? status : parse_trials(node, trials, &b->trials);
-    b->dim = (int)dim;
-    status = status ? status : koksma__plan_check_sets(node, trials, b);
-    status = status ? status : koksma__plan_check_measures(node, b);
-    return status ? status : check_warps(node, b);
-}
-
-static koksma_status parse_reference(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    static const char *const keys[] = {"comment", "name", "pattern", "spp", "replicates", NULL};
-    koksma__reference *r = item;
-    r->replicates = 1;
-    koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_text(node, "name", true, &r->name);
-    status =
-        status ? status
-               : koksma__plan_pattern(node, "pattern", koksma__image_pattern_text, true, trials->stored, &r->pattern);
-    status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
-    status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
-    KOKSMA__JSON_FAIL_IF(!status && strlen(r->name) > MAX_NAME, node, "the name has more than %d characters",
-                         MAX_NAME);
-    /* the name must not contain ':', which ends it in the keys of rows (made_by.h) */
-    if (!status && strchr(r->name, ':')) {
-        return koksma__json_fail(node, "the name contains ':'");
-    }
-    return status ? status : koksma__plan_check_reference(node, trials, r);
-}
-
-/* Checks that the scenes open; an error of a scene is reported with the plan's line. */
-static koksma_status check_scenes(const koksma__json_node *node, const koksma__plan_trials *trials,
-                                  const koksma__texts *scenes)
-{
-    koksma__json_node list;
-    koksma_scene *scene;
-    koksma_status status = koksma__json_member(node, "scenes", &list);
-    for (size_t i = 0; !status && i < scenes->n; i++) {
-        const koksma__json_node item = koksma__json_item(&list, i);
-        status = koksma__scene_files_open(&trials->totals->scenes, scenes->at[i], &scene);
-        status = status ? koksma__json_fail_in(&item, status) : KOKSMA_OK;
-    }
-    return status;
-}
-
-static koksma_status parse_size(const koksma__json_node *node, koksma__image_block *b)
-{
-    koksma__json_node size;
-    size_t length;
-    long long sides[2];
-    if (!koksma__json_has(node, "size")) {
-        return KOKSMA_OK;
-    }
-    KOKSMA__TRY(koksma__json_member(node, "size", &size));
-    KOKSMA__TRY(koksma__json_length(&size, SIZE_MAX, &length));
-    KOKSMA__JSON_FAIL_IF(length != 2, &size, "it takes 2 numbers, but has %zu items", length);
-    for (size_t i = 0; i < 2; i++) {
-        const koksma__json_node side = koksma__json_item(&size, i);
-        KOKSMA__TRY(koksma__json_whole(&side, 1, KOKSMA_MAX_IMAGE_SIDE, &sides[i]));
-    }
-    b->width = (int)sides[0];
-    b->height = (int)sides[1];
-    return KOKSMA_OK;
-}
-
-static koksma_status parse_image(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    static const char *const keys[] = {"comment", "id",     "scenes", "patterns",   "spp",  "options",
-                                       "size",    "trials", "quick",  "references", "skip", NULL};
-    koksma__image_block *b = item;
-    koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_id(node, false, &b->id);
-    status = status ? status : koksma__plan_texts(node, "scenes", NULL, &b->scenes);
-    status = status ? status : check_scenes(node, trials, &b->scenes);
-    status = status
-                 ? status
-                 : koksma__plan_patterns(node, "patterns", koksma__image_pattern_text, trials->stored, &b->patterns);
-    status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
-    status = status ? status : koksma__variants_parse(node, &b->variants);
-    trials->totals->variants += b->variants.n;
-    KOKSMA__JSON_FAIL_IF(!status && trials->totals->variants > MAX_VARIANTS, node,
-                         "with it the blocks have more than %d combinations of options", MAX_VARIANTS);
-    status = status ? status : koksma__plan_check_spp(node, trials, b);
-    status = status ? status : parse_size(node, b);
-    status = status ? status : parse_trials(node, trials, &b->trials);
-    return status ? status
-                  : koksma__plan_list(node, "references", true, sizeof *b->references, parse_reference, trials,
-                                      (void **)&b->references, &b->n_references);
-}
-
-/* ---- The whole plan -------------------------------------------------------------------------------------- */
-
-static int compare_ids(const void *a, const void *b)
-{
-    return strcmp(a, b);
-}
-
-static void keep_id(void *id)
-{
-    (void)id;
-}
-
-/* No two items of a list have the same id, by which readers of a report and of `export` tell them apart. */
-static koksma_status check_ids(const koksma__json_node *root, const char *key)
-{
-    koksma__json_node list;
-    void *ids = NULL; /* of tsearch(3): pointers to the texts of the JSON document */
-    size_t n;
-    if (!koksma__json_has(root, key)) {
-        return KOKSMA_OK;
-    }
-    koksma_status status = koksma__json_member(root, key, &list);
-    status = status ? status : koksma__json_length(&list, SIZE_MAX, &n);
-    for (size_t i = 0; !status && i < n; i++) {
-        const koksma__json_node item = koksma__json_item(&list, i);
-        const char *id = NULL;
-        status = koksma__json_get_text(&item, "id", true, &id);
-        const char *const *known = status ? NULL : tsearch(id, &ids, compare_ids);
-        status = status || known ? status : koksma__fail_memory(sizeof known);
-        status =
-            status || *known == id ? status : koksma__json_fail(&item, "an earlier item has the id '%s' too", id);
-    }
-    tdestroy(ids, keep_id);
-    return status;
-}
-
-static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
-{
-    static const char *const keys[] = {"comment",       "name",    "title",       "about",   "order",
-                                       "discrepancies", "images",  "tables",      "figures", "questions",
-                                       "metric",        "metrics", "conclusions", NULL};
-    koksma_status status = koksma__json_only(root, keys);
-    status = status ? status : koksma__plan_text(root, "name", true, &p->name);
-    status = status ? status : koksma__plan_text(root, "title", true, &p->title);
-    status = status ? status : koksma__plan_text(root, "about", false, &p->about);
-    status = status ? status : koksma__plan_text(root, "order", false, &p->order);
-    status = status ? status
-                    : koksma__plan_list(root, "discrepancies", false, sizeof *p->discrepancies, parse_discrepancy,
-                                        trials, (void **)&p->discrepancies, &p->n_discrepancies);
-    status = status ? status
-                    : koksma__plan_list(root, "images", false, sizeof *p->images, parse_image, trials,
-                                        (void **)&p->images, &p->n_images);
-    status = status ? status : koksma__plan_metrics(root, p);
-    status = status ? status
-                    : koksma__plan_list(root, "tables", false, sizeof *p->tables, koksma__plan_table, trials,
-                                        (void **)&p->tables, &p->n_tables);
-    status = status ? status
-                    : koksma__plan_list(root, "figures", false, sizeof *p->figures, koksma__plan_figure, trials,
-                                        (void **)&p->figures, &p->n_figures);
-    status = status ? status
-                    : koksma__plan_list(root, "questions", false, sizeof *p->questions, koksma__plan_question, trials,
-                                        (void **)&p->questions, &p->n_questions);
-    status = status ? status
-                    : koksma__plan_list(root, "conclusions", false, sizeof *p->conclusions, koksma__plan_conclusion,
-                                        trials, (void **)&p->conclusions, &p->n_conclusions);
-    static const char *const with_ids[] = {"tables", "figures", "questions"};
-    for (size_t i = 0; !status && !trials->stored && i < sizeof with_ids / sizeof *with_ids; i++) {
-        status = check_ids(root, with_ids[i]);
-    }
-    status = status ? status : koksma__plan_check_questions(root, trials, p);
-    KOKSMA__JSON_FAIL_IF(!status && p->n_discrepancies + p->n_images == 0, root,
-                         "the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
-    status = status ? status : koksma__plan_check_tables(root, trials, p);
-    status = status ? status : koksma__plan_check_figures(root, trials, p);
-    status = status ? status : koksma__plan_check_conclusions(root, trials, p);
-    status = status ? status : koksma__plan_set_metrics(root, p);
-    return status ? status : koksma__plan_own(p);
-}
-
-koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
-                                 koksma__plan *plan)
-{
-    koksma__plan_totals alone = {0};
-    koksma__plan_trials of_plan = trials ? *trials : (koksma__plan_trials){0};
-    koksma__json *document;
-    of_plan.totals = of_plan.totals ? of_plan.totals : &alone;
-    *plan = (koksma__plan){0};
-    KOKSMA__TRY(koksma__json_open("plan", name, text, size, &document));
-    const koksma__json_node root = koksma__json_root(document);
-    const koksma_status status = parse(&root, &of_plan, plan);
-    koksma__json_close(document);
-    koksma__scene_files_fini(&alone.scenes);
-    if (status) {
-        koksma__plan_fini(plan);
-    }
-    return status;
+    return NULL;
 }

@@ -3,11 +3,26 @@
 #ifndef KOKSMA_STUDY_PLAN_PLAN_H
 #define KOKSMA_STUDY_PLAN_PLAN_H
 
-#include <koksma/koksma.h>
-
 #include <string.h>
 
-#include "study/plan/scene_files.h"
+#include <koksma/koksma.h>
+#include <koksma/render.h>
+
+/* The scenes that the plans of a study name. Each file is opened once, in whatever blocks and under whatever names the
+   plans name it, because a file of some kilobytes may stand for a scene of two gigabytes. */
+
+/* The scenes that were opened; zeroed at first. */
+typedef struct koksma__scene_files {
+    void *tree; /* of tsearch(3) */
+    size_t n;
+    uint64_t bytes, file_bytes; /* what all scenes take, and the files that they are from */
+} koksma__scene_files;
+
+/* Gives the scene of this name or path, which a plan names and which `files` owns. All scenes may take 4 GiB together
+   or, if that is more, 64 times their files. Errors: those of koksma_scene_open; MALFORMED for more. */
+koksma_status koksma__scene_files_open(koksma__scene_files *files, const char *name, koksma_scene **out);
+
+void koksma__scene_files_fini(koksma__scene_files *files);
 
 typedef struct koksma__texts {
     size_t n;
@@ -241,14 +256,6 @@ typedef struct koksma__plan_trials {
     koksma__plan_totals *totals; /* of the study; NULL: this plan is alone */
 } koksma__plan_trials;
 
-/* Parses a plan; `name` is its name in error messages ("plan 'my.json': line 3: …"). Checks every spec, so that a
-   study does not fail halfway. If trials is NULL, the plan's numbers of trials are used. */
-koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
-                                 koksma__plan *plan);
-
-/* Returns the text of a plan that is built into the library, or NULL. */
-const char *koksma__plan_shipped(const char *name, size_t *size);
-
 /* Among the measures of a block and of results, the text "error of SPEC" stands for an integrand: the value is the
    absolute error of its mean over the points. Returns SPEC, or NULL if the text is that of a measure. */
 static inline const char *koksma__integrand_of(const char *measure)
@@ -274,5 +281,36 @@ static inline bool koksma__table_is_over_n(const koksma__table *table)
 {
     return table->n.n > 1;
 }
+
+/* ---- Joining and freeing plans, and searching their lists -------------------------------------------------- */
+
+/* Makes a newly read plan consist of one part, which gets the plan's title, text and all its blocks. Errors:
+   MEMORY. */
+koksma_status koksma__plan_own(koksma__plan *plan);
+
+/* Moves everything in `from` to the end of `plan`, and joins the names as "a+b"; `from` is empty afterwards. */
+koksma_status koksma__plan_append(koksma__plan *plan, koksma__plan *from);
+
+/* Frees everything that a plan owns. */
+void koksma__plan_fini(koksma__plan *plan);
+
+/* Frees a list of texts. */
+void koksma__texts_fini(koksma__texts *texts);
+
+/* Appends a copy of the text. Errors: MEMORY. */
+koksma_status koksma__texts_add(koksma__texts *texts, const char *text);
+
+/* Whether a list contains a text, or a number. */
+bool koksma__texts_have(const koksma__texts *texts, const char *text);
+
+bool koksma__wholes_have(const koksma__wholes *wholes, long long value);
+
+/* The table of a part with this id, and the row of a table with this pattern; NULL: none. */
+const koksma__table *koksma__plan_table_of(const koksma__plan *plan, size_t part, const char *id);
+const koksma__table_row *koksma__plan_row_of(const koksma__table *table, const char *pattern);
+
+/* Whether the block evaluates this measure on n points of this pattern in dim dimensions, without a warp. */
+bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
+                              long long n, long long dim);
 
 #endif

@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "study/plan/image_patterns.h"
-#include "study/plan/plan_owned.h"
-#include "study/plan/plan_section.h"
+#include "study/plan/plan.h"
+#include "study/plan/plan_read.h"
+#include "study/plan/variants.h"
 
 const koksma__conclusion_kind koksma__conclusion_kinds[] = {
 #define CONCLUSION(name, fields) {#name, fields},

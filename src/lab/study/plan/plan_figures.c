@@ -8,9 +8,8 @@
 #include <koksma/warp.h>
 
 #include "core/status.h"
-#include "study/plan/image_patterns.h"
-#include "study/plan/plan_owned.h"
-#include "study/plan/plan_section.h"
+#include "study/plan/plan.h"
+#include "study/plan/plan_read.h"
 #include "study/plan/variants.h"
 
 enum { MAX_N = 1 << 20, MAX_DRAWN = 1 << 22 };

@@ -12,8 +12,8 @@
 #include <koksma/image.h>
 
 #include "core/status.h"
-#include "study/plan/plan_owned.h"
-#include "study/plan/plan_section.h"
+#include "study/plan/plan.h"
+#include "study/plan/plan_read.h"
 
 koksma_status koksma__metric_text(const char *text, char out[KOKSMA_MAX_SPEC])
 {

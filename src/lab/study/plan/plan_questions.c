@@ -11,8 +11,8 @@
 #include <koksma/study.h>
 
 #include "core/status.h"
-#include "study/plan/plan_owned.h"
-#include "study/plan/plan_section.h"
+#include "study/plan/plan.h"
+#include "study/plan/plan_read.h"
 
 const koksma__question_kind koksma__question_kinds[] = {
 #define QUESTION(name, fields, heading, rows) {#name, fields, heading, rows},

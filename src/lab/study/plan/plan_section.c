@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Functions that read all sections of a plan. An array of JSON objects becomes an array of structs, one item at a
    time, through the parse function of its section; texts, numbers and lists of specs are read and checked here. */
-#include "study/plan/plan_section.h"
+#include "study/plan/plan_read.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "core/status.h"
 #include "patterns/files/files.h"
 #include "render/samples/use_patterns.h"
-#include "study/plan/image_patterns.h"
+#include "study/plan/variants.h"
 
 enum { MAX_ITEMS = 4096 };
 

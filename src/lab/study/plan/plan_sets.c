@@ -13,9 +13,8 @@
 #include "core/status.h"
 #include "patterns/files/files.h"
 #include "render/samples/use_patterns.h"
-#include "study/plan/image_patterns.h"
-#include "study/plan/plan_section.h"
-#include "study/plan/point_files.h"
+#include "study/plan/made_by.h"
+#include "study/plan/plan_read.h"
 #include "study/plan/variants.h"
 
 /* Larger sets are not tried, because that takes time, and a pattern that supports only some n is found at smaller

@@ -11,9 +11,9 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
-#include "study/plan/image_patterns.h"
-#include "study/plan/plan_owned.h"
-#include "study/plan/plan_section.h"
+#include "study/plan/plan.h"
+#include "study/plan/plan_read.h"
+#include "study/plan/variants.h"
 
 /* ---- Printed numbers ------------------------------------------------------------------------------------- */
 

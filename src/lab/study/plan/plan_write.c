@@ -12,7 +12,8 @@
 
 #include "core/files.h"
 #include "core/status.h"
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan.h"
+#include "study/plan/plan_read.h"
 
 static const char file_name[] = "plan.json";
 

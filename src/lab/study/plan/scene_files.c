@@ -6,7 +6,7 @@
  * seconds and an audit asks for the scene of each row.
  */
 #define _GNU_SOURCE /* tdestroy */
-#include "study/plan/scene_files.h"
+#include "study/plan/plan.h"
 
 #include <inttypes.h>
 #include <search.h>

@@ -12,8 +12,10 @@
 
 #include "core/lookup.h"
 #include "core/status.h"
-#include "study/plan/plan_owned.h"
-#include "study/plan/plan_section.h"
+#include "render/samples/use_patterns.h"
+#include "render/samples/uses.h"
+#include "scene/pbrt_tokens.h"
+#include "study/plan/plan.h"
 
 enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };
 
@@ -219,34 +221,40 @@ koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__va
 
 /* ---- Parsing ------------------------------------------------------------------------------------------- */
 
+/* Checks a word and adds its canonical form: that of a method whose parameters are spelt otherwise becomes equal. */
+static koksma_status add_word(const koksma__json_node *item, const option *o, koksma__texts *words)
+{
+    koksma__variant scratch;
+    const char *word;
+    char method[KOKSMA_MAX_SPEC];
+    memset(&scratch, 0, sizeof scratch);
+    KOKSMA__TRY(koksma__json_text(item, &word));
+    const koksma_status status = o->set(&scratch, word);
+    if (status) {
+        return koksma__json_fail_in(item, status);
+    }
+    if (scratch.adaptive.method) {
+        koksma_adaptive_text(&scratch.adaptive, method);
+        word = method;
+    }
+    KOKSMA__JSON_FAIL_IF(koksma__texts_have(words, word), item, "'%s' is listed twice", word);
+    return koksma__texts_add(words, word);
+}
+
 /* Reads the words of one option; words stays empty if the plan does not name it. */
 static koksma_status parse_words(const koksma__json_node *node, const option *o, koksma__texts *words)
 {
+    koksma__json_node list;
+    size_t n;
     if (!koksma__json_has(node, o->name)) {
         return KOKSMA_OK;
     }
-    koksma__json_node list;
-    koksma_status status = koksma__plan_texts(node, o->name, NULL, words);
-    status = status ? status : koksma__json_member(node, o->name, &list);
-    for (size_t i = 0; !status && i < words->n; i++) {
-        koksma__variant scratch;
-        memset(&scratch, 0, sizeof scratch);
+    koksma_status status = koksma__json_member(node, o->name, &list);
+    status = status ? status : koksma__json_length(&list, MAX_COMBINATIONS, &n);
+    KOKSMA__JSON_FAIL_IF(!status && !n, &list, "an empty list");
+    for (size_t i = 0; !status && i < n; i++) {
         const koksma__json_node item = koksma__json_item(&list, i);
-        status = o->set(&scratch, words->at[i]);
-        if (status) {
-            return koksma__json_fail_in(&item, status);
-        }
-        if (scratch.adaptive.method) { /* texts with equal parameters become equal */
-            char text[KOKSMA_MAX_SPEC];
-            koksma_adaptive_text(&scratch.adaptive, text);
-            free(words->at[i]);
-            words->at[i] = strdup(text);
-            status = words->at[i] ? KOKSMA_OK : koksma__fail_memory(strlen(text));
-            for (size_t k = 0; !status && k < i; k++) {
-                status =
-                    strcmp(words->at[k], text) ? KOKSMA_OK : koksma__json_fail(&item, "'%s' is listed twice", text);
-            }
-        }
+        status = add_word(&item, o, words);
     }
     return status;
 }
@@ -334,4 +342,72 @@ koksma_status koksma__variants_parse(const koksma__json_node *node, koksma__text
         koksma__texts_fini(&words[i]);
     }
     return status;
+}
+
+/* ---- The patterns of an image -------------------------------------------------------------------------------- */
+
+/* The sampling patterns of a block of images in a plan. One text either names a single pattern for all sample
+   dimensions or lists "use=pattern" pairs, as on the command line; uses that the text leaves out get the pattern
+   n-rooks. Plans keep the text in its canonical form, which is part of a row's key in the store. */
+
+koksma_status koksma__image_pattern_set(const char *text, koksma_render_options *options)
+{
+    memset(&options->pattern, 0, sizeof options->pattern);
+    memset(options->patterns, 0, sizeof options->patterns);
+    memset(options->groups, 0, sizeof options->groups);
+    const koksma_status status = koksma_pattern_spec("n-rooks", &options->pattern);
+    return status ? status : koksma_render_patterns(text, options);
+}
+
+koksma_status koksma__image_pattern_text(const char *text, char out[KOKSMA_MAX_SPEC])
+{
+    koksma_render_options options = {0};
+    char all[KOKSMA_MAX_PATTERNS_TEXT];
+    KOKSMA__TRY(koksma__image_pattern_set(text, &options));
+    koksma_render_patterns_text(&options, all);
+    KOKSMA__FAIL_IF(strlen(all) >= KOKSMA_MAX_SPEC, KOKSMA_ARGUMENT,
+                    "'%.40s...': the text of an image's patterns may have at most %d characters", all,
+                    KOKSMA_MAX_SPEC - 1);
+    memcpy(out, all, strlen(all) + 1);
+    return KOKSMA_OK;
+}
+
+const koksma_spec *koksma__image_pattern_at(const koksma_render_options *options, size_t i)
+{
+    enum { GROUPS = 1 + KOKSMA_N_USES };
+    return i == 0                               ? &options->pattern
+           : i < GROUPS                         ? &options->patterns[i - 1]
+           : i < GROUPS + KOKSMA_MAX_USE_GROUPS ? &options->groups[i - GROUPS].pattern
+                                                : NULL;
+}
+
+bool koksma__image_pattern_is_one(const char *text)
+{
+    koksma_render_options options = {0};
+    const koksma_spec *spec;
+    bool one = !koksma__image_pattern_set(text, &options);
+    for (size_t i = 1; (spec = koksma__image_pattern_at(&options, i)); i++) {
+        one = one && !spec->pattern;
+    }
+    return one;
+}
+
+bool koksma__image_pattern_is_biased(const char *text)
+{
+    koksma_render_options options = {0};
+    bool biased = false;
+    const bool read = !koksma__image_pattern_set(text, &options);
+    for (int u = 0; read && u < KOKSMA_N_USES; u++) {
+        const int group = koksma__place_of_use_at(&options, u).group;
+        const koksma_spec *own = group < 0 ? &options.patterns[u] : &options.groups[group].pattern;
+        biased = biased || !koksma_is_unbiased(own->pattern ? own : &options.pattern);
+    }
+    return biased;
+}
+
+koksma_status koksma__image_pattern_try(const char *text, size_t n, const koksma_run *run)
+{
+    koksma_render_options options = {0};
+    const koksma_status status = koksma__image_pattern_set(text, &options);
+    return status ? status : koksma__try_use_patterns(&options, n, run);
 }

@@ -25,7 +25,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"
-#include "study/plan/image_patterns.h"
+#include "study/plan/variants.h"
 #include "study/ranking/ranking_contest.h"
 
 #define ALPHA 0.04

@@ -13,7 +13,7 @@
  * rendered them: a trial that is complete too early waits.
  */
 #include "study/ranking/ranking_contest.h"
-#include "study/plan/image_patterns.h"
+#include "study/plan/variants.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -35,7 +35,7 @@
 #include "core/points.h"
 #include "core/status.h"
 #include "image/image.h"
-#include "study/plan/image_patterns.h"
+#include "study/plan/variants.h"
 
 enum { SIDE = 8, MOST_PIXELS = 40 * 30, NAME = 32, MOST_SETS = 1000, MOST_SPP = 4096, SALT_CHOICE = 1, SALT_JUDGE };
 

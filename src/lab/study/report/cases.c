@@ -13,7 +13,7 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan.h"
 #include "study/report/means.h"
 #include "study/run/references.h"
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan.h"
 
 koksma_status koksma__conclusion_means(koksma_study *study, const koksma__table *t, const koksma__texts *patterns,
                                        size_t k, double *ours, double *in_print, koksma__summary *of)

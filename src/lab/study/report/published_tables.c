@@ -12,7 +12,7 @@
 #include "core/status.h"
 #include "stats/slopes.h"
 #include "stats/statistics.h"
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan.h"
 #include "study/report/means.h"
 #include "study/report/published_tables.h"
 #include "study/run/references.h"

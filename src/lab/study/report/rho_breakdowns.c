@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan.h"
 #include "study/report/rho_breakdowns.h"
 
 /* A part of the cases, which is a row of a table. */

@@ -22,8 +22,6 @@
 #include "image/formats.h"
 #include "stats/log_gamma.h"
 #include "study/run/audit_series.h"
-#include "study/run/mpi_rank.h"
-#include "study/run/mpi_work.h"
 #include "study/run/references.h"
 #include "study/run/run.h"
 
@@ -55,6 +53,31 @@ static void differ(audit *a, const char *format, ...)
         a->options->differs(a->options->context, text);
     }
     pthread_mutex_unlock(&a->lock);
+}
+
+/* Writes a readable name of a row, such as "image checker, jittered, n = 4, 8 x 6, a:regular@4x1, trial 2", or of a
+   series (trial < 0), without the trial. */
+static void name_row(const koksma__series *key, long long trial, char *text, size_t size)
+{
+    char place[64] = "", number[32] = "";
+    if (trial >= 0) {
+        snprintf(number, sizeof number, ", trial %lld", trial);
+    }
+    if (key->width || key->height) {
+        snprintf(place, sizeof place, "%lld x %lld, ", key->width, key->height);
+    } else {
+        snprintf(place, sizeof place, "dim %lld, ", key->dim);
+    }
+    snprintf(text, size, "%s %.100s%s%.100s%s%.200s, n = %lld, %s%.200s%s%.100s%s", key->kind, key->scene,
+             key->scene[0] ? ", " : "", key->options, key->options[0] ? ", " : "", key->pattern, key->n, place,
+             key->what, key->metric[0] ? ", " : "", key->metric, number);
+}
+
+/* Writes the name of a reference, such as "reference a:regular@4x1 of checker, 8 x 6". */
+static void name_reference(const koksma__series *key, char *text, size_t size)
+{
+    snprintf(text, size, "reference %.200s of %.100s%s%.100s, %lld x %lld", key->what, key->scene,
+             key->options[0] ? ", " : "", key->options, key->width, key->height);
 }
 
 /* ---- The draw ------------------------------------------------------------------------------------------ */
@@ -163,7 +186,7 @@ static koksma_status check_seed(audit *a, const koksma__task *t, const koksma__a
     const koksma_status status = stored(a, s, t->image != NULL, &row, &found);
     *right = row.seed == koksma__task_seed(t, trial) && trial < t->trials;
     if (!status && !*right) {
-        koksma__audit_name(&s->key, trial, name, sizeof name);
+        name_row(&s->key, trial, name, sizeof name);
         differ(a, "%s: the stored seed %llu is not the seed that runs use for this row", name,
                (unsigned long long)row.seed);
         settle(a, s, trial, false);
@@ -226,7 +249,7 @@ static koksma_status compare_row(audit *a, const koksma__task *t, const koksma__
     }
     const bool same = row.seed == made->seed && v == KOKSMA__RESULT_VALUES;
     if (found && !same) {
-        koksma__audit_name(&s->key, row.trial, name, sizeof name);
+        name_row(&s->key, row.trial, name, sizeof name);
         differ(a, "%s: the stored value is %s, but computing it again gives %s", name,
                value_text(row.values[v % KOKSMA__RESULT_VALUES], before),
                value_text(made->values[v % KOKSMA__RESULT_VALUES], now));
@@ -351,10 +374,10 @@ static koksma_status check(audit *a, koksma__audit_series *s)
     if (status) {
         char name[KOKSMA__REFERENCE_NAME], count[32] = "row";
         if (s->is_reference) {
-            koksma__audit_reference_name(&s->key, name, sizeof name);
+            name_reference(&s->key, name, sizeof name);
             differ(a, "%s can't be rendered again: %s", name, koksma_error_text());
         } else {
-            koksma__audit_name(&s->key, -1, name, sizeof name);
+            name_row(&s->key, -1, name, sizeof name);
             if (s->rows > 1) {
                 koksma__snprintf(count, sizeof count, "%lld rows", s->rows);
             }
@@ -363,7 +386,7 @@ static koksma_status check(audit *a, koksma__audit_series *s)
     }
     if (s->state == KOKSMA__AUDIT_OURS && s->strays) {
         char name[KOKSMA__REFERENCE_NAME];
-        koksma__audit_name(&s->key, s->last, name, sizeof name);
+        name_row(&s->key, s->last, name, sizeof name);
         differ(a, "%s: the trial numbers of %lld of the %lld rows of this series are too large", name, s->strays,
                s->rows);
     }

@@ -4,8 +4,8 @@
 #define KOKSMA_STUDY_RUN_AUDIT_SERIES_H
 
 #include "study/plan/made_by.h"
-#include "study/plan/point_files.h"
 #include "study/run/tasks.h"
+#include "study/store/store.h"
 
 typedef enum koksma__audit_state {
     KOKSMA__AUDIT_OURS,  /* this build can compute the series again */
@@ -59,12 +59,5 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
 /* Builds study->plan from what has the state OURS: one block for each group of series, and one without trials for each
    reference. */
 koksma_status koksma__audit_plan(koksma_study *study, koksma__audit_list *list);
-
-/* Writes a readable name of a row, such as "image checker, jittered, n = 4, 8 x 6, a:regular@4x1, trial 2", or of a
-   series (trial < 0), without the trial. */
-void koksma__audit_name(const koksma__series *key, long long trial, char *text, size_t size);
-
-/* Writes the name of a reference, such as "reference a:regular@4x1 of checker, 8 x 6". */
-void koksma__audit_reference_name(const koksma__series *key, char *text, size_t size);
 
 #endif

@@ -14,8 +14,8 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "study/run/mpi_rank.h"
 #include "study/run/references.h"
+#include "study/run/run.h"
 #include "study/run/run_control.h"
 #include "study/run/tasks.h"
 

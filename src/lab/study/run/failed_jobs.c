@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Counts the jobs of each task that failed without ending the run, and makes the lines of the list in the store
-   (left_out.c). */
-#include "study/run/failed_jobs.h"
+   (store_failed.c). */
+#include "study/run/run.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "study/plan/plan_owned.h"
-#include "study/run/left_out.h"
+#include "study/plan/plan.h"
 
 void koksma__failures_fini(koksma__failures *failures)
 {

@@ -5,7 +5,7 @@
  * if a rank is lost and MPI lets the others continue, only the work on its batch is repeated. If MPI ends all ranks,
  * the run ends, and the same command continues it from the store.
  */
-#include "study/run/mpi_serve.h"
+#include "study/run/run.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,9 +13,6 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "study/run/mpi_messages.h"
-#include "study/run/mpi_rank.h"
-#include "study/run/run_state.h"
 
 /* Pause between two polls for messages. Ranks may wait this long for an answer, because they request a batch while
    they still work on another. */

@@ -3,7 +3,7 @@
    answer can arrive while it works. Results are sent back together, at least every KOKSMA__SEND_S. Each rank has the
    plan, makes the same list of jobs as rank 0, fetches the reference images that its jobs need from rank 0, and
    stores no results. */
-#include "study/run/mpi_work.h"
+#include "study/run/run.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,8 +12,6 @@
 #include "core/capacity.h"
 #include "core/clock.h"
 #include "core/status.h"
-#include "study/run/mpi_messages.h"
-#include "study/run/mpi_rank.h"
 
 static const double REST_S = 2e-4;
 

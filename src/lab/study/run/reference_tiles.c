@@ -3,7 +3,7 @@
    not on the number of threads. A tile is rendered as the sum of all replicates of its rows, added in their order;
    when the sums of all tiles of a reference have been copied into one array, the reference is complete. So the bits
    of a reference do not depend on which thread or rank renders which tile. */
-#include "study/run/reference_tiles.h"
+#include "study/run/run.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -21,7 +21,7 @@
 #include "image/formats.h"
 #include "image/image.h"
 #include "render/render.h"
-#include "study/plan/point_files.h"
+#include "study/plan/made_by.h"
 #include "study/run/study.h"
 
 void koksma__reference_name(const koksma__reference *reference, char *text)

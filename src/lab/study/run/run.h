@@ -1,9 +1,271 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the jobs of one kind: discrepancies or images. */
+/* Runs: the jobs that fail alone, the work that is left, and who does it, on threads or MPI ranks. */
 #ifndef KOKSMA_STUDY_RUN_RUN_H
 #define KOKSMA_STUDY_RUN_RUN_H
 
-#include "study/run/run_state.h"
+#include <pthread.h>
+
+#include <koksma/koksma.h>
+
+#include "study/plan/plan.h"
+#include "study/run/mpi.h"
+#include "study/run/references.h"
+#include "study/run/run_control.h"
+#include "study/run/study.h"
+#include "study/run/tasks.h"
+#include "study/store/store.h"
+
+/* ---- Failed jobs --------------------------------------------------------------------------------------------- */
+
+/*
+ * The jobs of a run that failed alone, without ending the run: their pattern has no point set, or their measure has
+ * no value (koksma__is_impossible). A run lists them in the store, so that report and export can say why a table has gaps.
+ */
+enum { KOKSMA__FAILURE_TEXT = 480 };
+
+/* The failed jobs of one task. */
+typedef struct koksma__failed_task {
+    size_t n;
+    long long trial; /* the first trial that failed */
+    char *reason;    /* the error text of this trial without the job's name */
+} koksma__failed_task;
+
+/* The failed jobs of a run, or of one of its phases. */
+typedef struct koksma__failures {
+    size_t n;                        /* number of failed jobs of the run or phase */
+    size_t n_refused;                /* number of failed jobs whose block has no `skip` */
+    size_t first;                    /* the lowest failed job; if n_refused > 0, the lowest of these */
+    char text[KOKSMA__FAILURE_TEXT]; /* the error text of job `first` */
+    koksma__failed_task *tasks;      /* of a phase: one for each task, or NULL if no job failed */
+    koksma__texts lines;             /* of a run: a line for each task with failed jobs, as the store has them */
+} koksma__failures;
+
+void koksma__failures_fini(koksma__failures *failures);
+
+/* Counts a job of a phase that failed. Errors: MEMORY. */
+koksma_status koksma__failures_count(const koksma__tasks *tasks, size_t job, const char *text,
+                                     koksma__failures *failures);
+
+/* Adds the failures of a phase to those of its run, in the order of the plan. Errors: MEMORY. */
+koksma_status koksma__failures_add(koksma__failures *run, const koksma__failures *phase, const koksma__tasks *tasks);
+
+/* Writes the list of the run, and all lines that koksma_study_left_out_at returns, into the store. all: whether the
+   run tried every job; otherwise the lines of earlier runs stay in the store unless this run counted as many failed
+   trials. Errors: those of the store, MEMORY. */
+koksma_status koksma__failures_record(koksma_study *study, const koksma__failures *run, bool all);
+
+/* ---- Work ---------------------------------------------------------------------------------------------------- */
+
+/* A queue of the numbers 0 .. n-1, each of which is taken once, and put back as done after its work. */
+typedef struct koksma__work_queue {
+    size_t n, left;            /* left: how many numbers have not been put back */
+    size_t next;               /* all numbers below `next` are taken */
+    size_t again;              /* where koksma__work_queue_take_lost continues its search */
+    unsigned char *out, *done; /* one bit per number: whether it is taken; whether it was put back */
+} koksma__work_queue;
+
+typedef bool (*koksma__work_queue_ready)(const void *context, size_t i);
+
+koksma_status koksma__work_queue_open(size_t n, koksma__work_queue *queue);
+void koksma__work_queue_close(koksma__work_queue *queue);
+
+/* Takes the first number that is ready and not taken, among the next `reach` numbers; returns false if there is
+   none. If `ready` is NULL, every number is ready. */
+bool koksma__work_queue_take(koksma__work_queue *queue, size_t reach, koksma__work_queue_ready ready,
+                             const void *context, size_t *i);
+
+/* Takes a number again that is taken but not put back. Returns false if some number is not taken yet or all were put
+   back. */
+bool koksma__work_queue_take_lost(koksma__work_queue *queue, size_t *i);
+
+/* Puts a number back as done; returns false if the number was put back before. */
+bool koksma__work_queue_put(koksma__work_queue *queue, size_t i);
+
+/*
+ * References that are being rendered. A reference is cut into tiles of whole rows; the number of tiles depends on
+ * its size. A tile holds the sums of all replicates of its rows, added in their order. So the picture has the same
+ * bits whichever thread or rank renders which tile, and memory holds only the sums of references that are being
+ * rendered.
+ */
+
+typedef struct koksma__reference_tile {
+    unsigned long long reference; /* index in study->references */
+    long long first_row, rows;
+} koksma__reference_tile;
+
+typedef struct koksma__reference_tiles {
+    koksma_study *study;
+    size_t n;
+    koksma__reference_tile *at;
+    koksma__replicates *sums; /* one entry per reference of the study */
+    long long *rows_left;     /* per reference: number of rows not yet rendered */
+} koksma__reference_tiles;
+
+/* Reads the references that the tasks' jobs need and that have a file; lists the tiles of the others. */
+koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_tiles *tiles);
+void koksma__tiles_close(koksma__reference_tiles *tiles);
+
+/* Renders a tile into *out, the sums of its rows. The caller frees out->sum. */
+koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference_tile *tile, const koksma_run *run,
+                              koksma__replicates *out);
+
+/* Copies a tile's sums into those of its reference; *complete tells whether this was the reference's last tile. Calls
+   must not overlap, and each tile must be put only once. */
+koksma_status koksma__tiles_put(koksma__reference_tiles *tiles, const koksma__reference_tile *tile,
+                                const koksma__replicates *sums, bool *complete);
+
+/* Makes the pixels, the file and the store's row of a reference whose tiles are complete. */
+koksma_status koksma__tiles_finish(koksma__reference_tiles *tiles, size_t reference);
+
+/*
+ * The state of a phase of a run (the discrepancies or the images of a plan): the assignments that are left, and the
+ * results received. Threads of this process take assignments from it, and rank 0 of an MPI run sends batches of them
+ * to the other ranks (mpi_serve.c). The koksma__run_state functions may be called by several threads.
+ */
+enum { KOKSMA__MAX_BATCH = 256 };
+
+/* Seconds of work in a batch: long enough for a slow answer of rank 0, because a rank requests the next batch when it
+   begins one. */
+#define KOKSMA__BATCH_S 0.25
+
+typedef enum koksma__assignment_kind {
+    KOKSMA__ASSIGN_JOB,
+    KOKSMA__ASSIGN_TILE,
+    KOKSMA__PHASE_OVER, /* no work is left in the phase (sent only to other ranks) */
+    KOKSMA__RUN_OVER    /* the run has failed (sent only to other ranks) */
+} koksma__assignment_kind;
+
+typedef struct koksma__assignment {
+    unsigned long long kind, number; /* number: index of the job or tile */
+    koksma__reference_tile tile;
+} koksma__assignment;
+
+/* The jobs of one kind, and their progress. */
+typedef struct koksma__phase {
+    koksma__tasks *tasks;
+    koksma__run_control *control;
+    bool last; /* whether this is the last phase of the run */
+    koksma__failures failures;
+    atomic_size_t done;
+    atomic_ullong busy_ns; /* time that all workers together spent on tiles and jobs */
+    double others_s;       /* processor time of the other ranks */
+} koksma__phase;
+
+/* Adds the time since start_s to the busy time of the workers. */
+void koksma__phase_was_busy(koksma__phase *phase, double start_s);
+
+typedef struct koksma__run_state {
+    koksma__phase *phase;
+    pthread_mutex_t lock; /* guards the following fields */
+    koksma__reference_tiles tiles;
+    koksma__work_queue tile_queue, jobs;
+    double tile_work, job_work; /* mean number of samples of a tile and of a job that is left (of points: 1) */
+    double work; /* the work of the whole phase in these units; an audit's phase has no jobs done before */
+    koksma_status status;
+    char text[KOKSMA__FAILURE_TEXT];
+    bool *ready; /* per reference: whether its pixels are complete */
+} koksma__run_state;
+
+/* Call koksma__run_state_close even after a failed open; until then the state may be used, but has no assignments.
+   Errors: MEMORY, and those of koksma__tiles_open. */
+koksma_status koksma__run_state_open(koksma__phase *phase, koksma__run_state *state);
+void koksma__run_state_close(koksma__run_state *state);
+
+/* Ends the phase with a failure; the first failure's status and text are kept. */
+void koksma__run_state_stop(koksma__run_state *state, koksma_status status, const char *text);
+
+/* koksma__run_state_is_over: whether all results have arrived, or the phase has failed. koksma__run_state_fraction:
+   the completed fraction of the work of all tiles and jobs. */
+bool koksma__run_state_is_over(koksma__run_state *state);
+double koksma__run_state_fraction(koksma__run_state *state);
+
+/* Returns the first failure, as this thread's error, or OK. The work must have ended before the call. */
+koksma_status koksma__run_state_status(const koksma__run_state *state);
+
+/* Takes an assignment: tiles first, because jobs wait for them. Returns false if none is ready now. If `lost` is
+   true and all assignments are taken, takes one again whose result has not arrived. */
+bool koksma__run_state_take(koksma__run_state *state, bool lost, koksma__assignment *assignment);
+
+/* Takes a batch of assignments for one of `ranks` ranks and returns their number: jobs of about KOKSMA__BATCH_S
+   seconds together, or a few tiles; fewer towards the end, so that no rank works long after the others. job_s:
+   seconds per job; 0: unknown. */
+size_t koksma__run_state_take_batch(koksma__run_state *state, double job_s, int ranks,
+                                    koksma__assignment assignments[KOKSMA__MAX_BATCH]);
+
+/* Receive the results of a job or tile, or the failure of a job; a second result of one job or tile is ignored. */
+void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksma__task *task,
+                               const koksma__result *results);
+void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char *text);
+void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums);
+
+/* The index of a tile that a rank has sent back, or tiles.n if there is no such tile. */
+size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile);
+
+/* Takes and does assignments until the phase is over or has failed. On the thread of the run's caller, asks the
+   caller's keep_going between assignments. If `redo`, also does assignments of other ranks if their results are
+   overdue. */
+void koksma__work(koksma__run_state *state, bool redo);
+
+/* Runs a phase on the number of threads that its run control allows. */
+koksma_status koksma__work_threads(koksma__phase *phase);
+
+/* ---- MPI ----------------------------------------------------------------------------------------------------- */
+
+/*
+ * The messages between the ranks of an MPI run (sent by transport.h). Rank 0 holds the store: it sends tiles of
+ * references and jobs in batches, one batch for each request, and does some itself on a second thread; only its
+ * first thread sends and receives. The other ranks have the plan and hence the same list of jobs, so a job is
+ * identified by its number. Ranks get reference images from rank 0 when they first need them, so that only the
+ * plan's own files must be readable on every machine.
+ *
+ * Messages to rank 0:
+ *     REQUEST  koksma__request: asks for the batch after the current one, so that no rank waits for an answer
+ *     RESULTS  job numbers, each followed by the job's results
+ *     FAILURE  koksma__failure: a job that is impossible; in an audit also a reference, whose number is that of
+ *              the jobs plus its index
+ *     TILE     koksma__reference_tile, followed by the tile's sums
+ *     NEED     index of a reference whose pixels the rank needs
+ *     ERROR    status and text of a rank that fails; all ranks then end
+ *     PIECES   this rank's pieces of a shared search (koksma_study_mpi_processes)
+ * Messages from rank 0:
+ *     ASSIGNMENTS  jobs or tiles to do, or the end of the phase or of the run; if empty, the rank requests again
+ *     PIXELS       a reference image: koksma__image_head; its pixels follow in a second message, unless it failed
+ *     PIECES       the pieces of all ranks
+ */
+enum { KOKSMA__PHASES = 2 };
+
+/* Seconds after which a rank sends its results. If the rank is lost, the results of so many seconds are lost with
+   it, or of one job if that takes longer. */
+#define KOKSMA__SEND_S 0.02
+
+typedef struct koksma__request {
+    double phase;       /* 0: discrepancies, 1: images */
+    double job_s;       /* mean seconds of a job in the last batch; 0: unknown */
+    double busy_s;      /* seconds that this rank has worked in this phase so far */
+    double processor_s; /* this rank's processor time in this phase so far */
+} koksma__request;
+
+typedef struct koksma__failure {
+    unsigned long long job;
+    char text[KOKSMA__FAILURE_TEXT];
+} koksma__failure;
+
+/* The first message about a reference image. A rank that has rendered no tile of a reference learns here that an audit
+   can't render it; the rows that need it then fail on every rank. */
+typedef struct koksma__image_head {
+    int width, height, channels;
+    int failed; /* 1: koksma__reference_image.failed; no pixels follow, because no row is compared with them */
+} koksma__image_head;
+
+/* Rank 0's part of a phase: sends assignments to the other ranks, receives their results, and does some assignments
+   itself. */
+koksma_status koksma__mpi_serve(koksma__phase *phase);
+
+/* The part of a run on every rank but 0: requests assignments from rank 0 and sends results, until no work is
+   left. */
+koksma_status koksma__mpi_work(koksma_study *study, const koksma_run *job);
+
+/* ---- Runs ---------------------------------------------------------------------------------------------------- */
 
 /* Runs the jobs that the store lacks, on threads or MPI ranks, and adds to the summary and the failures. If
    `before`, the status of an earlier kind, is not OK, only counts the jobs and returns `before`. */

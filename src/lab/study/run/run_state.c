@@ -3,7 +3,7 @@
    holds jobs, which are ready when the references that they are compared with are complete. An assignment counts as
    taken until its result arrives. The assignment of a lost rank can be handed out again: if two results arrive, the
    second is discarded. */
-#include "study/run/run_state.h"
+#include "study/run/run.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,6 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "study/run/mpi_rank.h"
 
 void koksma__phase_was_busy(koksma__phase *phase, double start_s)
 {

@@ -2,21 +2,39 @@
 /* Opens and closes studies: parses the plan, creates the study's folder DIR, opens its store, loads each scene once,
    and records the plan in the store. In an MPI run only rank 0 has a folder. */
 #define _GNU_SOURCE /* tdestroy */
+#include "study/run/study.h"
+
 #include <limits.h>
 #include <search.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "core/c_locale.h"
 #include "core/capacity.h"
 #include "core/files.h"
+#include "core/hash.h"
 #include "core/lookup.h"
 #include "core/status.h"
-#include "study/plan/plan_owned.h"
-#include "study/run/left_out.h"
-#include "study/run/mpi_rank.h"
+#include "study/plan/plan.h"
+#include "study/plan/plan_read.h"
+#include "study/run/mpi.h"
 #include "study/run/study.h"
+#include "study/store/store.h"
+
+/* Other paths in the folder add up to 30 bytes, so that all fit into KOKSMA__PATH and nearly all systems accept them. */
+enum { LONGEST_FOLDER = 1000 };
+
+koksma_status koksma__results_path(const char *folder, char path[KOKSMA__PATH])
+{
+    KOKSMA__FAIL_IF(strlen(folder) > LONGEST_FOLDER, KOKSMA_ARGUMENT,
+                    "the name of a study's folder is longer than %d bytes: %.40s...", LONGEST_FOLDER, folder);
+    KOKSMA__FAIL_IF(!*folder, KOKSMA_ARGUMENT, "the name of a study's folder is empty");
+    snprintf(path, KOKSMA__PATH, "%s/results.sqlite", folder);
+    return KOKSMA_OK;
+}
 
 static const char folder_key[] = "run-folder";
 
@@ -372,6 +390,19 @@ const char *koksma_study_left_out_at(const koksma_study *study, size_t i)
     return i < study->failed.n ? study->failed.at[i] : NULL;
 }
 
+koksma_status koksma_study_left_out(const char *folder, char **lines)
+{
+    KOKSMA__REQUIRE(folder, lines);
+    char path[KOKSMA__PATH];
+    koksma__store *store;
+    *lines = NULL;
+    KOKSMA__TRY(koksma__results_path(folder, path));
+    KOKSMA__TRY(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
+    const koksma_status status = koksma__left_out_text(store, lines);
+    koksma__store_close(store);
+    return status;
+}
+
 koksma_status koksma_study_close(koksma_study *study)
 {
     if (!study) {
@@ -389,4 +420,73 @@ koksma_status koksma_study_close(koksma_study *study)
     free(study->folder);
     free(study);
     return status;
+}
+
+/* ---- Pictures ------------------------------------------------------------------------------------------ */
+
+/* A picture's pattern and variant become options of the renderer; variants.c calls the renderer or the adaptive method. A
+   picture's seed is the hash of a text that names everything the picture depends on, so that a job has the same random
+   numbers in every run, on any thread, and in any plan. */
+
+enum { LONGEST_KEY = 8192 }; /* capacity for a key: a path, a pattern, options */
+
+uint64_t koksma__job_seed(const char *format, ...)
+{
+    char key[LONGEST_KEY];
+    va_list arguments;
+    va_start(arguments, format);
+    koksma__vsnprintf(key, sizeof key, format, arguments);
+    va_end(arguments);
+    return koksma__hash(key, strlen(key));
+}
+
+void koksma__block_size(const koksma__image_block *block, const koksma__study_scene *scene, int *width, int *height)
+{
+    *width = block->width ? block->width : scene->width;
+    *height = block->height ? block->height : scene->height;
+}
+
+koksma_status koksma__picture_set(const koksma__study_scene *scene, const koksma__picture *picture,
+                                  koksma__variant *variant)
+{
+    koksma_render_options *options = &variant->render;
+    koksma_render_options_init(options, scene->scene);
+    koksma_status status = koksma__image_pattern_set(picture->pattern, options);
+    status = status ? status : koksma__variant_apply(picture->variant, picture->of_reference, variant);
+    options->spp = (int)picture->spp;
+    options->seed = picture->seed;
+    options->width = picture->width;
+    options->height = picture->height;
+    return status;
+}
+
+static koksma_status render_elsewhere(const koksma__study_scene *scene, const koksma__picture *picture,
+                                      const koksma_run *run, koksma_image *out)
+{
+    const koksma_rank_picture asked = {scene->name,    picture->pattern, (int)picture->spp,
+                                       picture->width, picture->height,  picture->seed >> 33};
+    *out = (koksma_image){0};
+    const char kept = koksma__call_begin();
+    koksma_status status =
+        koksma__call_end(kept, scene->render(scene->render_context, &asked, run, out), "koksma_rank_options.render");
+    if (!status && picture->width && (out->width != picture->width || out->height != picture->height)) {
+        status =
+            koksma__fail(KOKSMA_IMPOSSIBLE, "%s: the renderer made a picture of %d x %d pixels instead of %d x %d",
+                         picture->pattern, out->width, out->height, picture->width, picture->height);
+    }
+    if (status) {
+        koksma_image_fini(out);
+    }
+    return status;
+}
+
+koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
+                                   const koksma_run *run, koksma_image *out)
+{
+    if (scene->render) {
+        return render_elsewhere(scene, picture, run, out);
+    }
+    koksma__variant variant;
+    const koksma_status status = koksma__picture_set(scene, picture, &variant);
+    return status ? status : koksma__variant_render(scene->scene, &variant, run, out);
 }

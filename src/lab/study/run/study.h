@@ -3,10 +3,68 @@
 #ifndef KOKSMA_STUDY_RUN_STUDY_H
 #define KOKSMA_STUDY_RUN_STUDY_H
 
+#include <koksma/image.h>
+#include <koksma/koksma.h>
+#include <koksma/render.h>
 #include <koksma/study.h>
 
-#include "study/run/reference_image.h"
+#include "study/plan/plan.h"
+#include "study/plan/variants.h"
 #include "study/store/store.h"
+
+/* The capacity for paths in a study's folder. */
+enum { KOKSMA__PATH = 1200 };
+
+/* Writes the path of the results in a study's folder. Errors: ARGUMENT (the folder's name is too long). */
+koksma_status koksma__results_path(const char *folder, char path[KOKSMA__PATH]);
+
+/* A scene that the plan uses; `name` is its spelling in the plan. */
+typedef struct koksma__study_scene {
+    const char *name;
+    koksma_scene *scene;
+    char hash[24];
+    int width, height;
+    koksma_rank_renderer render; /* a function that calls another renderer, or NULL for this library's */
+    void *render_context;
+} koksma__study_scene;
+
+/* The width and height of an image block's pictures: those of the block if it states them, otherwise the scene's. */
+void koksma__block_size(const koksma__image_block *block, const koksma__study_scene *scene, int *width, int *height);
+
+/* The parameters of a render of a study, except its scene. */
+typedef struct koksma__picture {
+    const char *pattern, *variant;
+    bool of_reference; /* apply only the options of the variant that change the exact image */
+    long long spp;
+    int width, height;
+    uint64_t seed;
+} koksma__picture;
+
+/* Sets *variant to the options for rendering the picture: those of the scene, changed as picture->variant says, with
+   the picture's pattern, samples, size and seed. */
+koksma_status koksma__picture_set(const koksma__study_scene *scene, const koksma__picture *picture,
+                                  koksma__variant *variant);
+
+/* Renders a picture. Allocates *out. */
+koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
+                                   const koksma_run *run, koksma_image *out);
+
+/* The seed of a job: the hash of its key, a formatted text. */
+uint64_t koksma__job_seed(const char *format, ...) KOKSMA_PRINTF(1, 2);
+
+enum { KOKSMA__REFERENCE_NAME = KOKSMA_MAX_SPEC + 128 };
+
+/* A reference image and everything that it depends on; references.h has its functions. */
+typedef struct koksma__reference_image {
+    const koksma__study_scene *scene;
+    const koksma__reference *reference;
+    char options[KOKSMA__VARIANT_TEXT];
+    int width, height;
+    koksma_image image; /* its pixels are NULL until a job needs them */
+    bool failed;        /* whether an audit could not render it; the pixels are then those of another picture */
+    uint64_t hash;      /* of all members above `image` */
+    size_t next[2];     /* a tree of the study's references by their hashes (references.c) */
+} koksma__reference_image;
 
 struct koksma__tasks;
 struct koksma__task;
@@ -34,7 +92,7 @@ struct koksma_study {
     void *scenes;               /* koksma__study_scene of each name: a tree of tsearch(3) */
     size_t n_references;
     koksma__reference_image *references;
-    koksma__texts failed;     /* lines for readers on the jobs that failed alone (failed_jobs.h) */
+    koksma__texts failed;     /* lines for readers on the jobs that failed alone (failed_jobs.c) */
     const koksma__sink *sink; /* NULL: results go into the store */
     const koksma_run *report; /* of the report that is being written (koksma__report_goes_on); NULL: none is */
     struct koksma__coherences *coherences; /* of the report that is being written (mean_coherence.h) */

@@ -2,7 +2,7 @@
 /* The module koksma-mpi.so, which implements transport.h with MPI. */
 #include <mpi.h>
 
-#include "study/run/transport.h"
+#include "study/run/mpi.h"
 
 /* An MPI count is an int, so longer messages are sent in pieces; MPI keeps messages of one tag between two ranks in
    order. */

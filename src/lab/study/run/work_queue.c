@@ -2,7 +2,7 @@
 /* The queue has two bits for each number: whether it is taken, and whether it was put back. A cursor skips the taken
    numbers, so that taking is O(1) unless numbers are not ready. When all numbers are taken, a second cursor cycles
    through those that are not put back. */
-#include "study/run/work_queue.h"
+#include "study/run/run.h"
 
 #include <stdlib.h>
 

@@ -13,7 +13,7 @@
  * log. It keeps that index in memory only in exclusive mode, in which it would lock the file for writing. The VFS
  * "unix-none", which has no locks, prevents that write lock; the second handle's shared lock still protects the file.
  */
-#include "study/store/database.h"
+#include "study/store/store_internal.h"
 
 #include <errno.h>
 #include <math.h>

@@ -6,7 +6,7 @@
 
 CREATE TABLE meta (          -- the file's 'plan', 'plan-texts', 'plan-text-0', 'plan-name-0', ..., and 'seal'
   key TEXT PRIMARY KEY,                    -- of seal "N SUM": how many rows meta (but seal), series,
-  value TEXT NOT NULL                      -- result and reference have, and the sum of their checksums (seal.c)
+  value TEXT NOT NULL                      -- result and reference have, and the sum of their checksums (store_tables.c)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE series (        -- the key of results without the trial; each series is one mean in a table

@@ -7,6 +7,7 @@
 #include <koksma/koksma.h>
 
 #include "core/hash.h"
+#include "study/plan/plan.h"
 
 typedef struct koksma__store koksma__store;
 
@@ -126,5 +127,31 @@ koksma_status koksma__store_reference(koksma__store *store, const koksma__series
 koksma_status koksma__store_put_run(koksma__store *store, const koksma__run_record *record);
 /* Reads run number i, in the order in which runs ended; *found is false if there are no more. */
 koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_record *record, bool *found);
+
+/* ---- Failed jobs (store_failed.c) ---------------------------------------------------------------------------- */
+
+/* Appends the store's lines to `stored`. Errors: those of the store, MEMORY. */
+koksma_status koksma__left_out_recall(koksma__store *store, koksma__texts *stored);
+
+/* Makes the lines for readers from the store's lines. Errors: MEMORY. */
+koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *lines);
+
+/* Adds up the failed trials of the store's lines. Errors: those of the store, MEMORY. */
+koksma_status koksma__left_out_count(koksma__store *store, size_t *trials);
+
+/* Writes the lines, and those for readers, into the store. Errors: those of the store, MEMORY. */
+koksma_status koksma__left_out_record(koksma__store *store, const koksma__texts *stored, const koksma__texts *lines);
+
+/* Reads the lines for readers that a run wrote, each ended by a newline. The caller frees *lines. */
+koksma_status koksma__left_out_text(koksma__store *store, char **lines);
+
+/* Removes the lines of one run that repeat an earlier line's label, n and reason with no more failed trials. Lines with
+   different reasons are of different jobs: the measures of two blocks may refuse the same set. Errors: MEMORY. */
+koksma_status koksma__left_out_thin(koksma__texts *lines);
+
+/* Appends the lines to `to`, except those of which `known`, of another run, has a line of equal label and n with at least
+   as many failed trials: the reason may be another trial's. Trials that failed once fail in every run, so that the run that
+   counted more of them has tried more of them. Errors: MEMORY. */
+koksma_status koksma__left_out_add(const koksma__texts *lines, const koksma__texts *known, koksma__texts *to);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Creates and opens a store, and holds the SQL of its statements. An existing file is first checked without
-   changing any byte (database.h), and rejected if it is not a store of this schema. A new store is written under a
+   changing any byte (database.c), and rejected if it is not a store of this schema. A new store is written under a
    temporary name and linked to its own when complete. */
 #include <errno.h>
 #include <fcntl.h>

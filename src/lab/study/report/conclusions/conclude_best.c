@@ -6,7 +6,7 @@
  */
 #include <math.h>
 
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan.h"
 #include "study/report/conclusions/conclusion.h"
 
 static koksma_status test_table(koksma_study *study, koksma__document *d, const koksma__conclusion *c,

@@ -11,7 +11,7 @@
 
 #include "core/status.h"
 #include "stats/slopes.h"
-#include "study/plan/plan_owned.h"
+#include "study/plan/plan.h"
 #include "study/report/conclusions/conclusion.h"
 #include "study/report/means.h"
 

@@ -17,7 +17,6 @@
 #include "core/c_locale.h"
 #include "core/status.h"
 #include "measures/edge/edge.h"
-#include "study/plan/image_patterns.h"
 #include "study/plan/variants.h"
 #include "study/report/report.h"
 

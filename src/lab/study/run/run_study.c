@@ -10,12 +10,7 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "study/run/left_out.h"
-#include "study/run/mpi_rank.h"
-#include "study/run/mpi_serve.h"
-#include "study/run/mpi_work.h"
 #include "study/run/run.h"
-#include "study/run/run_state.h"
 
 /* ---- The record of a run ------------------------------------------------------------------------------- */
 

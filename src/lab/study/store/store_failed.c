@@ -6,29 +6,15 @@
  * reason". Lines of equal n as well, which have different reasons, remain several. The text "left-out" has the lines on
  * the plan's blocks with `skip`, followed by these.
  */
-#include "study/run/left_out.h"
-
-#include <koksma/study.h>
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "study/plan/plan_owned.h"
-#include "study/run/results_path.h"
+#include "study/store/store.h"
 
 static const char failed_key[] = "failed", left_out_key[] = "left-out";
-
-koksma_status koksma__texts_add(koksma__texts *texts, const char *text)
-{
-    char **line = koksma__add_one(&texts->at, &texts->n, sizeof *line);
-    KOKSMA__TRY(line ? KOKSMA_OK : KOKSMA_MEMORY);
-    *line = strdup(text);
-    texts->n -= !*line;
-    return *line ? KOKSMA_OK : koksma__fail_memory(strlen(text));
-}
 
 /* ---- The list for readers ------------------------------------------------------------------------------ */
 
@@ -341,17 +327,11 @@ koksma_status koksma__left_out_record(koksma__store *store, const koksma__texts 
     return status ? status : set_lines(store, left_out_key, lines);
 }
 
-koksma_status koksma_study_left_out(const char *folder, char **lines)
+koksma_status koksma__left_out_text(koksma__store *store, char **lines)
 {
-    KOKSMA__REQUIRE(folder, lines);
-    char path[KOKSMA__PATH];
-    koksma__store *store;
-    *lines = NULL;
-    KOKSMA__TRY(koksma__results_path(folder, path));
-    KOKSMA__TRY(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
     koksma__texts of = {0};
     koksma_status status = each_line(store, left_out_key, &of, add_line);
-    koksma__store_close(store);
+    *lines = NULL;
     status = status ? status : join(&of, lines);
     koksma__texts_fini(&of);
     if (status) {

@@ -1,10 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Functions that read parts of a plan: texts, specs in canonical form, and lists. */
-#ifndef KOKSMA_STUDY_PLAN_PLAN_SECTION_H
-#define KOKSMA_STUDY_PLAN_PLAN_SECTION_H
+#ifndef KOKSMA_STUDY_PLAN_PLAN_READ_H
+#define KOKSMA_STUDY_PLAN_PLAN_READ_H
 
 #include "study/plan/plan.h"
 #include "json/json.h"
+
+/* Parses a plan; `name` is its name in error messages ("plan 'my.json': line 3: …"). Checks every spec, so that a
+   study does not fail halfway. If trials is NULL, the plan's numbers of trials are used. */
+koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
+                                 koksma__plan *plan);
+
+/* Returns the text of a plan that is built into the library, or NULL. */
+const char *koksma__plan_shipped(const char *name, size_t *size);
 
 /* Writes the canonical form of a text. */
 typedef koksma_status (*koksma__spec_parser)(const char *text, char out[KOKSMA_MAX_SPEC]);
