@@ -45,7 +45,7 @@ static _Noreturn void become_program(const koksma__child *child, const int ends[
     setpgid(0, 0);
     const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (nothing >= 0 && dup2(nothing, 0) >= 0 && dup2(ends[OUT], 1) >= 0 && dup2(ends[ERR], 2) >= 0 &&
-        !setrlimit(RLIMIT_CORE, &none) && !setrlimit(RLIMIT_DATA, &memory)) {
+        !setrlimit(RLIMIT_CORE, &none) && (child->most_memory == UINT64_MAX || !setrlimit(RLIMIT_DATA, &memory))) {
         signal(SIGPIPE, SIG_DFL);
         signal(SIGCHLD, SIG_DFL);
         sigprocmask(SIG_SETMASK, &no_signals, NULL);

@@ -1,33 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Runs another renderer by a command line (koksma_rank_by_command). Every picture has its own temporary directory,
- * so that the program may write other files beside the picture. What the program prints goes to a file in that
- * directory; its last line is part of the error message if the program fails. The command runs in its own process
- * group, so that a stop kills all processes that the shell started. The library waits for this process alone,
- * because it must not reap its caller's other child processes. It polls waitpid every 10 ms, which is short compared
- * with rendering a picture, and asks the caller's keep_going in between.
+ * so that the program may write other files beside the picture. The shell leads a process group of its own (core/child.h),
+ * so that a stop kills all processes that it started. What the command prints goes to standard error, of which the last
+ * line is part of the error message if the command fails.
  */
 #include <koksma/study.h>
 
 #include <dirent.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
-#include <signal.h>
-#include <spawn.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "core/parallel.h"
+#include "core/child.h"
 #include "core/status.h"
 
-extern char **environ;
-
-enum { LONGEST = 1 << 16, STEP_NS = 10000000 };
+enum { LONGEST = 1 << 16 };
 
 static const char *const words[] = {"scene",  "pattern", "spp",     "seed",   "width",
                                     "height", "out",     "out.pfm", "out.png"};
@@ -95,73 +87,6 @@ static koksma_status expand(const char *template, const char *const values[N_WOR
                      : koksma__fail(KOKSMA_ARGUMENT, "the command lacks {out}, the name of the picture to write");
 }
 
-/* ---- The process ---------------------------------------------------------------------------------------- */
-
-static koksma_status start(const char *command, const char *log, pid_t *child)
-{
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    char *const arguments[] = {(char[]){"sh"}, (char[]){"-c"}, (char *)command, NULL};
-    int error = posix_spawn_file_actions_init(&files);
-    error = error ? error : posix_spawnattr_init(&attributes);
-    error = error ? error : posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    error = error ? error : posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-    error = error ? error : posix_spawn_file_actions_addopen(&files, 1, log, O_WRONLY | O_CREAT | O_EXCL, 0600);
-    error = error ? error : posix_spawn_file_actions_adddup2(&files, 1, 2);
-    error = error ? error : posix_spawn(child, "/bin/sh", &files, &attributes, arguments, environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    return error ? koksma__fail(KOKSMA_SYSTEM, "/bin/sh: %s", strerror(error)) : KOKSMA_OK;
-}
-
-/* Waits until the command has ended; kills it if keep_going asks for a stop. *outcome: its status from waitpid. */
-static koksma_status wait_for(pid_t child, const koksma_run *run, int *outcome)
-{
-    bool stop = false;
-    for (;;) {
-        const pid_t ended = waitpid(child, outcome, stop ? 0 : WNOHANG);
-        if (ended == child) {
-            return stop ? koksma__fail_interrupted() : KOKSMA_OK;
-        }
-        KOKSMA__FAIL_IF(ended < 0 && errno != EINTR, KOKSMA_SYSTEM, "waiting for the command: %s", strerror(errno));
-        stop = stop || !koksma__keep_going(run, 0);
-        if (stop) {
-            kill(-child, SIGKILL);
-        } else {
-            nanosleep(&(struct timespec){.tv_nsec = STEP_NS}, NULL);
-        }
-    }
-}
-
-/* Copies the last line of the log that is not blank, or its beginning if it is long. */
-static void last_line(const char *log, char *line, size_t size)
-{
-    FILE *file = fopen(log, "r");
-    char read[KOKSMA_RANK_REASON];
-    bool begins = true; /* whether `read` holds the beginning of a line */
-    line[0] = 0;
-    while (file && fgets(read, sizeof read, file)) {
-        const bool ends = strchr(read, '\n');
-        read[strcspn(read, "\r\n")] = 0;
-        if (begins && read[strspn(read, " \t")]) {
-            snprintf(line, size, "%.*s", (int)size - 1, read);
-        }
-        begins = ends;
-    }
-    if (file) {
-        fclose(file);
-    }
-}
-
-static koksma_status explain(const char *log, int outcome)
-{
-    char line[KOKSMA_RANK_REASON - 48]; /* leaves room in the reason for the words before it */
-    last_line(log, line, sizeof line);
-    const bool killed = WIFSIGNALED(outcome);
-    return koksma__fail(KOKSMA_IMPOSSIBLE, "the command ended with %s %d%s%s", killed ? "signal" : "exit code",
-                        killed ? WTERMSIG(outcome) : WEXITSTATUS(outcome), line[0] ? ": " : "", line);
-}
-
 /* ---- The directory -------------------------------------------------------------------------------------- */
 
 static void remove_folder(const char *folder)
@@ -185,14 +110,29 @@ static koksma_status make_folder(char *folder, size_t size)
     return mkdtemp(folder) ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: %s", folder, strerror(errno));
 }
 
+static koksma_status run_command(char *command, const koksma_run *run)
+{
+    char *output;
+    size_t size;
+    char *const arguments[] = {(char[]){"/bin/sh"}, (char[]){"-c"}, command, NULL};
+    const koksma__child child = {.name = "the command",
+                                 .arguments = arguments,
+                                 .seconds = (double)INFINITY,
+                                 .most_output = LONGEST,
+                                 .most_memory = UINT64_MAX};
+    const koksma_status status = koksma__child_run(&child, run, &output, &size);
+    free(output);
+    return status == KOKSMA_MALFORMED ? KOKSMA_IMPOSSIBLE : status; /* the text is that of its end */
+}
+
 static koksma_status render_in(const char *folder, const char *template, const koksma_rank_picture *picture,
                                const koksma_run *run, koksma_image *image)
 {
-    char spp[16], seed[24], width[16], height[16], files[N_WORDS - OUT][KOKSMA_MAX_SPEC], log[KOKSMA_MAX_SPEC];
-    char *command = malloc(LONGEST);
-    int out, outcome = 0;
-    pid_t child;
-    KOKSMA__REQUIRE_MEMORY(command, LONGEST);
+    static const char to_error[] = "exec >&2\n";
+    char spp[16], seed[24], width[16], height[16], files[N_WORDS - OUT][KOKSMA_MAX_SPEC];
+    char *command = malloc(sizeof to_error + LONGEST);
+    int out;
+    KOKSMA__REQUIRE_MEMORY(command, sizeof to_error + LONGEST);
     snprintf(spp, sizeof spp, "%d", picture->spp);
     snprintf(seed, sizeof seed, "%" PRIu64, picture->seed);
     snprintf(width, sizeof width, "%d", picture->width);
@@ -203,13 +143,9 @@ static koksma_status render_in(const char *folder, const char *template, const k
     }
     const char *const values[] = {picture->scene, picture->pattern, spp,      seed,    width,
                                   height,         files[0],         files[1], files[2]};
-    snprintf(log, sizeof log, "%s/printed", folder);
-    koksma_status status = expand(template, values, command, &out);
-    status = status ? status : start(command, log, &child);
-    status = status ? status : wait_for(child, run, &outcome);
-    if (!status && outcome) {
-        status = explain(log, outcome);
-    }
+    strcpy(command, to_error);
+    koksma_status status = expand(template, values, command + strlen(to_error), &out);
+    status = status ? status : run_command(command, run);
     if (!status && (status = koksma_image_read(values[out], image))) {
         status = koksma__fail(status == KOKSMA_MEMORY ? status : KOKSMA_IMPOSSIBLE,
                               "the picture that the command wrote can't be used: %s",
