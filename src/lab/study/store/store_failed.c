@@ -6,6 +6,8 @@
  * reason". Lines of equal n as well, which have different reasons, remain several. The text "left-out" has the lines on
  * the plan's blocks with `skip`, followed by these.
  */
+#define _GNU_SOURCE /* tdestroy */
+#include <search.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,22 +18,24 @@
 
 static const char failed_key[] = "failed", left_out_key[] = "left-out";
 
-/* ---- The list for readers ------------------------------------------------------------------------------ */
+/* ---- Lines ---------------------------------------------------------------------------------------------- */
 
-/* The fields of a line of the text "failed". */
+/* The fields of a line of the text "failed". Lines are found by trees of tsearch(3), because a damaged store, or a plan of
+   100 KB, may have any number of them. */
 typedef struct fields {
     const char *label, *reason;
     int label_length;
     long long n, failed, trials;
-    size_t place; /* among the lines that were read */
-    size_t rank;  /* number of earlier lines of equal label and n */
+    size_t count; /* in a tree: the number of lines that compare as equal so far; or the rank of a line for readers */
+    FILE *line;   /* a line for readers, and its text */
+    char *text;
+    size_t size;
 } fields;
 
 static bool read_line(const char *line, fields *out)
 {
     int at = 0;
-    out->label = line;
-    out->label_length = (int)strcspn(line, "\t");
+    *out = (fields){.label = line, .label_length = (int)strcspn(line, "\t")};
     const char *numbers = line + out->label_length;
     if (sscanf(numbers, "\t%lld\t%lld\t%lld%n", &out->n, &out->failed, &out->trials, &at) != 3 ||
         numbers[at] != '\t') {
@@ -41,10 +45,52 @@ static bool read_line(const char *line, fields *out)
     return true;
 }
 
-static bool same_label(const fields *a, const fields *b)
+static int compare_labels(const fields *x, const fields *y)
 {
-    return a->label_length == b->label_length && !strncmp(a->label, b->label, (size_t)a->label_length);
+    const int shorter = x->label_length < y->label_length ? x->label_length : y->label_length;
+    const int order = memcmp(x->label, y->label, (size_t)shorter);
+    return order ? order : (x->label_length > y->label_length) - (x->label_length < y->label_length);
 }
+
+static int by_n(const void *a, const void *b)
+{
+    const fields *x = a, *y = b;
+    return x->n != y->n ? (x->n > y->n) - (x->n < y->n) : compare_labels(x, y);
+}
+
+static int by_reason(const void *a, const void *b)
+{
+    const int order = by_n(a, b);
+    return order ? order : strcmp(((const fields *)a)->reason, ((const fields *)b)->reason);
+}
+
+static int by_rank(const void *a, const void *b)
+{
+    const fields *x = a, *y = b;
+    return x->count != y->count ? (x->count > y->count) - (x->count < y->count) : compare_labels(x, y);
+}
+
+/* Finds the entry of a tree that compares as equal; adds a copy if there is none. Returns NULL if no memory is left. */
+static fields *enter(void **tree, const fields *wanted, int (*compare)(const void *, const void *))
+{
+    fields *const *found = tfind(wanted, tree, compare);
+    if (found) {
+        return *found;
+    }
+    fields *added = malloc(sizeof *added);
+    if (added) {
+        *added = *wanted;
+        added->count = 0;
+        added->failed = -1;
+    }
+    if (added && !tsearch(added, tree, compare)) {
+        free(added);
+        added = NULL;
+    }
+    return added;
+}
+
+/* ---- The list for readers ------------------------------------------------------------------------------ */
 
 /* Appends a text as one line of UTF-8: a pattern may name a file whose name has control characters. */
 static koksma_status add_line(koksma__texts *lines, const char *text)
@@ -59,195 +105,97 @@ static koksma_status add_line(koksma__texts *lines, const char *text)
     return status;
 }
 
-static int compare_labels(const fields *x, const fields *y)
+/* A line for readers has one task for each label and n: the first of them, or that of the next rank, whose reason is
+   another. It has the reason of its first task. */
+static koksma_status show_task(void **tasks, void **lines, fields *task, fields ***order, size_t *n)
 {
-    const int shorter = x->label_length < y->label_length ? x->label_length : y->label_length;
-    const int order = memcmp(x->label, y->label, (size_t)shorter);
-    return order ? order : (x->label_length > y->label_length) - (x->label_length < y->label_length);
-}
-
-static int by_place(const fields *x, const fields *y)
-{
-    return (x->place > y->place) - (x->place < y->place);
-}
-
-static int compare_label_and_n(const fields *x, const fields *y)
-{
-    const int order = compare_labels(x, y);
-    return order ? order : (x->n > y->n) - (x->n < y->n);
-}
-
-/* By label, n and place. */
-static int compare_tasks(const void *a, const void *b)
-{
-    const int order = compare_label_and_n(a, b);
-    return order ? order : by_place(a, b);
-}
-
-/* By label, rank and place. */
-static int compare_ranks(const void *a, const void *b)
-{
-    const fields *x = a, *y = b;
-    const int order = compare_labels(x, y);
-    return order ? order : x->rank != y->rank ? (x->rank > y->rank) - (x->rank < y->rank) : by_place(x, y);
-}
-
-/* Sorts the tasks by label, rank and place; sets the ranks. */
-static void sort(fields *tasks, size_t n)
-{
-    qsort(tasks, n, sizeof *tasks, compare_tasks);
-    for (size_t i = 1; i < n; i++) {
-        const bool again = same_label(&tasks[i - 1], &tasks[i]) && tasks[i - 1].n == tasks[i].n;
-        tasks[i].rank = again ? tasks[i - 1].rank + 1 : 0;
+    fields *same_n = enter(tasks, task, by_n);
+    KOKSMA__REQUIRE_MEMORY(same_n, sizeof *same_n);
+    fields wanted = *task;
+    wanted.count = same_n->count++;
+    fields *const *found = tfind(&wanted, lines, by_rank);
+    fields *line = found ? *found : malloc(sizeof *line);
+    if (line && !found) {
+        *line = wanted;
+        line->line = open_memstream(&line->text, &line->size);
+        fields **at = line->line && tsearch(line, lines, by_rank) ? koksma__add_one(order, n, sizeof *at) : NULL;
+        KOKSMA__REQUIRE_MEMORY(at, sizeof *line);
+        *at = line;
+        fprintf(line->line, "%.*s, N =", task->label_length, task->label);
     }
-    qsort(tasks, n, sizeof *tasks, compare_ranks);
+    KOKSMA__REQUIRE_MEMORY(line, sizeof *line);
+    fprintf(line->line, "%s %lld (%lld of %lld trial%s)", found ? "," : "", task->n, task->failed, task->trials,
+            task->trials == 1 ? "" : "s");
+    return KOKSMA_OK;
 }
 
-static bool same_line(const fields *a, const fields *b)
-{
-    return same_label(a, b) && a->rank == b->rank;
-}
-
-/* Appends to `lines` one line for the n tasks of one label and rank. */
-static koksma_status show(const fields *tasks, size_t n, koksma__texts *lines)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *f = open_memstream(&text, &size);
-    KOKSMA__REQUIRE_MEMORY(f, 1);
-    fprintf(f, "%.*s, N =", tasks->label_length, tasks->label);
-    for (size_t i = 0; i < n; i++) {
-        fprintf(f, "%s %lld (%lld of %lld trial%s)", i ? "," : "", tasks[i].n, tasks[i].failed, tasks[i].trials,
-                tasks[i].trials == 1 ? "" : "s");
-    }
-    fprintf(f, ": %s", tasks->reason);
-    koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
-    status = status ? status : add_line(lines, text);
-    free(text);
-    return status;
-}
-
-/* Makes the readers' lines of the store's lines: one for each label and rank, in the order of their first tasks. The
-   tasks are sorted, because a damaged store may have any number of labels. */
 koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *lines)
 {
-    fields *tasks = calloc(stored->n + 1, sizeof *tasks);
-    size_t *sorted = calloc(stored->n + 1, sizeof *sorted);
-    koksma_status status = tasks && sorted ? KOKSMA_OK : koksma__fail_memory(stored->n * sizeof *tasks);
+    void *tasks = NULL, *tree = NULL;
+    fields **order = NULL, task;
     size_t n = 0;
+    koksma_status status = KOKSMA_OK;
     koksma__texts_fini(lines);
     for (size_t i = 0; !status && i < stored->n; i++) {
-        tasks[n].place = n;
-        n += read_line(stored->at[i], &tasks[n]);
-    }
-    if (n) {
-        sort(tasks, n);
+        status = read_line(stored->at[i], &task) ? show_task(&tasks, &tree, &task, &order, &n) : KOKSMA_OK;
     }
     for (size_t i = 0; i < n; i++) {
-        sorted[tasks[i].place] = i;
+        fprintf(order[i]->line, ": %s", order[i]->reason);
+        const bool whole = !fclose(order[i]->line);
+        status = status ? status : whole ? add_line(lines, order[i]->text) : koksma__fail_memory(order[i]->size);
+        free(order[i]->text);
     }
-    for (size_t i = 0; !status && i < n; i++) {
-        const size_t first = sorted[i];
-        size_t end = first + 1;
-        if (first && same_line(&tasks[first - 1], &tasks[first])) {
-            continue; /* it is on the line of an earlier one */
-        }
-        while (end < n && same_line(&tasks[first], &tasks[end])) {
-            end++;
-        }
-        status = show(tasks + first, end - first, lines);
-    }
-    KOKSMA__FREE(tasks, sorted);
+    tdestroy(tasks, free);
+    tdestroy(tree, free);
+    free(order);
     return status;
 }
 
 /* ---- Lines that others make superfluous ---------------------------------------------------------------- */
 
-/* A plan of 100 KB may have thousands of failed jobs, so that lines are sorted and not compared one by one. */
-
-/* By label, n, reason and place. */
-static int compare_reasons(const void *a, const void *b)
-{
-    const fields *x = a, *y = b;
-    const int task = compare_label_and_n(x, y), order = task ? task : strcmp(x->reason, y->reason);
-    return order ? order : by_place(x, y);
-}
-
-/* By label and n, then the most failed trials first. */
-static int compare_failed(const void *a, const void *b)
-{
-    const fields *x = a, *y = b;
-    const int task = compare_label_and_n(x, y);
-    return task ? task : (x->failed < y->failed) - (x->failed > y->failed);
-}
-
-/* Reads the lines and sorts them; leaves out texts that are no line. The caller frees *sorted. */
-static koksma_status read_sorted(const koksma__texts *lines, int (*compare)(const void *, const void *),
-                                 fields **sorted, size_t *n)
-{
-    *n = 0;
-    *sorted = calloc(lines->n + 1, sizeof **sorted);
-    KOKSMA__REQUIRE_MEMORY(*sorted, (lines->n + 1) * sizeof **sorted);
-    for (size_t i = 0; i < lines->n; i++) {
-        (*sorted)[*n].place = i;
-        *n += read_line(lines->at[i], &(*sorted)[*n]);
-    }
-    qsort(*sorted, *n, sizeof **sorted, compare);
-    return KOKSMA_OK;
-}
-
 koksma_status koksma__left_out_thin(koksma__texts *lines)
 {
-    fields *sorted;
-    size_t n, left = 0;
-    long long most = 0;
-    bool *keeps = calloc(lines->n + 1, sizeof *keeps);
-    KOKSMA__REQUIRE_MEMORY(keeps, lines->n + 1);
-    const koksma_status status = read_sorted(lines, compare_reasons, &sorted, &n);
-    for (size_t i = 0; !status && i < n; i++) {
-        const bool again =
-            i && !compare_label_and_n(&sorted[i - 1], &sorted[i]) && !strcmp(sorted[i - 1].reason, sorted[i].reason);
-        keeps[sorted[i].place] = !again || sorted[i].failed > most;
-        most = keeps[sorted[i].place] ? sorted[i].failed : most;
-    }
-    for (size_t i = 0; !status && i < lines->n; i++) {
-        if (keeps[i]) {
+    void *tree = NULL;
+    fields task;
+    size_t left = 0;
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < lines->n; i++) {
+        const bool is_line = read_line(lines->at[i], &task);
+        fields *most = is_line ? enter(&tree, &task, by_reason) : NULL;
+        if (most && most->failed < task.failed) {
+            most->failed = task.failed;
             lines->at[left++] = lines->at[i];
         } else {
             free(lines->at[i]);
+            status = most || !is_line ? status : koksma__fail_memory(sizeof *most);
         }
     }
-    lines->n = status ? lines->n : left;
-    KOKSMA__FREE(sorted, keeps);
+    lines->n = left;
+    tdestroy(tree, free);
     return status;
-}
-
-/* Whether `sorted`, in the order of compare_failed, has a line of equal label and n with at least as many failed trials. */
-static bool knows(const fields *sorted, size_t n, const fields *task)
-{
-    size_t low = 0;
-    for (size_t high = n; low < high;) { /* the first line of this label and n, or a later one's */
-        const size_t middle = low + (high - low) / 2;
-        if (compare_label_and_n(&sorted[middle], task) < 0) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low < n && !compare_label_and_n(&sorted[low], task) && sorted[low].failed >= task->failed;
 }
 
 koksma_status koksma__left_out_add(const koksma__texts *lines, const koksma__texts *known, koksma__texts *to)
 {
-    fields *sorted, task;
-    size_t n;
-    koksma_status status = read_sorted(known, compare_failed, &sorted, &n);
-    for (size_t i = 0; !status && i < lines->n; i++) {
-        if (read_line(lines->at[i], &task) && !knows(sorted, n, &task)) {
-            status = koksma__texts_add(to, lines->at[i]);
+    void *tree = NULL;
+    fields task;
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < known->n; i++) {
+        if (read_line(known->at[i], &task)) {
+            fields *most = enter(&tree, &task, by_n);
+            status = most ? KOKSMA_OK : koksma__fail_memory(sizeof *most);
+            if (most && most->failed < task.failed) {
+                most->failed = task.failed;
+            }
         }
     }
-    free(sorted);
+    for (size_t i = 0; !status && i < lines->n; i++) {
+        const bool is_line = read_line(lines->at[i], &task);
+        fields *const *found = is_line ? tfind(&task, &tree, by_n) : NULL;
+        status =
+            is_line && (!found || (*found)->failed < task.failed) ? koksma__texts_add(to, lines->at[i]) : KOKSMA_OK;
+    }
+    tdestroy(tree, free);
     return status;
 }
 
