@@ -376,22 +376,6 @@ def programs():
     check(not os.path.exists("started"), "a stored spec has started a program")
 
 
-def far_trials():
-    """Rows of trials far above their number, as many as the store may have, take time in proportion to the rows."""
-    with open("far.json", "w", encoding="ascii") as file:
-        file.write('{"name": "f", "title": "f", "discrepancies": [{"patterns": ["random"], "integrands": ["x"], "n": '
-                   f'{list(range(1, 25))}, "trials": 1000}}]}}')
-    check(koksma("study", "run", "./far.json", "-o", "far", "-q").returncode == 0, "a run of many trials")
-    before = study("export", "far").stdout.split("\n")
-    change("far", "UPDATE result SET id = id + (99999000 << 32) WHERE id >> 32 = 999", sealed=True)
-    told = koksma("study", "export", "far", prefix=seconds(4 * SLOW))
-    after = told.stdout.split("\n")
-    same = [row for row in after if ",99999999," not in row]
-    check(told.returncode == 0 and len(after) == len(before) and len(same) == len(before) - 24 and set(same) < set(before),
-          f"an export of far trials: {told.returncode} {told.stderr} {len(after)} {len(same)}")
-    check(koksma("study", "report", "far", prefix=seconds(4 * SLOW)).returncode == 0, "a report of far trials")
-
-
 def large_plans():
     """Plans of 100 KB whose references or failed jobs are many."""
     references = [{"name": f"r{i}", "pattern": "random", "spp": 1} for i in range(3000)]
@@ -467,6 +451,6 @@ if __name__ == "__main__":
             file.write(PLAN)
         assert koksma("study", "run", "./plan.json", "-o", "sound", "-q").returncode == 0
         SOUND = study("export", "sound").stdout
-        for attack in foreign, schema, values, rows, references, exports, programs, far_trials, large_plans, readers:
+        for attack in foreign, schema, values, rows, references, exports, programs, large_plans, readers:
             attack()
     end()

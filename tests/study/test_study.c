@@ -382,41 +382,6 @@ static void store_keeps_many_rows(void **state)
     rmdir(folder);
 }
 
-static koksma_status count_any(void *context, const koksma__series *series, const koksma__result *result)
-{
-    long long *seen = context;
-    (void)series;
-    *seen += result->trial >= 0;
-    return KOKSMA_OK;
-}
-
-/* More rows than are kept in memory, and then series of which each has one trial, far above 0: looking up all trials below
-   those would take minutes. */
-static void store_limits_lookups(void **state)
-{
-    (void)state;
-    char folder[] = STORE_FOLDER, path[64];
-    koksma__series series = one_series;
-    koksma__store *store = new_store(folder, path);
-    const long long rows = 530000;
-    long long id, seen = 0;
-    assert_ok(koksma__store_series(store, &series, true, &id));
-    for (long long trial = 0; trial < rows; trial++) {
-        assert_ok(koksma__store_put(store, &id, &(koksma__result){trial, 1, {1, NAN, NAN, NAN}}, 1));
-    }
-    assert_ok(koksma__store_visit(store, count_any, &seen));
-    assert_int_equal(seen, rows);
-    for (series.n = 2; series.n < 1000; series.n++) {
-        assert_ok(koksma__store_series(store, &series, true, &id));
-        assert_ok(koksma__store_put(store, &id, &(koksma__result){199990, 1, {1, NAN, NAN, NAN}}, 1));
-    }
-    assert_int_equal(koksma__store_visit(store, count_any, &seen), KOKSMA_MALFORMED);
-    assert_non_null(strstr(koksma_error_text(), "many series have trial numbers far above"));
-    assert_ok(koksma__store_close(store));
-    unlink(path);
-    rmdir(folder);
-}
-
 /* Errors of images are of luminance, and so is a reference's own: of one channel its weight, of equal replicates 0.
  */
 static void own_error_of_a_reference(void **state)
@@ -647,7 +612,6 @@ int main(void)
         cmocka_unit_test(shipped_plans_parse),
         cmocka_unit_test(store_keeps_rows),
         cmocka_unit_test(store_keeps_many_rows),
-        cmocka_unit_test(store_limits_lookups),
         cmocka_unit_test(folder_is_read_and_audited),
         cmocka_unit_test(audit_reports_progress),
         cmocka_unit_test(own_error_of_a_reference),

@@ -56,6 +56,9 @@ typedef struct koksma__discrepancy_block {
     long long trials;
 } koksma__discrepancy_block;
 
+/* Maximum number of trials of a block: larger trial numbers in a store are damage. */
+enum { KOKSMA__MOST_TRIALS = 100000000 };
+
 /* How a reference image is made: the mean of `replicates` renders. With 2 or more replicates, their spread gives an
    estimate of the reference's own error. */
 typedef struct koksma__reference {

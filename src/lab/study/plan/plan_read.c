@@ -18,7 +18,7 @@
 #include "study/plan/variants.h"
 #include "json/json.h"
 
-enum { MAX_TRIALS = 100000000, MAX_SPP = 1 << 20, MAX_NAME = 64, MAX_VARIANTS = 1 << 16 };
+enum { MAX_SPP = 1 << 20, MAX_NAME = 64, MAX_VARIANTS = 1 << 16 };
 
 const char *koksma_plan_name_at(size_t i)
 {
@@ -43,8 +43,8 @@ const char *koksma__plan_shipped(const char *name, size_t *size)
 static koksma_status parse_trials(const koksma__json_node *node, const koksma__plan_trials *given, long long *out)
 {
     long long quick = 0;
-    koksma_status status = koksma__json_get_whole(node, "trials", true, 1, MAX_TRIALS, out);
-    status = status ? status : koksma__json_get_whole(node, "quick", false, 1, MAX_TRIALS, &quick);
+    koksma_status status = koksma__json_get_whole(node, "trials", true, 1, KOKSMA__MOST_TRIALS, out);
+    status = status ? status : koksma__json_get_whole(node, "quick", false, 1, KOKSMA__MOST_TRIALS, &quick);
     *out = given->quick && quick ? quick : *out;
     *out = given->trials > 0 ? given->trials : *out;
     return status;

@@ -101,9 +101,9 @@ static void draw_row(void *context, long long id, long long trial)
     a->seen++;
     if (drawn) {
         a->out->drawn++;
-        if (s->drawn && trial < s->end) {
+        if (s->drawn) {
             s->drawn[trial / 8] |= (unsigned char)(1u << trial % 8);
-        } else { /* its series can't be computed again, or its trial number is too large: check() has named both */
+        } else { /* its series can't be computed again: check() has named it */
             a->wrong++;
         }
     }
@@ -384,12 +384,6 @@ static koksma_status check(audit *a, koksma__audit_series *s)
             differ(a, "%s: its %s can't be computed again: %s", name, count, koksma_error_text());
         }
     }
-    if (s->state == KOKSMA__AUDIT_OURS && s->strays) {
-        char name[KOKSMA__REFERENCE_NAME];
-        name_row(&s->key, s->last, name, sizeof name);
-        differ(a, "%s: the trial numbers of %lld of the %lld rows of this series are too large", name, s->strays,
-               s->rows);
-    }
     if (s->state == KOKSMA__AUDIT_OTHER && (!a->out->other[0] || (s->newer && !a->newer))) {
         const char *between = s->is_reference ? "" : "; ";
         snprintf(a->out->other, sizeof a->out->other, "%.23s%s%.23s%s (here: %.23s%s%.23s)", s->key.made_by, between,
@@ -419,7 +413,7 @@ static koksma_status list_series(audit *a)
         if (s->rows) {
             status = check(a, s);
             *(s->state == KOKSMA__AUDIT_OTHER ? &a->out->other_rows : &a->out->rows) += s->rows;
-            a->out->rows_missing += s->state == KOKSMA__AUDIT_OURS ? koksma__audit_gaps(s) : 0;
+            a->out->rows_missing += s->state == KOKSMA__AUDIT_OURS ? s->end - s->rows : 0;
         }
     }
     for (size_t i = 0; !status && i < a->list.n_references; i++) {

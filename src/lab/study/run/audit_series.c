@@ -21,11 +21,6 @@
 #include "study/run/references.h"
 #include "study/run/run.h"
 
-/* Runs compute trials in ascending order, so a trial number far above the number of rows means that the store is
-   damaged. A row may have up to MOST_HOLES missing rows before it, where a pattern fails for most trials; but if the
-   trials of all series together are then too many for a plan, at most one, and MOST_HOLES in the whole series. */
-static const long long MOST_HOLES = 100000, MOST_TRIALS = 1 << 29;
-
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
 /* KEY_TEXTS: the number of texts up to `what`. An image's key consists of these without the kind, and of numbers. */
@@ -92,63 +87,10 @@ static void see_row(void *context, long long id, long long trial)
     koksma__audit_series *s = koksma__audit_find(list, id);
     if (s) {
         s->rows++;
-        s->last = trial > s->last ? trial : s->last;
+        s->end = trial >= s->end ? trial + 1 : s->end;
     } else {
         list->strangers++;
     }
-}
-
-long long koksma__audit_gaps(const koksma__audit_series *s)
-{
-    const long long rows = s->rows - s->strays;
-    return s->end > rows ? s->end - rows : 0;
-}
-
-/* What see_end needs: `holes` is the number of missing rows that each row may have before it. */
-typedef struct ends {
-    const koksma__audit_list *list;
-    long long holes;
-} ends;
-
-static long long limit_of(const koksma__audit_series *s, long long holes)
-{
-    return MOST_HOLES + holes * s->rows;
-}
-
-static void see_end(void *context, long long id, long long trial)
-{
-    const ends *e = context;
-    koksma__audit_series *s = koksma__audit_find(e->list, id);
-    if (s && trial >= limit_of(s, e->holes)) {
-        s->strays++;
-    } else if (s) {
-        s->end = trial >= s->end ? trial + 1 : s->end;
-    }
-}
-
-/* Finds the ends of all series, and the rows with trial numbers that are too large; reads all rows again only if there
-   are any. *trials: the sum of all ends. */
-static koksma_status find_ends(koksma__store *store, koksma__audit_list *list, long long holes, double *trials)
-{
-    koksma_status status = KOKSMA_OK;
-    bool strays = false;
-    for (size_t i = 0; i < list->n; i++) {
-        koksma__audit_series *s = &list->at[i];
-        s->end = s->rows ? s->last + 1 : 0;
-        s->strays = 0;
-        strays |= s->end > limit_of(s, holes);
-    }
-    if (strays) {
-        for (size_t i = 0; i < list->n; i++) {
-            list->at[i].end = 0;
-        }
-        status = koksma__store_scan_rows(store, see_end, &(ends){list, holes});
-    }
-    *trials = 0;
-    for (size_t i = 0; i < list->n; i++) {
-        *trials += (double)list->at[i].end;
-    }
-    return status;
 }
 
 koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *list)
@@ -158,10 +100,7 @@ koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *
         qsort(list->at, list->n, sizeof *list->at, compare_ids);
     }
     status = status ? status : koksma__store_visit_references(store, add_reference, list);
-    status = status ? status : koksma__store_scan_rows(store, see_row, list);
-    double trials = 0;
-    status = status ? status : find_ends(store, list, MOST_HOLES, &trials);
-    return status || trials <= (double)MOST_TRIALS ? status : find_ends(store, list, 1, &trials);
+    return status ? status : koksma__store_scan_rows(store, see_row, list);
 }
 
 static void fini_series(koksma__audit_series *series, size_t n)

@@ -14,10 +14,8 @@ typedef enum koksma__audit_state {
 } koksma__audit_state;
 
 typedef struct koksma__audit_series {
-    koksma__series key; /* the key, with its own copies of the strings */
-    long long id, rows;
-    long long end, strays, last; /* strays: number of rows whose trial numbers are far too large (only a damaged store
-                                    has such rows); end: 1 + the largest other trial number; last: the largest of all */
+    koksma__series key;      /* the key, with its own copies of the strings */
+    long long id, rows, end; /* end: 1 + the largest trial number */
     koksma__audit_state state;
     bool newer;           /* whether a newer version than this program made it; only in the state OTHER */
     bool is_reference;    /* whether it is a row of table `reference`, which has no pattern, trials and id */
@@ -47,9 +45,6 @@ void koksma__audit_list_fini(koksma__audit_list *list);
 
 /* Finds the series with the given id; NULL if there is none. */
 koksma__audit_series *koksma__audit_find(const koksma__audit_list *list, long long id);
-
-/* The number of rows that a series lacks: trials before its last that have no row. */
-long long koksma__audit_gaps(const koksma__audit_series *series);
 
 /* Sets the state of a series or reference and opens its scene. Fails if the state is WRONG; the error text gives the
    reason. *here: the revisions of this build. */

@@ -173,7 +173,7 @@ typedef struct koksma__kept_rows {
 typedef struct koksma__known_series {
     /* true: the four values of a row are one result; false: a row has one value each of up to four series */
     bool alone;
-    long long end, count; /* 1 + the index of the last trial; number of trials in the store */
+    long long end; /* 1 + the index of the last trial */
 } koksma__known_series;
 
 struct koksma__store {

@@ -142,33 +142,10 @@ static void see_end(void *context, long long series, long long trial)
     koksma__store *store = context;
     koksma__known_series *k = &store->known[series];
     k->end = trial >= k->end ? trial + 1 : k->end;
-    k->count++;
 }
-
-/* Trials are made in order, except for jobs that were running when a run ended. A trial number far above the
-   number of trials is therefore damage; looking up all trials below it would take hours. */
-static const long long MOST_HOLES = 100000;
 
 /* Looking up one row by its id takes as long as reading about this many rows in sequence. */
 static const long long ROWS_A_LOOKUP = 8;
-
-/* Where the rows are not in memory, so many lookups for each row of the store may find the results of all series. Stores
-   that runs made need up to KOKSMA__GROUP, and few more for trials that failed or are missing. */
-static const long long MOST_LOOKUPS = 64;
-
-static koksma_status check_lookups(const koksma__store *store)
-{
-    const long long rows = store->found.rows, filter = rows / ROWS_A_LOOKUP;
-    long long lookups = 0;
-    for (size_t i = 0; i < store->n_known && !store->kept.all; i++) {
-        lookups += store->known[i].end < filter ? store->known[i].end : filter;
-    }
-    KOKSMA__FAIL_IF(
-        lookups / MOST_LOOKUPS > rows, KOKSMA_MALFORMED,
-        "%s: many series have trial numbers far above their numbers of trials; move it away to begin anew",
-        koksma__database_path(store->database));
-    return KOKSMA_OK;
-}
 
 /* Finds the highest trial of every series. */
 static koksma_status find_ends(koksma__store *store)
@@ -176,16 +153,6 @@ static koksma_status find_ends(koksma__store *store)
     koksma_status status = koksma__store_write_rows(store);
     if (!status && !store->knows_ends) {
         status = scan(store, &(visitor){see_end, store, false});
-        for (size_t i = 0; !status && i < store->n_known; i++) {
-            const koksma__known_series *k = &store->known[i];
-            if (k->end > MOST_HOLES + MOST_HOLES * k->count) {
-                status = koksma__fail(
-                    KOKSMA_MALFORMED,
-                    "%s: series %zu has the trial number %lld, but only %lld trials; move it away to begin anew",
-                    koksma__database_path(store->database), i, k->end - 1, k->count);
-            }
-        }
-        status = status ? status : check_lookups(store);
         store->knows_ends = !status;
     }
     return status;

@@ -12,10 +12,11 @@
 
 static koksma_status fail_row(const koksma__store *store, const char *table, long long id)
 {
-    return koksma__fail(KOKSMA_MALFORMED,
-                        "%s: row %lld of table %s has a value that is infinite or of the wrong type; move it away "
-                        "to begin anew",
-                        koksma__database_path(store->database), id, table);
+    return koksma__fail(
+        KOKSMA_MALFORMED,
+        "%s: row %lld of table %s has a value that is infinite, of the wrong type or out of range; move it away "
+        "to begin anew",
+        koksma__database_path(store->database), id, table);
 }
 
 static koksma_status fail_reference(const koksma__store *store, const koksma__series *key)
@@ -30,7 +31,7 @@ static koksma_status fail_reference(const koksma__store *store, const koksma__se
 
 koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, int column, koksma__row *row)
 {
-    bool right = koksma__column_has_whole(s, column);
+    bool right = koksma__column_has_whole(s, column) && row->id >> 32 < KOKSMA__MOST_TRIALS;
     row->seed = (uint64_t)koksma__column_whole(s, column);
     for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
         right = koksma__column_read_number(s, column + 1 + k, &row->values[k]) && right;
