@@ -56,8 +56,6 @@ void koksma__mpi_rest(double seconds);
 enum {
     KOKSMA__TAG_REQUEST = 1,
     KOKSMA__TAG_RESULTS,
-    KOKSMA__TAG_FAILURE,
-    KOKSMA__TAG_TILE,
     KOKSMA__TAG_NEED,
     KOKSMA__TAG_ERROR,
     KOKSMA__TAG_ASSIGNMENTS,

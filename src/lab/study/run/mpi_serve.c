@@ -8,7 +8,6 @@
 #include "study/run/run.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/clock.h"
 #include "core/parallel.h"
@@ -59,73 +58,15 @@ static void send_pixels(server *s, int to)
     }
 }
 
-static void receive_results(server *s, unsigned char *message, size_t bytes)
+static void receive_results(server *s, int from, size_t bytes)
 {
-    unsigned long long job;
-    for (size_t at = 0; at + sizeof job < bytes;) {
-        long long trial;
-        memcpy(&job, message + at, sizeof job);
-        at += sizeof job;
-        const koksma__task *task = koksma__tasks_job(s->phase->tasks, job, &trial);
-        const size_t size = task->n_series * sizeof(koksma__result);
-        koksma__result *results = malloc(size);
-        if (!results || at + size > bytes) {
-            koksma__run_state_stop(&s->state, KOKSMA_MEMORY, "out of memory for results");
-            free(results);
-            return;
-        }
-        memcpy(results, message + at, size);
-        koksma__run_state_put_job(&s->state, job, task, results);
-        free(results);
-        at += size;
-    }
-}
-
-static void receive_failure(server *s, int from)
-{
-    koksma__failure failure;
-    koksma_study *study = s->phase->tasks->study;
-    const size_t n_jobs = s->phase->tasks->n_jobs;
-    if (!s->mpi->receive(from, KOKSMA__TAG_FAILURE, &failure, sizeof failure, NULL)) {
-        return;
-    }
-    if (failure.job < n_jobs) {
-        koksma__run_state_fail_job(&s->state, failure.job, failure.text);
-    } else if (study->sink && failure.job - n_jobs < study->n_references) {
-        study->sink->fail_reference(study->sink->context, &study->references[failure.job - n_jobs], failure.text);
-    }
-}
-
-static void receive_tile(server *s, unsigned char *message, size_t bytes)
-{
-    koksma__reference_tile tile;
-    if (bytes < sizeof tile) {
-        return;
-    }
-    memcpy(&tile, message, sizeof tile);
-    const size_t i = koksma__run_state_tile(&s->state, &tile);
-    double *numbers = malloc(bytes - sizeof tile);
-    if (!numbers) {
-        koksma__run_state_stop(&s->state, KOKSMA_MEMORY, "out of memory for a tile of a reference");
-    } else if (i < s->state.tiles.n) {
-        const int width = s->phase->tasks->study->references[tile.reference].width;
-        memcpy(numbers, message + sizeof tile, bytes - sizeof tile);
-        const koksma__replicates sums = koksma__replicates_over(numbers, (bytes - sizeof tile) / sizeof *numbers,
-                                                                (size_t)width * (size_t)tile.rows);
-        koksma__run_state_put_tile(&s->state, i, &sums);
-    }
-    free(numbers);
-}
-
-static void receive_work(server *s, int from, int tag, size_t bytes)
-{
-    unsigned char *message = malloc(bytes ? bytes : 1);
-    if (!message) {
+    const koksma__outcomes outcomes = {.bytes = malloc(bytes ? bytes : 1), .size = bytes};
+    if (!outcomes.bytes) {
         koksma__run_state_stop(&s->state, KOKSMA_MEMORY, "out of memory for a message");
-    } else if (s->mpi->receive(from, tag, message, bytes, NULL)) {
-        (tag == KOKSMA__TAG_TILE ? receive_tile : receive_results)(s, message, bytes);
+    } else if (s->mpi->receive(from, KOKSMA__TAG_RESULTS, outcomes.bytes, bytes, NULL)) {
+        koksma__run_state_put(&s->state, &outcomes);
     }
-    free(message);
+    free(outcomes.bytes);
 }
 
 /* Answers a rank's request for jobs; the answer is empty when no job is ready. */
@@ -164,12 +105,8 @@ static bool serve_one(server *s)
     case KOKSMA__TAG_NEED:
         send_pixels(s, from);
         break;
-    case KOKSMA__TAG_FAILURE:
-        receive_failure(s, from);
-        break;
     case KOKSMA__TAG_RESULTS:
-    case KOKSMA__TAG_TILE:
-        receive_work(s, from, tag, bytes);
+        receive_results(s, from, bytes);
         break;
     case KOKSMA__TAG_ERROR:
         s->mpi->receive(from, KOKSMA__TAG_ERROR, text, sizeof text, NULL);

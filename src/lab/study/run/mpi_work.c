@@ -7,7 +7,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/capacity.h"
 #include "core/clock.h"
@@ -15,20 +14,14 @@
 
 static const double REST_S = 2e-4;
 
-/* Results of jobs that are sent to rank 0 together. */
-typedef struct outbox {
-    unsigned char *bytes;
-    size_t size, capacity;
-    double since_s; /* when the first of these jobs began */
-} outbox;
-
 typedef struct worker {
     const koksma__transport *mpi;
     int rank;
     koksma_study *study;
     const koksma_run *job;
     koksma__tasks tasks;
-    outbox out;
+    koksma__outcomes out;   /* outcomes that are sent to rank 0 together */
+    double since_s;         /* when the first of them began */
     double busy_s, began_s; /* began_s: processor time at the start of the phase */
 } worker;
 
@@ -83,67 +76,22 @@ static koksma_status send_results(worker *w)
     return KOKSMA_OK;
 }
 
-static koksma_status send_failure(const worker *w, unsigned long long job)
-{
-    koksma__failure failure = {.job = job};
-    snprintf(failure.text, sizeof failure.text, "%s", koksma_error_text());
-    return w->mpi->send(0, KOKSMA__TAG_FAILURE, &failure, sizeof failure) ? KOKSMA_OK : lost(w);
-}
-
-static koksma_status do_job(worker *w, unsigned long long job)
+/* Does a job or tile. What comes of it is sent at once if the first unsent one began some time ago. */
+static koksma_status do_assignment(worker *w, const koksma__assignment *assignment)
 {
     long long trial;
-    const koksma__task *task = koksma__tasks_job(&w->tasks, job, &trial);
-    koksma__result *results = calloc(task->n_series, sizeof *results);
-    outbox *out = &w->out;
-    koksma_status status = results ? koksma__reserve(&out->bytes, &out->capacity,
-                                                     out->size + sizeof job + task->n_series * sizeof *results, 1)
-                                   : koksma__fail_memory(task->n_series * sizeof *results);
-    for (size_t r = 0; task->image && !status && r < task->n_series; r++) {
-        status = get_reference(w, task->references[r]);
+    koksma_status status = KOKSMA_OK;
+    if (assignment->kind == KOKSMA__ASSIGN_JOB) {
+        const koksma__task *task = koksma__tasks_job(&w->tasks, assignment->number, &trial);
+        for (size_t r = 0; task->image && !status && r < task->n_series; r++) {
+            status = get_reference(w, task->references[r]);
+        }
     }
     const double start_s = koksma__now_s();
-    w->out.since_s = w->out.size ? w->out.since_s : start_s;
-    status = status ? status : koksma__task_do(w->study, task, trial, w->job, results);
-    if (!status) {
-        outbox *l = &w->out;
-        memcpy(l->bytes + l->size, &job, sizeof job);
-        memcpy(l->bytes + l->size + sizeof job, results, task->n_series * sizeof *results);
-        l->size += sizeof job + task->n_series * sizeof *results;
-        w->busy_s += koksma__now_s() - start_s;
-        status = koksma__now_s() - l->since_s > KOKSMA__SEND_S ? send_results(w) : KOKSMA_OK;
-    } else if (koksma__task_failed_alone(w->study, status)) {
-        w->busy_s += koksma__now_s() - start_s;
-        status = send_failure(w, job);
-    }
-    free(results);
-    return status;
-}
-
-static koksma_status do_tile(worker *w, const koksma__reference_tile *tile)
-{
-    koksma__replicates sums = {0};
-    const double start_s = koksma__now_s();
-    const koksma__reference_image *reference = &w->study->references[tile->reference];
-    const bool failed = reference->failed;
-    koksma_status status = koksma__tile_do(w->study, tile, w->job, &sums);
-    if (!status && reference->failed && !failed) {
-        status = send_failure(w, w->tasks.n_jobs + tile->reference);
-    }
-    const size_t bytes = koksma__replicates_numbers(&sums) * sizeof *sums.sum;
-    unsigned char *message = status ? NULL : malloc(sizeof *tile + bytes);
-    if (!status && !message) {
-        status = koksma__fail_memory(sizeof *tile + bytes);
-    }
+    w->since_s = w->out.size ? w->since_s : start_s;
+    status = status ? status : koksma__do_assignment(&w->tasks, assignment, w->job, &w->out);
     w->busy_s += koksma__now_s() - start_s;
-    if (!status) {
-        memcpy(message, tile, sizeof *tile);
-        memcpy(message + sizeof *tile, sums.sum, bytes);
-        status = w->mpi->send(0, KOKSMA__TAG_TILE, message, sizeof *tile + bytes) ? KOKSMA_OK : lost(w);
-    }
-    free(message);
-    free(sums.sum);
-    return status;
+    return status || koksma__now_s() - w->since_s < KOKSMA__SEND_S ? status : send_results(w);
 }
 
 /* Does the assignments. Sets *over if no work is left in this phase, and *run_over if none is left in the run. */
@@ -153,10 +101,8 @@ static koksma_status do_batch(worker *w, const koksma__assignment *assignments, 
     for (size_t i = 0; i < n && !status && !*over; i++) {
         *run_over = assignments[i].kind == KOKSMA__RUN_OVER;
         *over = *run_over || assignments[i].kind == KOKSMA__PHASE_OVER;
-        if (assignments[i].kind == KOKSMA__ASSIGN_JOB) {
-            status = do_job(w, assignments[i].number);
-        } else if (assignments[i].kind == KOKSMA__ASSIGN_TILE) {
-            status = do_tile(w, &assignments[i].tile);
+        if (!*over) {
+            status = do_assignment(w, &assignments[i]);
         }
     }
     return status ? status : send_results(w);

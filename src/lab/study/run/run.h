@@ -21,7 +21,7 @@
  * The jobs of a run that failed alone, without ending the run: their pattern has no point set, or their measure has
  * no value (koksma__is_impossible). A run lists them in the store, so that report and export can say why a table has gaps.
  */
-enum { KOKSMA__FAILURE_TEXT = 480 };
+enum { KOKSMA__FAILURE_TEXT = 480 }; /* a multiple of 8, as outcomes have texts */
 
 /* The failed jobs of one task. */
 typedef struct koksma__failed_task {
@@ -192,14 +192,30 @@ bool koksma__run_state_take(koksma__run_state *state, bool lost, koksma__assignm
 size_t koksma__run_state_take_batch(koksma__run_state *state, double job_s, int ranks,
                                     koksma__assignment assignments[KOKSMA__MAX_BATCH]);
 
-/* Receive the results of a job or tile, or the failure of a job; a second result of one job or tile is ignored. */
-void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksma__task *task,
-                               const koksma__result *results);
-void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char *text);
-void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums);
+/* What came of an assignment, as it is sent between ranks: this head, and then so many bytes. */
+typedef enum koksma__outcome_kind {
+    KOKSMA__OUTCOME_RESULTS,     /* of job `number` */
+    KOKSMA__OUTCOME_TILE,        /* the sums of tile `number` */
+    KOKSMA__OUTCOME_FAILURE,     /* a text of KOKSMA__FAILURE_TEXT bytes: why job `number` is impossible */
+    KOKSMA__OUTCOME_NO_REFERENCE /* the same of reference `number`, in an audit */
+} koksma__outcome_kind;
 
-/* The index of a tile that a rank has sent back, or tiles.n if there is no such tile. */
-size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile);
+typedef struct koksma__outcome {
+    unsigned long long kind, number, size;
+} koksma__outcome;
+
+typedef struct koksma__outcomes {
+    unsigned char *bytes;
+    size_t size, capacity;
+} koksma__outcomes;
+
+/* Does an assignment and appends what came of it. The references that a job is compared with must be there. Errors: those
+   that end the run. */
+koksma_status koksma__do_assignment(const koksma__tasks *tasks, const koksma__assignment *assignment,
+                                    const koksma_run *run, koksma__outcomes *to);
+
+/* Takes outcomes; a second one of a job or tile is ignored. */
+void koksma__run_state_put(koksma__run_state *state, const koksma__outcomes *outcomes);
 
 /* Takes and does assignments until the phase is over or has failed. On the thread of the run's caller, asks the
    caller's keep_going between assignments. If `redo`, also does assignments of other ranks if their results are
@@ -220,10 +236,7 @@ koksma_status koksma__work_threads(koksma__phase *phase);
  *
  * Messages to rank 0:
  *     REQUEST  koksma__request: asks for the batch after the current one, so that no rank waits for an answer
- *     RESULTS  job numbers, each followed by the job's results
- *     FAILURE  koksma__failure: a job that is impossible; in an audit also a reference, whose number is that of
- *              the jobs plus its index
- *     TILE     koksma__reference_tile, followed by the tile's sums
+ *     RESULTS  koksma__outcomes
  *     NEED     index of a reference whose pixels the rank needs
  *     ERROR    status and text of a rank that fails; all ranks then end
  *     PIECES   this rank's pieces of a shared search (koksma_study_mpi_processes)
@@ -244,11 +257,6 @@ typedef struct koksma__request {
     double busy_s;      /* seconds that this rank has worked in this phase so far */
     double processor_s; /* this rank's processor time in this phase so far */
 } koksma__request;
-
-typedef struct koksma__failure {
-    unsigned long long job;
-    char text[KOKSMA__FAILURE_TEXT];
-} koksma__failure;
 
 /* The first message about a reference image. A rank that has rendered no tile of a reference learns here that an audit
    can't render it; the rows that need it then fail on every rank. */

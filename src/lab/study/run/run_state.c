@@ -7,7 +7,9 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "core/capacity.h"
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
@@ -102,8 +104,7 @@ size_t koksma__run_state_take_batch(koksma__run_state *state, double job_s, int 
 
 /* ---- Receiving results --------------------------------------------------------------------------------- */
 
-void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksma__task *task,
-                               const koksma__result *results)
+static void put_job(koksma__run_state *state, size_t job, const koksma__task *task, const koksma__result *results)
 {
     pthread_mutex_lock(&state->lock);
     const bool is_new = koksma__work_queue_put(&state->jobs, job);
@@ -116,7 +117,7 @@ void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksm
     atomic_fetch_add(&state->phase->done, is_new);
 }
 
-void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char *text)
+static void fail_job(koksma__run_state *state, size_t job, const char *text)
 {
     pthread_mutex_lock(&state->lock);
     const koksma_status status = koksma__work_queue_put(&state->jobs, job)
@@ -128,21 +129,10 @@ void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char
     }
 }
 
-size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile)
-{
-    size_t i = 0;
-    while (i < state->tiles.n &&
-           (state->tiles.at[i].reference != tile->reference || state->tiles.at[i].first_row != tile->first_row ||
-            state->tiles.at[i].rows != tile->rows)) {
-        i++;
-    }
-    return i;
-}
-
 /* A reference is ready when its file has been written, some time after its last tile was put. A run cannot end between
    these two moments, because the jobs that need the reference are not done yet. An audit may have no such jobs: its
    phase ends when all its threads have returned from here. */
-void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums)
+static void put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums)
 {
     const koksma__reference_tile tile = state->tiles.at[i];
     bool complete = false;
@@ -160,6 +150,33 @@ void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma
     pthread_mutex_lock(&state->lock);
     state->ready[tile.reference] |= complete;
     pthread_mutex_unlock(&state->lock);
+}
+
+static void put_one(koksma__run_state *state, const koksma__outcome *head, void *payload)
+{
+    koksma_study *study = state->phase->tasks->study;
+    long long trial;
+    if (head->kind == KOKSMA__OUTCOME_RESULTS && head->number < state->phase->tasks->n_jobs) {
+        put_job(state, head->number, koksma__tasks_job(state->phase->tasks, head->number, &trial), payload);
+    } else if (head->kind == KOKSMA__OUTCOME_FAILURE && head->number < state->phase->tasks->n_jobs) {
+        fail_job(state, head->number, payload);
+    } else if (head->kind == KOKSMA__OUTCOME_TILE && head->number < state->tiles.n) {
+        const koksma__reference_tile *tile = &state->tiles.at[head->number];
+        const size_t pixels = (size_t)study->references[tile->reference].width * (size_t)tile->rows;
+        const koksma__replicates sums = koksma__replicates_over(payload, head->size / sizeof(double), pixels);
+        put_tile(state, head->number, &sums);
+    } else if (head->kind == KOKSMA__OUTCOME_NO_REFERENCE && study->sink && head->number < study->n_references) {
+        study->sink->fail_reference(study->sink->context, &study->references[head->number], payload);
+    }
+}
+
+void koksma__run_state_put(koksma__run_state *state, const koksma__outcomes *outcomes)
+{
+    koksma__outcome head;
+    for (size_t at = 0; at + sizeof head <= outcomes->size; at += sizeof head + head.size) {
+        memcpy(&head, outcomes->bytes + at, sizeof head);
+        put_one(state, &head, outcomes->bytes + at + sizeof head);
+    }
 }
 
 /* ---- Opening and closing ------------------------------------------------------------------------------- */
@@ -233,36 +250,64 @@ void koksma__run_state_close(koksma__run_state *state)
 
 static const double REST_S = 1e-4;
 
-static void do_job(koksma__run_state *state, size_t job)
+static koksma_status append(koksma__outcomes *to, koksma__outcome_kind kind, size_t number, const void *payload,
+                            size_t size)
 {
-    koksma__phase *phase = state->phase;
-    long long trial;
-    const koksma__task *task = koksma__tasks_job(phase->tasks, job, &trial);
-    koksma__result *results = calloc(task->n_series, sizeof *results);
-    const koksma_status status =
-        results ? koksma__task_do(phase->tasks->study, task, trial, &phase->control->job, results)
-                : koksma__fail_memory(task->n_series * sizeof *results);
-    if (koksma__task_failed_alone(phase->tasks->study, status)) {
-        koksma__run_state_fail_job(state, job, koksma_error_text());
-    } else if (status) {
-        koksma__run_state_stop(state, status, koksma_error_text());
-    } else {
-        koksma__run_state_put_job(state, job, task, results);
-    }
-    free(results);
+    const koksma__outcome head = {kind, number, size};
+    KOKSMA__TRY(koksma__reserve(&to->bytes, &to->capacity, to->size + sizeof head + size, 1));
+    memcpy(to->bytes + to->size, &head, sizeof head);
+    memcpy(to->bytes + to->size + sizeof head, payload, size);
+    to->size += sizeof head + size;
+    return KOKSMA_OK;
 }
 
-static void do_tile(koksma__run_state *state, size_t i)
+static koksma_status append_failure(koksma__outcomes *to, koksma__outcome_kind kind, size_t number)
+{
+    char text[KOKSMA__FAILURE_TEXT] = "";
+    snprintf(text, sizeof text, "%s", koksma_error_text());
+    return append(to, kind, number, text, sizeof text);
+}
+
+static koksma_status do_job(const koksma__tasks *tasks, size_t job, const koksma_run *run, koksma__outcomes *to)
+{
+    long long trial;
+    const koksma__task *task = koksma__tasks_job(tasks, job, &trial);
+    const size_t size = task->n_series * sizeof(koksma__result);
+    koksma__result *results = calloc(1, size);
+    KOKSMA__REQUIRE_MEMORY(results, size);
+    koksma_status status = koksma__task_do(tasks->study, task, trial, run, results);
+    if (koksma__task_failed_alone(tasks->study, status)) {
+        status = append_failure(to, KOKSMA__OUTCOME_FAILURE, job);
+    } else if (!status) {
+        status = append(to, KOKSMA__OUTCOME_RESULTS, job, results, size);
+    }
+    free(results);
+    return status;
+}
+
+static koksma_status do_tile(const koksma__tasks *tasks, const koksma__assignment *assignment, const koksma_run *run,
+                             koksma__outcomes *to)
 {
     koksma__replicates sums = {0};
-    const koksma_status status =
-        koksma__tile_do(state->phase->tasks->study, &state->tiles.at[i], &state->phase->control->job, &sums);
-    if (status) {
-        koksma__run_state_stop(state, status, koksma_error_text());
-    } else {
-        koksma__run_state_put_tile(state, i, &sums);
+    const koksma__reference_image *reference = &tasks->study->references[assignment->tile.reference];
+    const bool failed = reference->failed;
+    koksma_status status = koksma__tile_do(tasks->study, &assignment->tile, run, &sums);
+    if (!status && reference->failed && !failed) {
+        status = append_failure(to, KOKSMA__OUTCOME_NO_REFERENCE, assignment->tile.reference);
+    }
+    if (!status) {
+        status = append(to, KOKSMA__OUTCOME_TILE, assignment->number, sums.sum,
+                        koksma__replicates_numbers(&sums) * sizeof *sums.sum);
     }
     free(sums.sum);
+    return status;
+}
+
+koksma_status koksma__do_assignment(const koksma__tasks *tasks, const koksma__assignment *assignment,
+                                    const koksma_run *run, koksma__outcomes *to)
+{
+    return assignment->kind == KOKSMA__ASSIGN_JOB ? do_job(tasks, assignment->number, run, to)
+                                                  : do_tile(tasks, assignment, run, to);
 }
 
 void koksma__work(koksma__run_state *state, bool redo)
@@ -271,6 +316,7 @@ void koksma__work(koksma__run_state *state, bool redo)
     const bool asks = pthread_equal(pthread_self(), control->caller);
     double since_s = koksma__now_s(), took_s = 0;
     koksma__assignment assignment;
+    koksma__outcomes outcomes = {0};
     for (;;) {
         if (asks && !koksma__keep_going(&control->run, koksma__run_state_fraction(state))) {
             koksma__run_state_stop(state, KOKSMA_INTERRUPTED, "interrupted");
@@ -280,11 +326,19 @@ void koksma__work(koksma__run_state *state, bool redo)
         const bool late = redo && koksma__now_s() - since_s > 1 + 20 * took_s;
         if (koksma__run_state_take(state, late, &assignment)) {
             const double start_s = koksma__now_s();
-            (assignment.kind == KOKSMA__ASSIGN_JOB ? do_job : do_tile)(state, assignment.number);
+            outcomes.size = 0;
+            const koksma_status status =
+                koksma__do_assignment(state->phase->tasks, &assignment, &control->job, &outcomes);
+            if (status) {
+                koksma__run_state_stop(state, status, koksma_error_text());
+            } else {
+                koksma__run_state_put(state, &outcomes);
+            }
             koksma__phase_was_busy(state->phase, start_s);
             since_s = koksma__now_s();
             took_s = since_s - start_s;
         } else if (koksma__run_state_is_over(state)) {
+            free(outcomes.bytes);
             return;
         } else {
             koksma__mpi_rest(REST_S);
