@@ -182,8 +182,9 @@ void koksma__reference_pixels(const koksma_image *image, char text[KOKSMA__SHA25
     koksma__sha256_finish(&hash, text);
 }
 
-koksma_status koksma__replicates_done(koksma__replicates *s, koksma__reference_image *reference,
-                                      koksma__reference_row *row)
+/* Sets the reference's pixels to the mean of all replicates, and fills *row for the store. Frees the sums. */
+static koksma_status make_pixels(koksma__replicates *s, koksma__reference_image *reference,
+                                 koksma__reference_row *row)
 {
     const koksma_status status =
         koksma__replicates_mean(s, reference->width, reference->height, &reference->image, &row->standard_error);
@@ -203,12 +204,12 @@ koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *stu
     koksma__reference_row row;
     koksma_status status;
     if (study->sink) {
-        status = koksma__replicates_done(s, reference, &row);
+        status = make_pixels(s, reference, &row);
         return status ? status : study->sink->put_reference(study->sink->context, reference, &row);
     }
     snprintf(path, sizeof path, "%s/references", study->folder);
     status = koksma__atomic_folder(path);
-    status = status ? status : koksma__replicates_done(s, reference, &row);
+    status = status ? status : make_pixels(s, reference, &row);
     const koksma__series key = koksma__reference_key(reference, name);
     status = status ? status : koksma__store_put_reference(study->store, &key, &row);
     status = status ? status : koksma__store_commit(study->store);

@@ -57,11 +57,7 @@ koksma_status koksma__reference_replicate(const koksma__reference_image *referen
    32 bits. */
 void koksma__reference_pixels(const koksma_image *image, char text[KOKSMA__SHA256_TEXT]);
 
-/* Sets the reference's pixels to the mean of all replicates, and fills *row for the store. Frees the sums. */
-koksma_status koksma__replicates_done(koksma__replicates *sums, koksma__reference_image *reference,
-                                      koksma__reference_row *row);
-
-/* Calls koksma__replicates_done, then writes the reference's file and its row of the store, or passes both to the
+/* Sets the reference's pixels to the mean of all replicates, and frees the sums; then writes the reference's file and its row of the store, or passes both to the
    study's sink. */
 koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *study,
                                         koksma__reference_image *reference);

@@ -151,9 +151,6 @@ typedef struct koksma__phase {
     double others_s;       /* processor time of the other ranks */
 } koksma__phase;
 
-/* Adds the time since start_s to the busy time of the workers. */
-void koksma__phase_was_busy(koksma__phase *phase, double start_s);
-
 typedef struct koksma__run_state {
     koksma__phase *phase;
     pthread_mutex_t lock; /* guards the following fields */
@@ -228,7 +225,7 @@ koksma_status koksma__work_threads(koksma__phase *phase);
 /* ---- MPI ----------------------------------------------------------------------------------------------------- */
 
 /*
- * The messages between the ranks of an MPI run (sent by transport.h). Rank 0 holds the store: it sends tiles of
+ * The messages between the ranks of an MPI run (sent by mpi.h). Rank 0 holds the store: it sends tiles of
  * references and jobs in batches, one batch for each request, and does some itself on a second thread; only its
  * first thread sends and receives. The other ranks have the plan and hence the same list of jobs, so a job is
  * identified by its number. Ranks get reference images from rank 0 when they first need them, so that only the

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The state of a phase: two queues (work_queue.h) under one lock. One holds tiles of reference images; the other
+/* The state of a phase: two queues (work_queue.c) under one lock. One holds tiles of reference images; the other
    holds jobs, which are ready when the references that they are compared with are complete. An assignment counts as
    taken until its result arrives. The assignment of a lost rank can be handed out again: if two results arrive, the
    second is discarded. */
@@ -13,11 +13,6 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
-
-void koksma__phase_was_busy(koksma__phase *phase, double start_s)
-{
-    atomic_fetch_add(&phase->busy_ns, (unsigned long long)(1e9 * (koksma__now_s() - start_s)));
-}
 
 void koksma__run_state_stop(koksma__run_state *state, koksma_status status, const char *text)
 {
@@ -334,9 +329,9 @@ void koksma__work(koksma__run_state *state, bool redo)
             } else {
                 koksma__run_state_put(state, &outcomes);
             }
-            koksma__phase_was_busy(state->phase, start_s);
             since_s = koksma__now_s();
             took_s = since_s - start_s;
+            atomic_fetch_add(&state->phase->busy_ns, (unsigned long long)(1e9 * took_s));
         } else if (koksma__run_state_is_over(state)) {
             free(outcomes.bytes);
             return;

@@ -27,7 +27,10 @@
    a reference over a kilobyte. */
 static const long long MOST_TASKS = 1 << 18, MOST_SERIES = 1 << 21, MOST_REFERENCES = 1 << 16;
 
-koksma_status koksma__task_limits_check(const koksma_study *study)
+/* Checks the sums over all blocks from the lengths of their lists: of tasks, of series, and of references. The sums have
+   what a block leaves out, and what blocks share once for each. The plan of an audit is not checked: rows of the store are
+   behind each of its tasks, series and references, so that it is at most some times as long as the store. */
+static koksma_status check_limits(const koksma_study *study)
 {
     const koksma__plan *plan = &study->plan;
     double tasks = 0, series = 0, references = 0;
@@ -264,7 +267,7 @@ koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks
 {
     const koksma__plan *plan = &study->plan;
     *tasks = (koksma__tasks){.study = study};
-    koksma_status status = koksma__task_limits_check(study);
+    koksma_status status = check_limits(study);
     for (size_t b = 0; !images && !status && b < plan->n_discrepancies; b++) {
         status = add_discrepancies(tasks, &plan->discrepancies[b]);
     }

@@ -104,10 +104,4 @@ bool koksma__ends_all(koksma_status status);
    an audit, after any failure that does not end all jobs. */
 bool koksma__task_failed_alone(const koksma_study *study, koksma_status status);
 
-/* Checks the sums over all blocks from the lengths of their lists: of tasks (tasks.h), of series, and of references. The
-   sums have what a block leaves out, and what blocks share once for each. The plan of an audit is not checked: rows of the
-   store are behind each of its tasks, series and references, so that it is at most some times as long as the store.
-   Errors: ARGUMENT. */
-koksma_status koksma__task_limits_check(const koksma_study *study);
-
 #endif

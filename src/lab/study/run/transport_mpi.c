@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The module koksma-mpi.so, which implements transport.h with MPI. */
+/* The module koksma-mpi.so, which implements koksma__transport of mpi.h. */
 #include <mpi.h>
 
 #include "study/run/mpi.h"
