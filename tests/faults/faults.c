@@ -91,50 +91,37 @@ bool fault_here(fault_kind kind, bool *half)
     return true;
 }
 
-/* ---- Memory -------------------------------------------------------------------------------------------- */
+/* ---- Calls that only fail ------------------------------------------------------------------------------ */
 
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t n, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
-char *__real_strdup(const char *text);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t n, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
-char *__wrap_strdup(const char *text);
-
-static bool no_memory(void)
-{
-    const bool fails = fault_here(FAULT_MEMORY, NULL);
-    errno = fails ? ENOMEM : errno;
-    return fails;
-}
-
-void *__wrap_malloc(size_t size)
-{
-    return no_memory() ? NULL : __real_malloc(size);
-}
-
-void *__wrap_calloc(size_t n, size_t size)
-{
-    return no_memory() ? NULL : __real_calloc(n, size);
-}
-
-void *__wrap_realloc(void *old, size_t size)
-{
-    return no_memory() ? NULL : __real_realloc(old, size);
-}
-
-void *__wrap_aligned_alloc(size_t alignment, size_t size)
-{
-    return no_memory() ? NULL : __real_aligned_alloc(alignment, size);
-}
-
-char *__wrap_strdup(const char *text)
-{
-    return no_memory() ? NULL : __real_strdup(text);
-}
+/* A call: it fails with `code` in errno and returns `failed`, or is the usual one. */
+#define WRAP(type, name, parameters, arguments, kind, code, failed)                                                  \
+    type __real_##name parameters;                                                                                   \
+    type __wrap_##name parameters;                                                                                   \
+    type __wrap_##name parameters                                                                                    \
+    {                                                                                                                \
+        const bool fails = fault_here(kind, NULL);                                                                   \
+        errno = fails ? (code) : errno;                                                                              \
+        return fails ? (failed) : __real_##name arguments;                                                           \
+    }
+WRAP(void *, malloc, (size_t size), (size), FAULT_MEMORY, ENOMEM, NULL)
+WRAP(void *, calloc, (size_t n, size_t size), (n, size), FAULT_MEMORY, ENOMEM, NULL)
+WRAP(void *, realloc, (void *old, size_t size), (old, size), FAULT_MEMORY, ENOMEM, NULL)
+WRAP(void *, aligned_alloc, (size_t alignment, size_t size), (alignment, size), FAULT_MEMORY, ENOMEM, NULL)
+WRAP(char *, strdup, (const char *text), (text), FAULT_MEMORY, ENOMEM, NULL)
+/* The bits of a new file are in their register whether the caller gave them or not. */
+WRAP(int, open, (const char *path, int flags, mode_t bits), (path, flags, bits), FAULT_OPEN, EMFILE, -1)
+WRAP(int, openat, (int folder, const char *path, int flags, mode_t bits), (folder, path, flags, bits), FAULT_OPEN,
+     EMFILE, -1)
+WRAP(int, memfd_create, (const char *name, unsigned flags), (name, flags), FAULT_OPEN, EMFILE, -1)
+WRAP(int, mkdir, (const char *path, mode_t bits), (path, bits), FAULT_OPEN, ENOSPC, -1)
+WRAP(int, fsync, (int descriptor), (descriptor), FAULT_SYNC, EIO, -1)
+WRAP(int, renameat, (int from_folder, const char *from, int folder, const char *to), (from_folder, from, folder, to),
+     FAULT_RENAME, EACCES, -1)
+WRAP(int, renameat2, (int from_folder, const char *from, int folder, const char *to, unsigned flags),
+     (from_folder, from, folder, to, flags), FAULT_RENAME, EACCES, -1)
+WRAP(int, pthread_create, (pthread_t * thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument),
+     (thread, attributes, f, argument), FAULT_THREAD, EAGAIN, EAGAIN)
+#undef WRAP
 
 /* jansson 2.14 writes past its buffer where it doesn't get the memory for a longer string. That buffer grows by
    powers of two from 32 on; requests of those sizes, its tables' among them, are not made to fail. */
@@ -156,30 +143,14 @@ FILE *__real_fopen(const char *path, const char *how);
 FILE *__real_fdopen(int descriptor, const char *how);
 int __real_fclose(FILE *stream);
 FILE *__real_fopencookie(void *cookie, const char *how, cookie_io_functions_t functions);
-int __real_open(const char *path, int flags, ...);
-int __real_openat(int folder, const char *path, int flags, ...);
-int __real_memfd_create(const char *name, unsigned flags);
 ssize_t __real_write(int descriptor, const void *bytes, size_t size);
-int __real_fsync(int descriptor);
-int __real_renameat(int from_folder, const char *from, int folder, const char *to);
-int __real_renameat2(int from_folder, const char *from, int folder, const char *to, unsigned flags);
 int __real_close(int descriptor);
-int __real_mkdir(const char *path, mode_t bits);
-int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
 FILE *__wrap_fopen(const char *path, const char *how);
 FILE *__wrap_fdopen(int descriptor, const char *how);
 int __wrap_fclose(FILE *stream);
 FILE *__wrap_fopencookie(void *cookie, const char *how, cookie_io_functions_t functions);
-int __wrap_open(const char *path, int flags, ...);
-int __wrap_openat(int folder, const char *path, int flags, ...);
-int __wrap_memfd_create(const char *name, unsigned flags);
 ssize_t __wrap_write(int descriptor, const void *bytes, size_t size);
-int __wrap_fsync(int descriptor);
-int __wrap_renameat(int from_folder, const char *from, int folder, const char *to);
-int __wrap_renameat2(int from_folder, const char *from, int folder, const char *to, unsigned flags);
 int __wrap_close(int descriptor);
-int __wrap_mkdir(const char *path, mode_t bits);
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
 
 static ssize_t read_below(void *cookie, char *bytes, size_t size)
 {
@@ -279,37 +250,6 @@ int __wrap_fclose(FILE *stream)
     return code;
 }
 
-static mode_t mode_in(int flags, va_list list)
-{
-    return flags & O_CREAT ? va_arg(list, mode_t) : 0;
-}
-
-int __wrap_open(const char *path, int flags, ...)
-{
-    va_list list;
-    if (fault_here(FAULT_OPEN, NULL)) {
-        errno = EMFILE;
-        return -1;
-    }
-    va_start(list, flags);
-    const int descriptor = __real_open(path, flags, mode_in(flags, list));
-    va_end(list);
-    return descriptor;
-}
-
-int __wrap_openat(int folder, const char *path, int flags, ...)
-{
-    va_list list;
-    if (fault_here(FAULT_OPEN, NULL)) {
-        errno = EMFILE;
-        return -1;
-    }
-    va_start(list, flags);
-    const int descriptor = __real_openat(folder, path, flags, mode_in(flags, list));
-    va_end(list);
-    return descriptor;
-}
-
 FILE *__wrap_fopencookie(void *cookie, const char *how, cookie_io_functions_t functions)
 {
     if (fault_here(FAULT_OPEN, NULL)) {
@@ -334,30 +274,6 @@ ssize_t __wrap_write(int descriptor, const void *bytes, size_t size)
     return __real_write(descriptor, bytes, size);
 }
 
-int __wrap_fsync(int descriptor)
-{
-    if (fault_here(FAULT_SYNC, NULL)) {
-        errno = EIO;
-        return -1;
-    }
-    return __real_fsync(descriptor);
-}
-
-int __wrap_renameat(int from_folder, const char *from, int folder, const char *to)
-{
-    return __wrap_renameat2(from_folder, from, folder, to, 0);
-}
-
-int __wrap_renameat2(int from_folder, const char *from, int folder, const char *to, unsigned flags)
-{
-    if (fault_here(FAULT_RENAME, NULL)) {
-        errno = EACCES;
-        return -1;
-    }
-    return flags ? __real_renameat2(from_folder, from, folder, to, flags)
-                 : __real_renameat(from_folder, from, folder, to);
-}
-
 int __wrap_close(int descriptor)
 {
     const int code = __real_close(descriptor);
@@ -366,29 +282,6 @@ int __wrap_close(int descriptor)
         return -1;
     }
     return code;
-}
-
-int __wrap_mkdir(const char *path, mode_t bits)
-{
-    if (fault_here(FAULT_OPEN, NULL)) {
-        errno = ENOSPC;
-        return -1;
-    }
-    return __real_mkdir(path, bits);
-}
-
-int __wrap_memfd_create(const char *name, unsigned flags)
-{
-    if (fault_here(FAULT_OPEN, NULL)) {
-        errno = EMFILE;
-        return -1;
-    }
-    return __real_memfd_create(name, flags);
-}
-
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument)
-{
-    return fault_here(FAULT_THREAD, NULL) ? EAGAIN : __real_pthread_create(thread, attributes, f, argument);
 }
 
 /* ---- Before main, and at the end ----------------------------------------------------------------------- */

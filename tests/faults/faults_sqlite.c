@@ -38,11 +38,6 @@ static int on_close(sqlite3_file *f)
     return below(f)->pMethods->xClose(below(f));
 }
 
-static int on_read(sqlite3_file *f, void *bytes, int size, sqlite3_int64 at)
-{
-    return fault_here(FAULT_DB, NULL) ? SQLITE_IOERR_READ : below(f)->pMethods->xRead(below(f), bytes, size, at);
-}
-
 static int on_write(sqlite3_file *f, const void *bytes, int size, sqlite3_int64 at)
 {
     bool half = false;
@@ -56,38 +51,25 @@ static int on_write(sqlite3_file *f, const void *bytes, int size, sqlite3_int64 
     return below(f)->pMethods->xWrite(below(f), bytes, size, at);
 }
 
-static int on_truncate(sqlite3_file *f, sqlite3_int64 size)
-{
-    if (fault_here(FAULT_DB, NULL)) {
-        return SQLITE_IOERR_TRUNCATE;
+/* A method of a file: it fails with `code`, or is the usual one. */
+#define METHOD(name, method, parameters, arguments, code)                                                            \
+    static int name parameters                                                                                       \
+    {                                                                                                                \
+        return fault_here(FAULT_DB, NULL) ? (code) : below(f)->pMethods->method arguments;                           \
     }
-    return below(f)->pMethods->xTruncate(below(f), size);
-}
-
-static int on_sync(sqlite3_file *f, int flags)
-{
-    return fault_here(FAULT_DB, NULL) ? SQLITE_IOERR_FSYNC : below(f)->pMethods->xSync(below(f), flags);
-}
-
-static int on_size(sqlite3_file *f, sqlite3_int64 *size)
-{
-    return fault_here(FAULT_DB, NULL) ? SQLITE_IOERR_FSTAT : below(f)->pMethods->xFileSize(below(f), size);
-}
-
-static int on_lock(sqlite3_file *f, int level)
-{
-    return fault_here(FAULT_DB, NULL) ? SQLITE_IOERR_LOCK : below(f)->pMethods->xLock(below(f), level);
-}
+METHOD(on_read, xRead, (sqlite3_file * f, void *bytes, int size, sqlite3_int64 at), (below(f), bytes, size, at),
+       SQLITE_IOERR_READ)
+METHOD(on_truncate, xTruncate, (sqlite3_file * f, sqlite3_int64 size), (below(f), size), SQLITE_IOERR_TRUNCATE)
+METHOD(on_sync, xSync, (sqlite3_file * f, int flags), (below(f), flags), SQLITE_IOERR_FSYNC)
+METHOD(on_size, xFileSize, (sqlite3_file * f, sqlite3_int64 *size), (below(f), size), SQLITE_IOERR_FSTAT)
+METHOD(on_lock, xLock, (sqlite3_file * f, int level), (below(f), level), SQLITE_IOERR_LOCK)
+METHOD(on_check_lock, xCheckReservedLock, (sqlite3_file * f, int *locked), (below(f), locked),
+       SQLITE_IOERR_CHECKRESERVEDLOCK)
+#undef METHOD
 
 static int on_unlock(sqlite3_file *f, int level)
 {
     return below(f)->pMethods->xUnlock(below(f), level);
-}
-
-static int on_check_lock(sqlite3_file *f, int *locked)
-{
-    return fault_here(FAULT_DB, NULL) ? SQLITE_IOERR_CHECKRESERVEDLOCK
-                                      : below(f)->pMethods->xCheckReservedLock(below(f), locked);
 }
 
 static int on_control(sqlite3_file *f, int what, void *argument)
