@@ -2,7 +2,7 @@
 /*
  * principled: one material for rough metals and coated diffuse surfaces, with the parameters of glTF 2.0 (appendix
  * B): base colour c (the albedo), metallic value m, roughness, index of refraction. It has GGX facets with a =
- * roughness^2, as in bsdf_ggx.c, above a diffuse part; the facets' reflectance reduces the light of the diffuse part
+ * roughness^2, as in bsdf_metals.c, above a diffuse part; the facets' reflectance reduces the light of the diffuse part
  * both on entering and on leaving (Ashikhmin & Shirley 2000):
  *
  *     f cos = D F G2 / (4 n.out) + (1 - m) c / pi (1 - S(n.out)) (1 - S(n.w)) cos
@@ -14,7 +14,6 @@
  * part is lost. A direction is sampled from the facets with a probability that is estimated from their reflectance,
  * and otherwise from the diffuse lobe; if both lobes exist, each has a probability of at least .1.
  */
-#include "render/materials/facets.h"
 #include "render/materials/lobes.h"
 
 /* The reflectance F0 at normal incidence has three numbers (red, green, blue). prepare() sets these derived numbers;

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reflection lobes that several materials share. */
+/*
+ * The formulas of the lobes that materials share, for single rays (bsdf_*.c) and, by value, for loops over lanes
+ * (batch_materials.c): Lambert's law, the cosine lobe, and microfacets.
+ */
 #ifndef KOKSMA_RENDER_MATERIALS_LOBES_H
 #define KOKSMA_RENDER_MATERIALS_LOBES_H
 
-#include "render/lanes3.h"
 #include "render/materials/materials.h"
 #include "render/vector3.h"
 
@@ -14,58 +16,11 @@ KOKSMA__INLINE float koksma__lambert_pdf(float cosine)
     return cosine > 0 ? cosine * (1 / KOKSMA__PI_F) : 0;
 }
 
-static inline float koksma__lambert_value(const koksma__surface *s, const float w[3], float value[3])
+/* value() of a purely specular surface, whose lobes cannot be evaluated for a given direction. */
+static inline float koksma__specular_value(const koksma__surface *s, const float w[3], unsigned lobes, float value[3])
 {
-    const float pdf = koksma__lambert_pdf(koksma__dot3(s->n, w));
-    for (int k = 0; k < 3; k++) {
-        value[k] += s->albedo[k] * pdf;
-    }
-    return pdf;
-}
-
-/* value() and sample() of a purely Lambert surface. */
-static inline float koksma__lambert_bsdf_value(const koksma__surface *s, const float w[3], unsigned lobes,
-                                               float value_out[3])
-{
-    return lobes & KOKSMA__LOBE_DIFFUSE ? koksma__lambert_value(s, w, value_out) : 0;
-}
-
-static inline bool koksma__lambert_bsdf_sample(const koksma__surface *s, unsigned lobes, const float u[2],
-                                               float choice, koksma__scatter *out)
-{
-    (void)choice;
-    if (!(lobes & KOKSMA__LOBE_DIFFUSE)) {
-        return false;
-    }
-    koksma__cosine_direction(s->n, u, out->w);
-    out->pdf = koksma__lambert_pdf(koksma__dot3(s->n, out->w));
-    out->lobe = KOKSMA__LOBE_DIFFUSE;
-    for (int k = 0; k < 3; k++) {
-        out->weight[k] = s->albedo[k];
-    }
-    return out->pdf > 0;
-}
-
-/* value() of a purely specular surface. */
-static inline float koksma__specular_bsdf_value(const koksma__surface *s, const float w[3], unsigned lobes,
-                                                float value_out[3])
-{
-    (void)s, (void)w, (void)lobes, (void)value_out;
+    (void)s, (void)w, (void)lobes, (void)value;
     return 0;
-}
-
-/* Fresnel's reflectance for unpolarised light. ratio: the index on this side divided by the index on the other side;
-   *inner: the cosine of the refracted ray, 0 for total reflection. */
-static inline float koksma__reflected_share(float cosine, float ratio, float *inner)
-{
-    const float square = 1 - (1 - cosine * cosine) * ratio * ratio;
-    *inner = square > 0 ? sqrtf(square) : 0;
-    if (!(square > 0)) {
-        return 1;
-    }
-    const float across = (ratio * cosine - *inner) / (ratio * cosine + *inner);
-    const float along = (cosine - ratio * *inner) / (cosine + ratio * *inner);
-    return 0.5f * (across * across + along * along);
 }
 
 /* The cosine lobe of Shirley (1991, section 5.5.6): directions about the mirrored one with density (e + 1) / (2 pi)
@@ -89,17 +44,79 @@ KOKSMA__INLINE koksma__v3 koksma__lobe_direction(koksma__v3 n, koksma__v3 out, f
     return koksma__v3_about(koksma__v3_mirror(out, n), sine * x, sine * y, cosine);
 }
 
-static inline float koksma__cosine_lobe_pdf(const koksma__surface *s, float exponent, const float w[3])
+/* ---- Facets ------------------------------------------------------------------------------------------------- */
+
+/*
+ * GGX facets; bsdf_metals.c documents the model.
+ *
+ * D = a^2 / (pi t^2) with t = (n.h)^2 (a^2 - 1) + 1, which is (n.h)^2 a^2 + |n x h|^2: for small a the first form is
+ * a difference of two numbers near 1. The second form gives D with a relative error of 3e-5 at roughness 0.03 and of
+ * 3 % at roughness 0.001, where rounding to floats changes directions by a tenth of a.
+ */
+
+/* A surface of facets seen from `out`; a: the squared roughness. */
+typedef struct koksma__facets {
+    koksma__v3 n, out;
+    float a;
+} koksma__facets;
+
+/* The terms for light from a direction: the direction's density D G1 / (4 n.out), the ratio G2 / G1, and the cosine
+   at the facet. */
+typedef struct koksma__facet_terms {
+    float pdf, ratio, at_facet;
+} koksma__facet_terms;
+
+KOKSMA__INLINE koksma__facets koksma__facets_of(koksma__v3 n, koksma__v3 out, float roughness)
 {
-    return koksma__lobe_pdf(koksma__v3_of(s->n), koksma__v3_of(s->out), exponent, koksma__v3_of(w));
+    return (koksma__facets){n, out, roughness * roughness};
 }
 
-/* Returns false if the direction is below the surface. */
-static inline bool koksma__cosine_lobe_direction(const koksma__surface *s, float exponent, const float u[2],
-                                                 float w[3])
+/* Smith's lambda. */
+KOKSMA__INLINE float koksma__facet_lambda(float cosine, float a)
 {
-    koksma__v3_to(koksma__lobe_direction(koksma__v3_of(s->n), koksma__v3_of(s->out), exponent, u[0], u[1]), w);
-    return koksma__dot3(s->n, w) > 0;
+    const float square = cosine * cosine;
+    return 0.5f * (sqrtf(1 + a * a * ((1 - square) / square)) - 1);
+}
+
+KOKSMA__INLINE koksma__facet_terms koksma__facet_terms_of(const koksma__facets *f, koksma__v3 w)
+{
+    const float from = koksma__v3_dot(f->n, w), to = koksma__v3_dot(f->n, f->out), a = f->a;
+    const koksma__v3 h = koksma__v3_unit(koksma__v3_add(w, f->out)), across = koksma__v3_cross(f->n, h);
+    const float cosine = koksma__v3_dot(f->n, h);
+    const float part = (cosine * cosine + koksma__v3_dot(across, across) / (a * a)) * a;
+    const float l_to = koksma__facet_lambda(to, a), l_from = koksma__facet_lambda(from, a);
+    const float pdf = 1 / (3.14159265358979f * part * part) / (1 + l_to) / (4 * to);
+    const int above = (from > 0) & (to > 0);
+    return (koksma__facet_terms){above ? pdf : 0, above ? (1 + l_to) / (1 + l_to + l_from) : 0,
+                                 above ? koksma__v3_dot(h, w) : 0};
+}
+
+/* Schlick's approximation of the reflectance at the facet. */
+KOKSMA__INLINE float koksma__schlick(float reflectance, float at_facet)
+{
+    const float rest = 1 - at_facet, square = rest * rest;
+    return reflectance + (1 - reflectance) * (square * square * rest);
+}
+
+/* Samples the direction mirrored at a visible facet (Heitz 2018, listing 1). */
+KOKSMA__INLINE koksma__v3 koksma__facet_direction(const koksma__facets *f, float u, float v)
+{
+    const koksma__v3 n = f->n, x_axis = koksma__v3_about(n, 1, 0, 0), y_axis = koksma__v3_about(n, 0, 1, 0);
+    const koksma__v3 s = koksma__v3_unit((koksma__v3){
+        f->a * koksma__v3_dot(x_axis, f->out), f->a * koksma__v3_dot(y_axis, f->out), koksma__v3_dot(n, f->out)});
+    const float square = s.x * s.x + s.y * s.y, scale = 1 / sqrtf(square > 0 ? square : 1);
+    const koksma__v3 t1 = {square > 0 ? -s.y * scale : 1, square > 0 ? s.x * scale : 0, 0};
+    const koksma__v3 t2 = koksma__v3_cross(s, t1);
+    const float radius = sqrtf(u), part = 0.5f * (1 + s.z);
+    float sine, cosine;
+    koksma__sine_cosine_turns(v, &sine, &cosine);
+    const float x = radius * cosine, side = 1 - x * x;
+    const float y = (1 - part) * sqrtf(side > 0 ? side : 0) + part * radius * sine;
+    const float rest = 1 - x * x - y * y, z = sqrtf(rest > 0 ? rest : 0);
+    const float hz = x * t1.z + y * t2.z + z * s.z;
+    const koksma__v3 h = koksma__v3_unit((koksma__v3){
+        f->a * (x * t1.x + y * t2.x + z * s.x), f->a * (x * t1.y + y * t2.y + z * s.y), hz > 1e-6f ? hz : 1e-6f});
+    return koksma__v3_mirror(f->out, koksma__v3_about(n, h.x, h.y, h.z));
 }
 
 #endif

@@ -27,7 +27,7 @@ typedef enum koksma__material_form {
     KOKSMA__FORM_RAYS,    /* no formula: value() and sample() are called for each ray */
     KOKSMA__FORM_LAMBERT, /* albedo */
     KOKSMA__FORM_LOBES,   /* Lambert and a cosine lobe; `derived` is the fraction of directions that Lambert gets */
-    KOKSMA__FORM_FACETS,  /* facets.h */
+    KOKSMA__FORM_FACETS,  /* lobes.h */
     KOKSMA__N_FORMS
 } koksma__material_form;
 

@@ -7,7 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "render/materials/facets.h"
 #include "render/materials/lobes.h"
 #include "render/pipelines/batch_kernel.h"
 #include "render/pipelines/vertices.h"
