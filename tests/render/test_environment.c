@@ -3,20 +3,40 @@
 #include <float.h>
 #include <string.h>
 
-#include "render/lights/light_environment.h"
+#include "render/lights/lights.h"
 #include "rendering.h"
 
 enum { WIDTH = 8, HEIGHT = 4 };
 
-static koksma__environment *opened(koksma_image *image, double scale, double angle_rad)
+static koksma__shading_light opened(koksma_image *image, double scale, double angle_rad)
 {
-    const koksma__light light = {.kind = &koksma__light_environment,
-                                 .radiance = {scale, scale, scale},
-                                 .angle_rad = angle_rad,
-                                 .image = image};
-    koksma__environment *e = NULL;
-    assert_ok(koksma__environment_open(&light, &e));
+    const koksma__light light = {.radiance = {scale, scale, scale}, .angle_rad = angle_rad, .image = image};
+    koksma__shading_light e = {.kind = &koksma__light_environment};
+    assert_ok(e.kind->open(NULL, &light, &e));
     return e;
+}
+
+static void radiance_along(const koksma__shading_light *e, const float w[3], float rgb[3])
+{
+    e->kind->radiance(e, w, rgb);
+}
+
+static float pdf_of(const koksma__shading_light *e, const float w[3])
+{
+    return e->kind->pdf(e, w, w, 0, w);
+}
+
+static float sample_of(const koksma__shading_light *e, const float u[2], float w[3])
+{
+    koksma__beam beam;
+    e->kind->sample(e, w, u, &beam);
+    memcpy(w, beam.w, sizeof beam.w);
+    return beam.pdf;
+}
+
+static void closed(koksma__shading_light *e)
+{
+    e->kind->close(e->data);
 }
 
 /* Pixel i has the radiance i + 1 in red. */
@@ -35,11 +55,11 @@ static double solid_angle(int row)
     return 2 * M_PI / WIDTH * (cos(M_PI * row / HEIGHT) - cos(M_PI * (row + 1) / HEIGHT));
 }
 
-static int pixel_along(const koksma__environment *e, float x, float y, float z)
+static int pixel_along(const koksma__shading_light *e, float x, float y, float z)
 {
     const float length = sqrtf(x * x + y * y + z * z), w[3] = {x / length, y / length, z / length};
     float rgb[3];
-    koksma__environment_radiance(e, w, rgb);
+    radiance_along(e, w, rgb);
     return (int)lrintf(rgb[0]) - 1;
 }
 
@@ -48,22 +68,22 @@ static void pixels_are_where_they_should_be(void **state)
 {
     (void)state;
     koksma_image image = numbered();
-    koksma__environment *e = opened(&image, 1, 0);
-    assert_int_equal(pixel_along(e, 0.001f, 1, -0.01f) / WIDTH, 0);
-    assert_int_equal(pixel_along(e, 0.001f, -1, -0.01f) / WIDTH, HEIGHT - 1);
-    assert_int_equal(pixel_along(e, -0.1f, 0.1f, -1), WIDTH + WIDTH / 2 - 1);
-    assert_int_equal(pixel_along(e, 0.1f, 0.1f, -1), WIDTH + WIDTH / 2);
-    assert_int_equal(pixel_along(e, 1, 0.1f, -0.1f), WIDTH + 3 * WIDTH / 4 - 1);
-    assert_int_equal(pixel_along(e, 1, -0.1f, 0.1f), 2 * WIDTH + 3 * WIDTH / 4);
-    assert_int_equal(pixel_along(e, 0.1f, 0.1f, 1), WIDTH + WIDTH - 1);
-    assert_int_equal(pixel_along(e, -0.1f, 0.1f, 1), WIDTH);
-    koksma__environment_close(e);
+    koksma__shading_light e = opened(&image, 1, 0);
+    assert_int_equal(pixel_along(&e, 0.001f, 1, -0.01f) / WIDTH, 0);
+    assert_int_equal(pixel_along(&e, 0.001f, -1, -0.01f) / WIDTH, HEIGHT - 1);
+    assert_int_equal(pixel_along(&e, -0.1f, 0.1f, -1), WIDTH + WIDTH / 2 - 1);
+    assert_int_equal(pixel_along(&e, 0.1f, 0.1f, -1), WIDTH + WIDTH / 2);
+    assert_int_equal(pixel_along(&e, 1, 0.1f, -0.1f), WIDTH + 3 * WIDTH / 4 - 1);
+    assert_int_equal(pixel_along(&e, 1, -0.1f, 0.1f), 2 * WIDTH + 3 * WIDTH / 4);
+    assert_int_equal(pixel_along(&e, 0.1f, 0.1f, 1), WIDTH + WIDTH - 1);
+    assert_int_equal(pixel_along(&e, -0.1f, 0.1f, 1), WIDTH);
+    closed(&e);
     /* A quarter turn about y takes -z to -x and +x to -z. */
     e = opened(&image, 1, M_PI / 2);
-    assert_int_equal(pixel_along(e, -1, 0.1f, -0.1f), WIDTH + WIDTH / 2);
-    assert_int_equal(pixel_along(e, -1, 0.1f, 0.1f), WIDTH + WIDTH / 2 - 1);
-    assert_int_equal(pixel_along(e, -0.1f, 0.1f, -1), WIDTH + 3 * WIDTH / 4 - 1);
-    koksma__environment_close(e);
+    assert_int_equal(pixel_along(&e, -1, 0.1f, -0.1f), WIDTH + WIDTH / 2);
+    assert_int_equal(pixel_along(&e, -1, 0.1f, 0.1f), WIDTH + WIDTH / 2 - 1);
+    assert_int_equal(pixel_along(&e, -0.1f, 0.1f, -1), WIDTH + 3 * WIDTH / 4 - 1);
+    closed(&e);
     koksma_image_fini(&image);
 }
 
@@ -73,7 +93,7 @@ static void choosing_is_unbiased(void **state)
     (void)state;
     enum { SIDE = 512 };
     koksma_image image = numbered();
-    koksma__environment *e = opened(&image, 0.5, 1);
+    koksma__shading_light e = opened(&image, 0.5, 1);
     double exact = 0, sum = 0, chosen[WIDTH * HEIGHT] = {0}, all = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         exact += 0.5 * (i + 1) * solid_angle(i / WIDTH);
@@ -82,10 +102,10 @@ static void choosing_is_unbiased(void **state)
     for (int i = 0; i < SIDE * SIDE; i++) {
         const float u[2] = {((float)(i % SIDE) + 0.5f) / SIDE, ((float)(i / SIDE) + 0.5f) / SIDE};
         float w[3], rgb[3];
-        const float density = koksma__environment_sample(e, u, w);
+        const float density = sample_of(&e, u, w);
         assert_near((double)(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), 1, 1e-6);
-        assert_near((double)(koksma__environment_pdf(e, w) / density), 1, 1e-5);
-        koksma__environment_radiance(e, w, rgb);
+        assert_near((double)(pdf_of(&e, w) / density), 1, 1e-5);
+        radiance_along(&e, w, rgb);
         sum += (double)rgb[0] / (double)density;
         chosen[lrintf(2 * rgb[0]) - 1] += 1.0 / SIDE / SIDE;
     }
@@ -94,7 +114,7 @@ static void choosing_is_unbiased(void **state)
         const double share = (i + 1) * sin(M_PI * (i / WIDTH + 0.5) / HEIGHT) / all;
         assert_near(chosen[i], 0.99 * share + 0.01 * solid_angle(i / WIDTH) / (4 * M_PI), 3e-3);
     }
-    koksma__environment_close(e);
+    closed(&e);
     koksma_image_fini(&image);
 }
 
@@ -105,18 +125,18 @@ static void density_is_a_density(void **state)
     enum { ROWS = 400, COLUMNS = 800 };
     koksma_image image = numbered();
     memset(image.pixels, 0, 3 * WIDTH * sizeof *image.pixels);
-    koksma__environment *e = opened(&image, 1, 0.3);
+    koksma__shading_light e = opened(&image, 1, 0.3);
     double sum = 0;
     for (int i = 0; i < ROWS * COLUMNS; i++) {
         const double polar = M_PI * (i / COLUMNS + 0.5) / ROWS, azimuth = 2 * M_PI * (i % COLUMNS + 0.5) / COLUMNS;
         const float w[3] = {(float)(sin(polar) * cos(azimuth)), (float)cos(polar),
                             (float)(sin(polar) * sin(azimuth))};
-        const double density = (double)koksma__environment_pdf(e, w);
+        const double density = (double)pdf_of(&e, w);
         assert_true(density >= 0.0099 / (4 * M_PI));
         sum += density * sin(polar) * (M_PI / ROWS) * (2 * M_PI / COLUMNS);
     }
     assert_near(sum, 1, 2e-3);
-    koksma__environment_close(e);
+    closed(&e);
     koksma_image_fini(&image);
 }
 
@@ -129,27 +149,27 @@ static void odd_pixels_are_dark_or_refused(void **state)
     koksma_image image;
     assert_ok(koksma_image_init(&image, 6, 1, 1));
     memcpy(image.pixels, odd, sizeof odd);
-    koksma__environment *e = opened(&image, 1, 0);
-    assert_float_equal(koksma__environment_mean(e), 0, 0);
+    koksma__shading_light e = opened(&image, 1, 0);
+    assert_float_equal(e.power, 0, 0);
     for (int i = 0; i < 64; i++) {
         const float u[2] = {(float)(i % 8) / 8, (float)(i / 8) / 8};
         float w[3], rgb[3];
-        const float density = koksma__environment_sample(e, u, w);
-        koksma__environment_radiance(e, w, rgb);
+        const float density = sample_of(&e, u, w);
+        radiance_along(&e, w, rgb);
         assert_true(density > 0 && density < 1e6f);
         assert_float_equal(rgb[0] + rgb[1] + rgb[2], 0, 0);
     }
-    koksma__environment_close(e);
+    closed(&e);
     image.pixels[2] = 3; /* grey */
     e = opened(&image, 2, 0);
-    assert_near((double)koksma__environment_mean(e), 3 * 2 / 6.0, 1e-6);
-    koksma__environment_close(e);
+    assert_near((double)e.power, 3 * 2 / 6.0, 1e-6);
+    closed(&e);
     for (size_t i = 0; i < 3; i++) {
-        const koksma__light light = {.kind = &koksma__light_environment, .radiance = {1, 1, 1}, .image = &image};
+        const koksma__light light = {.radiance = {1, 1, 1}, .image = &image};
         image.pixels[4] = bad[i];
-        assert_int_equal(koksma__environment_open(&light, &e), KOKSMA_MALFORMED);
+        assert_int_equal(e.kind->open(NULL, &light, &e), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "pixel 4,0"));
-        koksma__environment_close(e);
+        closed(&e);
     }
     koksma_image_fini(&image);
 }
@@ -167,17 +187,17 @@ static void a_row_at_the_pole_is_whole(void **state)
             for (size_t x = 0; x < 4; x++) {
                 image.pixels[x + (pole ? 4 * (size_t)(height - 1) : 0)] = 1;
             }
-            koksma__environment *e = opened(&image, 1, 0);
+            koksma__shading_light e = opened(&image, 1, 0);
             double sum = 0;
             for (int i = 0; i < SIDE * SIDE; i++) {
                 const float u[2] = {((float)(i % SIDE) + 0.5f) / SIDE, ((float)(i / SIDE) + 0.5f) / SIDE};
                 float w[3], rgb[3];
-                const float density = koksma__environment_sample(e, u, w);
-                koksma__environment_radiance(e, w, rgb);
+                const float density = sample_of(&e, u, w);
+                radiance_along(&e, w, rgb);
                 sum += (double)rgb[0] * fabs((double)w[1]) / (double)density / (SIDE * SIDE);
             }
             assert_near(sum / (M_PI * pow(sin(M_PI / height), 2)), 1, 5e-3);
-            koksma__environment_close(e);
+            closed(&e);
             koksma_image_fini(&image);
         }
     }

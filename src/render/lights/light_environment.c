@@ -7,8 +7,6 @@
  * & Humphreys 2016, section 14.2.4), by two binary searches; 1 % of the samples are uniform over the sphere, so that
  * rounding cannot give any light the density 0.
  */
-#include "render/lights/light_environment.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +14,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"
-#include "render/lights/surface_lights.h"
+#include "render/lights/beams.h"
 
 static void pixel(const koksma_image *image, size_t i, float rgb[3])
 {
@@ -96,17 +94,14 @@ static koksma_status tabulate(const koksma_image *image, koksma__environment *e)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__environment_open(const koksma__light *light, koksma__environment **out)
+static koksma_status open_environment(const koksma__light *from, koksma__environment *e)
 {
-    koksma__environment *e = calloc(1, sizeof *e);
-    *out = e;
-    KOKSMA__REQUIRE_MEMORY(e, sizeof *e);
     for (int k = 0; k < 3; k++) {
-        e->radiance[k] = (float)light->radiance[k];
+        e->radiance[k] = (float)from->radiance[k];
     }
-    e->turn = (float)(light->angle_rad / (2 * M_PI));
+    e->turn = (float)(from->angle_rad / (2 * M_PI));
     e->mean = koksma__luminance3(e->radiance);
-    const koksma_image *image = light->image;
+    const koksma_image *image = from->image;
     const koksma_status status = image ? koksma__image_check(image, "the environment's image") : KOKSMA_OK;
     if (status || !image) {
         return status;
@@ -119,11 +114,42 @@ koksma_status koksma__environment_open(const koksma__light *light, koksma__envir
     return tabulate(image, e);
 }
 
-void koksma__environment_close(koksma__environment *e)
+/* ---- Light ------------------------------------------------------------------------------------------------------ */
+
+static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
 {
-    if (e) {
-        KOKSMA__FREE(e->row_cdf, e->row_coarse, e->column_cdf, e->column_coarse, e);
+    koksma__environment *e = calloc(1, sizeof *e);
+    (void)scene;
+    light->data = e;
+    KOKSMA__REQUIRE_MEMORY(e, sizeof *e);
+    const koksma_status status = open_environment(from, e);
+    light->power = status ? 0 : e->mean;
+    return status;
+}
+
+static void close_light(void *data)
+{
+    koksma__environment *e = data;
+    KOKSMA__FREE(e->row_cdf, e->row_coarse, e->column_cdf, e->column_coarse, e);
+}
+
+static void radiance(const koksma__shading_light *light, const float w[3], float out[3])
+{
+    const koksma__environment *e = light->data;
+    if (e->texels) {
+        const koksma__texel texel = koksma__environment_texel(e, koksma__v3_of(w));
+        koksma__v3_to(koksma__environment_texel_radiance(e, texel), out);
+    } else {
+        memcpy(out, e->radiance, sizeof e->radiance);
     }
+}
+
+static float pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t, const float n[3])
+{
+    const koksma__environment *e = light->data;
+    (void)p, (void)t, (void)n;
+    return e->texels ? koksma__environment_texel_pdf(e, koksma__environment_texel(e, koksma__v3_of(w)))
+                     : 0.25f / KOKSMA__PI_F;
 }
 
 /* The index of the cell of a cumulative table that contains u; *within is u's position in the cell. */
@@ -144,8 +170,9 @@ static size_t find(const float *cdf, size_t n, float u, float *within)
     return low;
 }
 
-float koksma__environment_sample(const koksma__environment *e, const float u[2], float w[3])
+static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
 {
+    const koksma__environment *e = light->data;
     float x = u[0], y = u[1], sine;
     if (!e->texels || y < KOKSMA__ENVIRONMENT_FLOOR) { /* uniform over the sphere */
         const float up = 1 - 2 * (e->texels ? y / KOKSMA__ENVIRONMENT_FLOOR : y), rest = 1 - up * up;
@@ -160,32 +187,17 @@ float koksma__environment_sample(const koksma__environment *e, const float u[2],
         x = ((float)column + in_column) / (float)width;
         y = ((float)row + in_row) / (float)e->height;
     }
-    koksma__v3_to(koksma__environment_direction(e, x, y, &sine), w);
-    return koksma__environment_pdf(e, w);
-}
-
-float koksma__environment_pdf(const koksma__environment *e, const float w[3])
-{
-    return e->texels ? koksma__environment_texel_pdf(e, koksma__environment_texel(e, koksma__v3_of(w)))
-                     : 0.25f / KOKSMA__PI_F;
-}
-
-void koksma__environment_radiance(const koksma__environment *e, const float w[3], float out[3])
-{
-    if (e->texels) {
-        const koksma__texel texel = koksma__environment_texel(e, koksma__v3_of(w));
-        koksma__v3_to(koksma__environment_texel_radiance(e, texel), out);
-    } else {
-        memcpy(out, e->radiance, sizeof e->radiance);
+    koksma__v3_to(koksma__environment_direction(e, x, y, &sine), out->w);
+    out->pdf = pdf(light, p, out->w, 0, p);
+    radiance(light, out->w, out->value);
+    for (int k = 0; k < 3; k++) {
+        out->d[k] = KOKSMA__AWAY * out->w[k];
+        out->value[k] /= out->pdf;
     }
+    return koksma__max3(out->value) > 0;
 }
 
-float koksma__environment_mean(const koksma__environment *e)
-{
-    return e->mean;
-}
-
-/* ---- The kind of light ------------------------------------------------------------------------------------- */
+/* ---- Fields ----------------------------------------------------------------------------------------------------- */
 
 static koksma_status parse(const char *name, const field *f, koksma_scene *scene, koksma__light *light)
 {
@@ -207,44 +219,6 @@ static koksma_status parse(const char *name, const field *f, koksma_scene *scene
     light->angle_rad = angle_deg * TURN / 360;
     light->radiance[0] = light->radiance[1] = light->radiance[2] = scale;
     return status ? status : koksma__parse_image(scene, name, f, path, &light->image);
-}
-
-static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
-{
-    (void)scene;
-    koksma__environment *e = NULL;
-    const koksma_status status = koksma__environment_open(from, &e);
-    light->data = e;
-    light->power = status ? 0 : e->mean;
-    return status;
-}
-
-static void close_light(void *data)
-{
-    koksma__environment_close(data);
-}
-
-static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
-{
-    (void)p;
-    out->pdf = koksma__environment_sample(light->data, u, out->w);
-    koksma__environment_radiance(light->data, out->w, out->value);
-    for (int k = 0; k < 3; k++) {
-        out->d[k] = KOKSMA__AWAY * out->w[k];
-        out->value[k] /= out->pdf;
-    }
-    return koksma__max3(out->value) > 0;
-}
-
-static float pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t, const float n[3])
-{
-    (void)p, (void)t, (void)n;
-    return koksma__environment_pdf(light->data, w);
-}
-
-static void radiance(const koksma__shading_light *light, const float w[3], float out[3])
-{
-    koksma__environment_radiance(light->data, w, out);
 }
 
 static const koksma__parameter parameters[] = {

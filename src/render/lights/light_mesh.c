@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 #include "core/capacity.h"
-#include "render/lights/surface_lights.h"
+#include "render/lights/beams.h"
 #include "render/texture.h"
 
 #define BRIGHT_F 1e6f /* pixels of the image are clamped to this */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Lights: the radiance that arrives at a point from a light, at a position sampled by two random numbers. A kind of
- * light is one file, light_<name>.c, and one line of lights.def: its name and parameters in scene files, its power,
- * its sampling and its density. Densities are over solid angle as seen from the point; a light without extent (point,
+ * light is one line of lights.def, which names its file: its name and parameters in scene files, its power, its
+ * sampling and its density. Densities are over solid angle as seen from the point; a light without extent (point,
  * directional) has density 0 and is never hit by rays, so that its samples count in full.
  *
  * tests/render/test_light_kinds.c checks every line of the table: samples match the density, the power is that of the
@@ -31,7 +31,7 @@ typedef struct koksma__shading_light {
     void *data; /* the kind's data, released by the kind's close() */
 } koksma__shading_light;
 
-/* How a spot's intensity falls off at the edge of its cone (light_spot.c): the value of its field `falloff`. */
+/* How a spot's intensity falls off at the edge of its cone (light_points.c): the value of its field `falloff`. */
 enum { KOKSMA__FALLOFF_SQUARE, KOKSMA__FALLOFF_SMOOTH, KOKSMA__FALLOFF_ANGLE };
 
 /* A sample of the light that arrives at a point. */
@@ -110,6 +110,14 @@ typedef struct koksma__lights {
    open(). */
 koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out);
 void koksma__lights_fini(koksma__lights *lights);
+
+/* Functions that several kinds share. koksma__emitter_open sets area, reach and power of a Lambert emitter.
+   koksma__area_pdf is the pdf() of a surface that is sampled by area. koksma__point_beam treats the light as a point at
+   its centre: the intensity is `strength` times the radiance, and the light decreases with the squared distance. */
+void koksma__emitter_open(koksma__shading_light *light, double area, float reach);
+float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
+                       const float n[3]);
+bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
 
 #define LIGHT(name) extern const koksma__light_kind koksma__light_##name;
 #include "render/lights/lights.def"

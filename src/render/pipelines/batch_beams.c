@@ -8,8 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "render/lights/light_environment.h"
-#include "render/lights/surface_lights.h"
+#include "render/lights/beams.h"
 #include "render/pipelines/batch_kernel.h"
 #include "render/pipelines/vertices.h"
 

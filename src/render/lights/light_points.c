@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
+ * The lights without extent. No ray can hit them; their density is 0.
+ *
+ * point: the same intensity in all directions from one point, so that the irradiance of a surface that faces it is
+ * intensity / distance^2. `radiance` holds the intensity.
+ *
+ * directional: parallel light from far away. `normal` is the direction in which the light travels, `radiance` the
+ * irradiance of a surface that faces the light.
+ *
  * spot: a point light with full intensity inside a cone of half-angle `inner`; outside it the intensity falls to 0 at
  * the edge of a cone of half-angle `outer`. With a = (cos angle(w) - cos outer) / (cos inner - cos outer), clamped to
  * [0,1], and inner = (1 - edge) outer,
@@ -10,13 +18,89 @@
  *     angle      (outer - angle(w)) / (outer - inner),          1 - (sin outer - sin inner) / (outer - inner)
  *                at most 1 (Mitsuba 3)
  */
-#include "render/lights/surface_lights.h"
-
 #include <string.h>
 
 #include "core/status.h"
+#include "render/lights/beams.h"
 
-/* Indices of the values of a spot. open_light() sets the last four: OUTER and INNER are cosines, SLOPE is 1 / (outer
+/* sample() of all. */
+static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
+{
+    (void)u;
+    return light->kind->centre(light, p, out);
+}
+
+/* ---- Points ----------------------------------------------------------------------------------------------------- */
+
+static koksma_status open_point(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
+{
+    (void)scene, (void)from;
+    light->power = 4 * koksma__luminance3(light->radiance) / KOKSMA__PI_F;
+    return KOKSMA_OK;
+}
+
+static bool point_centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
+{
+    return koksma__point_beam(light, p, 1, out);
+}
+
+static const koksma__parameter of_point[] = {
+    {"centre", KOKSMA__POINT, .at = offsetof(koksma__light, centre)},
+    {"intensity", KOKSMA__COLOUR, .high = BRIGHT, .at = offsetof(koksma__light, radiance)},
+    {0}};
+
+const koksma__light_kind koksma__light_point = {
+    .kind = {.name = "point",
+             .title = "the same intensity in all directions from a point",
+             .cite = "-",
+             .parameters = of_point},
+    .open = open_point,
+    .sample = sample,
+    .centre = point_centre,
+};
+
+/* ---- Parallel light --------------------------------------------------------------------------------------------- */
+
+static koksma_status open_directional(const koksma_scene *scene, const koksma__light *from,
+                                      koksma__shading_light *light)
+{
+    (void)scene, (void)from;
+    light->power = koksma__luminance3(light->radiance) / KOKSMA__PI_F;
+    return KOKSMA_OK;
+}
+
+static bool directional_centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
+{
+    (void)p;
+    for (int k = 0; k < 3; k++) {
+        out->w[k] = -light->normal[k];
+        out->d[k] = KOKSMA__AWAY * out->w[k];
+    }
+    out->pdf = 0;
+    koksma__set_value(light, 1, out);
+    return true;
+}
+
+static const koksma__parameter of_directional[] = {
+    {"direction", KOKSMA__DIRECTION, .at = offsetof(koksma__light, normal)},
+    {"irradiance", KOKSMA__COLOUR, .high = BRIGHT, .at = offsetof(koksma__light, radiance)},
+    {0}};
+
+const koksma__light_kind koksma__light_directional = {
+    .kind = {.name = "directional",
+             .title = "parallel light from far away",
+             .cite = "-",
+             .parameters = of_directional},
+    .distance = KOKSMA__LIGHT_PARALLEL,
+    .form = KOKSMA__BEAMS_PARALLEL,
+    .open = open_directional,
+    .sample = sample,
+    .centre = directional_centre,
+};
+
+/* ---- Spots ------------------------------------------------------------------------------------------------------ */
+
+/* Indices of the values of a spot. open_spot() sets the last four: OUTER and INNER are cosines, SLOPE is 1 / (outer
    - inner) with the angles in turns, EDGE_TURNS is the angle `outer` in turns. */
 enum { ANGLE, EDGE, FALLOFF, OUTER, INNER, SLOPE, EDGE_TURNS };
 
@@ -32,7 +116,7 @@ static double power_of(int falloff, double inner, double outer)
     return 1 - cos(inner) + (cos(inner) - cos(outer)) / (falloff == KOKSMA__FALLOFF_SMOOTH ? 2 : 3);
 }
 
-static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
+static koksma_status open_spot(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
 {
     const double outer = from->values[ANGLE] * TURN / 360, inner = (1 - from->values[EDGE]) * outer;
     (void)scene;
@@ -45,7 +129,7 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
     return KOKSMA_OK;
 }
 
-static bool centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
+static bool spot_centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
 {
     if (!koksma__point_beam(light, p, 1, out)) {
         return false;
@@ -81,7 +165,7 @@ static koksma_status parse(const char *name, const field *f, koksma_scene *scene
     return KOKSMA_OK;
 }
 
-static const koksma__parameter parameters[] = {
+static const koksma__parameter of_spot[] = {
     {"centre", KOKSMA__POINT, .at = offsetof(koksma__light, centre)},
     {"direction", KOKSMA__DIRECTION, .at = offsetof(koksma__light, normal)},
     {"intensity", KOKSMA__COLOUR, .high = BRIGHT, .at = offsetof(koksma__light, radiance)},
@@ -93,10 +177,10 @@ const koksma__light_kind koksma__light_spot = {
     .kind = {.name = "spot",
              .title = "a point light that shines into a cone about a direction",
              .cite = "-",
-             .parameters = parameters,
+             .parameters = of_spot,
              .keys = KEYS("falloff")},
     .parse = parse,
-    .open = open_light,
-    .sample = koksma__point_sample,
-    .centre = centre,
+    .open = open_spot,
+    .sample = sample,
+    .centre = spot_centre,
 };

@@ -1,10 +1,52 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Importance sampling of directions by the image of an environment. */
-#ifndef KOKSMA_RENDER_LIGHTS_LIGHT_ENVIRONMENT_H
-#define KOKSMA_RENDER_LIGHTS_LIGHT_ENVIRONMENT_H
+/* The formulas by which lights are sampled, for single rays (light_*.c) and, by value, for loops over lanes
+   (batch_beams.c): flat surfaces, the cone of a sphere, and the image of an environment. */
+#ifndef KOKSMA_RENDER_LIGHTS_BEAMS_H
+#define KOKSMA_RENDER_LIGHTS_BEAMS_H
 
-#include "render/lanes3.h"
 #include "render/lights/lights.h"
+#include "render/vector3.h"
+
+/* A distance larger than any in a scene. */
+#define KOKSMA__AWAY 4e6f
+
+/* value = scale times the light's radiance */
+static inline void koksma__set_value(const koksma__shading_light *light, float scale, koksma__beam *out)
+{
+    for (int k = 0; k < 3; k++) {
+        out->value[k] = scale * light->radiance[k];
+    }
+}
+
+/* For a sampled position at the vector d from the point, on a surface that is sampled by area: sets *w to the
+   direction, of length 1, and returns the density over solid angle, which is 0 behind the surface. */
+KOKSMA__INLINE float koksma__flat_beam(koksma__v3 d, koksma__v3 normal, float area, koksma__v3 *w)
+{
+    const float square = koksma__v3_dot(d, d), length = sqrtf(square), at_light = -koksma__v3_dot(normal, d);
+    *w = koksma__v3_scale(d, 1 / length);
+    const float pdf = square * length / (at_light * area);
+    return at_light > 0 ? pdf : 0;
+}
+
+/* Samples the cone that a sphere subtends (light_surfaces.c); `axis` is the vector to its centre. Sets *d to the vector
+   to the sampled position on the sphere, and *w to its direction; returns the density, which is 0 if the point is
+   inside the sphere. */
+KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, float v, koksma__v3 *d, koksma__v3 *w)
+{
+    const float square = koksma__v3_dot(axis, axis), distance = sqrtf(square), part = radius * radius / square;
+    const int outside = part < 1;
+    const float rest = part / (1 + sqrtf(outside ? 1 - part : 0)), off = u * rest, sine2 = off * (2 - off);
+    float x, y;
+    koksma__sine_cosine_turns(v, &y, &x);
+    const float sine = sqrtf(sine2 > 0 ? sine2 : 0), inside = radius * radius - square * sine2;
+    const float t = distance * (1 - off) - sqrtf(inside > 0 ? inside : 0);
+    *w = koksma__v3_about(koksma__v3_scale(axis, 1 / distance), sine * x, sine * y, 1 - off);
+    *d = koksma__v3_scale(*w, t);
+    const float pdf = 1 / (2 * KOKSMA__PI_F * rest);
+    return outside ? pdf : 0;
+}
+
+/* ---- Environments ----------------------------------------------------------------------------------------------- */
 
 enum { KOKSMA__ENVIRONMENT_STEP = 16 }; /* the coarse table of a cumulative table has every 16th entry */
 
@@ -66,19 +108,5 @@ KOKSMA__INLINE koksma__v3 koksma__environment_texel_radiance(const koksma__envir
     return (koksma__v3){e->radiance[0] * (r > 0 ? r : 0), e->radiance[1] * (g > 0 ? g : 0),
                         e->radiance[2] * (b > 0 ? b : 0)};
 }
-
-/* Makes the tables for the light's image, if it has one; the caller must call close even after a failure. Errors:
-   MALFORMED (a pixel is infinite or NaN), MEMORY. */
-koksma_status koksma__environment_open(const koksma__light *light, koksma__environment **out);
-void koksma__environment_close(koksma__environment *environment);
-
-/* Samples a direction by importance; returns its density. */
-float koksma__environment_sample(const koksma__environment *environment, const float u[2], float w[3]);
-float koksma__environment_pdf(const koksma__environment *environment, const float w[3]);
-
-/* koksma__environment_radiance: the radiance along w from far away. koksma__environment_mean: the luminance, averaged
-   over all directions. */
-void koksma__environment_radiance(const koksma__environment *environment, const float w[3], float out[3]);
-float koksma__environment_mean(const koksma__environment *environment);
 
 #endif
