@@ -175,7 +175,7 @@ struct koksma_scene {
     koksma__placement *placements; /* of meshes */
     koksma__part_name *part_names; /* in the order of their placements */
     size_t n_part_names;
-    koksma__names mesh_names;      /* finds the meshes of scene files (shapes/shape_mesh.c) */
+    koksma__names mesh_names;      /* finds the meshes of scene files (shapes/shape_compound.c) */
     koksma__file_sizes mesh_files; /* the files that meshes are from */
     uint64_t mesh_bytes;           /* of the meshes from files, as koksma__scene_limit_mesh counts */
     size_t n_materials, n_shapes, n_lights, n_meshes, n_placements;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The value of a pixel is the weighted mean of its samples; the filter gives the weights (filters/filter_table.h),
+ * The value of a pixel is the weighted mean of its samples; the filter gives the weights (filters/filters.h),
  * which are 1 for the box.
  *
  * Samples that are drawn from a filter f with negative lobes have the density |f| / c, c = integral of |f|, and the
@@ -40,7 +40,6 @@
 
 #include "core/status.h"
 #include "render/aov.h"
-#include "render/filters/filter_table.h"
 #include "render/vector3.h"
 
 /* The sums of a pixel, beside W and the sum of w y, that the variance of splatted samples needs, in this order. */

@@ -13,8 +13,6 @@
 #include "core/status.h"
 #include "render/accel/accel_meshes.h"
 #include "render/accel/accel_shapes.h"
-#include "render/filter_check.h"
-#include "render/filters/filter_table.h"
 #include "render/frame.h"
 #include "render/samples/image_samples.h"
 #include "render/samples/pixel_samples.h"

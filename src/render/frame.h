@@ -10,7 +10,6 @@
 #include <koksma/render.h>
 
 #include "render/accel/intersect.h"
-#include "render/filters/filter_table.h"
 #include "render/filters/filters.h"
 #include "render/frustum_cull.h"
 #include "render/integrators/integrator_flags.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Adds meshes and their placements to a scene, for scene files (shapes/shape_mesh.c) and model files
+ * Adds meshes and their placements to a scene, for scene files (shapes/shape_compound.c) and model files
  * (src/render/scene/model_build.c). The arrays double when they are full.
  */
 #include "render/placements.h"

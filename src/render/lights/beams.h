@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The formulas by which lights are sampled, for single rays (light_*.c) and, by value, for loops over lanes
-   (batch_beams.c): flat surfaces, the cone of a sphere, and the image of an environment. */
+   (batch_beams.c): flat surfaces, the cone of a sphere, and the image of an environment; and what several kinds share. */
 #ifndef KOKSMA_RENDER_LIGHTS_BEAMS_H
 #define KOKSMA_RENDER_LIGHTS_BEAMS_H
 
@@ -45,6 +45,14 @@ KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, f
     const float pdf = 1 / (2 * KOKSMA__PI_F * rest);
     return outside ? pdf : 0;
 }
+
+/* Functions that several kinds share. koksma__emitter_open sets area, reach and power of a Lambert emitter.
+   koksma__area_pdf is the pdf() of a surface that is sampled by area. koksma__point_beam treats the light as a point at
+   its centre: the intensity is `strength` times the radiance, and the light decreases with the squared distance. */
+void koksma__emitter_open(koksma__shading_light *light, double area, float reach);
+float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
+                       const float n[3]);
+bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
 
 /* ---- Environments ----------------------------------------------------------------------------------------------- */
 

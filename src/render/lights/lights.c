@@ -2,14 +2,13 @@
 /*
  * The table of lights, and a scene's lights ready for sampling: each opened by its kind, their powers as a cumulative
  * table, and, in arrays for SIMD lanes, the data from which batch_lights.c estimates their contribution at a point.
- * Functions that several kinds of lights share are at the end.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "render/lights/beams.h"
+#include "render/lights/lights.h"
 
 _Static_assert((int)KOKSMA__MAX_BATCH_LIGHTS >= (int)KOKSMA__MAX_LIGHTS, "every light can be chosen");
 
@@ -127,38 +126,4 @@ void koksma__lights_fini(koksma__lights *lights)
     }
     KOKSMA__FREE(lights->lights, lights->rectangles, lights->cdf, lights->estimates);
     *lights = (koksma__lights){0};
-}
-
-/* ---- What kinds share ----------------------------------------------------------------------------------------- */
-
-void koksma__emitter_open(koksma__shading_light *light, double area, float reach)
-{
-    light->area = (float)area;
-    light->reach = reach;
-    light->power = koksma__luminance3(light->radiance) * light->area / KOKSMA__PI_F;
-}
-
-float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
-                       const float n[3])
-{
-    (void)p;
-    const float cosine = -koksma__dot3(n, w);
-    return cosine > 0 ? t * t / (cosine * light->area) : 0;
-}
-
-bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out)
-{
-    for (int k = 0; k < 3; k++) {
-        out->d[k] = light->centre[k] - p[k];
-    }
-    const float square = koksma__dot3(out->d, out->d), length = sqrtf(square);
-    if (!(length > 0)) {
-        return false;
-    }
-    for (int k = 0; k < 3; k++) {
-        out->w[k] = out->d[k] / length;
-    }
-    out->pdf = 0;
-    koksma__set_value(light, strength / square, out);
-    return true;
 }

@@ -111,14 +111,6 @@ typedef struct koksma__lights {
 koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out);
 void koksma__lights_fini(koksma__lights *lights);
 
-/* Functions that several kinds share. koksma__emitter_open sets area, reach and power of a Lambert emitter.
-   koksma__area_pdf is the pdf() of a surface that is sampled by area. koksma__point_beam treats the light as a point at
-   its centre: the intensity is `strength` times the radiance, and the light decreases with the squared distance. */
-void koksma__emitter_open(koksma__shading_light *light, double area, float reach);
-float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
-                       const float n[3]);
-bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
-
 #define LIGHT(name) extern const koksma__light_kind koksma__light_##name;
 #include "render/lights/lights.def"
 #undef LIGHT

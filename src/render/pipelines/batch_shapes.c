@@ -16,7 +16,6 @@
 static const koksma__shape_type *const types[] = {
 #define SHAPE(name) &KOKSMA__SHAPE(name),
 #define COMPOUND(name) NULL,
-#define COMPOUND_OF(name, file) NULL,
 #include "render/shapes/shapes.def"
 };
 

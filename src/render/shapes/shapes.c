@@ -13,7 +13,6 @@
 const koksma__shape_type *const koksma__shape_types[] = {
 #define SHAPE(name) &KOKSMA__SHAPE(name),
 #define COMPOUND(name) &koksma__shape_##name,
-#define COMPOUND_OF(name, file) COMPOUND(name)
 #include "render/shapes/shapes.def"
 #undef SHAPE
 #undef COMPOUND

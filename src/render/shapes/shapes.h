@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Shapes: the surfaces that rays hit. A kind of shape is one file, shape_<name>.c, and one line of shapes.def: its
- * name and parameters in scene files, its definition, its bounds, and the loops that intersect it with a block of
- * rays. Files that include flat_loops.h or batch_kernel.h are compiled once for each instruction set, and
- * KOKSMA__SHAPE(name) is the entry for the instruction set that is being compiled; in other files it is the entry for
- * `ref`, whose loops those files do not use.
+ * Shapes: the surfaces that rays hit. A kind of shape is one line of shapes.def, which names its file: its name and
+ * parameters in scene files, its definition, its bounds, and the loops that intersect it with a block of rays. Files
+ * that include batch_kernel.h are compiled once for each instruction set, and KOKSMA__SHAPE(name) is the entry for the
+ * instruction set that is being compiled; in other files it is the entry for `ref`, whose loops those files do not use.
  *
  * tests/render/test_every_shape.c checks every line of the table: hits, normals, bounds and shadows against the
  * definition, all instruction sets against each other, and the geometry with Embree against the geometry without it.
@@ -75,10 +74,8 @@ koksma__batch_shape koksma__batch_shape_of(const koksma__shape *from, int32_t id
 
 #define SHAPE(name) extern const koksma__shape_type KOKSMA__SHAPE(name);
 #define COMPOUND(name) extern const koksma__shape_type koksma__shape_##name;
-#define COMPOUND_OF(name, file) COMPOUND(name)
 #include "render/shapes/shapes.def"
 #undef SHAPE
 #undef COMPOUND
-#undef COMPOUND_OF
 
 #endif

@@ -26,7 +26,7 @@ typedef struct koksma__adaptive koksma__adaptive;
 /* The values of the samples that a pixel demanded. */
 typedef struct koksma__sample_values {
     const float *rgb;
-    const float *weights; /* weights of the filter (filters/filter_table.h); NULL: all are 1 */
+    const float *weights; /* weights of the filter (filters/filters.h); NULL: all are 1 */
     const float *parts;   /* 3 numbers for each AOV of light for each sample; unused without AOVs */
 } koksma__sample_values;
 

@@ -14,7 +14,6 @@
 #include "kernels/kernels.h"
 #include "patterns/files/files.h"
 #include "render/aov.h"
-#include "render/filters/filter_table.h"
 #include "render/samples/adaptive/adaptive_sets.h"
 #include "render/samples/uses.h"
 #include "render/vector3.h"

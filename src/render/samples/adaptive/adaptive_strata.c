@@ -15,7 +15,6 @@
 #include "core/capacity.h"
 #include "core/status.h"
 #include "render/aov.h"
-#include "render/filters/filter_table.h"
 #include "render/vector3.h"
 
 /* The largest number of strata in the image; they take 3.5 GiB. */

@@ -3,8 +3,8 @@
  * A filter's frequency response, and its leakage, the share of the filter's energy beyond the Nyquist frequency. With
  * f even and zero from `radius` on,
  *
- *     H(w) = integral f(x) cos(2 pi w x) dx / integral f,        leakage = 1 - integral over |w| < 1/2 of H^2 /
- * integral H^2
+ *     H(w) = integral f(x) cos(2 pi w x) dx / integral f,        leakage = 1 - integral over |w| < 1/2 of H^2
+ *                                                                                       / integral H^2
  *
  * and by Parseval's theorem integral H^2 = integral f^2 / (integral f)^2. Integrals are computed by two-point Gauss
  * rules on cells of the half line; the points of these rules never lie on an edge of the filter.
@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "core/status.h"
-#include "render/filter_check.h"
+#include "render/filters/filters.h"
 
 enum { CELLS = 4096, BANDS = 64 };
 

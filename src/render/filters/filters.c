@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The pixel filters, a function and a row each; and the sampling of positions from a filter f: |f| is tabulated in 1024
+ * cells of equal width as cumulative sums, which are inverted by binary search. All positions in a cell have the same
+ * weight, the mean of f over the cell divided by the mean of |f|, so that the expected weight in each cell is exactly the
+ * integral of f. All but gaussian and blackman-harris are partitions of unity.
+ */
+#include "render/filters/filters.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+/* ---- The filters ------------------------------------------------------------------------------------------------ */
+
+static double box(double x)
+{
+    return fabs(x) <= 0.5 ? 1 : 0;
+}
+
+/* A box convolved with a box. */
+static double tent(double x)
+{
+    return fmax(1 - fabs(x), 0);
+}
+
+/* The cubic of Mitchell & Netravali (1988) with B = C = 0, which interpolates like Hermite's cubic with slopes of 0. It
+   is separable, symmetric, of width 2, never negative and a partition of unity, as Shirley (1991, section 5.2) requires
+   of a pixel filter; the formula of Shirley's own filter is not known. */
+static double hermite(double x)
+{
+    const double a = fabs(x);
+    return a < 1 ? 1 - a * a * (3 - 2 * a) : 0;
+}
+
+/* exp(-x^2 / (2 s^2)) - exp(-r^2 / (2 s^2)) with s = 1/2 and r = 1.5 pixels: lowered so that it is 0 at the radius r. */
+static double gaussian(double x)
+{
+    return fmax(exp(-2 * x * x) - exp(-4.5), 0);
+}
+
+/* The cubic of Mitchell & Netravali (1988) with B = C = 1/3, negative from 8/7 to 2. */
+static double mitchell(double x)
+{
+    const double a = fabs(x);
+    return a < 1   ? ((7 * a - 12) * a * a + 16.0 / 3) / 6
+           : a < 2 ? (((-7.0 / 3 * a + 12) * a - 20) * a + 32.0 / 3) / 6
+                   : 0;
+}
+
+/* The box convolved three times with a box. */
+static double b_spline(double x)
+{
+    const double a = fabs(x);
+    return a < 1 ? 2.0 / 3 - a * a * (1 - a / 2) : a < 2 ? (2 - a) * (2 - a) * (2 - a) / 6 : 0;
+}
+
+/* The four-term window of Harris (1978), stretched to a radius of 1.5 pixels. */
+static double blackman_harris(double x)
+{
+    const double turn = M_PI * x / 1.5;
+    return fabs(x) < 1.5 ? 0.35875 + 0.48829 * cos(turn) + 0.14128 * cos(2 * turn) + 0.01168 * cos(3 * turn) : 0;
+}
+
+static const koksma_filter rows[] = {
+    {"box", "the mean over the area of the pixel", "shirley1991", 0.5, box},
+    {"tent", "a tent of width 2", "shirley1991", 1, tent},
+    {"hermite", "Mitchell and Netravali's cubic, B = C = 0: two mirrored smoothsteps, of width 2", "mitchell1988", 1,
+     hermite},
+    {"gaussian", "a Gaussian of sigma 1/2 pixel, cut off at 1.5 pixels", "cook1986", 1.5, gaussian},
+    {"mitchell", "Mitchell and Netravali's cubic, B = C = 1/3; negative beyond 8/7, so use --splat", "mitchell1988",
+     2, mitchell},
+    {"b-spline", "the cubic B-spline", "mitchell1988", 2, b_spline},
+    {"blackman-harris", "the Blackman-Harris window with a radius of 1.5 pixels", "harris1978", 1.5, blackman_harris},
+};
+
+const koksma_filter *koksma_filter_at(size_t i)
+{
+    return i < sizeof rows / sizeof *rows ? &rows[i] : NULL;
+}
+
+const koksma_filter *koksma_filter_find(const char *name)
+{
+    KOKSMA__REQUIRE_OR(NULL, name);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (!strcmp(rows[i].name, name)) {
+            return &rows[i];
+        }
+    }
+    return NULL;
+}
+
+koksma_status koksma__filter_check(const koksma_filter *filter)
+{
+    KOKSMA__FAIL_IF(!filter->name || !filter->value, KOKSMA_ARGUMENT,
+                    "the filter has no %s: koksma_filter_find has filters", filter->name ? "value" : "name");
+    KOKSMA__FAIL_IF(!(filter->radius > 0 && filter->radius <= KOKSMA__MAX_RADIUS), KOKSMA_ARGUMENT,
+                    "filter %s: radius = %g: it takes a radius above 0 and up to %d pixels", filter->name,
+                    filter->radius, KOKSMA__MAX_RADIUS);
+    return KOKSMA_OK;
+}
+
+/* ---- Sampling --------------------------------------------------------------------------------------------------- */
+
+enum { CELLS = 1024, PARTS = 16 };
+
+struct koksma__filter_table {
+    const koksma_filter *filter;
+    bool is_signed;
+    double scale;               /* 1 / integral of f */
+    double cdf[CELLS + 1];      /* cumulative distribution of |f| at the left edge of each cell */
+    double positive[CELLS + 1]; /* cumulative distribution of max(f, 0) */
+    float weights[CELLS];       /* the weight of a position in the cell when positions are drawn from |f| */
+};
+
+/* Normalises a table of cumulative sums, one for each cell's left edge: divides it by the sum over all cells. */
+static void normalise(double *cdf, double sum)
+{
+    for (int i = 0; i < CELLS; i++) {
+        cdf[i] /= sum;
+    }
+    cdf[CELLS] = 1;
+}
+
+koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_table **out)
+{
+    koksma__filter_table *t = malloc(sizeof *t);
+    *out = t;
+    KOKSMA__REQUIRE_MEMORY(t, sizeof *t);
+    const double width = 2 * filter->radius / CELLS;
+    double sum = 0, integral = 0, positive = 0;
+    t->filter = filter;
+    for (int i = 0; i < CELLS; i++) {
+        double part = 0, signed_part = 0, positive_part = 0;
+        for (int k = 0; k < PARTS; k++) { /* midpoint rule */
+            const double f = filter->value(-filter->radius + width * (i + (k + 0.5) / PARTS));
+            part += fabs(f);
+            signed_part += f;
+            positive_part += fmax(f, 0);
+        }
+        t->cdf[i] = sum;
+        t->positive[i] = positive;
+        t->weights[i] = (float)(part > 0 ? signed_part / part : 0);
+        sum += part;
+        integral += signed_part;
+        positive += positive_part;
+    }
+    for (int i = 0; i < CELLS; i++) {
+        t->weights[i] *= (float)(sum / integral); /* all weights are 1 if f has one sign */
+    }
+    t->is_signed = integral < sum;
+    normalise(t->cdf, sum);
+    normalise(t->positive, positive);
+    t->scale = PARTS / (integral * width);
+    return KOKSMA_OK;
+}
+
+void koksma__filter_close(koksma__filter_table *t)
+{
+    free(t);
+}
+
+bool koksma__filter_is_signed(const koksma__filter_table *t)
+{
+    return t->is_signed;
+}
+
+/* Returns the position below which the cumulative distribution is u, and the cell that contains the position. */
+static float invert(const koksma__filter_table *t, const double *cdf, float u, int *cell)
+{
+    int low = 0, high = CELLS;
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        if (cdf[middle] <= (double)u) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    const double width = 2 * t->filter->radius / CELLS, share = cdf[low + 1] - cdf[low];
+    *cell = low;
+    return (float)(-t->filter->radius + width * (low + (share > 0 ? ((double)u - cdf[low]) / share : 0.5)));
+}
+
+float koksma__filter_sample(const koksma__filter_table *t, float u, float *weight)
+{
+    int cell;
+    const float x = invert(t, t->cdf, u, &cell);
+    *weight = t->weights[cell];
+    return x;
+}
+
+float koksma__filter_sample_positive(const koksma__filter_table *t, float u)
+{
+    int cell;
+    return invert(t, t->positive, u, &cell);
+}
+
+void koksma__filter_balance(float *w, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        sum += (double)w[i];
+    }
+    const double mean = sum / (double)n, scale = n > 1 ? (double)n / (double)(n - 1) : 0;
+    for (size_t i = 0; i < n; i++) {
+        w[i] = (float)(1 + ((double)w[i] - mean) * scale);
+    }
+}
+
+float koksma__filter_value(const koksma__filter_table *t, float x)
+{
+    const double r = t->filter->radius, at = (double)x;
+    return at >= -r && at < r ? (float)(t->scale * t->filter->value(at)) : 0;
+}
