@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "render/accel/accel_meshes.h"
+#include "render/accel/accel.h"
 
 #if !defined KOKSMA_EMBREE
 

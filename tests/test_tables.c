@@ -18,7 +18,7 @@
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/samples/adaptive/adaptive.h"
-#include "render/samples/uses.h"
+#include "render/samples/samples.h"
 #include "render/shapes/shapes.h"
 
 /* ---- Tables that are lists ---------------------------------------------------------------------------------- */

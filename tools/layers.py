@@ -59,7 +59,10 @@ MAY_USE = {
 # if no .c file has it (measures/star/star.h).
 INTERNAL = {
     "src/engine/optimise/optimise.h": "what the methods of a search share, a section a file",
-    "src/lab/study/plan/plan.h": "the data of a plan, which the parsers of its sections fill",
+    "src/lab/study/plan/plan.h": "the data of a plan, which plan.c and the parsers of its sections fill",
+    "src/render/render.h": "one image: the frame, groups of pixels, the film; and the renderer's few other functions",
+    "src/render/integrators/integrators.h": "the flags of an integrator, and the hooks of those that have an algorithm",
+    "src/render/pipelines/pipelines.h": "the pipelines, and what the files of the wavefront tracer share",
     "src/lab/study/store/store.h": "the interface of the store, whose files are parts of one object",
     "src/lab/study/store/store_internal.h": "the store's object, for its own files only",
     "src/engine/core/files.h": "files that are read and files that are written",

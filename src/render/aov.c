@@ -16,7 +16,7 @@
  * 0, 2, ... and 1, 3, ... of each pixel, two pictures whose difference shows the noise; a pixel that has no such
  * sample is 0.
  */
-#include "render/aov.h"
+#include "render/render.h"
 
 #include <limits.h>
 #include <stdio.h>

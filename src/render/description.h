@@ -7,9 +7,10 @@
 #ifndef KOKSMA_RENDER_DESCRIPTION_H
 #define KOKSMA_RENDER_DESCRIPTION_H
 
+#include <pthread.h>
+
 #include <koksma/render.h>
 #include <koksma/warp.h>
-#include <pthread.h>
 
 #include "meshes/mesh_file.h"
 

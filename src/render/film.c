@@ -33,13 +33,12 @@
  * have the same variance. For equal weights it is n / (n - 1); for a single sample it is 0 / 0, and the layer is 0.
  * The same formula with w = v and W = n is the estimate for samples drawn from a filter with negative lobes.
  */
-#include "render/film.h"
+#include "render/render.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/aov.h"
 #include "render/vector3.h"
 
 /* The sums of a pixel, beside W and the sum of w y, that the variance of splatted samples needs, in this order. */

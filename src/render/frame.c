@@ -11,13 +11,9 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "render/accel/accel_meshes.h"
-#include "render/accel/accel_shapes.h"
-#include "render/frame.h"
-#include "render/samples/image_samples.h"
-#include "render/samples/pixel_samples.h"
-#include "render/samples/use_patterns.h"
-#include "render/samples/uses.h"
+#include "render/accel/accel.h"
+#include "render/render.h"
+#include "render/samples/samples.h"
 
 /* ---- The scene in floats ------------------------------------------------------------------------------ */
 

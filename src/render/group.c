@@ -4,15 +4,13 @@
  * group is as many whole pixels as fit, at least one. The samples of the last pixel are repeated until the lanes are
  * full, so that loops over lanes have no remainder.
  */
-#include "render/group.h"
+#include "render/render.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "render/aov.h"
-#include "render/frame.h"
 
 void koksma__group_fill(const koksma__frame *f, size_t first, size_t end, koksma__group *group)
 {

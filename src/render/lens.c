@@ -13,7 +13,7 @@
  * would cut the square into pieces. The concentric map takes the corners of the square to the angles pi / 4, 3 pi /
  * 4, ...; for four blades both maps together are a similarity, so that strata remain squares.
  */
-#include "render/lens.h"
+#include "render/render.h"
 
 #include <math.h>
 

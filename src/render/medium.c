@@ -28,7 +28,6 @@
 #include "core/elementary.h"
 #include "core/status.h"
 #include "core/vector.h"
-#include "render/elementary.h"
 #include "render/lights/lights.h"
 #include "render/vector3.h"
 

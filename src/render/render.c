@@ -10,14 +10,9 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "render/aov.h"
-#include "render/film.h"
-#include "render/group.h"
 #include "render/pipelines/pipelines.h"
 #include "render/render.h"
-#include "render/samples/image_samples.h"
-#include "render/samples/uses.h"
-#include "render/scene_warnings.h"
+#include "render/samples/samples.h"
 
 enum { SAMPLES_A_TASK = 1 << 15, SAMPLES_A_LOOK = 1 << 12 };
 

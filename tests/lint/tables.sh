@@ -31,7 +31,7 @@ same koksma/status.def include src/engine/core/status.c
 for table in $(files 'src/*.def' 'cli/*.def' 'include/*.def'); do
   case $table in
     */uses.def | */status.def) ;;
-    */patterns.def | */measures.def | */integrands.def | */metrics.def | */pipelines.def | */materials.def | */lights.def | */shapes.def | */adaptive.def | */formats.def | \
+    */patterns.def | */measures.def | */integrands.def | */metrics.def | */materials.def | */lights.def | */shapes.def | */adaptive.def | */formats.def | \
       */commands.def | */methods.def | */sections.def) grep -nE '^[A-Z]+\([^)]*,' "$table" && complain "$table: lines of more than a name" ;;
     */kernels.def | */batch.def | */file_kinds.def | */palette.def | */keys.def) ;;
     */properties.def | */claims.def | */curves.def | */questions.def | */conclusions.def) ;;

@@ -3,7 +3,7 @@
 #include <koksma/adaptive.h>
 
 #include "core/random.h"
-#include "render/lens.h"
+#include "render/render.h"
 #include "rendering.h"
 
 /* ---- Lens and shutter ----------------------------------------------------------------------------------- */

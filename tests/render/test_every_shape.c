@@ -18,8 +18,7 @@
  */
 #include "core/vector.h"
 #include "kinds.h"
-#include "render/accel/accel_meshes.h"
-#include "render/accel/accel_shapes.h"
+#include "render/accel/accel.h"
 #include "render/shapes/shapes.h"
 
 enum { TRIALS = test_repeats(24, 6), STEPS = 2000 };

@@ -5,10 +5,9 @@
 
 #include "rendering.h"
 
-#include "render/film.h"
-#include "render/group.h"
 #include "render/pipelines/pipelines.h"
-#include "render/samples/uses.h"
+#include "render/render.h"
+#include "render/samples/samples.h"
 
 enum { SIDE = 16, EDGE = 3 /* beyond which splatted pixels have all their samples */ };
 

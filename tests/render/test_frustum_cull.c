@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "render/frustum_cull.h"
+#include "render/culling.h"
 #include "render/shapes/shapes.h"
 #include "scene/scene.h"
 #include "test.h"

@@ -6,10 +6,10 @@
  * a scene of its own (ambient occlusion) all surfaces are white, and the sky is 1. Then the two that leave most out.
  */
 #include "kinds.h"
-#include "render/group.h"
 #include "render/materials/materials.h"
 #include "render/pipelines/pipelines.h"
-#include "render/samples/uses.h"
+#include "render/render.h"
+#include "render/samples/samples.h"
 
 #define CAMERA "\"camera\": {\"eye\": [0, 0.3, 3], \"target\": [0, 0, 0], \"fov_deg\": 12}"
 #define SKY "\"lights\": [{\"kind\": \"environment\", \"radiance\": 1, \"visible\": true}]"

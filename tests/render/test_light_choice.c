@@ -8,8 +8,7 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "render/pipelines/wavefront_lights.h"
-#include "render/pipelines/wavefront_scratch.h"
+#include "render/pipelines/pipelines.h"
 #include "test.h"
 
 enum { POINTS = test_repeats(40, 8), GRID = test_repeats(4096, 1024) };

@@ -11,8 +11,7 @@
  * ways of choosing among lights, and by path tracing (which also meets lights by reflected rays), have one mean.
  */
 #include "kinds.h"
-#include "render/accel/accel_meshes.h"
-#include "render/accel/accel_shapes.h"
+#include "render/accel/accel.h"
 #include "render/lights/lights.h"
 #include "render/vector3.h"
 

@@ -3,7 +3,7 @@
  * The homogeneous medium against what is known of it: the exponential law, the integral of single scattering by
  * quadrature, white furnaces, and the phase function's definition. Every integrator that renders media is under test.
  */
-#include "render/integrators/integrator_flags.h"
+#include "render/integrators/integrators.h"
 #include "render/medium.h"
 #include "rendering.h"
 

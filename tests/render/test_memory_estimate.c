@@ -10,9 +10,8 @@
 
 #include "rendering.h"
 
-#include "render/frame.h"
-#include "render/samples/image_samples.h"
-#include "render/samples/uses.h"
+#include "render/render.h"
+#include "render/samples/samples.h"
 
 void *__real_malloc(size_t size);
 void *__real_aligned_alloc(size_t alignment, size_t size);

@@ -10,9 +10,7 @@
 
 #include "core/random.h"
 #include "core/spec.h"
-#include "render/samples/float_sets.h"
-#include "render/samples/pixel_samples.h"
-#include "render/samples/sampler.h"
+#include "render/samples/samples.h"
 #include "render/samples/uses.h"
 #include "test.h"
 

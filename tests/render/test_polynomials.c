@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The polynomials of render/elementary.h against long double: their greatest errors are no more than the header says,
+/* The polynomials of render/vector3.h against long double: their greatest errors are no more than the header says,
    over the ranges that it says. */
-#include "render/elementary.h"
+#include "render/vector3.h"
 
 #include "test.h"
 

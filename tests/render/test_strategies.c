@@ -6,7 +6,7 @@
  * differ in is variance: on a smooth plate a large light is found by lobes, on a rough one a small light by sampling it.
  */
 #include "kinds.h"
-#include "render/integrators/integrator_flags.h"
+#include "render/integrators/integrators.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "rendering.h"

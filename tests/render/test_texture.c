@@ -3,7 +3,7 @@
  * Colours of an image at texture coordinates. A mesh may have any coordinates, and a transform may make them infinite or
  * NaN: the pixels that are looked up are always those of the image.
  */
-#include "render/texture.h"
+#include "render/scene_images.h"
 
 #include <float.h>
 #include <stdio.h>

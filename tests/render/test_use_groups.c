@@ -4,10 +4,7 @@
 #include <koksma/adaptive.h>
 
 #include "core/random.h"
-#include "render/samples/image_samples.h"
-#include "render/samples/pixel_samples.h"
-#include "render/samples/sampler.h"
-#include "render/samples/uses.h"
+#include "render/samples/samples.h"
 #include "rendering.h"
 
 enum { N = 16, SIDE = 4, MOST = 1024 };

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "render/frame.h"
+#include "render/render.h"
 #include "scene/scene.h"
 #include "test.h"
 

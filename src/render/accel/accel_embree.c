@@ -23,9 +23,9 @@
 
 #include "meshes/mesh.h"
 #include "modules/module_side.h"
-#include "render/accel/accel_meshes.h"
+#include "render/accel/accel.h"
 #include "render/pipelines/batch.h"
-#include "render/texture.h"
+#include "render/scene_images.h"
 #include "render/vector3.h"
 
 #define HOST ((const koksma__mesh_host *)koksma__own_host->functions)

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Scenes with meshes are traced by the module koksma-embree.so, which this file loads for the first such scene. */
-#include "render/accel/accel_meshes.h"
+#include "render/accel/accel.h"
 
 #include "meshes/mesh.h"
 #include "modules/module.h"
-#include "render/accel/accel_shapes.h"
 
 static const koksma__mesh_host host = {koksma__accel_shapes, koksma__batch, koksma__normal_matrix,
                                        koksma__placement_at, koksma__matrix_mirrors};

@@ -5,14 +5,13 @@
  * segment between two points on that side crosses the plane; shadow rays therefore skip, for example, a floor. In a
  * scene with a medium no shape is skipped, because shadow rays may start at any point of the medium.
  */
-#include "render/accel/accel_shapes.h"
+#include "render/accel/accel.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/status.h"
 #include "core/vector.h"
-#include "render/accel/intersect.h"
 #include "render/lights/lights.h"
 #include "render/shapes/shapes.h"
 

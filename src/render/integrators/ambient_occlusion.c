@@ -5,7 +5,7 @@
  * surface with the density cos / pi then contributes 1 if its ray leaves the scene and 0 if the ray hits anything. The
  * shapes, the camera and the cached geometry remain those of the original scene.
  */
-#include "render/integrators/ambient_occlusion.h"
+#include "render/integrators/integrators.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,8 +9,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "render/integrators/ambient_occlusion.h"
-#include "render/integrators/irradiance_cache.h"
+#include "render/integrators/integrators.h"
 
 /*
  * The integrator `utah` computes local illumination. A surface reflects the scene's ambient light and the light from

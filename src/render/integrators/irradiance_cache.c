@@ -15,7 +15,7 @@
  * surface is left out: only few rays of a record find that light, so that some records would be far too bright and
  * the others too dark. At depth 0 there are no records, because there is no light between surfaces.
  */
-#include "render/integrators/irradiance_cache.h"
+#include "render/integrators/integrators.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,10 +25,8 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "render/pipelines/wavefront.h"
-#include "render/pipelines/wavefront_scratch.h"
-#include "render/samples/pixel_samples.h"
-#include "render/samples/uses.h"
+#include "render/pipelines/pipelines.h"
+#include "render/samples/samples.h"
 #include "render/vector3.h"
 
 enum { RAYS = 256, COARSEST = 16, FINEST = 2, LEVELS = 64, BUCKETS = 1 << 16, MAX_RECORDS = 1 << 22 };

@@ -12,7 +12,7 @@
 
 #include "core/capacity.h"
 #include "render/lights/beams.h"
-#include "render/texture.h"
+#include "render/scene_images.h"
 
 #define BRIGHT_F 1e6f /* pixels of the image are clamped to this */
 

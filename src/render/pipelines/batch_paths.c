@@ -3,9 +3,9 @@
    roulette, and the compaction of paths that continue to the next bounce, which keeps lanes full. */
 #include <string.h>
 
-#include "render/lanes3.h"
 #include "render/pipelines/batch_kernel.h"
 #include "render/pipelines/vertices.h"
+#include "render/vector3.h"
 
 void BATCH_NAME(pairs)(const float *restrict pairs, const uint32_t *restrict sample, int n, float *restrict x,
                        float *restrict y)

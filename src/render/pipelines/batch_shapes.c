@@ -8,9 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "render/elementary.h"
 #include "render/pipelines/batch_kernel.h"
 #include "render/shapes/shapes.h"
+#include "render/vector3.h"
 
 /* Indexed by koksma__batch_shape.kind. */
 static const koksma__shape_type *const types[] = {

@@ -14,9 +14,9 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "render/group.h"
 #include "render/pipelines/pipelines.h"
-#include "render/samples/uses.h"
+#include "render/render.h"
+#include "render/samples/samples.h"
 
 typedef struct scratch {
     koksma__sample_scratch draw;

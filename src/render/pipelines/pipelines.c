@@ -4,11 +4,8 @@
 #include "render/pipelines/pipelines.h"
 #include "core/status.h"
 
-const koksma__pipeline *const koksma__pipelines[] = {
-#define PIPELINE(name) &koksma__pipeline_##name,
-#include "render/pipelines/pipelines.def"
-#undef PIPELINE
-    NULL};
+const koksma__pipeline *const koksma__pipelines[] = {&koksma__pipeline_lambert_lanes, &koksma__pipeline_wavefront,
+                                                     NULL};
 
 koksma_status koksma__pipeline_for(koksma__frame *frame, const koksma__pipeline **out)
 {

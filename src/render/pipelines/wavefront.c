@@ -33,10 +33,7 @@
  * choice, light and roulette have different keys at each vertex b, so that the pattern under study, not the tracer,
  * decides how the samples of vertices are stratified.
  */
-#include "render/pipelines/wavefront.h"
-
-#include "render/pipelines/wavefront_lights.h"
-#include "render/pipelines/wavefront_scratch.h"
+#include "render/pipelines/pipelines.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,12 +41,9 @@
 #include <koksma/image.h>
 
 #include "core/status.h"
-#include "render/aov.h"
-#include "render/lens.h"
-#include "render/pipelines/pipelines.h"
-#include "render/pipelines/wavefront_medium.h"
-#include "render/samples/uses.h"
-#include "render/texture.h"
+#include "render/render.h"
+#include "render/samples/samples.h"
+#include "render/scene_images.h"
 #include "render/vector3.h"
 
 /* largest number of samples that are traced together; it bounds the length of the queues, which branching paths

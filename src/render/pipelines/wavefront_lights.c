@@ -7,13 +7,11 @@
  * the power of the lights. The flags of the integrator determine the weight of light that a ray along a followed lobe
  * can also find.
  */
-#include "render/pipelines/wavefront_lights.h"
+#include "render/pipelines/pipelines.h"
 
 #include <string.h>
 
-#include "render/pipelines/wavefront_medium.h"
-#include "render/pipelines/wavefront_scratch.h"
-#include "render/samples/uses.h"
+#include "render/samples/samples.h"
 
 static void choose(const koksma__trace *trace, const koksma__vertices *v, const float *us, koksma__light_lanes *l)
 {

@@ -6,7 +6,7 @@
  * function, so that lights and directions are sampled there as on surfaces. Shadow rays are attenuated by the
  * transmittance.
  */
-#include "render/pipelines/wavefront_medium.h"
+#include "render/pipelines/pipelines.h"
 
 #include <math.h>
 

@@ -10,8 +10,8 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "render/group.h"
-#include "render/pipelines/wavefront_scratch.h"
+#include "render/pipelines/pipelines.h"
+#include "render/render.h"
 
 void koksma__wavefront_close(void *opened)
 {
@@ -64,6 +64,28 @@ koksma_status koksma__wavefront_reserve(koksma__queue *queue)
         queue->blocks = larger;
         queue->capacity = blocks * KOKSMA__BLOCK;
     }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path)
+{
+    KOKSMA__TRY(koksma__wavefront_reserve(queue));
+    koksma__paths *to = &queue->blocks[queue->n / KOKSMA__BLOCK];
+    const size_t i = queue->n++ % KOKSMA__BLOCK;
+    to->rays.ox[i] = path->o[0];
+    to->rays.oy[i] = path->o[1];
+    to->rays.oz[i] = path->o[2];
+    to->rays.dx[i] = path->d[0];
+    to->rays.dy[i] = path->d[1];
+    to->rays.dz[i] = path->d[2];
+    to->rays.time[i] = path->time;
+    for (int k = 0; k < 3; k++) {
+        to->beta[k][i] = path->beta[k];
+        to->n[k][i] = path->n[k];
+    }
+    to->pdf[i] = path->pdf;
+    to->from[i] = path->from;
+    to->sample[i] = path->sample;
     return KOKSMA_OK;
 }
 

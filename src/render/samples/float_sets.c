@@ -16,7 +16,7 @@
  * columns and by rows, then puts the points in a random order. Nets are Owen-scrambled by stochastic generation
  * (patterns/nets/nets.h).
  */
-#include "render/samples/float_sets.h"
+#include "render/samples/samples.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,15 +4,13 @@
  * question. Each use has a set of n = spp width height points. The set of the use `pixel`, stretched over the film,
  * determines which samples each pixel has, and how many. The samples of a pixel keep the order of the pattern.
  */
-#include "render/samples/image_samples.h"
+#include "render/samples/samples.h"
 
 #include <stdlib.h>
 
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
-#include "render/samples/sampler.h"
-#include "render/samples/use_patterns.h"
 #include "render/samples/uses.h"
 
 #define MAX_NUMBERS ((size_t)1 << 28) /* largest number of floats for the samples of an image: 1 GiB */

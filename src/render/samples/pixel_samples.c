@@ -10,7 +10,7 @@
  * The random words are hashes of (seed, pixel, use). float_sets.c makes the pairs of a use in floats if its pattern
  * has such a form; koksma_generate makes all others.
  */
-#include "render/samples/pixel_samples.h"
+#include "render/samples/samples.h"
 
 #include <stdlib.h>
 
@@ -20,9 +20,6 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/files/files.h"
-#include "render/samples/float_sets.h"
-#include "render/samples/sampler.h"
-#include "render/samples/use_patterns.h"
 #include "render/samples/uses.h"
 
 /* base of the keys for the random numbers of permutations, above the keys of all uses */

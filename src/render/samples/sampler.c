@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The scratch memory for drawing samples. */
-#include "render/samples/sampler.h"
+#include "render/samples/samples.h"
 
 #include <stdlib.h>
 

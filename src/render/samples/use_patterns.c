@@ -5,7 +5,7 @@
  * not for all uses begins with the names of its uses and '='. A ';' ends a part only where the next part names uses,
  * so that a path may contain a ';'. The canonical text prints each pattern in canonical form.
  */
-#include "render/samples/use_patterns.h"
+#include "render/samples/samples.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -23,7 +23,6 @@
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
-#include "render/placements.h"
 #include "render/shapes/shapes.h"
 #include "scene/import_limits.h"
 

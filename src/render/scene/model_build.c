@@ -20,7 +20,6 @@
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
-#include "render/placements.h"
 #include "render/scene_images.h"
 #include "scene/camera.h"
 #include "scene/import.h"

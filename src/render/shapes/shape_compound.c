@@ -13,7 +13,6 @@
 #include "core/vector.h"
 #include "meshes/mesh_file.h"
 #include "render/description_build.h"
-#include "render/placements.h"
 #include "render/shapes/shapes.h"
 
 /* ---- Boxes ------------------------------------------------------------------------------------------------------ */

@@ -12,7 +12,7 @@
 
 #include "core/status.h"
 #include "patterns/files/files.h"
-#include "render/samples/use_patterns.h"
+#include "render/samples/samples.h"
 #include "study/plan/variants.h"
 
 enum { MAX_ITEMS = 4096 };

@@ -12,7 +12,7 @@
 #include "core/points.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
-#include "render/samples/use_patterns.h"
+#include "render/samples/samples.h"
 #include "study/plan/made_by.h"
 #include "study/plan/plan_read.h"
 #include "study/plan/variants.h"

@@ -18,7 +18,7 @@
 #include "core/capacity.h"
 #include "core/files.h"
 #include "core/status.h"
-#include "render/placements.h"
+#include "render/description_build.h"
 #include "scene/scene.h"
 
 enum { RATIO = 64, MOST_GIB = 4, KEY = KOKSMA__MAX_PATH + 96 };

@@ -12,7 +12,7 @@
 
 #include "core/lookup.h"
 #include "core/status.h"
-#include "render/samples/use_patterns.h"
+#include "render/samples/samples.h"
 #include "render/samples/uses.h"
 #include "scene/pbrt_tokens.h"
 #include "study/plan/plan.h"

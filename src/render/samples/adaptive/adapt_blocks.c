@@ -15,7 +15,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/samples/adaptive/adaptive_sets.h"
+#include "render/samples/adaptive/adaptive.h"
 
 enum { SIDE = KOKSMA__SETS_THRESHOLD + 1 };
 
@@ -147,8 +147,7 @@ static void plan(koksma__adaptive *run)
     }
 }
 
-static const koksma__adaptive_method method = {KOKSMA__SETS_METHOD, .open = open, .take = koksma__sets_take,
-                                               .plan = plan};
+static const koksma__adaptive_method method = {.family = &koksma__sets_family, .open = open, .plan = plan};
 
 const koksma_adaptive koksma__adaptive_blocks = {
     .name = "blocks",

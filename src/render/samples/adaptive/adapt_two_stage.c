@@ -16,7 +16,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/samples/adaptive/adaptive_sets.h"
+#include "render/samples/adaptive/adaptive.h"
 
 enum { FLOOR = KOKSMA__SETS_THRESHOLD + 1, PRIOR };
 
@@ -106,14 +106,6 @@ static koksma_status open(koksma__adaptive *run)
     return status || run->extra ? status : koksma__fail_memory(run->pixels * sizeof(double));
 }
 
-/* Drops the pilot of a pixel only when its new sets arrive, so that an image that is interrupted before still has
-   the pilot. */
-static void take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
-{
-    koksma__sets_forget(run, pixel);
-    koksma__sets_take(run, pixel, values);
-}
-
 static void last(koksma__adaptive *run)
 {
     find_errors(run, run->extra);
@@ -125,8 +117,8 @@ static void last(koksma__adaptive *run)
     }
 }
 
-static const koksma__adaptive_method method = {KOKSMA__SETS_METHOD, .fresh = true, .pilot = true,
-                                               .open = open,        .take = take,  .last = last};
+static const koksma__adaptive_method method = {
+    .family = &koksma__sets_family, .fresh = true, .pilot = true, .open = open, .last = last};
 
 const koksma_adaptive koksma__adaptive_two_stage = {
     .name = "two-stage",

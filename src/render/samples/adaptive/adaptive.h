@@ -2,16 +2,19 @@
 /*
  * Adaptive sampling renders an image in rounds. In each round the samples of the selected pixels are drawn, traced
  * and added. Then each selected pixel either demands more samples or is done, which its method decides from the
- * values of that pixel alone. adaptive_choose.c selects the pixels of the next round: all that demand samples or,
+ * values of that pixel alone. adaptive_engine.c selects the pixels of the next round: all that demand samples or,
  * under a budget, those with the highest scores. The result is a function of pixel and round and does not depend on
  * the threads.
  */
 #ifndef KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
 #define KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
 
+#include <stdatomic.h>
+
 #include <koksma/adaptive.h>
 
-#include "render/frame.h"
+#include "render/render.h"
+#include "render/samples/samples.h"
 
 /* The demand of a pixel for more samples. */
 typedef struct koksma__sample_demand {
@@ -30,13 +33,9 @@ typedef struct koksma__sample_values {
     const float *parts;   /* 3 numbers for each AOV of light for each sample; unused without AOVs */
 } koksma__sample_values;
 
-/* An adaptive method. Any thread may call the functions that take a pixel, but only one thread at a time for each
-   pixel. */
-typedef struct koksma__adaptive_method {
-    bool fresh; /* whether sets are drawn independently, even if the pattern is a sequence that could be continued */
-    bool pilot; /* whether the samples of the first sets only determine the demands and are not averaged */
-    /* Allocates the state and sets the demands of the first round, which selects all pixels. */
-    koksma_status (*open)(koksma__adaptive *run);
+/* What methods of one family share: those whose samples come in point sets, and those that split strata. Any thread may
+   call the functions that take a pixel, but only one thread at a time for each pixel. */
+typedef struct koksma__adaptive_family {
     void (*close)(koksma__adaptive *run);
     /* NULL, or prepares a selected pixel before its samples are drawn. Errors: MEMORY. */
     koksma_status (*prepare)(koksma__adaptive *run, size_t pixel);
@@ -47,13 +46,6 @@ typedef struct koksma__adaptive_method {
     /* Receives the values of the samples that the pixel demanded. Methods decide by the unweighted values; the result
        uses the weights as film.c describes. */
     void (*take)(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values);
-    /* NULL, or determines the next demand of the pixel; *demand is zero before the call, and scratch has run->scratch
-       bytes. */
-    void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
-    /* NULL, or a function that is called between rounds and may examine the whole image and change demands */
-    void (*plan)(koksma__adaptive *run);
-    /* NULL, or a function that is called when no pixel is selected any more and sets demands for one last round */
-    void (*last)(koksma__adaptive *run);
     /* NULL, or returns the number of probes for the splits of a selected pixel. Probes are extra samples that test
        whether a split was needed; in a round of probes, draw() and take() process probes in place of samples. */
     size_t (*probes)(const koksma__adaptive *run, size_t pixel);
@@ -63,6 +55,26 @@ typedef struct koksma__adaptive_method {
     void (*part)(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3]);
     /* NULL, or describes the strata of a pixel for a figure. Errors: MEMORY. */
     koksma_status (*show)(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
+} koksma__adaptive_family;
+
+extern const koksma__adaptive_family koksma__sets_family, koksma__strata_family;
+
+/* An adaptive method. */
+typedef struct koksma__adaptive_method {
+    const koksma__adaptive_family *family;
+    bool fresh; /* whether sets are drawn independently, even if the pattern is a sequence that could be continued */
+    /* whether the samples of the first sets only determine the demands: they are dropped when new sets arrive, so that an
+       image that is interrupted before still has them */
+    bool pilot;
+    /* Allocates the state and sets the demands of the first round, which selects all pixels. */
+    koksma_status (*open)(koksma__adaptive *run);
+    /* NULL, or determines the next demand of the pixel; *demand is zero before the call, and scratch has run->scratch
+       bytes. */
+    void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
+    /* NULL, or a function that is called between rounds and may examine the whole image and change demands */
+    void (*plan)(koksma__adaptive *run);
+    /* NULL, or a function that is called when no pixel is selected any more and sets demands for one last round */
+    void (*last)(koksma__adaptive *run);
 } koksma__adaptive_method;
 
 struct koksma__adaptive {
@@ -80,6 +92,163 @@ struct koksma__adaptive {
     double *sums;    /* sums for the AOVs in methods that draw sets (koksma__sets_part); NULL: no AOVs */
     koksma_adaptive_report report;
 };
+
+/* ---- Methods whose samples come in point sets (adaptive_sets.c) ------------------------------------------------- */
+
+/* Statistics of the sets of a pixel. `origin`, the luminance of the first sample, is subtracted from all
+   luminances, so that equal values have variance 0. */
+typedef struct koksma__pixel_sets {
+    uint32_t sets;      /* number of sets in the sums */
+    uint32_t drawn;     /* number of sets that were drawn */
+    float lo[3], hi[3]; /* minimum and maximum of the samples in each channel */
+    float origin;
+    double sum[3];  /* weighted sum of the samples in each channel */
+    double half[3]; /* unweighted sum over the sets 0, 2, 4, … */
+    double all[3];
+    double sum_y, sum_yy;   /* sums of the luminances of samples and of their squares */
+    double sum_mean_square; /* sum of the squared mean luminances of the sets */
+    double sum_w3;          /* sum of the cubed weights */
+    double moments[3][3];   /* element [j][k] is the sum over the samples of weight^j luminance^k */
+} koksma__pixel_sets;
+
+/* The parameters of every method that draws sets begin with these: first, most and, if there is one, threshold. */
+enum { KOKSMA__SETS_FIRST, KOKSMA__SETS_MOST, KOKSMA__SETS_THRESHOLD };
+#define KOKSMA__SETS_PARAMS(first, least)                                                                            \
+    {"first", "number of point sets in the first round", first, least, 4096, NULL, true},                            \
+    {                                                                                                                \
+        "most", "largest number of point sets of a pixel", 64, 1, 1 << 16, NULL, true                                \
+    }
+
+koksma_status koksma__sets_open(koksma__adaptive *run);
+
+koksma__pixel_sets *koksma__sets_of(const koksma__adaptive *run, size_t pixel);
+size_t koksma__set_size(const koksma__adaptive *run);
+
+/* Sets *demand to `sets` more sets, or to as many as the pixel may still take. */
+void koksma__sets_demand(const koksma__adaptive *run, size_t pixel, double sets, double score,
+                         koksma__sample_demand *demand);
+
+/* Return the mean luminance of the samples, and the variance of the luminance of a sample as if the samples were
+   independent. */
+double koksma__sets_mean(const koksma__adaptive *run, const koksma__pixel_sets *p);
+double koksma__sets_variance(const koksma__adaptive *run, const koksma__pixel_sets *p);
+
+/* Returns the standard error of the mean luminance, estimated from the variance between the means of the sets. */
+double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pixel_sets *p);
+
+/* ---- Places in strata that are split (adaptive_place.c) --------------------------------------------------------- */
+
+/*
+ * Places the samples of a pixel in strata that are split. A use is what two numbers of a sample decide, such as the
+ * position in the pixel or a point on a light. A stratum is a cell in the unit square of every use at once: the cells
+ * of the uses are paired one to one, and splitting a stratum quarters its cell in each use. A stratum has one sample.
+ *
+ * At first there are m x m strata. Stratum i has cell i of the base use, which is the pixel or the use that causes
+ * most of the variance, and one cell of every other use. Aligned pairing takes cell i in every use, so that all uses
+ * have the same neighbours ("correlated jitter"; Shirley 1991, section 5.6). Shuffled pairing takes cell p(i), with a
+ * random permutation p for each pixel and use ("uncorrelated jitter"). The cells of a one-dimensional use are m^2
+ * intervals of a line with shuffled pairing, and the columns of the square with aligned pairing.
+ *
+ * Aligned pairing samples only a small part of the product of the uses' unit squares: for example, samples in the
+ * left of the pixel never see the right of a light. The parameter `phase` can correct this. With phase=fixed no use
+ * is moved. With phase=shifted the other uses are shifted on the torus, x -> frac(x + s) with s uniform; the mean of
+ * each pixel is then right, but neighbouring strata across the seam differ. With phase=folded the coordinates of all
+ * uses but the pixel are mapped by x -> |2 frac(x + s) - 1|, s uniform in [0,1), which has no seam.
+ *
+ * The parameter `reuse` decides which samples the parts of a split stratum get. With reuse=kept the old sample stays
+ * in the part that contains it, and the other parts get new samples. With reuse=renewed all four parts get new
+ * samples, and the old sample is dropped. With reuse=fresh, samples are first reused as with reuse=kept; when no
+ * stratum is split any more, every stratum gets a new sample for the estimate (Kirk & Arvo 1991: samples that decide
+ * must not be counted), and the parts of split strata are paired again in all uses.
+ */
+
+enum { KOKSMA__PHASE_FIXED, KOKSMA__PHASE_SHIFTED, KOKSMA__PHASE_FOLDED };
+enum { KOKSMA__REUSE_KEPT, KOKSMA__REUSE_RENEWED, KOKSMA__REUSE_FRESH };
+enum { KOKSMA__MAX_LEVELS = 8, KOKSMA__MAX_STRATA_SIDE = 512 };
+
+/* The stage of a sample selects the random numbers that place it in its stratum: while the tree grows, in the last
+   round, or as a probe. */
+enum { KOKSMA__STAGE_TREE, KOKSMA__STAGE_LAST, KOKSMA__STAGE_PROBE };
+
+typedef struct koksma__stratum {
+    uint32_t number;  /* index of the initial stratum, below m x m */
+    uint16_t digits;  /* the quarter of the base use that each split led to; the first split has the highest digit */
+    uint8_t level;    /* number of splits that led to this stratum */
+    uint8_t needless; /* bit k is set if split k of those that led to this stratum was needless */
+    bool pending;     /* whether the sample of the stratum remains to be drawn */
+    bool marked;      /* whether the stratum will be split */
+    float value[3], weight;
+} koksma__stratum;
+
+typedef struct koksma__tree {
+    koksma__stratum *strata;
+    float *parts; /* 3 numbers for each AOV of light for each stratum; NULL: there are none */
+    uint32_t n, marked, splits, needless;
+    uint32_t base;  /* the base use, in which neighbouring strata are compared */
+    uint32_t stage; /* KOKSMA__STAGE_TREE or KOKSMA__STAGE_LAST */
+    /* in the method `selective`: whether the base use was searched for, and whether it was found */
+    bool searched, carried;
+} koksma__tree;
+
+typedef struct koksma__strata {
+    uint32_t m, levels;
+    float threshold;
+    bool shuffled;
+    bool selective; /* when a stratum is split, its cells are split in the base use only */
+    int phase, reuse;
+    double below; /* threshold of the method `selective` on the contiguity ratio */
+    koksma__tree *trees;
+    atomic_size_t total; /* number of strata in all trees */
+} koksma__strata;
+
+/* How the cells of a pixel's strata lie in the unit square of one use. */
+typedef struct koksma__use_cells {
+    uint32_t use;
+    uint64_t seed;
+    const uint32_t *permutation; /* permutation of the cells; NULL: identity */
+    /* line: whether the cells lie on a line; split: whether they are split with the stratum; turned: whether the
+       phase moves the samples */
+    bool line, split, turned;
+} koksma__use_cells;
+
+/* Initialises the cells of a use in a pixel; `permutation` is a buffer of m^2 words, or NULL. */
+void koksma__use_cells_init(const koksma__adaptive *run, size_t pixel, uint32_t use, uint32_t *permutation,
+                            koksma__use_cells *out);
+
+/* Computes the cell of a stratum in the base use, as column and row in the grid of its level; the row is 0 on a
+   line. */
+void koksma__stratum_cell(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum,
+                          uint32_t cell[2]);
+
+/* Computes the cell of a stratum in another use, in the grid of that cell's level. `stage` selects the pairing of
+   the parts. */
+void koksma__stratum_cell_in(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
+                             const koksma__stratum *stratum, uint32_t stage, uint32_t cell[2]);
+
+/* Returns the quarter of the base cell that contains the sample of a stratum. */
+int koksma__stratum_quarter(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum);
+
+/* Computes the position in [0,1)^2 of a stratum's sample in a use. */
+void koksma__stratum_place(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
+                           const koksma__stratum *stratum, uint32_t stage, float place[2]);
+
+/* ---- Methods that split strata (adaptive_strata.c) -------------------------------------------------------------- */
+
+/* The parameters of every method that splits strata begin with these. */
+enum { KOKSMA__STRATA_LEVELS, KOKSMA__STRATA_THRESHOLD, KOKSMA__STRATA_REUSE };
+
+koksma_status koksma__strata_open(koksma__adaptive *run);
+void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
+void koksma__strata_last(koksma__adaptive *run);
+
+/* ---- Strata for figures (adaptive_show.c) ----------------------------------------------------------------------- */
+
+/* Lists the uses whose strata are shown, and returns their number: the pixel, the lens, the time, and the first
+   lights and the lobe of the first two vertices, as far as the scene needs these uses. */
+int koksma__list_spaces(const koksma__use_list *there, uint32_t list[KOKSMA_MAX_SPACES]);
+
+/* Describes the strata of a pixel. Errors: MEMORY. */
+koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
 
 #define ADAPTIVE(name) extern const koksma_adaptive koksma__adaptive_##name;
 #include "render/samples/adaptive/adaptive.def"

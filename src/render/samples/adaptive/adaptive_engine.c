@@ -9,14 +9,10 @@
 #include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "render/aov.h"
-#include "render/film.h"
-#include "render/group.h"
 #include "render/pipelines/pipelines.h"
-#include "render/samples/adaptive/adaptive_choose.h"
-#include "render/samples/adaptive/adaptive_place.h"
-#include "render/samples/adaptive/adaptive_sets.h"
-#include "render/samples/uses.h"
+#include "render/render.h"
+#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/samples.h"
 
 enum { PIXELS_A_TASK = 128, SAMPLES_A_LOOK = 1 << 12 };
 
@@ -48,14 +44,14 @@ static size_t count(const koksma__sampler *sampler, uint64_t pixel)
     if (!run->demands[pixel].selected) {
         return 0;
     }
-    return run->probing ? run->method->probes(run, pixel) : run->demands[pixel].now;
+    return run->probing ? run->method->family->probes(run, pixel) : run->demands[pixel].now;
 }
 
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_scratch *room_for, float *pairs)
 {
     const koksma__adaptive *run = sampler->made;
-    return count(sampler, pixel) ? run->method->draw(run, pixel, use, offset, room_for, pairs) : KOKSMA_OK;
+    return count(sampler, pixel) ? run->method->family->draw(run, pixel, use, offset, room_for, pairs) : KOKSMA_OK;
 }
 
 /* ---- One task of a round ---------------------------------------------------------------------------------- */
@@ -90,7 +86,7 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
     const koksma__values *v = &r->pixels.values;
     const float *parts = j->frame.aovs ? v->parts + 3 * j->frame.aovs->n_parts * first : NULL;
     const koksma__sample_values values = {v->rgb + channels * first, weights, parts};
-    run->method->take(run, pixel, &values);
+    run->method->family->take(run, pixel, &values);
     if (run->probing) {
         return;
     }
@@ -112,8 +108,8 @@ static koksma_status render_group(const job *j, room *r, const koksma__group *gr
     koksma__adaptive *run = j->run;
     koksma_status status = KOKSMA_OK;
     for (size_t pixel = group->first; !status && pixel < group->first + group->count; pixel++) {
-        if (run->demands[pixel].selected && !run->probing && run->method->prepare) {
-            status = run->method->prepare(run, pixel);
+        if (run->demands[pixel].selected && !run->probing && run->method->family->prepare) {
+            status = run->method->family->prepare(run, pixel);
         }
     }
     if (status || !group->start[group->count]) {
@@ -190,6 +186,71 @@ static koksma_status render_task(void *context, size_t task)
     return status;
 }
 
+/* ---- The choice of pixels -------------------------------------------------------------------------------- */
+
+enum { GREEDY = 4 };
+
+typedef struct candidate {
+    float score;
+    uint32_t pixel;
+} candidate;
+
+static int by_score(const void *a, const void *b)
+{
+    const candidate *p = a, *q = b;
+    if (p->score != q->score) {
+        return p->score > q->score ? -1 : 1;
+    }
+    /* pixels with equal scores are ordered by the pixel's number times an odd number modulo 2^32, so that no pattern
+       is visible */
+    return p->pixel * 2654435761u < q->pixel * 2654435761u ? -1 : 1;
+}
+
+/* Under a budget a round selects a quarter of the pixels that demand samples, in descending order of score, so
+   that later rounds choose with more information. A pixel that demands more than the rest of the budget is
+   skipped. */
+static void select_best(koksma__adaptive *run, candidate *list, size_t n, size_t *selected)
+{
+    qsort(list, n, sizeof *list, by_score);
+    const size_t most = (n + GREEDY - 1) / GREEDY;
+    for (size_t i = 0; i < n && *selected < most; i++) {
+        koksma__sample_demand *demand = &run->demands[list[i].pixel];
+        const uint64_t cost = (uint64_t)demand->now + demand->later;
+        if (cost <= run->budget - run->spent) {
+            run->spent += cost;
+            demand->selected = true;
+            ++*selected;
+        }
+    }
+}
+
+/* Selects the pixels of the next round: all that demand samples or, under a budget, those where samples reduce the error
+   most; sets *selected to their number. Errors: MEMORY. */
+static koksma_status choose(koksma__adaptive *run, size_t *selected)
+{
+    size_t n = 0;
+    *selected = 0;
+    for (size_t p = 0; p < run->pixels; p++) {
+        n += run->demands[p].now > 0;
+        run->demands[p].selected = run->demands[p].now > 0 && run->budget == UINT64_MAX;
+    }
+    if (run->budget == UINT64_MAX || !n) {
+        *selected = n;
+        return KOKSMA_OK;
+    }
+    candidate *list = malloc(n * sizeof *list);
+    KOKSMA__REQUIRE_MEMORY(list, n * sizeof *list);
+    n = 0;
+    for (size_t p = 0; p < run->pixels; p++) {
+        if (run->demands[p].now) {
+            list[n++] = (candidate){run->demands[p].score, (uint32_t)p};
+        }
+    }
+    select_best(run, list, n, selected);
+    free(list);
+    return KOKSMA_OK;
+}
+
 /* ---- Rounds ----------------------------------------------------------------------------------------------- */
 
 static koksma_status render_round(job *j, const koksma_run *how)
@@ -218,7 +279,7 @@ static koksma_status render_rounds(job *j, const koksma_run *how)
         if (run->method->plan && !last) {
             run->method->plan(run);
         }
-        status = last ? KOKSMA_OK : koksma__adaptive_choose(run, &selected);
+        status = last ? KOKSMA_OK : choose(run, &selected);
         if (status || (!selected && (last || !run->method->last))) {
             return status;
         }
@@ -226,7 +287,7 @@ static koksma_status render_rounds(job *j, const koksma_run *how)
             last = true;
             run->method->last(run);
         }
-        if (run->method->probes && run->options->probes && !last) {
+        if (run->method->family->probes && run->options->probes && !last) {
             run->probing = true;
             status = render_round(j, how);
             run->probing = false;
@@ -249,7 +310,7 @@ static void write_aovs(const job *j, size_t pixel)
         if (aovs->items[a].kind == KOKSMA__AOV_ID) {
             continue;
         }
-        j->run->method->part(j->run, pixel, a, rgb);
+        j->run->method->family->part(j->run, pixel, a, rgb);
         for (size_t k = 0; k < channels; k++) {
             aovs->items[a].image->pixels[channels * pixel + k] = (float)rgb[k];
         }
@@ -263,7 +324,7 @@ static void write_results(const job *j)
     for (size_t p = 0; p < run->pixels; p++) {
         double rgb[3] = {0, 0, 0}, variance = 0;
         if (run->taken[p]) {
-            variance = run->method->result(run, p, rgb);
+            variance = run->method->family->result(run, p, rgb);
             write_aovs(j, p);
         }
         for (size_t k = 0; k < channels; k++) {
@@ -308,10 +369,11 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
     KOKSMA__FAIL_IF(adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES, KOKSMA_ARGUMENT,
                     "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
     const koksma__adaptive_method *method = adaptive->method->functions;
-    KOKSMA__FAIL_IF(adaptive->probes && !method->probes, KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF(adaptive->probes && !method->family->probes, KOKSMA_ARGUMENT,
                     "%s splits no strata, so that probes have no effect; leave out the probes", name);
     const koksma_strata *strata = adaptive->strata;
-    KOKSMA__FAIL_IF(strata && !method->show, KOKSMA_ARGUMENT, "%s splits no strata, so that none can be shown", name);
+    KOKSMA__FAIL_IF(strata && !method->family->show, KOKSMA_ARGUMENT,
+                    "%s splits no strata, so that none can be shown", name);
     KOKSMA__FAIL_IF(
         strata && (strata->x < 0 || strata->y < 0 || strata->x >= options->width || strata->y >= options->height),
         KOKSMA_ARGUMENT, "pixel %d,%d is outside the image of %d x %d pixels", strata->x, strata->y, options->width,
@@ -393,10 +455,10 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
         }
         if (!status && adaptive->strata) {
             const koksma_strata *strata = adaptive->strata;
-            status = run.method->show(&run, (size_t)strata->y * (size_t)options->width + (size_t)strata->x,
-                                      adaptive->strata);
+            status = run.method->family->show(&run, (size_t)strata->y * (size_t)options->width + (size_t)strata->x,
+                                              adaptive->strata);
         }
-        run.method->close(&run);
+        run.method->family->close(&run);
         j.frame.sampler = run.base;
     }
     koksma__frame_close(&j.frame);

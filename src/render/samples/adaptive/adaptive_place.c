@@ -19,8 +19,8 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "render/samples/adaptive/adaptive_place.h"
-#include "render/samples/uses.h"
+#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/samples.h"
 
 /* The current position of a walk: a cell, and the offset of the sample in that cell. */
 typedef struct spot {

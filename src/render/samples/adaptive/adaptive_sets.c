@@ -13,8 +13,9 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/files/files.h"
-#include "render/aov.h"
-#include "render/samples/adaptive/adaptive_sets.h"
+#include "render/render.h"
+#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/samples.h"
 #include "render/samples/uses.h"
 #include "render/vector3.h"
 
@@ -107,7 +108,7 @@ koksma_status koksma__sets_open(koksma__adaptive *run)
     return KOKSMA_OK;
 }
 
-void koksma__sets_close(koksma__adaptive *run)
+static void close_sets(koksma__adaptive *run)
 {
     free(run->state);
 }
@@ -149,8 +150,8 @@ static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint
     return KOKSMA_OK;
 }
 
-koksma_status koksma__sets_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
-                                koksma__sample_scratch *room, float *pairs)
+static koksma_status draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
+                          koksma__sample_scratch *room, float *pairs)
 {
     const size_t n = koksma__set_size(run), samples = run->demands[pixel].now;
     const size_t first = koksma__sets_of(run, pixel)->drawn;
@@ -237,24 +238,28 @@ static void take_parts(const koksma__adaptive *run, size_t pixel, size_t before,
     }
 }
 
-void koksma__sets_take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
-{
-    const size_t n = koksma__set_size(run), channels = (size_t)run->frame->channels;
-    koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
-    if (run->sums) {
-        take_parts(run, pixel, sets->sets * n, run->demands[pixel].now, values);
-    }
-    for (size_t k = 0; k < run->demands[pixel].now / n; k++) {
-        take_set(sets, n, channels, values->rgb + k * n * channels, values->weights ? values->weights + k * n : NULL);
-    }
-}
-
-void koksma__sets_forget(koksma__adaptive *run, size_t pixel)
+/* Resets the sums over a pixel's sets; the number of sets that were drawn is kept. */
+static void forget(koksma__adaptive *run, size_t pixel)
 {
     koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
     *sets = (koksma__pixel_sets){.drawn = sets->drawn};
     if (run->sums) {
         memset(sums_of(run, pixel), 0, run->frame->aovs->n * NUMBERS_OF_AOV * sizeof *run->sums);
+    }
+}
+
+static void take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
+{
+    const size_t n = koksma__set_size(run), channels = (size_t)run->frame->channels;
+    koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
+    if (run->method->pilot) {
+        forget(run, pixel);
+    }
+    if (run->sums) {
+        take_parts(run, pixel, sets->sets * n, run->demands[pixel].now, values);
+    }
+    for (size_t k = 0; k < run->demands[pixel].now / n; k++) {
+        take_set(sets, n, channels, values->rgb + k * n * channels, values->weights ? values->weights + k * n : NULL);
     }
 }
 
@@ -323,7 +328,7 @@ static double signed_result(const koksma__adaptive *run, const koksma__pixel_set
     return off > 0 && left > 1e-12 * of[0] ? off * of[0] / left : 0;
 }
 
-double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb[3])
+static double result(const koksma__adaptive *run, size_t pixel, double rgb[3])
 {
     const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
     const double n = samples_of(run, p);
@@ -336,7 +341,7 @@ double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb
     return p->sets ? variance(p->moments[0][1], p->moments[0][2], n) / n : 0;
 }
 
-void koksma__sets_part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
+static void part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
 {
     const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
     const koksma__aov *aov = &run->frame->aovs->items[a];
@@ -351,3 +356,6 @@ void koksma__sets_part(const koksma__adaptive *run, size_t pixel, size_t a, doub
         }
     }
 }
+
+const koksma__adaptive_family koksma__sets_family = {
+    .close = close_sets, .draw = draw, .take = take, .result = result, .part = part};

@@ -5,15 +5,14 @@
  * each stratum stores a digit for each split that led to it. Of all strata that descend from one stratum at depth
  * `level`, exactly one has only zeros among its digits from that depth on; it represents the split of that stratum.
  */
-#include "render/samples/adaptive/adaptive_show.h"
+#include "render/samples/adaptive/adaptive.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/samples/adaptive/adaptive_place.h"
-#include "render/samples/uses.h"
+#include "render/samples/samples.h"
 #include "render/vector3.h"
 
 enum { LIGHTS = 4 };

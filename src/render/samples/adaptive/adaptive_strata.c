@@ -4,9 +4,7 @@
  * neighbours; the estimate is the sum of volume x value over the strata (Kajiya 1986; Shirley 1991, section 5.6,
  * figure 5.35).
  */
-#include "render/samples/adaptive/adaptive_strata.h"
-
-#include "render/samples/adaptive/adaptive_place.h"
+#include "render/samples/adaptive/adaptive.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,14 +12,11 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "render/aov.h"
+#include "render/render.h"
 #include "render/vector3.h"
 
 /* The largest number of strata in the image; they take 3.5 GiB. */
 #define MAX_STRATA ((size_t)1 << 27)
-
-const char *const koksma__reuse_names[] = {
-    [KOKSMA__REUSE_KEPT] = "kept", [KOKSMA__REUSE_RENEWED] = "renewed", [KOKSMA__REUSE_FRESH] = "fresh", NULL};
 
 /* ---- Open and close --------------------------------------------------------------------------------------- */
 
@@ -86,7 +81,7 @@ koksma_status koksma__strata_open(koksma__adaptive *run)
     return open_trees(run, s);
 }
 
-void koksma__strata_close(koksma__adaptive *run)
+static void close_strata(koksma__adaptive *run)
 {
     koksma__strata *s = run->state;
     for (size_t p = 0; s && s->trees && p < run->pixels; p++) {
@@ -186,7 +181,7 @@ void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, k
 }
 
 /* Replaces each marked stratum by its four parts. */
-koksma_status koksma__strata_prepare(koksma__adaptive *run, size_t pixel)
+static koksma_status prepare(koksma__adaptive *run, size_t pixel)
 {
     koksma__strata *s = run->state;
     koksma__tree *tree = &s->trees[pixel];
@@ -236,14 +231,14 @@ koksma_status koksma__strata_prepare(koksma__adaptive *run, size_t pixel)
 
 /* ---- Samples ---------------------------------------------------------------------------------------------- */
 
-size_t koksma__strata_probes(const koksma__adaptive *run, size_t pixel)
+static size_t probes(const koksma__adaptive *run, size_t pixel)
 {
     const koksma__strata *s = run->state;
     return (size_t)s->trees[pixel].marked * (size_t)run->options->probes;
 }
 
-koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
-                                  koksma__sample_scratch *room, float *pairs)
+static koksma_status draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
+                          koksma__sample_scratch *room, float *pairs)
 {
     const koksma__strata *s = run->state;
     const koksma__tree *tree = &s->trees[pixel];
@@ -287,7 +282,7 @@ static void take_probes(const koksma__adaptive *run, koksma__tree *tree, const f
     }
 }
 
-void koksma__strata_take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
+static void take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
 {
     koksma__strata *s = run->state;
     koksma__tree *tree = &s->trees[pixel];
@@ -359,7 +354,7 @@ static double weight_of(const strata_weights *w, const koksma__stratum *stratum)
 /* Computes the value of AOV `a` as the value of the pixel is computed. `half:even` and `half:odd` sum over every
    second stratum in the order of the tree, in which the parts of a stratum follow each other, and divide by the total
    volume of these strata. */
-void koksma__strata_part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
+static void part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
 {
     const koksma__strata *s = run->state;
     const koksma__tree *tree = &s->trees[pixel];
@@ -384,7 +379,7 @@ void koksma__strata_part(const koksma__adaptive *run, size_t pixel, size_t a, do
     }
 }
 
-double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double rgb[3])
+static double result(const koksma__adaptive *run, size_t pixel, double rgb[3])
 {
     const koksma__strata *s = run->state;
     const koksma__tree *tree = &s->trees[pixel];
@@ -409,3 +404,12 @@ double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double r
     }
     return squares;
 }
+
+const koksma__adaptive_family koksma__strata_family = {.close = close_strata,
+                                                       .prepare = prepare,
+                                                       .draw = draw,
+                                                       .take = take,
+                                                       .probes = probes,
+                                                       .result = result,
+                                                       .part = part,
+                                                       .show = koksma__strata_show};

@@ -1,11 +1,28 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds the shapes that a part of the film can see through a pinhole; the result may include other shapes, but misses
-   none of these. */
-#ifndef KOKSMA_RENDER_FRUSTUM_CULL_H
-#define KOKSMA_RENDER_FRUSTUM_CULL_H
+/*
+ * Culling for the lambert-lanes pipeline: which shapes a part of the film can see through a pinhole (the result may
+ * include other shapes, but misses none of these), and which shapes cannot block the shadow rays from a part of a
+ * surface to a rectangular light (the result may miss some of these, but contains no others).
+ */
+#ifndef KOKSMA_RENDER_CULLING_H
+#define KOKSMA_RENDER_CULLING_H
 
 #include "render/pipelines/batch.h"
-#include "render/shadow_cull.h"
+
+/* ---- Shadow rays ------------------------------------------------------------------------------------------------ */
+
+/* A part of a surface, which lies in the convex hull of n spheres of this radius. */
+typedef struct koksma__footprint {
+    int n;
+    double at[4][3], radius;
+} koksma__footprint;
+
+/* Whether `shape`, which must not move, blocks no ray from this part of a surface to the light, as the kernel
+   `occlude` computes it. */
+bool koksma__shadow_cull_clear(const koksma__footprint *part, const koksma__batch_light *light,
+                               const koksma__batch_shape *shape);
+
+/* ---- Camera rays ------------------------------------------------------------------------------------------------ */
 
 typedef struct koksma__frustum_cull koksma__frustum_cull;
 

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The interface through which the renderer intersects rays with the geometry: of analytic shapes (accel_shapes.c), or
- * of shapes and meshes (accel_meshes.c). Primitives are numbered: first the shapes, then the triangles of all
- * placements. A shadow ray starts on primitive hits->primitive and never hits it at t = 0.
+ * of shapes and meshes (accel_meshes.c, by the module koksma-embree.so of accel_embree.c). Primitives are numbered:
+ * first the shapes, then the triangles of all placements. A shadow ray starts on primitive hits->primitive and never
+ * hits it at t = 0.
  */
-#ifndef KOKSMA_RENDER_ACCEL_INTERSECT_H
-#define KOKSMA_RENDER_ACCEL_INTERSECT_H
+#ifndef KOKSMA_RENDER_ACCEL_ACCEL_H
+#define KOKSMA_RENDER_ACCEL_ACCEL_H
 
 #include "render/description.h"
 #include "render/pipelines/batch.h"
@@ -39,5 +40,29 @@ typedef struct koksma__geometry {
                      koksma__triangle *out);
     void (*release)(struct koksma__geometry *geometry);
 } koksma__geometry;
+
+/* Makes the geometry of the scene's analytic shapes, without an acceleration structure. Errors: MEMORY. */
+koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out);
+
+/* ---- The module ------------------------------------------------------------------------------------------------- */
+
+/* Functions that the module provides. */
+typedef struct koksma__mesh_functions {
+    const char *(*tracer)(void); /* name and version of the ray tracer */
+    koksma_status (*make)(const koksma_scene *scene, koksma__geometry *out);
+} koksma__mesh_functions;
+
+/* Functions that the renderer provides to the module. */
+typedef struct koksma__mesh_host {
+    koksma_status (*shapes)(const koksma_scene *scene, koksma__geometry *out); /* koksma__accel_shapes */
+    const koksma__batch_table *(*batch)(void);
+    void (*normal_matrix)(const double matrix[12], double out[9]);
+    void (*placement_at)(const koksma__placement *placement, double t, double matrix[12]);
+    bool (*matrix_mirrors)(const double matrix[12]);
+} koksma__mesh_host;
+
+/* Makes the geometry of the scene's shapes and meshes. Errors: UNSUPPORTED (the module is missing), ARGUMENT, MEMORY,
+   SYSTEM. */
+koksma_status koksma__accel_meshes(const koksma_scene *scene, koksma__geometry *out);
 
 #endif

@@ -1,6 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The method `selective` splits strata only in the use of sample dimensions (pixel, lens, light, ...) that causes
+ * The methods that split strata.
+ *
+ * hierarchical: strata are split where neighbours differ (Kajiya 1986), in all uses of sample dimensions
+ * (pixel, lens, light, ...) together (Shirley 1991, section 5.6). With pairing=aligned, neighbours in the pixel are
+ * neighbours in every use. With pairing=shuffled they are not: strata that are neighbours in one use can be far apart
+ * in another, and are then split although no neighbours differ there (Shirley's figure 5.36). Where the values are
+ * constant, no stratum is split. The estimate is biased, because the values that decide about splits are also
+ * averaged. It is unbiased with reuse=fresh; aligned strata also need phase=shifted or phase=folded.
+ *
+ * selective: splits strata only in the use of sample dimensions (pixel, lens, light, ...) that causes
  * most of the pixel's variance, a choice that Shirley 1991, section 5.6, leaves open. The uses are paired by random
  * permutations, so that neighbouring strata of one use are not neighbours in another. Therefore neighbours have
  * similar values only in the use that causes the variance. Geary's contiguity ratio (1954) measures this similarity
@@ -11,25 +20,76 @@
  *
  * The ratio c has mean 1 if the values lie on the cells in random order, and tends to 0 if the use explains the
  * values. The base use of a pixel is the one with the smallest c, if c is at most the parameter `below`; else no
- * stratum is split. The method then works like `hierarchical`, but compares neighbours and quarters cells in the base
+ * stratum is split. It then works like `hierarchical`, but compares neighbours and quarters cells in the base
  * use only. In the other uses each part keeps the whole cell, so that the four parts together cover the stratum; they
  * would not if cells were quartered in several uses at once. The candidates for the base use are the pixel, the lens
  * and time, and the first lights and the lobe of the first two vertices.
  */
-#include "render/samples/adaptive/adaptive_place.h"
-#include "render/samples/adaptive/adaptive_show.h"
-#include "render/samples/adaptive/adaptive_strata.h"
+#include "render/samples/adaptive/adaptive.h"
 #include "render/vector3.h"
+
+static const char *const reuses[] = {
+    [KOKSMA__REUSE_KEPT] = "kept", [KOKSMA__REUSE_RENEWED] = "renewed", [KOKSMA__REUSE_FRESH] = "fresh", NULL};
+
+#define STRATA_PARAMS                                                                                                \
+    {"levels", "largest number of times that a stratum is split", 2, 0, KOKSMA__MAX_LEVELS, NULL, true},             \
+        {"threshold", "difference of two values beyond which their strata are split", 0.05, 0, 1e30, NULL, false},   \
+    {                                                                                                                \
+        "reuse", "which samples the parts of a split stratum get", KOKSMA__REUSE_KEPT, 0, 2, reuses, true            \
+    }
+
+/* ---- hierarchical ----------------------------------------------------------------------------------------------- */
+
+enum { PAIRING = KOKSMA__STRATA_REUSE + 1, PHASE };
+
+static const char *const pairings[] = {"aligned", "shuffled", NULL};
+static const char *const phases[] = {
+    [KOKSMA__PHASE_FIXED] = "fixed", [KOKSMA__PHASE_SHIFTED] = "shifted", [KOKSMA__PHASE_FOLDED] = "folded", NULL};
+
+static const koksma_param hierarchical_params[] = {
+    STRATA_PARAMS,
+    {"pairing", "how the strata of different uses are paired", 0, 0, 1, pairings, true},
+    {"phase", "how the strata of all uses but the pixel are moved with aligned pairing", KOKSMA__PHASE_FIXED, 0, 2,
+     phases, true},
+    {0},
+};
+
+static koksma_status open_hierarchical(koksma__adaptive *run)
+{
+    const koksma_status status = koksma__strata_open(run);
+    koksma__strata *s = run->state;
+    if (s) {
+        s->shuffled = run->options->params[PAIRING] > 0;
+        s->phase = (int)run->options->params[PHASE];
+    }
+    return status;
+}
+
+static const koksma__adaptive_method hierarchical = {.family = &koksma__strata_family,
+                                                     .last = koksma__strata_last,
+                                                     .open = open_hierarchical,
+                                                     .decide = koksma__strata_decide};
+
+const koksma_adaptive koksma__adaptive_hierarchical = {
+    .name = "hierarchical",
+    .title = "splits strata where the values of neighbours differ, in all uses together",
+    .cite = "kajiya1986 shirley1991",
+    .params = hierarchical_params,
+    .own_samples = true,
+    .functions = &hierarchical,
+};
+
+/* ---- selective ------------------------------------------------------------------------------------------- */
 
 enum { BELOW = KOKSMA__STRATA_REUSE + 1 };
 
-static const koksma_param params[] = {
-    KOKSMA__STRATA_PARAMS,
+static const koksma_param selective_params[] = {
+    STRATA_PARAMS,
     {"below", "largest contiguity ratio at which a use is split", 0.8, 0, 2, NULL, false},
     {0},
 };
 
-static koksma_status open(koksma__adaptive *run)
+static koksma_status open_selective(koksma__adaptive *run)
 {
     const koksma_status status = koksma__strata_open(run);
     koksma__strata *s = run->state;
@@ -117,13 +177,14 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__s
     }
 }
 
-static const koksma__adaptive_method method = {KOKSMA__STRATA_METHOD, .open = open, .decide = decide};
+static const koksma__adaptive_method selective = {
+    .family = &koksma__strata_family, .last = koksma__strata_last, .open = open_selective, .decide = decide};
 
 const koksma_adaptive koksma__adaptive_selective = {
     .name = "selective",
     .title = "splits strata where the values of neighbours differ, in the use that causes most of the variance",
     .cite = "shirley1991 geary1954",
-    .params = params,
+    .params = selective_params,
     .own_samples = true,
-    .functions = &method,
+    .functions = &selective,
 };

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The flags and hooks by which an integrator controls the pipelines at each path vertex. integrators.c has the
-   table of integrators. */
-#ifndef KOKSMA_RENDER_INTEGRATORS_INTEGRATOR_FLAGS_H
-#define KOKSMA_RENDER_INTEGRATORS_INTEGRATOR_FLAGS_H
+/*
+ * The flags and hooks by which an integrator controls the pipelines at each path vertex (integrators.c has the table of
+ * integrators), and the hooks of those that need an algorithm beyond the flags.
+ */
+#ifndef KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
+#define KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
 
 #include "render/materials/materials.h"
 #include "render/pipelines/batch.h"
@@ -32,5 +34,17 @@ typedef struct koksma__integrator_flags {
     koksma_status (*replace_scene)(const koksma_scene *scene, koksma_scene **out);
     void (*release_scene)(koksma_scene *scene);
 } koksma__integrator_flags;
+
+/* Makes the scene that is rendered in place of `scene`. Errors: MEMORY; the caller must release *out even after an
+   error. */
+koksma_status koksma__ambient_occlusion_scene(const koksma_scene *scene, koksma_scene **out);
+void koksma__ambient_occlusion_release(koksma_scene *scene);
+
+/* Computes the records of the cache before the image. frame->cache remains NULL at depth 0, which needs no
+   records. */
+koksma_status koksma__irradiance_cache_open(struct koksma__frame *frame, const koksma_run *run);
+void koksma__irradiance_cache_close(struct koksma__frame *frame);
+koksma_status koksma__irradiance_cache_indirect(const struct koksma__frame *frame, const koksma__surface *s,
+                                                float time, float out[3]);
 
 #endif
