@@ -95,8 +95,8 @@ static void same_bits_for_any_number_of_threads(void **state)
 static void constant_pictures_cost_the_first_samples(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of("{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40},"
-                                   "\"background\": 0.3, \"materials\": [], \"shapes\": []}");
+    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 40},'background': "
+                                   "0.3, 'materials': [], 'shapes': []}");
     for (size_t m = 0; m < 2 * N_METHODS; m++) {
         const char *method = methods[m / 2];
         koksma_adaptive_report report;
@@ -164,13 +164,12 @@ static void strata_weigh_their_volume(void **state)
         for (int levels = 0; levels <= 5; levels++) {
             for (int inside = 0; inside < 2; inside++) {
                 char text[600], method[80];
-                snprintf(text, sizeof text,
-                         "{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 90},"
-                         "\"ambient\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"checker\","
-                         "\"albedos\": [0, 1], \"period\": 8, \"phase\": [%g, 0.5]}],"
-                         "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 1],"
-                         "\"material\": \"m\"}]}",
-                         inside ? 0.01 : 0.0);
+                snprintf(
+                    text, sizeof text,
+                    "{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 90},'ambient': 1, 'materials': "
+                    "[{'name': 'm', 'kind': 'checker','albedos': [0, 1], 'period': 8, 'phase': [%g, 0.5]}],'shapes': "
+                    "[{'kind': 'plane', 'centre': [0, 0, 0], 'normal': [0, 0, 1],'material': 'm'}]}",
+                    inside ? 0.01 : 0.0);
                 snprintf(method, sizeof method, forms[form], levels);
                 koksma_scene *scene = scene_of(text);
                 koksma_render_options options = options_of(scene, "random", "distribution", 16, 1);
@@ -222,12 +221,11 @@ static void shuffled_strata_are_split_needlessly(void **state)
 static void rays_are_counted_once(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of(
-        "{\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
-        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}], \"shapes\": ["
-        "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}], \"lights\": ["
-        "{\"kind\": \"rectangle\", \"centre\": [0, 2, 0], \"normal\": [0, -1, 0], \"half\": [1, 1],"
-        "\"radiance\": 2}]}");
+    koksma_scene *scene =
+        scene_of("{'camera': {'eye': [0, 1, 4], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', "
+                 "'kind': 'lambert', 'albedo': 0.9}], 'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': "
+                 "[0, 1, 0], 'material': 'm'}], 'lights': [{'kind': 'rectangle', 'centre': [0, 2, 0], 'normal': [0, "
+                 "-1, 0], 'half': [1, 1],'radiance': 2}]}");
     for (int spp = 1; spp < 40; spp++) {
         koksma_render_options options = options_of(scene, "random", "distribution", spp, 3);
         koksma_layers layers;
@@ -309,8 +307,8 @@ static bool stop_later(void *context, double fraction)
 static void a_pixel_that_had_samples_is_never_black(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of("{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40},"
-                                   "\"background\": 0.3, \"materials\": [], \"shapes\": []}");
+    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 40},'background': "
+                                   "0.3, 'materials': [], 'shapes': []}");
     for (size_t m = 0; m < N_METHODS; m++) {
         int stopped = 0;
         for (int asked = 2; asked < 12; asked++) {

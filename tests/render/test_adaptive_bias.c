@@ -1,50 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Bias of adaptive sampling, measured: methods whose deciding samples are not counted are right in the mean, pixel by
    pixel; hierarchical subdivision that counts them is not, and aligned strata are not even without a split. */
-#include <koksma/adaptive.h>
-
 #include "rendering.h"
 
 enum { WIDTH = 16, HEIGHT = 12, PIXELS = WIDTH * HEIGHT, SEEDS = test_repeats(80, 12) };
 
-typedef struct moments {
-    double mean[PIXELS], square_error[PIXELS]; /* of the mean */
-} moments;
-
-static void measure(const koksma_scene *scene, const char *method, const char *pattern, int spp, double budget,
-                    int seeds, uint64_t first, moments *out)
+static koksma_render_options few_pixels(const koksma_scene *scene, const char *pattern, int spp)
 {
-    static double sum[PIXELS], squares[PIXELS];
-    koksma_render_options options;
-    koksma_adaptive_options adaptive = {.method = NULL};
-    koksma_render_options_init(&options, scene);
-    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
-    options.width = WIDTH;
+    koksma_render_options options = options_of(scene, pattern, "distribution", spp, WIDTH);
     options.height = HEIGHT;
-    options.spp = spp;
-    if (method) {
-        assert_ok(koksma_adaptive_parse(method, &adaptive));
-        adaptive.budget = budget;
-    }
-    for (int i = 0; i < PIXELS; i++) {
-        sum[i] = squares[i] = 0;
-    }
-    for (int s = 0; s < seeds; s++) {
-        koksma_layers layers;
-        options.seed = first + (uint64_t)s;
-        assert_ok(method ? koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL)
-                         : koksma_render_layers(scene, &options, NULL, &layers));
-        for (int i = 0; i < PIXELS; i++) {
-            const double value = (double)layers.image.pixels[i];
-            sum[i] += value;
-            squares[i] += value * value;
-        }
-        koksma_layers_fini(&layers);
-    }
-    for (int i = 0; i < PIXELS; i++) {
-        out->mean[i] = sum[i] / seeds;
-        out->square_error[i] = fmax(squares[i] / seeds - out->mean[i] * out->mean[i], 0) / (seeds - 1);
-    }
+    return options;
 }
 
 /* The mean over pixels with noise of the squared deviation in standard errors: 1 without bias. Where few of the seeds
@@ -93,10 +58,11 @@ static void bias_is_where_it_must_be(void **state)
     koksma_scene *scene;
     static moments reference, few;
     assert_ok(koksma_scene_open("ball", &scene));
-    measure(scene, NULL, "sobol:scramble=owen", test_repeats(512, 64), 0, 12, 100000, &reference);
+    measure(scene, few_pixels(scene, "sobol:scramble=owen", test_repeats(512, 64)), NULL, 0, 12, 100000, &reference);
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         const bool sets = strstr(cases[c].method, "two-stage") || strstr(cases[c].method, "relative");
-        measure(scene, cases[c].method, "jittered", sets ? 4 : 16, cases[c].budget, SEEDS, 1000 * c, &few);
+        measure(scene, few_pixels(scene, "jittered", sets ? 4 : 16), cases[c].method, cases[c].budget, SEEDS,
+                1000 * c, &few);
         const double off = deviation(&reference, &few, cases[c].biased);
         if (cases[c].biased ? !(off > test_repeats(1.6, 0)) : !(off < test_repeats(1.4, 2.1))) {
             fail_msg("%s: mean square deviation %.2f", cases[c].method, off);
@@ -113,15 +79,14 @@ static koksma_scene *slits(void)
     static char text[8192];
     size_t used = (size_t)snprintf(
         text, sizeof text,
-        "{\"camera\": {\"eye\": [0, 9.9, 0], \"target\": [0, 0, 0], \"up\": [0, 0, -1], \"fov_deg\": 33.7157},"
-        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1},"
-        "{\"name\": \"k\", \"kind\": \"lambert\", \"albedo\": 0}], \"lights\": [{\"kind\": \"rectangle\","
-        "\"centre\": [0, 20, 0], \"normal\": [0, -1, 0], \"half\": [0.25, 0.25], \"radiance\": 5000}],"
-        "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}");
+        "{'camera': {'eye': [0, 9.9, 0], 'target': [0, 0, 0], 'up': [0, 0, -1], 'fov_deg': 33.7157},'materials': "
+        "[{'name': 'm', 'kind': 'lambert', 'albedo': 1},{'name': 'k', 'kind': 'lambert', 'albedo': 0}], 'lights': "
+        "[{'kind': 'rectangle','centre': [0, 20, 0], 'normal': [0, -1, 0], 'half': [0.25, 0.25], 'radiance': "
+        "5000}],'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': [0, 1, 0], 'material': 'm'}");
     for (int k = -14; k < 14; k++) {
         used += (size_t)snprintf(text + used, sizeof text - used,
-                                 ", {\"kind\": \"rectangle\", \"centre\": [%.3f, 10, 0], \"normal\": [0, 1, 0],"
-                                 "\"half\": [0.115, 8], \"material\": \"k\"}",
+                                 ", {'kind': 'rectangle', 'centre': [%.3f, 10, 0], 'normal': [0, 1, 0],'half': "
+                                 "[0.115, 8], 'material': 'k'}",
                                  0.25 * k + 0.125);
     }
     assert_true(used + 3 < sizeof text);
@@ -150,10 +115,10 @@ static void what_decided_is_not_met_again(void **state)
     koksma_scene *scene = slits();
     static moments reference, few;
     double reference_error, error;
-    measure(scene, NULL, "sobol:scramble=owen", test_repeats(1024, 256), 0, 4, 100000, &reference);
+    measure(scene, few_pixels(scene, "sobol:scramble=owen", test_repeats(1024, 256)), NULL, 0, 4, 100000, &reference);
     const double expected = mean_over_pixels(&reference, &reference_error);
     for (size_t c = 0; c < sizeof methods / sizeof *methods; c++) {
-        measure(scene, methods[c], "jittered", 4, 0, test_repeats(250, 25), 1000 * c, &few);
+        measure(scene, few_pixels(scene, "jittered", 4), methods[c], 0, test_repeats(250, 25), 1000 * c, &few);
         const double mean = mean_over_pixels(&few, &error);
         if (!(fabs(mean - expected) <= 4 * sqrt(error + reference_error))) {
             fail_msg("%s: %.5f, expected %.5f +- %.5f", methods[c], mean, expected, sqrt(error + reference_error));

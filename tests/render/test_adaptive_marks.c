@@ -50,12 +50,9 @@ static void needless_splits_miss_an_edge_in_the_pixel(void **state)
 {
     (void)state;
     koksma_scene *scene = scene_of(
-        "{\"camera\": {\"eye\": [0, 0, 4], \"target\": [0, 0, 0], \"fov_deg\": 90, \"lens_radius\": 0.1, "
-        "\"focus_distance\": 4},"
-        "\"ambient\": 0.8, \"background\": 0, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": "
-        "1}],"
-        "\"shapes\": [{\"kind\": \"rectangle\", \"centre\": [4.25, 0, 0], \"normal\": [0, 0, 1], \"half\": [5, 9],"
-        "\"material\": \"m\"}]}");
+        "{'camera': {'eye': [0, 0, 4], 'target': [0, 0, 0], 'fov_deg': 90, 'lens_radius': 0.1, 'focus_distance': "
+        "4},'ambient': 0.8, 'background': 0, 'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 1}],'shapes': "
+        "[{'kind': 'rectangle', 'centre': [4.25, 0, 0], 'normal': [0, 0, 1], 'half': [5, 9],'material': 'm'}]}");
     for (size_t i = 0; i < sizeof splitting / sizeof *splitting; i++) {
         check_marks(scene, splitting[i], "pixel", 0, 3.25 / 8);
     }
@@ -68,12 +65,11 @@ static void needless_splits_miss_an_edge_in_the_light(void **state)
 {
     (void)state;
     koksma_scene *scene =
-        scene_of("{\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
-                 "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}], \"shapes\": ["
-                 "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"},"
-                 "{\"kind\": \"rectangle\", \"centre\": [-5.09375, 5, 0], \"normal\": [0, -1, 0], \"half\": [5, 5],"
-                 "\"material\": \"m\"}], \"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 10, 0],"
-                 "\"normal\": [0, -1, 0], \"half\": [1, 1], \"radiance\": 40}]}");
+        scene_of("{'camera': {'eye': [0, 1, 4], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', "
+                 "'kind': 'lambert', 'albedo': 0.9}], 'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': "
+                 "[0, 1, 0], 'material': 'm'},{'kind': 'rectangle', 'centre': [-5.09375, 5, 0], 'normal': [0, -1, "
+                 "0], 'half': [5, 5],'material': 'm'}], 'lights': [{'kind': 'rectangle', 'centre': [0, 10, "
+                 "0],'normal': [0, -1, 0], 'half': [1, 1], 'radiance': 40}]}");
     for (size_t i = 0; i < sizeof splitting / sizeof *splitting; i++) {
         check_marks(scene, splitting[i], "light", 0, 1 - 3.25 / 8);
     }

@@ -6,21 +6,17 @@
 
 /* A coloured scene with everything that adds light: seen and unseen lights, sky, ambient light, mirror, glass, gloss. */
 #define EVERYTHING(more)                                                                                             \
-    "{\"camera\": {\"eye\": [0, 1.5, 5], \"target\": [0, 0.7, 0], \"fov_deg\": 45}, \"background\": [0.2, 0.3, "     \
-    "0.4], "                                                                                                         \
-    "\"ambient\": 0.1, " more "\"materials\": ["                                                                     \
-    "{\"name\": \"floor\", \"kind\": \"checker\", \"albedos\": [0.2, 0.7], \"period\": 1},"                          \
-    "{\"name\": \"red\", \"kind\": \"lambert\", \"albedo\": [0.8, 0.2, 0.1]},"                                       \
-    "{\"name\": \"mirror\", \"kind\": \"mirror\", \"reflectance\": 0.8},"                                            \
-    "{\"name\": \"glass\", \"kind\": \"dielectric\", \"ior\": 1.5},"                                                 \
-    "{\"name\": \"gloss\", \"kind\": \"phong\", \"reflectance\": 0.5, \"exponent\": 20}], \"shapes\": ["             \
-    "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"floor\"},"                  \
-    "{\"kind\": \"sphere\", \"centre\": [-1.4, 0.7, 0], \"radius\": 0.6, \"material\": \"red\"},"                    \
-    "{\"kind\": \"sphere\", \"centre\": [0, 0.7, 0], \"radius\": 0.6, \"material\": \"mirror\"},"                    \
-    "{\"kind\": \"sphere\", \"centre\": [1.4, 0.7, 0], \"radius\": 0.6, \"material\": \"glass\"},"                   \
-    "{\"kind\": \"sphere\", \"centre\": [0, 0.4, 1.5], \"radius\": 0.3, \"material\": \"gloss\"}], \"lights\": ["    \
-    "{\"kind\": \"sphere\", \"centre\": [-1, 3, 1], \"radius\": 0.3, \"radiance\": 9, \"visible\": true},"           \
-    "{\"kind\": \"point\", \"centre\": [2, 2, 3], \"intensity\": [3, 4, 2]}]}"
+    "{'camera': {'eye': [0, 1.5, 5], 'target': [0, 0.7, 0], 'fov_deg': 45}, 'background': [0.2, 0.3, 0.4], "         \
+    "'ambient': 0.1, " more                                                                                          \
+    "'materials': [{'name': 'floor', 'kind': 'checker', 'albedos': [0.2, 0.7], 'period': 1},{'name': 'red', "        \
+    "'kind': 'lambert', 'albedo': [0.8, 0.2, 0.1]},{'name': 'mirror', 'kind': 'mirror', 'reflectance': "             \
+    "0.8},{'name': 'glass', 'kind': 'dielectric', 'ior': 1.5},{'name': 'gloss', 'kind': 'phong', 'reflectance': "    \
+    "0.5, 'exponent': 20}], 'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': [0, 1, 0], 'material': "     \
+    "'floor'},{'kind': 'sphere', 'centre': [-1.4, 0.7, 0], 'radius': 0.6, 'material': 'red'},{'kind': 'sphere', "    \
+    "'centre': [0, 0.7, 0], 'radius': 0.6, 'material': 'mirror'},{'kind': 'sphere', 'centre': [1.4, 0.7, 0], "       \
+    "'radius': 0.6, 'material': 'glass'},{'kind': 'sphere', 'centre': [0, 0.4, 1.5], 'radius': 0.3, 'material': "    \
+    "'gloss'}], 'lights': [{'kind': 'sphere', 'centre': [-1, 3, 1], 'radius': 0.3, 'radiance': 9, 'visible': "       \
+    "true},{'kind': 'point', 'centre': [2, 2, 3], 'intensity': [3, 4, 2]}]}"
 
 static koksma_layers render_aovs(const koksma_scene *scene, const koksma_render_options *options, const char *names,
                                  koksma_aovs *aovs)
@@ -53,7 +49,7 @@ static void assert_sum(const koksma_layers *layers, const koksma_aovs *aovs, int
 static void parts_add_up(void **state)
 {
     (void)state;
-    static const char *const texts[] = {EVERYTHING(""), EVERYTHING("\"clamp\": 0.5, ")};
+    static const char *const texts[] = {EVERYTHING(""), EVERYTHING("'clamp': 0.5, ")};
     static const char names[] = "direct,indirect,bounce:0,bounce:1,bounce:2,bounce:3,bounce:4,bounce:5,bounce:6";
     for (size_t t = 0; t < 2; t++) {
         koksma_scene *scene = scene_of(texts[t]);
@@ -87,11 +83,9 @@ static void bounces_follow_the_integrating_sphere(void **state)
 {
     (void)state;
     koksma_scene *scene = scene_of(
-        "{\"camera\": {\"eye\": [0.3, 0.1, 0.2], \"target\": [0, 0, -1], \"fov_deg\": 90}, \"materials\": "
-        "[{\"name\": \"m\", "
-        "\"kind\": \"lambert\", \"albedo\": 0.6}], \"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, 0], "
-        "\"radius\": 1, "
-        "\"material\": \"m\"}], \"lights\": [{\"kind\": \"point\", \"centre\": [0, 0, 0], \"intensity\": 2}]}");
+        "{'camera': {'eye': [0.3, 0.1, 0.2], 'target': [0, 0, -1], 'fov_deg': 90}, 'materials': [{'name': 'm', "
+        "'kind': 'lambert', 'albedo': 0.6}], 'shapes': [{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1, "
+        "'material': 'm'}], 'lights': [{'kind': 'point', 'centre': [0, 0, 0], 'intensity': 2}]}");
     koksma_render_options options = options_of(scene, "random", "path-light", 4, 8);
     koksma_aovs aovs;
     options.depth = 3;
@@ -224,11 +218,9 @@ static void adaptive_parts_add_up(void **state)
 static void adaptive_halves_are_halves(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of(
-        "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"materials\": [], \"shapes\": "
-        "[], "
-        "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [-4.93, 0, 0], \"normal\": [0, 0, 1], \"half\": [5, 50], "
-        "\"radiance\": 1, \"visible\": true}]}");
+    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 40}, 'materials': "
+                                   "[], 'shapes': [], 'lights': [{'kind': 'rectangle', 'centre': [-4.93, 0, 0], "
+                                   "'normal': [0, 0, 1], 'half': [5, 50], 'radiance': 1, 'visible': true}]}");
     for (size_t i = 0; koksma_adaptive_at(i); i++) {
         koksma_render_options options = options_of(scene, "jittered", "path", 9, 16);
         koksma_aovs aovs;

@@ -31,16 +31,15 @@ static koksma_scene *made(const koksma__bsdf *bsdf, uint64_t stream)
             u[i] = draw(stream + 1000000 * attempt, 900 + i);
         }
         if (bsdf->diffuse & KOKSMA__ALBEDO) {
-            snprintf(diffuse, sizeof diffuse, ", \"albedo\": [%.17g, %.17g, %.17g]", u[0], u[1],
-                     u[0] < 0.5 ? 1 : u[2]);
+            snprintf(diffuse, sizeof diffuse, ", 'albedo': [%.17g, %.17g, %.17g]", u[0], u[1], u[0] < 0.5 ? 1 : u[2]);
         } else if (bsdf->diffuse) {
-            snprintf(diffuse, sizeof diffuse, ", \"albedos\": [%.17g, [1, %.17g, %.17g]]", u[0], u[1], u[2]);
+            snprintf(diffuse, sizeof diffuse, ", 'albedos': [%.17g, [1, %.17g, %.17g]]", u[0], u[1], u[2]);
         }
         snprintf(text, sizeof text,
-                 "{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 9}, \"shapes\": [],"
-                 "\"materials\": [{\"name\": \"m\", \"kind\": \"%s\"%s%s}]}",
+                 "{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 9}, 'shapes': [],'materials': "
+                 "[{'name': 'm', 'kind': '%s'%s%s}]}",
                  bsdf->kind.name, diffuse, fields);
-        if (!koksma__scene_open_text("test.json", text, strlen(text), &scene)) {
+        if (!open_text(text, &scene)) {
             assert_ptr_equal(scene->materials[0].bsdf, bsdf);
             return scene;
         }

@@ -214,12 +214,10 @@ static void floor_is_lit_by_an_image(void **state)
     }
     assert_ok(koksma_image_write("environment.pfm", &image, ""));
     koksma_image_fini(&image);
-    koksma_scene *scene = scene_of(
-        "{\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
-        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
-        "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}],"
-        "\"lights\": [{\"kind\": \"environment\", \"image\": \"environment.pfm\", \"scale\": 0.5, "
-        "\"angle_deg\": 30}]}");
+    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 1, 4], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': "
+                                   "[{'name': 'm', 'kind': 'lambert', 'albedo': 0.9}],'shapes': [{'kind': 'plane', "
+                                   "'centre': [0, 0, 0], 'normal': [0, 1, 0], 'material': 'm'}],'lights': [{'kind': "
+                                   "'environment', 'image': 'environment.pfm', 'scale': 0.5, 'angle_deg': 30}]}");
     remove("environment.pfm");
     static const char *const integrators[] = {"distribution", "path"};
     for (size_t i = 0; i < 2; i++) {

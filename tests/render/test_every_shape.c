@@ -49,16 +49,15 @@ static koksma_scene *scene_with(const koksma__shape_type *type, uint64_t stream,
     kind_fields(&type->kind, stream, fields, sizeof fields);
     if (stream % 2 && !strstr(fields, "motion")) {
         const size_t used = strlen(fields);
-        snprintf(
-            fields + used, sizeof fields - used,
-            ", \"to\": {\"centre\": [%.17g, %.17g, %.17g], \"rotate_deg\": [%.17g, %.17g, %.17g], \"scale\": %.17g}",
-            t.centre[0], t.centre[1], t.centre[2], t.axis == 0 ? t.angle_deg : 0, t.axis == 1 ? t.angle_deg : 0,
-            t.axis == 2 ? t.angle_deg : 0, t.scale);
+        snprintf(fields + used, sizeof fields - used,
+                 ", 'to': {'centre': [%.17g, %.17g, %.17g], 'rotate_deg': [%.17g, %.17g, %.17g], 'scale': %.17g}",
+                 t.centre[0], t.centre[1], t.centre[2], t.axis == 0 ? t.angle_deg : 0, t.axis == 1 ? t.angle_deg : 0,
+                 t.axis == 2 ? t.angle_deg : 0, t.scale);
     }
     snprintf(text, sizeof text,
-             "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"materials\": [{\"name\": "
-             "\"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\": [{\"kind\": \"%s\", \"material\": "
-             "\"m\"%s}%s], \"lights\": [{\"kind\": \"point\", \"centre\": [0, 9, 0], \"intensity\": 1}]}",
+             "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 40}, 'materials': [{'name': 'm', 'kind': "
+             "'lambert', 'albedo': 0.5}], 'shapes': [{'kind': '%s', 'material': 'm'%s}%s], 'lights': [{'kind': "
+             "'point', 'centre': [0, 9, 0], 'intensity': 1}]}",
              type->kind.name, fields, more);
     return scene_of(text);
 }
@@ -411,7 +410,6 @@ static void check_moved_lanes(const koksma_scene *scene, const koksma__rays *ray
 static void lanes_are_alike(void **state)
 {
     (void)state;
-    static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
     for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
             koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial, "");
@@ -458,10 +456,9 @@ static void geometries_agree(void **state)
     const bool embree = koksma_mesh_tracer() != NULL;
     for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
-            koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial,
-                                             embree ? ", {\"kind\": \"mesh\", \"file\": \"koksma-test-shape.off\", "
-                                                      "\"material\": \"m\"}"
-                                                    : "");
+            koksma_scene *scene =
+                scene_with(koksma__shape_types[kind], 100 * kind + trial,
+                           embree ? ", {'kind': 'mesh', 'file': 'koksma-test-shape.off', 'material': 'm'}" : "");
             koksma__geometry plain, both;
             koksma__rays rays;
             koksma__hits a = {0}, b = {0};
@@ -510,11 +507,10 @@ static void kinds_refuse_unknown_fields(void **state)
         kind_fields(&type->kind, kind, fields, sizeof fields);
         for (int wrong = 0; wrong < 2; wrong++) {
             snprintf(text, sizeof text,
-                     "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"materials\": "
-                     "[{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\": [{\"kind\": \"%s\", "
-                     "\"material\": \"m\"%s%s}]}",
-                     type->kind.name, fields, wrong ? ", \"colour\": 1" : "");
-            const koksma_status status = koksma__scene_open_text("test.json", text, strlen(text), &scene);
+                     "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 40}, 'materials': [{'name': 'm', "
+                     "'kind': 'lambert', 'albedo': 0.5}], 'shapes': [{'kind': '%s', 'material': 'm'%s%s}]}",
+                     type->kind.name, fields, wrong ? ", 'colour': 1" : "");
+            const koksma_status status = open_text(text, &scene);
             if (wrong) {
                 assert_int_equal(status, KOKSMA_MALFORMED);
                 assert_non_null(strstr(koksma_error_text(), "colour"));

@@ -52,8 +52,8 @@ static void filters_keep_a_ramp(void **state)
     enum { SEEDS = 8 };
     static const char *const patterns[] = {"regular", "random", "n-rooks", "sobol:scramble=owen"};
     static const int spps[] = {4, 16, 64};
-    koksma_scene *scene = scene_of("{\"camera\": {\"eye\": [0, 0, 0], \"target\": [0, 0, -1], \"fov_deg\": 40},"
-                                   "\"background\": 1, \"materials\": [], \"shapes\": []}");
+    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 0], 'target': [0, 0, -1], 'fov_deg': 40},'background': "
+                                   "1, 'materials': [], 'shapes': []}");
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
         for (size_t c = 0; c < 24; c++) {
@@ -98,10 +98,9 @@ static void few_draws_have_no_bias(void **state)
     (void)state;
     enum { SEEDS = test_repeats(100, 20), HEIGHT = 9 };
     koksma_scene *scene =
-        scene_of("{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 90}, \"ambient\": 1,"
-                 "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"shapes\": ["
-                 "{\"kind\": \"rectangle\", \"centre\": [-5, 0, 0], \"normal\": [0, 0, 1], \"half\": [5, 90], "
-                 "\"material\": \"m\"}]}");
+        scene_of("{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 90}, 'ambient': 1,'materials': "
+                 "[{'name': 'm', 'kind': 'lambert', 'albedo': 1}], 'shapes': [{'kind': 'rectangle', 'centre': [-5, "
+                 "0, 0], 'normal': [0, 0, 1], 'half': [5, 90], 'material': 'm'}]}");
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
         for (int spp = 2; spp <= 8; spp *= 2) { /* the edge is in the middle of column 4 */

@@ -3,44 +3,16 @@
    through random cameras (narrow and wide, far from and almost in the plane of a shape, far from the origin), traced
    with all shapes and with those in sight, to the last bit. Shapes that are said to be clear of shadow rays block none
    of them. */
-#include <string.h>
-
-#include "core/random.h"
 #include "render/culling.h"
 #include "render/shapes/shapes.h"
-#include "scene/scene.h"
-#include "test.h"
+#include "rendering.h"
 
 enum { SHAPES = 6, ROUNDS = test_repeats(300, 20), PARTS = 40, SIDE = 100 };
-
-static uint64_t counter;
-
-static double uniform(double low, double high)
-{
-    double pair[2];
-    koksma__random_pair(5, KOKSMA__PURPOSE_TEST, counter++, 0, pair);
-    return low + (high - low) * pair[0];
-}
 
 static void cross(const float a[3], const float b[3], float out[3])
 {
     for (int k = 0; k < 3; k++) {
         out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-    }
-}
-
-static void unit_vector(float v[3])
-{
-    double w[3], square;
-    do {
-        square = 0;
-        for (int k = 0; k < 3; k++) {
-            w[k] = uniform(-1, 1);
-            square += w[k] * w[k];
-        }
-    } while (!(square > 0.01 && square < 1));
-    for (int k = 0; k < 3; k++) {
-        v[k] = (float)(w[k] / sqrt(square));
     }
 }
 

@@ -11,26 +11,21 @@
 #include "render/render.h"
 #include "render/samples/samples.h"
 
-#define CAMERA "\"camera\": {\"eye\": [0, 0.3, 3], \"target\": [0, 0, 0], \"fov_deg\": 12}"
-#define SKY "\"lights\": [{\"kind\": \"environment\", \"radiance\": 1, \"visible\": true}]"
-#define WHITE "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}]"
+#define CAMERA "'camera': {'eye': [0, 0.3, 3], 'target': [0, 0, 0], 'fov_deg': 12}"
+#define SKY "'lights': [{'kind': 'environment', 'radiance': 1, 'visible': true}]"
+#define WHITE "'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 1}]"
 
 static double picture(const char *text, const koksma_integrator *in, int depth, int spp, double *error)
 {
-    koksma_scene *scene = scene_of(text);
-    koksma_render_options options = options_of(scene, "random", in->name, spp, 16);
-    options.depth = depth;
-    const double mean = mean_of(scene, &options, error);
-    koksma_scene_close(scene);
-    return mean;
+    return mean_of_text(text, "random", in->name, depth, spp, 16, error);
 }
 
 /* A ball of albedo 1/2, with ambient light 1/4 of the sky's. */
 static void convex_bodies_reflect_the_sky(void **state)
 {
     static const char *const text =
-        "{" CAMERA ", \"ambient\": 0.25, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}],"
-        "\"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1, \"material\": \"m\"}]," SKY "}";
+        "{" CAMERA ", 'ambient': 0.25, 'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 0.5}],'shapes': "
+        "[{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1, 'material': 'm'}]," SKY "}";
     (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
@@ -48,13 +43,11 @@ static void convex_bodies_reflect_the_sky(void **state)
 static void closed_furnaces_are_white(void **state)
 {
     static const char *const text =
-        "{\"camera\": {\"eye\": [3, 3, 3], \"target\": [0.3, 0.3, 0.3], \"fov_deg\": 10}, " WHITE ", \"shapes\": ["
-        "{\"kind\": \"rectangle\", \"centre\": [1, 0, 1], \"normal\": [0, 1, 0], \"half\": [1, 1], \"material\": "
-        "\"m\"},"
-        "{\"kind\": \"rectangle\", \"centre\": [1, 1, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], \"material\": "
-        "\"m\"},"
-        "{\"kind\": \"rectangle\", \"centre\": [0, 1, 1], \"normal\": [1, 0, 0], \"half\": [1, 1], \"material\": "
-        "\"m\"}]," SKY "}";
+        "{'camera': {'eye': [3, 3, 3], 'target': [0.3, 0.3, 0.3], 'fov_deg': 10}, " WHITE
+        ", 'shapes': [{'kind': 'rectangle', 'centre': [1, 0, 1], 'normal': [0, 1, 0], 'half': [1, 1], 'material': "
+        "'m'},{'kind': 'rectangle', 'centre': [1, 1, 0], 'normal': [0, 0, 1], 'half': [1, 1], 'material': "
+        "'m'},{'kind': 'rectangle', 'centre': [0, 1, 1], 'normal': [1, 0, 0], 'half': [1, 1], 'material': 'm'}]," SKY
+        "}";
     (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
@@ -72,11 +65,9 @@ static void closed_furnaces_are_white(void **state)
 static void closed_balls_add_up_all_bounces(void **state)
 {
     static const char *const text =
-        "{\"camera\": {\"eye\": [0.3, 0.2, 0.4], \"target\": [0, 1, -0.2], \"fov_deg\": 20}, \"materials\": "
-        "[{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.8}], \"shapes\": [{\"kind\": \"sphere\", "
-        "\"centre\": "
-        "[0, 0, 0], \"radius\": 1, \"material\": \"m\"}], \"lights\": [{\"kind\": \"point\", \"centre\": [0, 0, 0], "
-        "\"intensity\": 1}]}";
+        "{'camera': {'eye': [0.3, 0.2, 0.4], 'target': [0, 1, -0.2], 'fov_deg': 20}, 'materials': [{'name': 'm', "
+        "'kind': 'lambert', 'albedo': 0.8}], 'shapes': [{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1, "
+        "'material': 'm'}], 'lights': [{'kind': 'point', 'centre': [0, 0, 0], 'intensity': 1}]}";
     (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
@@ -95,8 +86,7 @@ static void closed_balls_add_up_all_bounces(void **state)
 /* Mirrors and glass show the sky to integrators that follow them; others see black. */
 static void specular_bodies_show_the_sky(void **state)
 {
-    static const char *const materials[] = {"\"kind\": \"mirror\", \"reflectance\": 1",
-                                            "\"kind\": \"dielectric\", \"ior\": 1.5"};
+    static const char *const materials[] = {"'kind': 'mirror', 'reflectance': 1", "'kind': 'dielectric', 'ior': 1.5"};
     (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
@@ -104,8 +94,8 @@ static void specular_bodies_show_the_sky(void **state)
             char text[1024];
             double error;
             snprintf(text, sizeof text,
-                     "{" CAMERA ", \"materials\": [{\"name\": \"m\", %s}], \"shapes\": [{\"kind\": \"rectangle\", "
-                     "\"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [2, 2], \"material\": \"m\"}]," SKY "}",
+                     "{" CAMERA ", 'materials': [{'name': 'm', %s}], 'shapes': [{'kind': 'rectangle', 'centre': [0, "
+                     "0, 0], 'normal': [0, 0, 1], 'half': [2, 2], 'material': 'm'}]," SKY "}",
                      materials[m]);
             const double mean = picture(text, koksma_integrator_at(i), 40, 16, &error);
             const double expected = flags->followed & KOKSMA__LOBE_SPECULAR || flags->replace_scene ? 1 : 0;
@@ -174,14 +164,12 @@ static size_t compare(const koksma_scene *scene, const koksma_integrator *in, co
 /* The middle of a floor of albedo 0.5, seen from the side, below a disk of radius 0.75 at height 1, whose form factor is
    r^2 / (r^2 + 1) = 0.36; a wall beyond the floor's edge, which the floor would light, adds nothing. */
 #define FLOOR                                                                                                        \
-    "{\"camera\": {\"eye\": [0, 0.5, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.02}, \"ambient\": 3, \"materials\": " \
-    "[{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\": [{\"kind\": \"rectangle\", "           \
-    "\"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"half\": [5, 5], \"material\": \"m\"}"
-#define WALL                                                                                                         \
-    ", {\"kind\": \"rectangle\", \"centre\": [0, 0, -5], \"normal\": [0, 0, 1], \"half\": [5, 5], \"material\": "    \
-    "\"m\"}"
-#define DISK "\"kind\": \"disk\", \"centre\": [0, 1, 0], \"radius\": 0.75, "
-#define LIT "], \"lights\": [{" DISK "\"normal\": [0, -1, 0], \"radiance\": 2, \"visible\": true}]"
+    "{'camera': {'eye': [0, 0.5, 4], 'target': [0, 0, 0], 'fov_deg': 0.02}, 'ambient': 3, 'materials': [{'name': "   \
+    "'m', 'kind': 'lambert', 'albedo': 0.5}], 'shapes': [{'kind': 'rectangle', 'centre': [0, 0, 0], 'normal': [0, "  \
+    "1, 0], 'half': [5, 5], 'material': 'm'}"
+#define WALL ", {'kind': 'rectangle', 'centre': [0, 0, -5], 'normal': [0, 0, 1], 'half': [5, 5], 'material': 'm'}"
+#define DISK "'kind': 'disk', 'centre': [0, 1, 0], 'radius': 0.75, "
+#define LIT "], 'lights': [{" DISK "'normal': [0, -1, 0], 'radiance': 2, 'visible': true}]"
 
 static double floor_by(const char *rest, const char *integrator, int depth, double *error)
 {
@@ -208,18 +196,18 @@ static void ambient_occlusion_is_the_rest_of_the_sky(void **state)
 {
     (void)state;
     static const char *const disks[] = {
-        LIT, ", {" DISK "\"normal\": [0, -1, 0], \"material\": \"m\"}]",
-        ", {" DISK "\"normal\": [0, 1, 0], \"material\": \"m\"}], \"lights\": [{\"kind\": \"environment\", "
-        "\"radiance\": 7, \"visible\": true}, {\"kind\": \"point\", \"centre\": [1, 1, 1], \"intensity\": 3}]",
-        LIT ", \"clamp\": 0.2"};
+        LIT, ", {" DISK "'normal': [0, -1, 0], 'material': 'm'}]",
+        ", {" DISK "'normal': [0, 1, 0], 'material': 'm'}], 'lights': [{'kind': 'environment', 'radiance': 7, "
+        "'visible': true}, {'kind': 'point', 'centre': [1, 1, 1], 'intensity': 3}]",
+        LIT ", 'clamp': 0.2"};
     double error;
     for (size_t i = 0; i < sizeof disks / sizeof *disks; i++) {
         const double seen = floor_by(disks[i], "ambient-occlusion", -1, &error);
         assert_mean(seen, error, 1 - 0.36);
     }
-    const double wall = floor_by(", {\"kind\": \"plane\", \"centre\": [0, 0, -0.01], \"normal\": [0, 0, 1], "
-                                 "\"material\": \"m\"}]",
-                                 "ambient-occlusion", -1, &error);
+    const double wall =
+        floor_by(", {'kind': 'plane', 'centre': [0, 0, -0.01], 'normal': [0, 0, 1], 'material': 'm'}]",
+                 "ambient-occlusion", -1, &error);
     assert_near(wall, 0.5, 4 * error + 0.005);
     assert_true(floor_by("]", "ambient-occlusion", 0, &error) == 0); /* no ray looks at the sky */
 }
@@ -228,11 +216,9 @@ static void ambient_occlusion_is_the_rest_of_the_sky(void **state)
 static void warnings_of_light_are_for_integrators_with_light(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of(
-        "{\"camera\": {\"eye\": [0, 0, 4], \"target\": [0, 0, 0], \"fov_deg\": 30}, \"materials\": [{\"name\": "
-        "\"m\", \"kind\": \"mirror\", \"reflectance\": 1}], \"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, "
-        "0], \"radius\": "
-        "1, \"material\": \"m\"}]}");
+    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 4], 'target': [0, 0, 0], 'fov_deg': 30}, 'materials': "
+                                   "[{'name': 'm', 'kind': 'mirror', 'reflectance': 1}], 'shapes': [{'kind': "
+                                   "'sphere', 'centre': [0, 0, 0], 'radius': 1, 'material': 'm'}]}");
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         koksma_render_options options;
         koksma_render_options_init(&options, scene);
@@ -253,17 +239,15 @@ static koksma_scene *disk_of(const koksma__bsdf *bsdf, int variant)
 {
     char fields[1024], text[2048];
     kind_fields(&bsdf->kind, 3, fields, sizeof fields);
-    snprintf(
-        text, sizeof text,
-        "{" CAMERA ", \"materials\": [{\"name\": \"m\", \"kind\": \"%s\"%s%s}], \"shapes\": [{\"kind\": "
-        "\"disk\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"radius\": 1, \"material\": \"m\"}], \"lights\": "
-        "[{\"kind\": \"rectangle\", \"centre\": [0, 1, 3], \"facing\": [0, 0, 0], \"half\": [0.5, 0.5], "
-        "\"strength\": 1}]}",
-        bsdf->kind.name,
-        bsdf->diffuse & KOKSMA__ALBEDO ? ", \"albedo\": 0.01"
-        : bsdf->diffuse                ? ", \"albedos\": [0.3, 0.6], \"period\": 0.2"
-                                       : "",
-        fields);
+    snprintf(text, sizeof text,
+             "{" CAMERA ", 'materials': [{'name': 'm', 'kind': '%s'%s%s}], 'shapes': [{'kind': 'disk', 'centre': [0, "
+             "0, 0], 'normal': [0, 0, 1], 'radius': 1, 'material': 'm'}], 'lights': [{'kind': "
+             "'rectangle', 'centre': [0, 1, 3], 'facing': [0, 0, 0], 'half': [0.5, 0.5], 'strength': 1}]}",
+             bsdf->kind.name,
+             bsdf->diffuse & KOKSMA__ALBEDO ? ", 'albedo': 0.01"
+             : bsdf->diffuse                ? ", 'albedos': [0.3, 0.6], 'period': 0.2"
+                                            : "",
+             fields);
     koksma_scene *scene = scene_of(text);
     koksma__material *m = &scene->materials[0];
     for (const koksma__parameter *p = bsdf->kind.parameters; p && p->name; p++) {

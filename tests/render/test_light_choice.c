@@ -5,22 +5,10 @@
  * chosen, so that the mean of contribution / probability is the sum over all lights. `auto` is `one` for paths among
  * more than 8 lights, and `all` elsewhere; its mean is that of all lights.
  */
-#include <string.h>
-
-#include "core/random.h"
 #include "render/pipelines/pipelines.h"
-#include "test.h"
+#include "rendering.h"
 
 enum { POINTS = test_repeats(40, 8), GRID = test_repeats(4096, 1024) };
-
-static uint64_t counter;
-
-static float uniform(double low, double high)
-{
-    double pair[2];
-    koksma__random_pair(11, KOKSMA__PURPOSE_TEST, counter++, 0, pair);
-    return (float)(low + (high - low) * pair[0]);
-}
 
 static koksma_render_options options_by(const koksma_scene *scene, koksma_light_selection lights)
 {
@@ -89,7 +77,6 @@ static void probabilities_add_to_one(void **state)
 
 static void choices_have_their_probabilities(void **state)
 {
-    static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
     static _Alignas(64) float estimates[KOKSMA__MAX_BATCH_LIGHTS][KOKSMA__BLOCK];
     (void)state;
     koksma_scene *scene;
@@ -159,28 +146,6 @@ static void choices_have_their_probabilities(void **state)
     koksma_scene_close(scene);
 }
 
-/* Mean of the picture over seeds, and its standard error. */
-static double mean_over_seeds(const koksma_scene *scene, koksma_render_options options, double *error)
-{
-    enum { SEEDS = test_repeats(20, 6) };
-    double sum = 0, squares = 0;
-    for (int seed = 0; seed < SEEDS; seed++) {
-        koksma_image image;
-        double mean = 0;
-        options.seed = (uint64_t)(100 * (int)options.lights + seed);
-        assert_ok(koksma_render(scene, &options, NULL, &image));
-        const size_t n = (size_t)image.width * (size_t)image.height * (size_t)image.channels;
-        for (size_t i = 0; i < n; i++) {
-            mean += (double)image.pixels[i] / (double)n;
-        }
-        sum += mean;
-        squares += mean * mean;
-        koksma_image_fini(&image);
-    }
-    *error = sqrt(fmax(squares / SEEDS - sum / SEEDS * (sum / SEEDS), 0) / (SEEDS - 1));
-    return sum / SEEDS;
-}
-
 static void one_of_many_has_the_mean_of_all(void **state)
 {
     (void)state;
@@ -192,7 +157,7 @@ static void one_of_many_has_the_mean_of_all(void **state)
         options.width = 32;
         options.height = 24;
         options.spp = i ? test_repeats(64, 8) : test_repeats(8, 1);
-        means[i] = mean_over_seeds(scene, options, &errors[i]);
+        means[i] = mean_over_seeds(scene, options, test_repeats(20, 6), i ? 100 : 0, &errors[i]);
     }
     assert_near(means[1], means[0], 4 * hypot(errors[0], errors[1]));
     assert_true(hypot(errors[0], errors[1]) < test_repeats(2e-3, 2e-2) * means[0]);

@@ -1,37 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Choosing lights, rays that start on shapes, and shapes that move: the same bits for every instruction set, and
-   plain twins in double precision. */
-#include <math.h>
-#include <string.h>
-
-#include "core/random.h"
+/* Choosing lights against a plain twin in double precision, and shadows of small spheres: the same bits for every
+   instruction set. */
 #include "render/shapes/shapes.h"
-#include "scene/scene.h"
-#include "test.h"
-
-static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
-static uint64_t counter;
-
-static float uniform(double low, double high)
-{
-    double pair[2];
-    koksma__random_pair(5, KOKSMA__PURPOSE_TEST, counter++, 0, pair);
-    return (float)(low + (high - low) * pair[0]);
-}
-
-static void unit_vector(float v[3])
-{
-    float length = 0;
-    while (!(length > 0.1f)) {
-        v[0] = uniform(-1, 1);
-        v[1] = uniform(-1, 1);
-        v[2] = uniform(-1, 1);
-        length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    }
-    for (int k = 0; k < 3; k++) {
-        v[k] /= length;
-    }
-}
+#include "rendering.h"
+#include <math.h>
 
 static void random_lamps(koksma__batch_lights *l)
 {
@@ -109,65 +81,6 @@ static void estimates_equal_twin(void **state)
     }
 }
 
-/* A ray that starts on a moving sphere, at a time: where it meets the sphere again, and what it meets else. */
-static void rays_from_moving_spheres(void **state)
-{
-    (void)state;
-    for (int round = 0; round < 200; round++) {
-        const koksma__shape plane = {.type = &KOKSMA__SHAPE(plane), .half = {INFINITY, INFINITY}};
-        const koksma__shape ball = {.type = &KOKSMA__SHAPE(sphere), .half = {1, 1}};
-        koksma__batch_shape list[2] = {koksma__batch_shape_of(&ball, 0), koksma__batch_shape_of(&plane, 1)};
-        koksma__rays rays;
-        koksma__hits hits[4];
-        KOKSMA__LANES(int32_t, from);
-        const float radius = uniform(0.3, 1);
-        list[0].moves = true;
-        list[0].radius2 = radius * radius;
-        list[0].inverse_radius = 1 / radius;
-        list[1].normal[1] = list[1].axis_u[0] = list[1].axis_v[2] = 1;
-        list[1].centre[1] = -5;
-        for (int k = 0; k < 3; k++) {
-            list[0].centre[k] = uniform(-1, 1);
-            list[0].motion[k] = uniform(-2, 2);
-        }
-        for (int i = 0; i < KOKSMA__BLOCK; i++) {
-            float place[3], way[3], *const o[3] = {&rays.ox[i], &rays.oy[i], &rays.oz[i]};
-            unit_vector(place);
-            unit_vector(way);
-            rays.time[i] = uniform(0, 1);
-            for (int k = 0; k < 3; k++) {
-                *o[k] = list[0].centre[k] + rays.time[i] * list[0].motion[k] + radius * place[k];
-            }
-            rays.dx[i] = way[0];
-            rays.dy[i] = way[1];
-            rays.dz[i] = way[2];
-            from[i] = 0;
-        }
-        const koksma__batch_shapes shapes = {2, list};
-        for (int isa = 0; isa < 4; isa++) {
-            const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
-            if (batch) {
-                memset(&hits[isa], 0, sizeof hits[isa]);
-                batch->closest(&shapes, &rays, from, KOKSMA__BLOCK, &hits[isa]);
-                assert_memory_equal(&hits[isa], &hits[0], sizeof hits[0]);
-            }
-        }
-        for (int i = 0; i < KOKSMA__BLOCK; i++) {
-            const float *c = list[0].centre, *m = list[0].motion, t = rays.time[i];
-            const double inwards = -((double)(rays.ox[i] - c[0] - t * m[0]) * (double)rays.dx[i] +
-                                     (double)(rays.oy[i] - c[1] - t * m[1]) * (double)rays.dy[i] +
-                                     (double)(rays.oz[i] - c[2] - t * m[2]) * (double)rays.dz[i]);
-            if (inwards > 1e-3) {
-                assert_int_equal(hits[0].primitive[i], 0);
-                assert_int_equal(hits[0].back[i], 1);
-                assert_near((double)hits[0].t[i], 2 * inwards, 1e-4);
-            } else if (inwards < -1e-3) {
-                assert_int_equal(hits[0].primitive[i], rays.dy[i] < 0 ? 1 : -1);
-            }
-        }
-    }
-}
-
 /* Shadow rays that pass a small sphere far away at 0.98 or 1.02 of its radius, or end before it: at distance D floats
    know a place to some D / 10^7. */
 static void small_spheres_far_away_shade(void **state)
@@ -222,7 +135,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimates_equal_twin),
-        cmocka_unit_test(rays_from_moving_spheres),
         cmocka_unit_test(small_spheres_far_away_shade),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

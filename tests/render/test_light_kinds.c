@@ -17,11 +17,10 @@
 
 enum { TRIALS = test_repeats(12, 3), SAMPLES = 16384, SIDE = 128, FUNCTIONS = 9, PICTURES = 3 };
 
-#define CAMERA "\"camera\": {\"eye\": [4, 1, 4], \"target\": [1.2, -2, 1.2], \"fov_deg\": 20}"
+#define CAMERA "'camera': {'eye': [4, 1, 4], 'target': [1.2, -2, 1.2], 'fov_deg': 20}"
 #define FLOOR                                                                                                        \
-    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.8}], \"shapes\": [{\"kind\": "           \
-    "\"plane\", "                                                                                                    \
-    "\"centre\": [0, -2, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}"
+    "'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 0.8}], 'shapes': [{'kind': 'plane', 'centre': [0, "    \
+    "-2, 0], 'normal': [0, 1, 0], 'material': 'm'}"
 
 /* A tetrahedron for luminous meshes, which no object of "lights" makes. */
 static const char *const tetrahedron = "koksma-test-light.off";
@@ -42,7 +41,7 @@ static koksma_scene *scene_with(const koksma__light_kind *kind, uint64_t stream,
     koksma_scene *scene = NULL;
     kind_fields(&kind->kind, stream, fields, sizeof fields);
     for (const koksma__parameter *p = kind->kind.parameters; p && p->name; p++) {
-        const char *asked = visible ? ", \"visible\": true" : ", \"visible\": false";
+        const char *asked = visible ? ", 'visible': true" : ", 'visible': false";
         char *at = strstr(fields, ", \"visible\":");
         if (!strcmp(p->name, "visible")) {
             if (at) { /* left out; then as asked */
@@ -56,20 +55,21 @@ static koksma_scene *scene_with(const koksma__light_kind *kind, uint64_t stream,
         static const char *const falloffs[] = {"square", "smooth", "angle"};
         if (!strcmp(*key, "falloff")) {
             const size_t used = strlen(fields);
-            snprintf(fields + used, sizeof fields - used, ", \"falloff\": \"%s\"%s", falloffs[stream % 3],
-                     strstr(fields, "\"edge\"") ? "" : ", \"edge\": 0.8");
+            snprintf(fields + used, sizeof fields - used, ", 'falloff': '%s'%s", falloffs[stream % 3],
+                     strstr(fields, "\"edge\"") ? "" : ", 'edge': 0.8");
         }
     }
-    snprintf(light, sizeof light, "{\"kind\": \"%s\"%s}", kind->kind.name, fields);
+    snprintf(light, sizeof light, "{'kind': '%s'%s}", kind->kind.name, fields);
     if (kind->kind.is_implied) {
-        snprintf(text, sizeof text,
-                 "{" CAMERA "," FLOOR ", {\"kind\": \"mesh\", \"file\": \"%s\", \"emission\": [3, 2, 1], "
-                 "\"translate\": [%g, %g, 0]}], \"lights\": [%s]}",
-                 tetrahedron, draw(stream, 1) - 0.5, draw(stream, 2) - 0.5, *more ? more + 2 : "");
+        snprintf(
+            text, sizeof text,
+            "{" CAMERA "," FLOOR
+            ", {'kind': 'mesh', 'file': '%s', 'emission': [3, 2, 1], 'translate': [%g, %g, 0]}], 'lights': [%s]}",
+            tetrahedron, draw(stream, 1) - 0.5, draw(stream, 2) - 0.5, *more ? more + 2 : "");
     } else {
-        snprintf(text, sizeof text, "{" CAMERA "," FLOOR "], \"lights\": [%s%s]}", light, more);
+        snprintf(text, sizeof text, "{" CAMERA "," FLOOR "], 'lights': [%s%s]}", light, more);
     }
-    if (koksma__scene_open_text("test.json", text, strlen(text), &scene)) {
+    if (open_text(text, &scene)) {
         if (kind->kind.is_implied && !koksma_mesh_tracer()) {
             return NULL;
         }
@@ -344,9 +344,8 @@ static double picture(const koksma_scene *scene, const char *integrator, koksma_
 
 static void ways_of_choosing_agree(void **state)
 {
-    static const char *const more =
-        ", {\"kind\": \"disk\", \"centre\": [1, 1, 1], \"facing\": [1, -2, 1], \"radius\": 0.4, \"radiance\": 1},"
-        "{\"kind\": \"point\", \"centre\": [2, 0, 0], \"intensity\": 0.5}";
+    static const char *const more = ", {'kind': 'disk', 'centre': [1, 1, 1], 'facing': [1, -2, 1], 'radius': 0.4, "
+                                    "'radiance': 1},{'kind': 'point', 'centre': [2, 0, 0], 'intensity': 0.5}";
     (void)state;
     for (size_t k = 0; koksma__light_types[k]; k++) {
         for (uint64_t trial = 0; trial < PICTURES; trial++) {

@@ -14,26 +14,23 @@ static void choices_are_in_proportion(void **state)
         const char *light;
         double by_power;
     } cases[] = {
-        {"\"kind\": \"disk\", \"centre\": [0, 1, 0], \"normal\": [0, -1, 0], \"radius\": 0.02, \"radiance\": 250",
+        {"'kind': 'disk', 'centre': [0, 1, 0], 'normal': [0, -1, 0], 'radius': 0.02, 'radiance': 250", 0.5},
+        {"'kind': 'rectangle', 'centre': [0, 1, 0], 'normal': [0, -1, 0], 'half': [0.01, 0.01], 'radiance': "
+         "785.398163",
          0.5},
-        {"\"kind\": \"rectangle\", \"centre\": [0, 1, 0], \"normal\": [0, -1, 0], \"half\": [0.01, 0.01], "
-         "\"radiance\": 785.398163",
-         0.5},
-        {"\"kind\": \"point\", \"centre\": [0, 1, 0], \"intensity\": 0.314159265", 0.2},
-        {"\"kind\": \"sphere\", \"centre\": [0, 1, 0], \"radius\": 0.01, \"radiance\": 1000", 0.2},
-        {"\"kind\": \"directional\", \"direction\": [0, -1, 0], \"irradiance\": 0.314159265", 0.5},
-        {"\"kind\": \"environment\", \"radiance\": 0.1", 0.5},
+        {"'kind': 'point', 'centre': [0, 1, 0], 'intensity': 0.314159265", 0.2},
+        {"'kind': 'sphere', 'centre': [0, 1, 0], 'radius': 0.01, 'radiance': 1000", 0.2},
+        {"'kind': 'directional', 'direction': [0, -1, 0], 'irradiance': 0.314159265", 0.5},
+        {"'kind': 'environment', 'radiance': 0.1", 0.5},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[1024];
-        snprintf(
-            text, sizeof text,
-            "{\"camera\": {\"eye\": [0.3, 0.5, 0.3], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
-            "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}],"
-            "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}],"
-            "\"lights\": [{\"kind\": \"disk\", \"centre\": [0, 1, 0], \"normal\": [0, -1, 0], \"radius\": 0.01, "
-            "\"radiance\": 1000}, {%s}]}",
-            cases[i].light);
+        snprintf(text, sizeof text,
+                 "{'camera': {'eye': [0.3, 0.5, 0.3], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': "
+                 "'m', 'kind': 'lambert', 'albedo': 1}],'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': "
+                 "[0, 1, 0], 'material': 'm'}],'lights': [{'kind': 'disk', 'centre': [0, 1, 0], 'normal': [0, -1, "
+                 "0], 'radius': 0.01, 'radiance': 1000}, {%s}]}",
+                 cases[i].light);
         koksma_scene *scene = scene_of(text);
         koksma__lights lights;
         assert_ok(koksma__lights_init(scene, &lights));

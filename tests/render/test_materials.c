@@ -4,16 +4,7 @@
 
 #include "render/materials/materials.h"
 
-#include "core/random.h"
 #include "rendering.h"
-
-static double uniform(double low, double high)
-{
-    static uint64_t counter;
-    double pair[2];
-    koksma__random_pair(11, KOKSMA__PURPOSE_TEST, counter++, 0, pair);
-    return low + (high - low) * pair[0];
-}
 
 /* D / (4 n.out) and no more, seen straight on, of a facet whose slope is within twice the roughness: relative errors
    in the mean. Walter et al. 2007, equation 33. */
@@ -107,10 +98,9 @@ static void pictures_of_highlights(void **state)
         const double a = roughness[i] * roughness[i];
         snprintf(
             text, sizeof text,
-            "{\"camera\": {\"eye\": [0, 1, 1], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
-            "\"materials\": [{\"name\": \"m\", \"kind\": \"ggx\", \"reflectance\": 1, \"roughness\": %g}],"
-            "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}],"
-            "\"lights\": [{\"kind\": \"point\", \"centre\": [0, 1, -1], \"intensity\": 2}]}",
+            "{'camera': {'eye': [0, 1, 1], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', 'kind': "
+            "'ggx', 'reflectance': 1, 'roughness': %g}],'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': "
+            "[0, 1, 0], 'material': 'm'}],'lights': [{'kind': 'point', 'centre': [0, 1, -1], 'intensity': 2}]}",
             roughness[i]);
         koksma_scene *scene = scene_of(text);
         koksma_render_options options = options_of(scene, "regular", "path", 1, 1);
@@ -127,12 +117,12 @@ static void every_roughness_is_finite(void **state)
     static const double roughness[] = {0.001, 0.003, 0.01, 0.0125, 0.02, 0.03};
     for (size_t i = 0; i < 12; i++) {
         char text[1024];
-        snprintf(text, sizeof text,
-                 "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 20},"
-                 "\"materials\": [{\"name\": \"m\", \"kind\": \"ggx\", \"reflectance\": 1, \"roughness\": %g}],"
-                 "\"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1, \"material\": \"m\"}],"
-                 "\"lights\": [{\"kind\": \"environment\", \"radiance\": 1, \"visible\": true}]}",
-                 roughness[i / 2]);
+        snprintf(
+            text, sizeof text,
+            "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 20},'materials': [{'name': 'm', 'kind': "
+            "'ggx', 'reflectance': 1, 'roughness': %g}],'shapes': [{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': "
+            "1, 'material': 'm'}],'lights': [{'kind': 'environment', 'radiance': 1, 'visible': true}]}",
+            roughness[i / 2]);
         koksma_scene *scene = scene_of(text);
         koksma_render_options options = options_of(scene, "random", i % 2 ? "path" : "distribution", 16, 16);
         double error;

@@ -2,21 +2,19 @@
 /* The samples of pixels: random orders are like those of Fisher and Yates, sets made in floats keep what their patterns
    claim and have the law of koksma_generate's, uses, pixels and seeds are independent, and every instruction set gives
    the same bits. Seeds are fixed; bounds are 5 standard deviations of a normal variable or more. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <koksma/render.h>
-
 #include "core/random.h"
 #include "core/spec.h"
 #include "render/samples/samples.h"
 #include "render/samples/uses.h"
+#include "rendering.h"
 #include "test.h"
+#include <koksma/render.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { MOST = 256, TRIALS = test_repeats(20000, 2000) };
 
-static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
 static const float nowhere[2] = {0, 0};
 
 static void draw_words(uint64_t index, uint32_t lane, size_t count, uint32_t *out)

@@ -1,75 +1,51 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Renders as a whole: bits, light in closed form, shadows, interruptions, errors. */
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
-#include <unistd.h>
 
-#include <koksma/render.h>
+#include "rendering.h"
 
-#include "test.h"
-
-static koksma_image render(const koksma_scene *scene, const char *pattern, int spp, int threads, uint64_t seed)
-{
-    koksma_render_options options;
-    koksma_image image;
-    const koksma_run run = {.threads = threads};
-    koksma_render_options_init(&options, scene);
-    options.width = 45; /* no multiple of anything */
-    options.height = 34;
-    options.spp = spp;
-    options.seed = seed;
-    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
-    assert_ok(koksma_render(scene, &options, &run, &image));
-    return image;
-}
-
+/* Every way in which threads share work: pixels, records that are entered in order, and splats; also without layers. */
 static void same_bits_for_any_number_of_threads(void **state)
 {
     (void)state;
-    static const char *const patterns[] = {"random", "jittered", "n-rooks", "regular"};
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("ball", &scene));
-    for (size_t p = 0; p < 4; p++) {
-        static const int spps[] = {1, 4, 25, 100};
-        koksma_image one = render(scene, patterns[p], spps[p], 1, 7);
-        for (int threads = 2; threads <= 5; threads += 3) {
-            koksma_image many = render(scene, patterns[p], spps[p], threads, 7);
-            assert_memory_equal(one.pixels, many.pixels, 45 * 34 * sizeof(float));
-            koksma_image_fini(&many);
+    static const struct {
+        const char *scene, *integrator, *pattern;
+        int spp;
+        bool splat;
+    } cases[] = {
+        {"ball", "distribution", "random", 1, false},         {"ball", "distribution", "jittered", 4, false},
+        {"ball", "distribution", "n-rooks", 25, false},       {"ball", "distribution", "regular", 100, false},
+        {"ball", "distribution", "random", 16, true},         {"fog", "path", "random", 4, false},
+        {"cornell", "irradiance-cache", "n-rooks", 1, false},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        koksma_scene *scene;
+        koksma_layers one, other;
+        koksma_run run = {.threads = 1};
+        assert_ok(koksma_scene_open(cases[c].scene, &scene));
+        koksma_render_options options = options_of(scene, cases[c].pattern, cases[c].integrator, cases[c].spp, 45);
+        options.height = 34; /* no multiple of anything */
+        options.splat = cases[c].splat;
+        options.filter = koksma_filter_find(options.splat ? "mitchell" : "box");
+        assert_ok(koksma_render_layers(scene, &options, &run, &one));
+        const size_t size = (size_t)(45 * 34 * one.image.channels) * sizeof(float);
+        for (int way = 0; way < 4; way++) { /* 2 threads, 5, 5 without layers, another seed */
+            run.threads = way ? 5 : 2;
+            options.seed = way < 3 ? 0 : 8;
+            assert_ok((way == 2 ? koksma_render_only : koksma_render_layers)(scene, &options, &run, &other));
+            assert_true((memcmp(one.image.pixels, other.image.pixels, size) != 0) == (way == 3));
+            assert_true(way > 1 || !memcmp(one.variance.pixels, other.variance.pixels, 45 * 34 * sizeof(float)));
+            koksma_layers_fini(&other);
         }
-        koksma_image other = render(scene, patterns[p], spps[p], 1, 8);
-        assert_true(memcmp(one.pixels, other.pixels, 45 * 34 * sizeof(float)) != 0);
-        koksma_image_fini(&other);
-        koksma_image_fini(&one);
+        koksma_layers_fini(&one);
+        koksma_scene_close(scene);
     }
-    koksma_scene_close(scene);
-}
-
-static koksma_scene *scene_of(const char *text)
-{
-    koksma_scene *scene;
-    FILE *file = fopen("test_render.json", "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-    assert_ok(koksma_scene_open("test_render.json", &scene));
-    unlink("test_render.json");
-    return scene;
 }
 
 static double pixel(const koksma_scene *scene, const char *pattern, int spp)
 {
-    koksma_render_options options;
-    koksma_image image;
-    koksma_render_options_init(&options, scene);
-    options.width = options.height = 1;
-    options.spp = spp;
-    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
-    assert_ok(koksma_render(scene, &options, NULL, &image));
-    const double value = (double)image.pixels[0];
-    koksma_image_fini(&image);
-    return value;
+    const koksma_render_options options = options_of(scene, pattern, "distribution", spp, 1);
+    return mean_of(scene, &options, NULL);
 }
 
 /* The form factor from a small patch to a parallel rectangle of a x b at distance 1, one corner above the patch
@@ -81,23 +57,23 @@ static double corner_factor(double a, double b)
 }
 
 #define PATCH                                                                                                        \
-    "\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"                                    \
-    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
-#define FLOOR "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}"
+    "'camera': {'eye': [0, 1, 4], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', 'kind': "        \
+    "'lambert', 'albedo': 0.9}],"
+#define FLOOR "{'kind': 'plane', 'centre': [0, 0, 0], 'normal': [0, 1, 0], 'material': 'm'}"
 #define LAMP(x)                                                                                                      \
-    "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [" x ", 2, 0], \"normal\": [0, -1, 0], \"half\": [1, 0.5],"  \
-    "\"radiance\": 2}]"
+    "'lights': [{'kind': 'rectangle', 'centre': [" x ", 2, 0], 'normal': [0, -1, 0], 'half': [1, 0.5],'radiance': "  \
+    "2}]"
 
 /* Reflected radiance is albedo x radiance x form factor. 64 x 64 strata make the error about 1e-5. */
 static void light_is_its_form_factor(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of("{" PATCH "\"shapes\": [" FLOOR "]," LAMP("0") "}");
+    koksma_scene *scene = scene_of("{" PATCH "'shapes': [" FLOOR "]," LAMP("0") "}");
     const double centred = 4 * corner_factor(0.5, 0.25);
     assert_near(pixel(scene, "jittered", 4096), 0.9 * 2 * centred, 1e-4);
     assert_near(pixel(scene, "regular", 4096), 0.9 * 2 * centred, 1e-4);
     koksma_scene_close(scene);
-    scene = scene_of("{" PATCH "\"shapes\": [" FLOOR "]," LAMP("3") "}");
+    scene = scene_of("{" PATCH "'shapes': [" FLOOR "]," LAMP("3") "}");
     const double aside = 2 * (corner_factor(2, 0.25) - corner_factor(1, 0.25));
     assert_near(pixel(scene, "jittered", 4096), 0.9 * 2 * aside, 1e-4);
     koksma_scene_close(scene);
@@ -112,16 +88,16 @@ static void shadows_take_light(void **state)
         const char *shape;
         double left;
     } screens[] = {
-        {"{\"kind\": \"rectangle\", \"centre\": [1, 1.5, 0], \"normal\": [0, 1, 0], \"half\": [1, 1]", 0.5},
-        {"{\"kind\": \"rectangle\", \"centre\": [0, 1.5, 0], \"normal\": [0, 1, 0], \"half\": [2, 2]", 0},
-        {"{\"kind\": \"disk\", \"centre\": [0, 1.5, 0], \"normal\": [0, -1, 0], \"radius\": 2", 0},
-        {"{\"kind\": \"sphere\", \"centre\": [0, 1, 0], \"radius\": 0.9", 0},
-        {"{\"kind\": \"sphere\", \"centre\": [0, 3, 0], \"radius\": 0.9", 1},
-        {"{\"kind\": \"plane\", \"centre\": [0, 2.5, 0], \"normal\": [0, 1, 0]", 1},
+        {"{'kind': 'rectangle', 'centre': [1, 1.5, 0], 'normal': [0, 1, 0], 'half': [1, 1]", 0.5},
+        {"{'kind': 'rectangle', 'centre': [0, 1.5, 0], 'normal': [0, 1, 0], 'half': [2, 2]", 0},
+        {"{'kind': 'disk', 'centre': [0, 1.5, 0], 'normal': [0, -1, 0], 'radius': 2", 0},
+        {"{'kind': 'sphere', 'centre': [0, 1, 0], 'radius': 0.9", 0},
+        {"{'kind': 'sphere', 'centre': [0, 3, 0], 'radius': 0.9", 1},
+        {"{'kind': 'plane', 'centre': [0, 2.5, 0], 'normal': [0, 1, 0]", 1},
     };
     for (size_t i = 0; i < sizeof screens / sizeof *screens; i++) {
         char text[1024];
-        snprintf(text, sizeof text, "{" PATCH "\"shapes\": [" FLOOR ", %s, \"material\": \"m\"}]," LAMP("0") "}",
+        snprintf(text, sizeof text, "{" PATCH "'shapes': [" FLOOR ", %s, 'material': 'm'}]," LAMP("0") "}",
                  screens[i].shape);
         /* seen from where the sphere does not stand in the way */
         char *eye = strstr(text, "[0, 1, 4]");

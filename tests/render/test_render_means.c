@@ -1,59 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Few samples a pixel give the right image in the mean: for the patterns that claim it the mean over seeds is that of
    many samples, for the whole image and pixel by pixel, within standard errors. */
-#include <stdlib.h>
-
-#include <koksma/render.h>
-
-#include "test.h"
+#include "rendering.h"
 
 enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, SEEDS = 120 };
 
-typedef struct moments {
-    double mean[PIXELS], square_error[PIXELS]; /* of the mean */
-    double image_mean, image_square_error;
-} moments;
-
-static void measure(const koksma_scene *scene, const char *pattern, int spp, int seeds, uint64_t first, moments *out)
-{
-    static double sum[PIXELS], squares[PIXELS];
-    double image_sum = 0, image_squares = 0;
-    koksma_render_options options;
-    koksma_render_options_init(&options, scene);
-    options.width = WIDTH;
-    options.height = HEIGHT;
-    options.spp = spp;
-    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
-    for (int i = 0; i < PIXELS; i++) {
-        sum[i] = squares[i] = 0;
-    }
-    for (int s = 0; s < seeds; s++) {
-        koksma_image image;
-        double total = 0;
-        options.seed = first + (uint64_t)s;
-        assert_ok(koksma_render(scene, &options, NULL, &image));
-        for (int i = 0; i < PIXELS; i++) {
-            const double value = (double)image.pixels[i];
-            sum[i] += value;
-            squares[i] += value * value;
-            total += value / PIXELS;
-        }
-        image_sum += total;
-        image_squares += total * total;
-        koksma_image_fini(&image);
-    }
-    for (int i = 0; i < PIXELS; i++) {
-        out->mean[i] = sum[i] / seeds;
-        out->square_error[i] = fmax(squares[i] / seeds - out->mean[i] * out->mean[i], 0) / (seeds - 1);
-    }
-    out->image_mean = image_sum / seeds;
-    out->image_square_error = fmax(image_squares / seeds - out->image_mean * out->image_mean, 0) / (seeds - 1);
-}
-
 static void compare(const char *name, const char *pattern, int spp, const moments *reference, const moments *few)
 {
-    const double z =
-        (few->image_mean - reference->image_mean) / sqrt(few->image_square_error + reference->image_square_error);
+    const double z = (few->image_mean - reference->image_mean) / hypot(few->image_error, reference->image_error);
     if (!(fabs(z) < 4)) {
         fail_msg("%s, %s at %d: the mean is %.2f standard errors off", name, pattern, spp, z);
     }
@@ -90,9 +44,13 @@ static void few_samples_are_right_in_the_mean(void **state)
         koksma_scene *scene;
         static moments reference, few;
         assert_ok(koksma_scene_open(scenes[s], &scene));
-        measure(scene, "jittered", 400, 12, 1000, &reference);
+        koksma_render_options options = options_of(scene, "jittered", "distribution", 400, WIDTH);
+        options.height = HEIGHT;
+        measure(scene, options, NULL, 0, 12, 1000, &reference);
         for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-            measure(scene, cases[c].pattern, cases[c].spp, SEEDS, 1 + 5000 * c, &few);
+            options.spp = cases[c].spp;
+            assert_ok(koksma_pattern_spec(cases[c].pattern, &options.pattern));
+            measure(scene, options, NULL, 0, SEEDS, 1 + 5000 * c, &few);
             compare(scenes[s], cases[c].pattern, cases[c].spp, &reference, &few);
         }
         koksma_scene_close(scene);

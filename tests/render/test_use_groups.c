@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Groups of uses: sample i takes the coordinates of point i of one set, whatever is asked for before; the picture is
    the same in the mean; texts, and what can't be. Long because all of it needs the same sets and scenes. */
-#include <koksma/adaptive.h>
-
-#include "core/random.h"
 #include "render/samples/samples.h"
 #include "rendering.h"
 
@@ -247,9 +244,9 @@ static void over_the_image_too(void **state)
 /* A black ball that goes by before white. A ball of radius r at (x, 0, z) before a pinhole covers an ellipse of the
    plane at distance 1 whose area is pi r^2 sqrt((x^2 + z^2 - r^2) / (z^2 - r^2)^3). */
 #define MOVING_BALL                                                                                                  \
-    "\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 50}, \"background\": 1, \"shapes\": "      \
-    "[{\"kind\": \"sphere\", \"centre\": [-1, 0, 0], \"radius\": 0.6, \"motion\": [2, 0, 0], \"material\": \"m\"}]"
-#define BLACK "{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0}"
+    "'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 50}, 'background': 1, 'shapes': [{'kind': "        \
+    "'sphere', 'centre': [-1, 0, 0], 'radius': 0.6, 'motion': [2, 0, 0], 'material': 'm'}]"
+#define BLACK "{'name': 'm', 'kind': 'lambert', 'albedo': 0}"
 
 static double share_of_white(void)
 {
@@ -262,44 +259,12 @@ static double share_of_white(void)
     return 1 - area / (side * side);
 }
 
-typedef struct moments {
-    double mean, error, variance; /* of the image's mean over seeds, and of it; mean variance of a pixel */
-} moments;
-
-static moments over_seeds(const koksma_scene *scene, koksma_render_options options, const char *method)
+static const moments *over_seeds(const koksma_scene *scene, koksma_render_options options, const char *method)
 {
-    enum { SEEDS = test_repeats(40, 10), PIXELS = 12 * 12 };
-    static const koksma_run alone = {.threads = 1}; /* pictures are too small for more */
-    double sum = 0, squares = 0, pixel_sum[PIXELS] = {0}, pixel_squares[PIXELS] = {0};
-    moments m = {0};
+    static moments m;
     options.width = options.height = 12;
-    for (options.seed = 0; options.seed < SEEDS; options.seed++) {
-        koksma_layers layers = {0};
-        koksma_adaptive_options adaptive;
-        double mean = 0;
-        if (method) {
-            assert_ok(koksma_adaptive_parse(method, &adaptive));
-            adaptive.budget = 8 * options.spp;
-            assert_ok(koksma_render_adaptive(scene, &options, &adaptive, &alone, &layers, NULL));
-        } else {
-            assert_ok(koksma_render(scene, &options, &alone, &layers.image));
-        }
-        for (int p = 0; p < PIXELS; p++) {
-            const double v = (double)layers.image.pixels[p];
-            mean += v / PIXELS;
-            pixel_sum[p] += v;
-            pixel_squares[p] += v * v;
-        }
-        sum += mean;
-        squares += mean * mean;
-        koksma_layers_fini(&layers);
-    }
-    m.mean = sum / SEEDS;
-    m.error = sqrt(fmax(squares / SEEDS - m.mean * m.mean, 0) / (SEEDS - 1));
-    for (int p = 0; p < PIXELS; p++) {
-        m.variance += (pixel_squares[p] / SEEDS - pixel_sum[p] * pixel_sum[p] / SEEDS / SEEDS) / PIXELS;
-    }
-    return m;
+    measure(scene, options, method, 8 * options.spp, test_repeats(40, 10), 0, &m);
+    return &m;
 }
 
 /* Groups of every kind of pattern show the ball's coverage over time, through both pipelines and over the image. */
@@ -315,19 +280,20 @@ static void pictures_are_right_in_the_mean(void **state)
         "random;time+pixel=sobol:scramble=owen",
         "random;pixel+time=lattice-rank1:shift=1",
     };
-    koksma_scene *lanes = scene_of("{\"materials\": [" BLACK "], " MOVING_BALL "}");
-    koksma_scene *rays = scene_of("{\"materials\": [" BLACK
-                                  ", {\"name\": \"x\", \"kind\": \"mirror\", \"reflectance\": 1}], " MOVING_BALL "}");
+    koksma_scene *lanes = scene_of("{'materials': [" BLACK "], " MOVING_BALL "}");
+    koksma_scene *rays =
+        scene_of("{'materials': [" BLACK ", {'name': 'x', 'kind': 'mirror', 'reflectance': 1}], " MOVING_BALL "}");
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
         koksma_render_options options = options_for(texts[k], N);
-        moments m = over_seeds(lanes, options, NULL);
-        assert_mean(m.mean, m.error, share_of_white());
+        const moments *m = over_seeds(lanes, options, NULL);
+        assert_mean(m->image_mean, m->image_error, share_of_white());
         options.scope = KOKSMA_SCOPE_IMAGE;
         m = over_seeds(k % 2 ? lanes : rays, options, NULL);
-        assert_mean(m.mean, m.error, share_of_white());
+        assert_mean(m->image_mean, m->image_error, share_of_white());
         options.scope = KOKSMA_SCOPE_PIXEL;
         m = over_seeds(rays, options, k % 2 ? "two-stage" : NULL);
-        assert_mean(m.mean, m.error + (k % 2 ? 1e-3 : 0), share_of_white()); /* two-stage: slightly biased */
+        assert_mean(m->image_mean, m->image_error + (k % 2 ? 1e-3 : 0),
+                    share_of_white()); /* two-stage: slightly biased */
     }
     koksma_scene_close(lanes);
     koksma_scene_close(rays);
@@ -338,9 +304,9 @@ static void pictures_are_right_in_the_mean(void **state)
 static void a_random_group_is_independent_random(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of("{\"materials\": [" BLACK "], " MOVING_BALL "}");
-    const double alone = over_seeds(scene, options_for("random", N), NULL).variance;
-    const double together = over_seeds(scene, options_for("random;pixel+time=random", N), NULL).variance;
+    koksma_scene *scene = scene_of("{'materials': [" BLACK "], " MOVING_BALL "}");
+    const double alone = over_seeds(scene, options_for("random", N), NULL)->variance;
+    const double together = over_seeds(scene, options_for("random;pixel+time=random", N), NULL)->variance;
     assert_true(alone > 0);
     assert_near(together / alone, 1, 0.25);
     koksma_scene_close(scene);
@@ -415,7 +381,7 @@ static void texts_that_are_wrong_say_so(void **state)
 static void groups_that_cannot_be_are_refused(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of("{\"materials\": [" BLACK "], " MOVING_BALL "}");
+    koksma_scene *scene = scene_of("{'materials': [" BLACK "], " MOVING_BALL "}");
     koksma_render_options good = options_for("random;pixel+time=scan-time", N), bad;
     koksma_image image;
     koksma_layers layers;

@@ -4,62 +4,26 @@
  * and samples of all kinds of lights. koksma__bsdf and koksma__light_kind, whose densities and energies test_bsdfs and
  * test_light_kinds check, say what is right; all instruction sets give the same bits.
  */
-#include <string.h>
-
-#include "core/random.h"
 #include "render/render.h"
-#include "scene/scene.h"
-#include "test.h"
+#include "rendering.h"
 
 enum { ROUNDS = 200 };
-
-static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
-static uint64_t counter;
-
-static float uniform(double low, double high)
-{
-    double pair[2];
-    koksma__random_pair(12, KOKSMA__PURPOSE_TEST, counter++, 0, pair);
-    return (float)(low + (high - low) * pair[0]);
-}
-
-static void unit_vector(float v[3])
-{
-    float square = 0;
-    while (!(square > 0.1f && square < 1)) {
-        square = 0;
-        for (int k = 0; k < 3; k++) {
-            v[k] = uniform(-1, 1);
-            square += v[k] * v[k];
-        }
-    }
-    for (int k = 0; k < 3; k++) {
-        v[k] /= sqrtf(square);
-    }
-}
 
 static koksma_scene *every_kind(void)
 {
     static const char text[] =
-        "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 20}, \"shapes\": [],"
-        "\"materials\": [{\"name\": \"a\", \"kind\": \"lambert\", \"albedo\": [0.2, 0.5, 0.9]},"
-        "{\"name\": \"b\", \"kind\": \"checker\", \"albedos\": [0.1, [0.9, 0.8, 0.7]], \"period\": 0.3, "
-        "\"angle_deg\": 20},"
-        "{\"name\": \"c\", \"kind\": \"utah\", \"albedo\": [0.5, 0.4, 0.3], \"reflectance\": 0.4, \"exponent\": 50},"
-        "{\"name\": \"d\", \"kind\": \"phong\", \"reflectance\": [0.9, 0.8, 0.2], \"exponent\": 7},"
-        "{\"name\": \"e\", \"kind\": \"ggx\", \"reflectance\": [0.9, 0.6, 0.2], \"roughness\": 0.4},"
-        "{\"name\": \"f\", \"kind\": \"mirror\", \"reflectance\": 0.8},"
-        "{\"name\": \"g\", \"kind\": \"dielectric\", \"ior\": 1.5}],"
-        "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 3, 0], \"facing\": [0, 0, 0], \"half\": [0.5, 1], "
-        "\"radiance\": [1, 2, 3]},"
-        "{\"kind\": \"disk\", \"centre\": [2, 2, 0], \"facing\": [0, 0, 0], \"radius\": 0.5, \"radiance\": 3},"
-        "{\"kind\": \"sphere\", \"centre\": [-2, 2, 1], \"radius\": 0.7, \"radiance\": [3, 1, 1]},"
-        "{\"kind\": \"point\", \"centre\": [0, 2, 2], \"intensity\": 3},"
-        "{\"kind\": \"directional\", \"direction\": [1, -1, 0.2], \"irradiance\": [1, 2, 2]},"
-        "{\"kind\": \"environment\", \"radiance\": [1, 0.5, 0.2]}]}";
-    koksma_scene *scene;
-    assert_ok(koksma__scene_open_text("test.json", text, sizeof text - 1, &scene));
-    return scene;
+        "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 20}, 'shapes': [],'materials': [{'name': 'a', "
+        "'kind': 'lambert', 'albedo': [0.2, 0.5, 0.9]},{'name': 'b', 'kind': 'checker', 'albedos': [0.1, [0.9, 0.8, "
+        "0.7]], 'period': 0.3, 'angle_deg': 20},{'name': 'c', 'kind': 'utah', 'albedo': [0.5, 0.4, 0.3], "
+        "'reflectance': 0.4, 'exponent': 50},{'name': 'd', 'kind': 'phong', 'reflectance': [0.9, 0.8, 0.2], "
+        "'exponent': 7},{'name': 'e', 'kind': 'ggx', 'reflectance': [0.9, 0.6, 0.2], 'roughness': 0.4},{'name': 'f', "
+        "'kind': 'mirror', 'reflectance': 0.8},{'name': 'g', 'kind': 'dielectric', 'ior': 1.5}],'lights': [{'kind': "
+        "'rectangle', 'centre': [0, 3, 0], 'facing': [0, 0, 0], 'half': [0.5, 1], 'radiance': [1, 2, 3]},{'kind': "
+        "'disk', 'centre': [2, 2, 0], 'facing': [0, 0, 0], 'radius': 0.5, 'radiance': 3},{'kind': 'sphere', "
+        "'centre': [-2, 2, 1], 'radius': 0.7, 'radiance': [3, 1, 1]},{'kind': 'point', 'centre': [0, 2, 2], "
+        "'intensity': 3},{'kind': 'directional', 'direction': [1, -1, 0.2], 'irradiance': [1, 2, 2]},{'kind': "
+        "'environment', 'radiance': [1, 0.5, 0.2]}]}";
+    return scene_of(text);
 }
 
 /* A block of hits, one in eight a miss; rays that led there. */
@@ -83,7 +47,7 @@ static void random_hits(const koksma_scene *scene, koksma__rays *rays, koksma__h
         h->pz[i] = uniform(-1, 1);
         h->u[i] = uniform(-1, 1);
         h->v[i] = uniform(-1, 1);
-        h->back[i] = uniform(0, 1) < 0.5f;
+        h->back[i] = uniform(0, 1) < 0.5;
         h->primitive[i] = uniform(0, 8) < 1 ? -1 : i;
         h->material[i] = h->primitive[i] < 0 ? -1 : (int32_t)uniform(0, (double)scene->n_materials * 0.999);
     }

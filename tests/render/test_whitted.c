@@ -2,16 +2,6 @@
 /* The integrator `whitted`: lights as points at their centres, and the tree of rays in glass. */
 #include "rendering.h"
 
-static double seen(const char *text, int depth)
-{
-    koksma_scene *scene = scene_of(text);
-    koksma_render_options options = options_of(scene, "regular", "whitted", 4, 2);
-    options.depth = depth;
-    const double mean = mean_of(scene, &options, NULL);
-    koksma_scene_close(scene);
-    return mean;
-}
-
 /* A patch of albedo 0.9 under radiance 2 from a small area A at distance d and cosines c: 0.9 / pi 2 A c c' / d^2. */
 static void lights_are_points_at_their_centres(void **state)
 {
@@ -20,29 +10,25 @@ static void lights_are_points_at_their_centres(void **state)
         const char *light;
         double reflected;
     } cases[] = {
-        {"\"kind\": \"sphere\", \"centre\": [3, 4, 0], \"radius\": 0.5, \"radiance\": 2", 0.9 * 2 * 0.25 / 25 * 0.8},
-        {"\"kind\": \"disk\", \"centre\": [0, 2, 0], \"normal\": [0, -1, 0], \"radius\": 1.5, \"radiance\": 2",
+        {"'kind': 'sphere', 'centre': [3, 4, 0], 'radius': 0.5, 'radiance': 2", 0.9 * 2 * 0.25 / 25 * 0.8},
+        {"'kind': 'disk', 'centre': [0, 2, 0], 'normal': [0, -1, 0], 'radius': 1.5, 'radiance': 2",
          0.9 * 2 * 2.25 / 4},
-        {"\"kind\": \"rectangle\", \"centre\": [3, 4, 0], \"normal\": [0, -1, 0], \"half\": [0.5, 0.25], "
-         "\"radiance\": 2",
+        {"'kind': 'rectangle', 'centre': [3, 4, 0], 'normal': [0, -1, 0], 'half': [0.5, 0.25], 'radiance': 2",
          0.9 / M_PI * 2 * 0.5 / 25 * 0.64},
-        {"\"kind\": \"rectangle\", \"centre\": [3, 4, 0], \"normal\": [0, 1, 0], \"half\": [0.5, 0.25], "
-         "\"radiance\": 2",
-         0},
-        {"\"kind\": \"point\", \"centre\": [3, 4, 0], \"intensity\": 5", 0.9 / M_PI * 5 / 25 * 0.8},
-        {"\"kind\": \"directional\", \"direction\": [3, -4, 0], \"irradiance\": 5", 0.9 / M_PI * 5 * 0.8},
+        {"'kind': 'rectangle', 'centre': [3, 4, 0], 'normal': [0, 1, 0], 'half': [0.5, 0.25], 'radiance': 2", 0},
+        {"'kind': 'point', 'centre': [3, 4, 0], 'intensity': 5", 0.9 / M_PI * 5 / 25 * 0.8},
+        {"'kind': 'directional', 'direction': [3, -4, 0], 'irradiance': 5", 0.9 / M_PI * 5 * 0.8},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases + 4; i++) {
         const size_t c = i < sizeof cases / sizeof *cases ? i : i - sizeof cases / sizeof *cases;
         char text[1024];
-        snprintf(
-            text, sizeof text,
-            "{\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
-            "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
-            "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}],"
-            "\"lights\": [{%s%s}]}",
-            cases[c].light, c < i ? ", \"visible\": true" : ""); /* a surface of its own is no shadow */
-        assert_near(seen(text, 2), cases[c].reflected, 2e-4 * cases[c].reflected);
+        snprintf(text, sizeof text,
+                 "{'camera': {'eye': [0, 1, 4], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', "
+                 "'kind': 'lambert', 'albedo': 0.9}],'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': [0, "
+                 "1, 0], 'material': 'm'}],'lights': [{%s%s}]}",
+                 cases[c].light, c < i ? ", 'visible': true" : ""); /* a surface of its own is no shadow */
+        assert_near(mean_of_text(text, "regular", "whitted", 2, 4, 2, NULL), cases[c].reflected,
+                    2e-4 * cases[c].reflected);
     }
 }
 
@@ -53,17 +39,17 @@ static void glass_sends_rays_both_ways(void **state)
 {
     (void)state;
     static const char scene[] =
-        "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
-        "\"materials\": [{\"name\": \"m\", \"kind\": \"dielectric\", \"ior\": 1.5}],"
-        "\"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1, \"material\": \"m\"}],"
-        "\"lights\": [{\"kind\": \"environment\", \"radiance\": 1}]}";
+        "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', 'kind': "
+        "'dielectric', 'ior': 1.5}],'shapes': [{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1, 'material': "
+        "'m'}],'lights': [{'kind': 'environment', 'radiance': 1}]}";
     const double r = 0.04, t = 1 - r;
-    assert_near(seen(scene, 0), 0, 0);
-    assert_near(seen(scene, 1), r, 1e-5);
-    assert_near(seen(scene, 2), r + t * t, 1e-5);
-    assert_near(seen(scene, 3), r + t * t * (1 + r), 1e-5);
-    assert_near(seen(scene, 4), r + t * t * (1 + r + r * r), 1e-5);
-    assert_near(seen(scene, 9), r + t * t * (1 + r + r * r), 1e-5); /* the next weighs less than 1/1000 */
+    assert_near(mean_of_text(scene, "regular", "whitted", 0, 4, 2, NULL), 0, 0);
+    assert_near(mean_of_text(scene, "regular", "whitted", 1, 4, 2, NULL), r, 1e-5);
+    assert_near(mean_of_text(scene, "regular", "whitted", 2, 4, 2, NULL), r + t * t, 1e-5);
+    assert_near(mean_of_text(scene, "regular", "whitted", 3, 4, 2, NULL), r + t * t * (1 + r), 1e-5);
+    assert_near(mean_of_text(scene, "regular", "whitted", 4, 4, 2, NULL), r + t * t * (1 + r + r * r), 1e-5);
+    assert_near(mean_of_text(scene, "regular", "whitted", 9, 4, 2, NULL), r + t * t * (1 + r + r * r),
+                1e-5); /* the next weighs less than 1/1000 */
 }
 
 /* A light that is chosen stands for all of them, and has no place on it to draw. */
@@ -71,13 +57,11 @@ static void one_light_stands_for_all(void **state)
 {
     (void)state;
     koksma_scene *scene = scene_of(
-        "{\"camera\": {\"eye\": [0, 3, 4], \"target\": [0, 0, 0], \"fov_deg\": 30},"
-        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
-        "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"},"
-        "{\"kind\": \"sphere\", \"centre\": [0, 0.3, 0], \"radius\": 0.3, \"material\": \"m\"}],"
-        "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [-2, 2, 0], \"facing\": [0, 0, 0], \"half\": [0.5, 0.5],"
-        "\"radiance\": 3}, {\"kind\": \"disk\", \"centre\": [2, 3, 1], \"facing\": [0, 0, 0], \"radius\": 0.5,"
-        "\"radiance\": 9}]}");
+        "{'camera': {'eye': [0, 3, 4], 'target': [0, 0, 0], 'fov_deg': 30},'materials': [{'name': 'm', 'kind': "
+        "'lambert', 'albedo': 0.9}],'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': [0, 1, 0], "
+        "'material': 'm'},{'kind': 'sphere', 'centre': [0, 0.3, 0], 'radius': 0.3, 'material': 'm'}],'lights': "
+        "[{'kind': 'rectangle', 'centre': [-2, 2, 0], 'facing': [0, 0, 0], 'half': [0.5, 0.5],'radiance': 3}, "
+        "{'kind': 'disk', 'centre': [2, 3, 1], 'facing': [0, 0, 0], 'radius': 0.5,'radiance': 9}]}");
     for (size_t k = 0; k < 12; k++) {
         double error;
         koksma_render_options options = options_of(scene, "random", k % 2 ? "utah" : "whitted", 16, 24);
@@ -86,13 +70,7 @@ static void one_light_stands_for_all(void **state)
         options.pairing = k / 2 % 2 ? KOKSMA_PAIRING_NATIVE : KOKSMA_PAIRING_SHUFFLED;
         options.lights = (koksma_light_selection)(KOKSMA_LIGHTS_ONE + (int)(k / 4));
         options.depth = 0;
-        double sum = 0, squares = 0; /* over seeds: the pixels differ by what they show */
-        for (options.seed = 1; options.seed <= 8; options.seed++) {
-            const double mean = mean_of(scene, &options, NULL);
-            sum += mean / 8;
-            squares += mean * mean / 8;
-        }
-        error = sqrt(fmax(squares - sum * sum, 0) / 7);
+        const double sum = mean_over_seeds(scene, options, 8, 1, &error);
         assert_true(error < 0.01);
         assert_near(sum, all, 6 * error + 2e-3);
     }
@@ -106,15 +84,13 @@ static void environments_are_seen_and_light_nothing(void **state)
     static const char *const ways[] = {"0, 1, 0", "1, 0, 0", "0, 0, 1", "0, 0, -1"};
     for (size_t i = 0; i < 8; i++) {
         char text[1024];
-        snprintf(
-            text, sizeof text,
-            "{\"camera\": {\"eye\": [%s], \"target\": [0, 0, 0], \"up\": [1, 1, 1], \"fov_deg\": 0.01},"
-            "\"materials\": [{\"name\": \"m\", %s}], \"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0],"
-            "\"normal\": [%s], \"material\": \"m\"}], \"lights\": [{\"kind\": \"environment\", \"radiance\": 2}]}",
-            ways[i / 2],
-            i % 2 ? "\"kind\": \"mirror\", \"reflectance\": 0.5" : "\"kind\": \"lambert\", \"albedo\": 0.9",
-            ways[i / 2]);
-        assert_near(seen(text, 2), i % 2 ? 1 : 0, 1e-6);
+        snprintf(text, sizeof text,
+                 "{'camera': {'eye': [%s], 'target': [0, 0, 0], 'up': [1, 1, 1], 'fov_deg': 0.01},'materials': "
+                 "[{'name': 'm', %s}], 'shapes': [{'kind': 'plane', 'centre': [0, 0, 0],'normal': [%s], 'material': "
+                 "'m'}], 'lights': [{'kind': 'environment', 'radiance': 2}]}",
+                 ways[i / 2], i % 2 ? "'kind': 'mirror', 'reflectance': 0.5" : "'kind': 'lambert', 'albedo': 0.9",
+                 ways[i / 2]);
+        assert_near(mean_of_text(text, "regular", "whitted", 2, 4, 2, NULL), i % 2 ? 1 : 0, 1e-6);
     }
 }
 
