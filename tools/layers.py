@@ -59,6 +59,9 @@ MAY_USE = {
 # if no .c file has it (measures/star/star.h).
 INTERNAL = {
     "src/engine/optimise/optimise.h": "what the methods of a search share, a section a file",
+    "src/render/scene/import.h": "what the readers of other renderers' scenes share, in one file a subject",
+    "src/render/scene/mitsuba.h": "the parts of the reader of Mitsuba's scenes",
+    "src/render/scene/pbrt.h": "the parts of the reader of pbrt's scenes",
     "src/lab/study/plan/plan.h": "the data of a plan, which plan.c and the parsers of its sections fill",
     "src/render/render.h": "one image: the frame, groups of pixels, the film; and the renderer's few other functions",
     "src/render/integrators/integrators.h": "the flags of an integrator, and the hooks of those that have an algorithm",

@@ -4,7 +4,7 @@
 
 #include "core/vector.h"
 #include "render/fields.h"
-#include "scene/import_sky.h"
+#include "scene/import.h"
 #include "test.h"
 
 /* The point in the square [0, 1]^2 of a direction in the equal-area octahedral map (Clarberg 2008), whose pole is

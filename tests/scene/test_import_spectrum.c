@@ -4,7 +4,7 @@
  * the tables of the CIE; the fit of the colour-matching functions is off by up to 1.2 % of the largest channel. The
  * spectra are those of Mitsuba's Cornell box, every 60 nm. White is white, and what is added in parts is added once.
  */
-#include "scene/import_spectrum.h"
+#include "scene/import.h"
 
 #include <float.h>
 #include <math.h>

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "scene/import_open.h"
+#include "scene/scene.h"
 #include "test.h"
 
 enum { MOST = 1 << 14 };

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "meshes/mesh.h"
-#include "scene/import_open.h"
+#include "scene/scene.h"
 #include "test.h"
 
 static const float places[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

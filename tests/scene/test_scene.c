@@ -5,7 +5,6 @@
 
 #include <koksma/render.h>
 
-#include "scene/parse.h"
 #include "scene/scene.h"
 #include "test.h"
 

@@ -25,7 +25,6 @@
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/scene_images.h"
-#include "scene/import_sky.h"
 
 enum { MOST_STEPS = 1 << 26 };
 

@@ -12,7 +12,36 @@
 #include "meshes/names.h"
 #include "render/description.h"
 #include "render/scene_images.h"
-#include "scene/import_spectrum.h"
+
+/* ---- Sampled spectra ------------------------------------------------------------------------------------------------- */
+
+/* The time that a spectrum takes, as many steps of koksma__import_spend: its values at some hundred wavelengths are
+   added. */
+enum { KOKSMA__SPECTRUM_STEPS = 128 };
+
+/* The sums of a spectrum whose samples are added one by one; zeroed at first. */
+typedef struct koksma__sampled_spectrum {
+    size_t n;
+    double last[2];     /* wavelength and value of the last sample */
+    double seen[3];     /* XYZ of the spectrum itself */
+    double in_light[3]; /* XYZ of daylight (CIE D65) multiplied by the spectrum */
+} koksma__sampled_spectrum;
+
+/* Adds a sample; between samples the spectrum is linear, and 0 before the first and after the last one. A value is
+   clamped to +-1e30, so that sums are finite. Returns false if the wavelength, in nm, is not above the one before. */
+bool koksma__sampled_spectrum_add(koksma__sampled_spectrum *s, double wavelength, double value);
+
+/* What the values of a spectrum are; pbrt names the same three. */
+typedef enum koksma__spectrum_use {
+    KOKSMA__REFLECTANCE, /* of daylight: 1 at all wavelengths is white; clamped to [0, 1] */
+    KOKSMA__UNBOUNDED,   /* the same without the upper bound: refractive indices, coefficients, factors of daylight */
+    KOKSMA__EMISSION     /* 1 at all wavelengths has luminance 1 and is reddish */
+} koksma__spectrum_use;
+
+/* The colour of a spectrum; negative channels are 0. */
+void koksma__sampled_spectrum_colour(const koksma__sampled_spectrum *s, koksma__spectrum_use use, double rgb[3]);
+
+/* ---- Types ----------------------------------------------------------------------------------------------------------- */
 
 /* A position in a text, for messages. */
 typedef struct koksma__text_place {
@@ -197,5 +226,69 @@ bool koksma__import_invert(const double matrix[12], double out[12]);
 
 /* Finds the matrix of a rotation about an axis; returns false if the axis has no direction. */
 bool koksma__import_rotation(double angle_deg, const double axis[3], double out[12]);
+
+/* ---- Limits ---------------------------------------------------------------------------------------------------------- */
+
+/* What the C library and a tree of names (meshes/names.h) take beside the bytes of a thing that has a name. */
+enum { KOKSMA__HELD_WITH_NAME = 64 };
+
+/* Counts memory, before it is taken, that texts make a reader keep: the texts that are open, elements, names, objects, and
+   meshes whose triangles the texts have. A few characters make hundreds of bytes, and a text may be included again and
+   again, so all may take 384 MiB together. Beside that are 128 MiB for expat (xml.c), and what a text of 64 MiB takes in
+   passing: 320 MiB for the numbers of a mesh. Error: MALFORMED. */
+koksma_status koksma__import_hold(koksma__import *im, koksma__text_place place, uint64_t bytes);
+
+/* The same for a mesh. */
+koksma_status koksma__import_hold_mesh(koksma__import *im, koksma__text_place place, const koksma__mesh *mesh);
+
+/* Checks numbers by which a texture is scaled or moved, which must be within 1e6, so that texture coordinates are finite.
+   Error: MALFORMED. */
+koksma_status koksma__import_check_uv(koksma__text_place place, const double *values, size_t n);
+
+/* ---- Texts ----------------------------------------------------------------------------------------------------------- */
+
+/* Reads a file that the scene includes. The file must be below the scene's folder, and a scene can include at most
+   MOST_INCLUDES files. Small files cannot make a long text: what is read again, and what a packed file holds beyond
+   MOST_RATIO times its size, is at most MOST_SURPLUS bytes together. The caller passes *bytes to
+   koksma__import_text_close. */
+koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
+                                  size_t *size);
+void koksma__import_text_close(koksma__import *im, char *bytes, size_t size);
+
+/* Counts text that no file holds, because it is read again or made from names. Error: MALFORMED (more than MOST_SURPLUS
+   bytes in the scene). */
+koksma_status koksma__import_surplus(koksma__import *im, koksma__text_place place, uint64_t bytes);
+
+/* ---- Shapes ---------------------------------------------------------------------------------------------------------- */
+
+/* What becomes of a mesh from a file. */
+typedef struct koksma__mesh_rules {
+    bool facets;  /* its normals are left out */
+    bool smooths; /* without normals in the file, it gets those of koksma__mesh_smooth_by_angles() */
+    bool flips_v; /* each texture coordinate v becomes 1 - v */
+} koksma__mesh_rules;
+
+/* Add a mesh and set *out to its index in the scene, or to -1 if the mesh is left out with a warning.
+   koksma__import_mesh takes over the memory of *mesh. koksma__import_mesh_file reads the mesh from a file, each mesh
+   only once; `part` is the number of the mesh in a .serialized file, -1 for all its meshes as one. */
+koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out);
+koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
+                                       koksma__mesh_rules rules, int *out);
+
+/* Adds a shape to the scene; `outer`, which may be NULL, is a transformation that is applied after the shape's own
+   matrix. If that transformation moves, `poses` has its poses at the times 0 and 1; otherwise `poses` is NULL. */
+koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *item, const double outer[12],
+                                 const koksma__pose poses[2]);
+
+/* Frees the lists that import_shapes.c keeps for an import. */
+void koksma__import_shapes_fini(koksma__import *im);
+
+/* ---- Environments ---------------------------------------------------------------------------------------------------- */
+
+/* Resamples an environment to a latitude-longitude image with Koksma's axes. octahedral: `from` is one of pbrt, in the
+   equal-area octahedral map; otherwise one of Mitsuba, in latitude and longitude. inverse: the inverse of the
+   environment's matrix. Errors: MALFORMED (its shape), MEMORY. */
+koksma_status koksma__sky_turn(const koksma_image *from, bool octahedral, const double inverse[12],
+                               koksma_image *out);
 
 #endif

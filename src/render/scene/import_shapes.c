@@ -10,7 +10,7 @@
  * reflect, because a mesh with flat sides would emit less light than the round shape.
  * Long because all ways of placing a shape share the matrices and the motion of one type.
  */
-#include "scene/import_shapes.h"
+#include "scene/import.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,6 @@
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/shapes/shapes.h"
-#include "scene/import_limits.h"
 
 enum { SIDES = 64, RINGS = 32 };
 

@@ -5,7 +5,7 @@
  * image's rows and columns; angles are polynomials without branches, which compilers compute for several points at once;
  * and the new image is made in tiles, whose points lie in few pages of the old one, whatever the rotation.
  */
-#include "scene/import_sky.h"
+#include "scene/import.h"
 
 #include <math.h>
 #include <stdlib.h>

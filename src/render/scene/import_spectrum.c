@@ -9,7 +9,7 @@
  * Unbounded values, such as refractive indices, are converted as reflectances are, and may be above 1. The functions of
  * each nanometre are computed once, because a scene may have a million spectra.
  */
-#include "scene/import_spectrum.h"
+#include "scene/import.h"
 
 #include <math.h>
 #include <pthread.h>

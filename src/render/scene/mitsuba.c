@@ -21,9 +21,6 @@
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/medium.h"
-#include "scene/import_limits.h"
-#include "scene/import_shapes.h"
-#include "scene/mitsuba_values.h"
 
 enum { MOST_NESTED = 16 };
 

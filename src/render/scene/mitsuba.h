@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The parts of the reader of Mitsuba's scenes: an XML text as a tree of elements, with included files inserted and $names
+   replaced (xml.c), the values of elements (mitsuba_values.c), and the objects (mitsuba.c). */
 #ifndef KOKSMA_SCENE_MITSUBA_H
 #define KOKSMA_SCENE_MITSUBA_H
 
@@ -7,5 +9,100 @@
 /* Reads a scene of Mitsuba 3 into an empty scene. Errors: MISSING, MALFORMED, MEMORY; UNSUPPORTED (this build
    lacks expat). */
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *text, size_t size);
+
+/* ---- XML ------------------------------------------------------------------------------------------------------------- */
+
+/* Marks of an element: TAKEN: a reader has taken it for what its parent may contain; COVERED: a warning says already what
+   becomes of all that it contains. */
+enum { KOKSMA__XML_TAKEN = 1, KOKSMA__XML_COVERED = 2 };
+
+typedef struct koksma__xml_node {
+    const char *tag;
+    char **
+        attributes; /* names and values in turn, ended by NULL; their texts, the tag and `marks` are in the same block */
+    unsigned char *marks; /* those of the element; then, for each attribute, whether it was looked up */
+    koksma__text_place place;
+    size_t length;         /* characters of the attributes */
+    int first, last, next; /* first and last child; next child of the same parent; -1: none */
+} koksma__xml_node;
+
+typedef struct koksma__xml {
+    koksma__xml_node *nodes; /* the first node is the root */
+    char **files;            /* names of the included files, to which the nodes' `place` points */
+    char **defaults;         /* values of the $names */
+    koksma__names default_names;
+    size_t n, n_files, n_defaults;
+} koksma__xml;
+
+/* Parses an XML text. Errors: MALFORMED (not well-formed; a document type declaration, whose entities could grow
+   without limit; nested too deep; too many elements; more text made from $names than import_text.h allows),
+   UNSUPPORTED (this build lacks expat), MEMORY. Call koksma__xml_fini even after an error. */
+koksma_status koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out);
+void koksma__xml_fini(koksma__xml *xml);
+
+/* The value of an attribute, which is marked as looked up; NULL if the node does not have it. */
+const char *koksma__xml_attribute(const koksma__xml_node *node, const char *name);
+
+/* Marks a node. */
+static inline void koksma__xml_mark(const koksma__xml_node *node, unsigned char marks)
+{
+    node->marks[0] |= marks;
+}
+
+/* Warns about each element that no reader has taken, and each attribute that none has looked up, in the whole tree but for
+   what is covered. Errors: MEMORY, MALFORMED (koksma__import_spend). */
+koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml);
+
+/* Whether a text has this name, as it is or in the form of Mitsuba 0.6: a capital is in place of '_' (toWorld, intIOR). */
+bool koksma__xml_alike(const char *text, const char *name);
+
+/* ---- Values ---------------------------------------------------------------------------------------------------------- */
+
+/* All functions fail with MALFORMED and a text that names the file, the line, the element and the value, unless the
+   value has the whole form that is described here. */
+
+/* One finite number, with blanks around it; hexadecimal numbers are none. */
+koksma_status koksma__mitsuba_number(const koksma__xml_node *n, const char *attribute, double *out);
+
+/* One number, perhaps with this unit behind it; returns false for another text. */
+bool koksma__mitsuba_measure(const char *text, const char *unit, double *out);
+
+/* From 0 to `most` numbers, separated by blanks or commas; *count is 0 if the attribute is missing. */
+koksma_status koksma__mitsuba_numbers(const koksma__xml_node *n, const char *attribute, size_t most, double *out,
+                                      size_t *count);
+
+/* "true" or "false", in upper or lower case. */
+koksma_status koksma__mitsuba_flag(const koksma__xml_node *n, bool *out);
+
+/* The attributes x, y and z, each one number, or `value`: three numbers, or one for all three. Of x, y and z all must
+   be given, unless `otherwise`, the value of the missing ones, is finite. */
+koksma_status koksma__mitsuba_triple(const koksma__xml_node *n, double otherwise, double out[3]);
+
+/* A colour: the attribute `value` with one number, three numbers, "#" and six hexadecimal digits (levels of sRGB), or
+   pairs "WAVELENGTH:VALUE, ..." with increasing wavelengths; a black body's temperature in kelvins. */
+typedef struct koksma__mitsuba_colour {
+    enum { KOKSMA__NO_COLOUR, KOKSMA__ONE_NUMBER, KOKSMA__THREE_NUMBERS, KOKSMA__PAIRS, KOKSMA__BLACK_BODY } form;
+    double rgb[3]; /* of one number: three times that; of a black body: its colour */
+    koksma__sampled_spectrum pairs;
+} koksma__mitsuba_colour;
+
+/* The form is KOKSMA__NO_COLOUR for a spectrum that is in another file. */
+koksma_status koksma__mitsuba_colour_read(const koksma__xml_node *n, koksma__mitsuba_colour *out);
+
+/* Samples of a spectrum, two at least: numbers in the `value` of one element, at the increasing wavelengths in that of
+   another, or, if that is NULL, at equal distances between two. */
+koksma_status koksma__mitsuba_samples(const koksma__xml_node *values, const koksma__xml_node *wavelengths,
+                                      double from, double to, koksma__sampled_spectrum *out);
+
+/* Whether the element is of a kind that stands for a number or for a colour. */
+bool koksma__mitsuba_is_number(const koksma__xml_node *n);
+bool koksma__mitsuba_is_colour(const koksma__xml_node *n);
+
+/* The matrix of an operation in a transform: translate, scale, rotate, lookat, matrix. The last row of a matrix of 16
+   numbers must be 0 0 0 1. */
+koksma_status koksma__mitsuba_operation(const koksma__xml_node *n, double m[12]);
+
+/* Checks the values of all elements, also of those that nothing reads. */
+koksma_status koksma__mitsuba_check(const koksma__xml *xml);
 
 #endif

@@ -1,23 +1,127 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads scene files, as docs/scenes.md describes them: the root object and its lists, in the order that
- * references need (materials before shapes before lights). Every error names file, line and field.
+ * references need (materials before shapes before lights). Every error names file, line and field. The kinds of
+ * materials, lights and shapes, their parameters and the allowed values come from the tables in src/render; this file
+ * reads the fields that several kinds share, and lists the kinds with their fields.
  */
-
-#include "scene/parse.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/status.h"
 #include "core/vector.h"
 #include "render/description_build.h"
 #include "render/lights/lights.h"
+#include "render/materials/materials.h"
 #include "render/medium.h"
 #include "render/shapes/shapes.h"
-#include "scene/camera.h"
-#include "scene/parse_materials.h"
+
+/* The map from the unit square to the lens that has this name; NULL for other names. */
+static const koksma_warp *lens_map(const char *name)
+{
+    return koksma_warp_find(!strcmp(name, "concentric") ? "concentric-disk"
+                            : !strcmp(name, "polar")    ? "polar-disk"
+                                                        : "");
+}
+
+bool koksma__camera_aim(const double eye[3], const double forward[3], const double up[3], double fov_rad,
+                        koksma__camera *camera)
+{
+    memcpy(camera->eye, eye, sizeof camera->eye);
+    memcpy(camera->forward, forward, sizeof camera->forward);
+    camera->fov_rad = fov_rad;
+    camera->focus_distance = 1;
+    camera->lens_map = lens_map("concentric");
+    camera->shutter[1] = 1;
+    if (!koksma__normalise(camera->forward)) {
+        return false;
+    }
+    koksma__cross(camera->forward, up, camera->right);
+    if (!koksma__normalise(camera->right)) {
+        return false;
+    }
+    koksma__cross(camera->forward, camera->right, camera->down);
+    return true;
+}
+
+/* Reads "albedo", or for a checkerboard "albedos" and the size and position of its squares. */
+static koksma_status parse_albedo(const field *f, koksma__material *m)
+{
+    field pair, item;
+    size_t n = 0;
+    double angle_deg = 0;
+    if (!m->checker) {
+        const koksma_status status = koksma__parse_colour(f, "albedo", true, 1, m->albedo[0]);
+        memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
+        return status;
+    }
+    koksma_status status = koksma__json_member(f, "albedos", &pair);
+    status = status ? status : koksma__json_length(&pair, 2, &n);
+    KOKSMA__JSON_FAIL_IF(!status && n != 2, &pair, "it takes 2 albedos");
+    for (size_t i = 0; !status && i < 2; i++) {
+        item = koksma__json_item(&pair, i);
+        status = koksma__parse_colour_value(&item, 1, m->albedo[i]);
+    }
+    m->period = 1;
+    status = status ? status : koksma__json_get_number(f, "period", false, TINY, FAR, &m->period);
+    status = status ? status : koksma__json_get_numbers(f, "phase", false, -FAR, FAR, 2, m->phase);
+    status = status ? status : koksma__json_get_number(f, "angle_deg", false, -360, 360, &angle_deg);
+    m->angle_rad = angle_deg * TURN / 360;
+    return status;
+}
+
+/* Reads "albedo": {"image": FILE} of a Lambert surface; the image's mean colour is used where a single colour is
+   needed. */
+static koksma_status parse_texture(koksma_scene *scene, const char *name, const field *f, koksma__material *m)
+{
+    field albedo;
+    const char *path = "";
+    koksma_status status = koksma__json_member(f, "albedo", &albedo);
+    status = status ? status : koksma__json_only(&albedo, KEYS("image"));
+    status = status ? status : koksma__json_get_text(&albedo, "image", true, &path);
+    status = status ? status : koksma__parse_image(scene, name, &albedo, path, &m->image);
+    if (!status) {
+        koksma__material_mean(scene, m);
+    }
+    return status;
+}
+
+/* Reads the diffuse albedo, in one of the forms that the kind of material allows. */
+static koksma_status parse_diffuse(koksma_scene *scene, const char *scene_name, const field *f, koksma__material *m)
+{
+    const unsigned forms = m->bsdf->diffuse;
+    if (!forms) {
+        return KOKSMA_OK;
+    }
+    if (forms & KOKSMA__IMAGE && koksma__json_is_object_at(f, "albedo")) {
+        return parse_texture(scene, scene_name, f, m);
+    }
+    m->checker = forms & KOKSMA__CHECKER && (!(forms & KOKSMA__ALBEDO) || koksma__json_has(f, "albedos"));
+    return parse_albedo(f, m);
+}
+
+static koksma_status read_material(const char *scene_name, const field *f, koksma_scene *scene)
+{
+    const char *name = "", *problem;
+    size_t kind = 0;
+    koksma__material *m = &scene->materials[scene->n_materials];
+    KOKSMA__TRY(koksma__json_get_text(f, "name", true, &name));
+    KOKSMA__JSON_FAIL_IF((!*name || strlen(name) >= sizeof m->name), f, "a name has 1 to %zu letters",
+                         sizeof m->name - 1);
+    KOKSMA__JSON_FAIL_IF(koksma__find_material(scene, name) >= 0, f, "a second material '%s'", name);
+    KOKSMA__TRY(koksma__parse_kind(f, koksma__material_kinds, &kind));
+    strcpy(m->name, name);
+    m->bsdf = koksma__bsdfs[kind];
+    scene->n_materials++;
+    KOKSMA__TRY(koksma__parse_fields(f, &m->bsdf->kind, koksma__material_keys(m->bsdf), m));
+    KOKSMA__TRY(parse_diffuse(scene, scene_name, f, m));
+    KOKSMA__JSON_FAIL_IF(m->bsdf->check && (problem = m->bsdf->check(m)), f, "%s", problem);
+    return KOKSMA_OK;
+}
 
 /* ---- The camera ----------------------------------------------------------------------------------------- */
 
@@ -52,7 +156,7 @@ static koksma_status parse_lens(const field *f, koksma__camera *camera)
     if (camera->lens_radius > 0 || koksma__json_has(f, "focus_distance")) {
         status = koksma__json_get_number(f, "focus_distance", true, TINY, FAR, &camera->focus_distance);
     }
-    camera->lens_map = koksma__lens_map(map);
+    camera->lens_map = lens_map(map);
     KOKSMA__JSON_FAIL_IF(!status && !camera->lens_map, f, "no lens_map '%s'; it takes concentric or polar", map);
     return status ? status : parse_blades(f, camera);
 }
@@ -236,7 +340,7 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
         open_list(root, "materials", KOKSMA__MAX_MATERIALS, sizeof *scene->materials, &scene->materials, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
         item = koksma__json_item(&list, i);
-        status = koksma__parse_material(name, &item, scene);
+        status = read_material(name, &item, scene);
     }
     status = status ? status : open_list(root, "shapes", KOKSMA__MAX_SHAPES, 0, NULL, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
@@ -330,4 +434,37 @@ koksma_status koksma__scene_parse(const char *name, const char *text, size_t siz
     }
     koksma__json_close(document);
     return status;
+}
+
+static void add_fields(koksma_entry *to, const char *const *names)
+{
+    for (size_t i = 0; names && names[i]; i++) {
+        const size_t used = strlen(to->fields);
+        snprintf(to->fields + used, sizeof to->fields - used, "%s%s", used ? " " : "", names[i]);
+    }
+}
+
+bool koksma_scene_kind_at(const char *member, size_t i, koksma_entry *out)
+{
+    KOKSMA__REQUIRE_OR(false, member, out);
+    const bool materials = !strcmp(member, "materials"), lights = !strcmp(member, "lights");
+    const koksma__kind *const *kinds = materials                   ? koksma__material_kinds
+                                       : lights                    ? koksma__light_kinds
+                                       : !strcmp(member, "shapes") ? koksma__shape_kinds
+                                                                   : NULL;
+    for (size_t k = 0, left = i; kinds && kinds[k]; k++) {
+        if (kinds[k]->is_implied || left-- > 0) {
+            continue;
+        }
+        *out = (koksma_entry){.name = kinds[k]->name, .title = kinds[k]->title, .cite = kinds[k]->cite};
+        add_fields(out, materials ? koksma__material_keys(koksma__bsdfs[k])
+                        : lights  ? KEYS("kind")
+                                  : KEYS("kind", "material"));
+        for (const koksma__parameter *p = kinds[k]->parameters; p && p->name; p++) {
+            add_fields(out, KEYS(p->name));
+        }
+        add_fields(out, kinds[k]->keys);
+        return true;
+    }
+    return false;
 }

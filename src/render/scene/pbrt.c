@@ -23,11 +23,6 @@
 #include "render/fields.h"
 #include "render/lights/lights.h"
 #include "render/medium.h"
-#include "scene/import_limits.h"
-#include "scene/import_shapes.h"
-#include "scene/import_text.h"
-#include "scene/pbrt_names.h"
-#include "scene/pbrt_values.h"
 
 enum { MOST_INCLUDED = 16, MOST_STATES = 1024 };
 

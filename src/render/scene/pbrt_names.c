@@ -7,7 +7,7 @@
  * a Create() function of samplers.cpp, lights.cpp, shapes.cpp, ... looks up. `st`, `point`, `vector`, `normal3`, `color`
  * and `exposuretime` are of earlier versions.
  */
-#include "scene/pbrt_names.h"
+#include "scene/pbrt.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,7 +4,7 @@
  * A parameter is a text "type name" and a value, or values in brackets. Numbers are rounded to floats, as in pbrt
  * itself; integers are exact. Only parameters are copied, and their number and lengths are limited.
  */
-#include "scene/pbrt_tokens.h"
+#include "scene/pbrt.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
  * A texture becomes a colour, an image or a checkerboard; textures that combine others become the mean colour.
  * The file is long because all of pbrt's parameters are in one place.
  */
-#include "scene/pbrt_values.h"
+#include "scene/pbrt.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,9 +19,6 @@
 #include "meshes/mesh.h"
 #include "render/fields.h"
 #include "render/materials/materials.h"
-#include "scene/import_limits.h"
-#include "scene/import_shapes.h"
-#include "scene/import_spectrum.h"
 
 enum {
     MOST_DIVIDED = 1 << 21, /* largest number of triangles that subdivision may make in a scene */
@@ -36,7 +33,7 @@ struct koksma__pbrt_named {
     int material;
 };
 
-struct koksma__pbrt_texture {
+struct koksma__pbrt_named_texture {
     char spectrum[64]; /* its value, if that is the name of a spectrum: what it means depends on the texture's use */
     koksma__import_colour colour;
 };
@@ -105,7 +102,7 @@ static koksma_status named_spectrum(koksma__pbrt_scene *scene, koksma__text_plac
 /* Finds a texture among those of type "float", or else "spectrum". pbrt refuses one of the other type. */
 static koksma_status find_texture(koksma__pbrt_scene *scene, koksma__text_place place,
                                   const koksma__pbrt_parameter *p, bool is_float,
-                                  const struct koksma__pbrt_texture **out)
+                                  const struct koksma__pbrt_named_texture **out)
 {
     static const char *const types[] = {"spectrum", "float"};
     size_t i;
@@ -124,7 +121,7 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
                                koksma__spectrum_use use, bool is_float, koksma__import_colour *out)
 {
     if (!strcmp(p->type, "texture")) {
-        const struct koksma__pbrt_texture *texture;
+        const struct koksma__pbrt_named_texture *texture;
         KOKSMA__TRY(find_texture(scene, place, p, is_float, &texture));
         *out = texture->colour;
         return *texture->spectrum ? named_spectrum(scene, place, texture->spectrum, use, out->rgb) : KOKSMA_OK;
@@ -256,7 +253,7 @@ static koksma_status set_mapping(koksma__pbrt_scene *scene, const koksma__pbrt_p
 }
 
 static koksma_status read_constant(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool is_float,
-                                   struct koksma__pbrt_texture *to)
+                                   struct koksma__pbrt_named_texture *to)
 {
     const koksma__pbrt_parameter *value = koksma__pbrt_find(p, "value");
     if (value && !strcmp(value->type, "spectrum") && value->n_texts == 1 && *value->text) {
@@ -419,7 +416,7 @@ static koksma_status read_checkerboard(koksma__pbrt_scene *scene, const koksma__
 }
 
 static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, bool is_float,
-                                  const koksma__pbrt_parameters *p, struct koksma__pbrt_texture *to)
+                                  const koksma__pbrt_parameters *p, struct koksma__pbrt_named_texture *to)
 {
     koksma__import_colour first, second, *c = &to->colour;
     if (!strcmp(kind, "imagemap")) {
@@ -461,8 +458,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
         return koksma__import_fail(p->place, "more than %d textures", MOST_TEXTURES);
     }
     KOKSMA__TRY(
-        koksma__import_hold(scene->im, p->place, sizeof(struct koksma__pbrt_texture) + KOKSMA__HELD_WITH_NAME));
-    struct koksma__pbrt_texture *to = koksma__add_one(&scene->textures, &scene->n_textures, sizeof *to);
+        koksma__import_hold(scene->im, p->place, sizeof(struct koksma__pbrt_named_texture) + KOKSMA__HELD_WITH_NAME));
+    struct koksma__pbrt_named_texture *to = koksma__add_one(&scene->textures, &scene->n_textures, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     /* the texture is hidden until it is complete, so that its own parameters can't refer to it */
     scene->n_textures--;

@@ -6,15 +6,13 @@
  * declaration stops the parser before any entity is declared. Readers mark what they use, so that
  * koksma__xml_name_unread() finds everything that no reader knows: misspelt names above all.
  */
-#include "scene/xml.h"
+#include "scene/mitsuba.h"
 
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/capacity.h"
-#include "scene/import_limits.h"
-#include "scene/import_text.h"
 
 #ifdef KOKSMA_EXPAT
 #include <expat.h>

@@ -12,9 +12,9 @@
 
 #include "core/lookup.h"
 #include "core/status.h"
+#include "domains/domain.h"
 #include "render/samples/samples.h"
 #include "render/samples/uses.h"
-#include "scene/pbrt_tokens.h"
 #include "study/plan/plan.h"
 
 enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };

@@ -5,6 +5,8 @@
  */
 #include "scene/scene.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,11 +15,11 @@
 #include "core/lookup.h"
 #include "core/status.h"
 #include "meshes/mesh_file.h"
+#include "render/description_build.h"
 #include "render/render.h"
 #include "render/scene_images.h"
-#include "scene/import_open.h"
-#include "scene/model.h"
-#include "scene/parse.h"
+#include "scene/mitsuba.h"
+#include "scene/pbrt.h"
 #include "scene/scenes_embedded.h"
 
 enum { N_SHIPPED = sizeof embedded_texts / sizeof *embedded_texts };
@@ -84,10 +86,62 @@ static koksma_status refuse_unknown(koksma_scene **out)
                         out);
 }
 
+/* ---- Scenes of other renderers: the ending of the file's name selects the reader -------------------------- */
+
+/* A number in the hash by which stored studies find a scene; it is raised when a change of the code makes another
+   scene from the same files. */
+enum { READER_REVISION = 8 };
+
+static bool is_pbrt(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && !strcmp(dot, ".pbrt");
+}
+
+/* Whether a file with this name (.pbrt, .xml) is a scene of another renderer. */
+static bool is_import_file(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return is_pbrt(path) || (dot && !strcmp(dot, ".xml"));
+}
+
+static koksma_status read_import_text(const char *path, const char *text, size_t size, koksma_scene *scene)
+{
+    const char *slash = strrchr(path, '/');
+    koksma__import im = {.scene = scene, .path = path, .n_files = 1, .held = size};
+    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
+    scene->materials = calloc(KOKSMA__MAX_MATERIALS, sizeof *scene->materials);
+    if (!scene->lights || !scene->materials) {
+        return koksma__fail_memory(KOKSMA__MAX_MATERIALS * sizeof *scene->materials);
+    }
+    snprintf(scene->title, sizeof scene->title, "%s", slash ? slash + 1 : path);
+    scene->is_model = true;
+    scene->clamp = INFINITY;
+    scene->hash = koksma__hash(text, size) + READER_REVISION;
+    const koksma_status status = (is_pbrt(path) ? koksma__pbrt_read : koksma__mitsuba_read)(&im, text, size);
+    koksma__import_shapes_fini(&im);
+    free(im.texts);
+    if (!status) {
+        koksma__scene_finish(scene);
+    }
+    return status;
+}
+
+/* Reads a scene of another renderer into an empty scene. */
+static koksma_status read_import(const char *path, koksma__named by, koksma_scene *scene)
+{
+    unsigned char *bytes;
+    size_t size;
+    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_SCENE, by, koksma__check_text, &bytes, &size));
+    const koksma_status status = read_import_text(path, (const char *)bytes, size, scene);
+    free(bytes);
+    return status;
+}
+
 static koksma_status open_import(const char *path, koksma__named by, koksma_scene **out)
 {
     const koksma_status status = new_scene(out);
-    KOKSMA__TRY(status ? status : close_failed(koksma__import_open(path, by, *out), out));
+    KOKSMA__TRY(status ? status : close_failed(read_import(path, by, *out), out));
     return refuse_unknown(out);
 }
 
@@ -101,8 +155,7 @@ static koksma_status open_model(const char *path, koksma__named by, koksma_scene
 static bool is_path(const char *text)
 {
     const char *dot = strrchr(text, '.');
-    return koksma__is_mesh_file(text) || koksma__is_import_file(text) || strchr(text, '/') ||
-           (dot && !strcmp(dot, ".json"));
+    return koksma__is_mesh_file(text) || is_import_file(text) || strchr(text, '/') || (dot && !strcmp(dot, ".json"));
 }
 
 koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, koksma_scene **out)
@@ -124,7 +177,7 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
     if (koksma__is_mesh_file(name_or_path)) {
         return open_model(name_or_path, by, out);
     }
-    if (koksma__is_import_file(name_or_path)) {
+    if (is_import_file(name_or_path)) {
         return open_import(name_or_path, by, out);
     }
     unsigned char *bytes;
