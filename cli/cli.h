@@ -76,7 +76,8 @@ const cli_command *cli_command_find(const char *name);
 #define CLI_UNKNOWN_OPTION                                                                                           \
     {                                                                                                                \
         0, "unknown", "approximate|refuse",                                                                          \
-            "unknown parts of pbrt or Mitsuba scenes cause a warning (approximate, default) or an error (refuse)"    \
+            "unknown parts of pbrt, Mitsuba and model files cause a warning (approximate, default) or an error "     \
+            "(refuse); in JSON they always are errors"                                                               \
     }
 
 /* cli_text returns the text of an option, or `fallback` when the option is not given; cli_flag returns whether a flag

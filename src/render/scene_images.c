@@ -193,7 +193,7 @@ static bool is_grey(const double colour[3])
     return colour[0] == colour[1] && colour[0] == colour[2];
 }
 
-/* Applies gamma and the mean of the channels. */
+/* Applies gamma, and makes one channel of three. */
 static void change_levels(koksma_image *image, const koksma__image_use *use)
 {
     const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
@@ -202,7 +202,9 @@ static void change_levels(koksma_image *image, const koksma__image_use *use)
     }
     for (size_t i = 0; use->average && channels == 3 && i < n; i++) {
         const float *from = image->pixels + 3 * i;
-        image->pixels[i] = (float)(((double)from[0] + (double)from[1] + (double)from[2]) / 3);
+        image->pixels[i] =
+            (float)(use->average == KOKSMA__LUMINANCE ? koksma__luminance(image, i)
+                                                      : ((double)from[0] + (double)from[1] + (double)from[2]) / 3);
     }
     image->channels = use->average ? 1 : image->channels;
 }

@@ -15,13 +15,17 @@
 #include <stddef.h>
 #include "render/description.h"
 
-/* How an image is read: which part of it, and what its levels v become: first v^gamma (0: they stay), then, if `average`,
-   the mean of the channels, then tint v + plus, where negative levels become 0 if `plus` is not 0. If upside_down, its
+/* What becomes of the channels of an image. */
+typedef enum koksma__image_average { KOKSMA__NO_AVERAGE, KOKSMA__MEAN, KOKSMA__LUMINANCE } koksma__image_average;
+
+/* How an image is read: which part of it, and what its levels v become: first v^gamma (0: they stay), then one channel,
+   if `average` is not 0, then tint v + plus, where negative levels become 0 if `plus` is not 0. If upside_down, its
    last row becomes the first. If `border`, a frame of one pixel, which was black, is put around it. */
 typedef struct koksma__image_use {
     koksma__image_part part;
     double tint[3];
-    bool upside_down, average, border;
+    bool upside_down, border;
+    koksma__image_average average;
     double plus[3], gamma;
 } koksma__image_use;
 

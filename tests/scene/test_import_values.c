@@ -274,7 +274,7 @@ static const char *damage_parameter(const char *name, const char *at, bool passe
 static void values_of_pbrt_are_whole(void **state)
 {
     static const char *const seeds[] = {"parameters.pbrt", "orthographic.pbrt"};
-    static const char *const unread = "disablepixeljitter xradius yradius pixelsamples maxdepth amount iso alpha k "
+    static const char *const unread = "disablepixeljitter xradius yradius pixelsamples maxdepth amount iso k "
                                       "reflectance";
     size_t n = 0;
     (void)state;

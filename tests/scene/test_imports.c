@@ -941,7 +941,9 @@ static const struct {
     {"a.xml", BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" filename=\"a.spd\"/></bsdf>"),
      "a.xml:2: a spectrum"},
     {"a.pbrt", PBRT "Shape \"sphere\" \"float alpha\" 1", NULL},
-    {"a.pbrt", PBRT "Shape \"sphere\" \"float alpha\" 0.5", "a.pbrt:2: a shape's 'alpha' is ignored"},
+    {"a.pbrt", PBRT "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"float alpha\" 0.5", NULL},
+    {"a.pbrt", PBRT "Material \"interface\" AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0.5",
+     "a.pbrt:2: a light's 'alpha' is ignored"},
     {"a.pbrt", "Camera \"perspective\" \"float screenwindow\" [0 2 -0.75 0.75] Film \"rgb\" " SIZE " WorldBegin",
      NULL},
     {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"", NULL},
@@ -1391,20 +1393,23 @@ static void textures_in_checkerboards_are_their_means(void **state)
     unlink(path);
 }
 
-/* A light has one colour: the mean of its image, of all its levels, times the scale of a spectrum around it. */
+/* A light that is no surface has one colour: the mean of its image, of all its levels, times the scale of a spectrum around
+   it; a surface shows the image itself, times that scale. */
 static void images_of_lights_are_their_means(void **state)
 {
 #define TWO "<texture name=\"%s\" type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture>"
     static const struct {
         const char *colour;
-        double mean[3];
-    } cases[] = {
-        {TWO, {10, 0.5, 0.25}},
-        {"<spectrum name=\"%s\" type=\"d65\"><float name=\"scale\" value=\"10\"/>" TWO "</spectrum>", {100, 5, 2.5}},
-        {"<texture name=\"%s\" type=\"checkerboard\"><rgb name=\"color0\" value=\"0 1 2\"/>"
-         "<texture name=\"color1\" type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture>"
-         "</texture>",
-         {5, 0.75, 1.125}}};
+        double mean[3], scale; /* scale: of the image on a surface; 0: it has one colour, too */
+    } cases[] = {{TWO, {10, 0.5, 0.25}, 1},
+                 {"<spectrum name=\"%s\" type=\"d65\"><float name=\"scale\" value=\"10\"/>" TWO "</spectrum>",
+                  {100, 5, 2.5},
+                  10},
+                 {"<texture name=\"%s\" type=\"checkerboard\"><rgb name=\"color0\" value=\"0 1 2\"/>"
+                  "<texture name=\"color1\" type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture>"
+                  "</texture>",
+                  {5, 0.75, 1.125},
+                  0}};
 #undef TWO
     static const float pixels[] = {5, 0.5F, 0.25F, 15, 0.5F, 0.25F, 5, 0.5F, 0.25F, 15, 0.5F, 0.25F};
     char path[128];
@@ -1418,15 +1423,18 @@ static void images_of_lights_are_their_means(void **state)
         }
         snprintf(text, sizeof text,
                  MITSUBA("<emitter type=\"point\">%s</emitter><emitter type=\"constant\">%s</emitter><shape "
-                         "type=\"sphere\"><emitter type=\"area\">%s</emitter></shape>"),
+                         "type=\"rectangle\"><emitter type=\"area\">%s</emitter></shape>"),
                  of[0], of[1], of[2]);
         koksma_scene *scene = opened("a.xml", text);
         assert_int_equal(scene->n_lights, 3);
         for (size_t light = 0; light < 3; light++) {
             for (int k = 0; k < 3; k++) {
-                assert_near(scene->lights[light].radiance[k], cases[i].mean[k], 1e-5 * cases[i].mean[k]);
+                const double expected = light == 2 && cases[i].scale > 0 ? cases[i].scale : cases[i].mean[k];
+                assert_near(scene->lights[light].radiance[k], expected, 1e-5 * expected);
             }
         }
+        const koksma__placement *p = scene->n_placements ? &scene->placements[0] : NULL;
+        assert_true(p ? scene->materials[p->material].maps[KOKSMA__MAP_EMISSION].image != NULL : cases[i].scale == 0);
         assert_true(scene->n_unknown > 0);
         for (size_t warning = 0; koksma_scene_unknown(scene, warning, text, sizeof text); warning++) {
             assert_non_null(strstr(text, " is replaced by its mean colour"));
@@ -1434,6 +1442,78 @@ static void images_of_lights_are_their_means(void **state)
         koksma_scene_close(scene);
     }
     unlink(path);
+}
+
+/* A sky of radiance 1 is all the light. What covers the whole picture is black and meets half of it: .5 remains, of an image
+   with the levels 0 and 1 as of a constant; a blend of Lambert surfaces has the blended albedo, by each level of an image. */
+static void masks_and_blends_are_exact(void **state)
+{
+#define BEFORE(bsdf)                                                                                                 \
+    MITSUBA("<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"40\"/><translate "                \
+            "z=\"9\"/></transform>" bsdf "</shape>"                                                                  \
+            "<emitter type=\"constant\"><float name=\"radiance\" value=\"1\"/></emitter>")
+#define GREY(albedo) "<bsdf type=\"diffuse\"><float name=\"reflectance\" value=\"" #albedo "\"/></bsdf>"
+    static const char *const masks[] = {
+        BEFORE("<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.5\"/>" GREY(0) "</bsdf>"),
+        BEFORE("<bsdf type=\"mask\"><texture name=\"opacity\" type=\"bitmap\"><string name=\"filename\" "
+               "value=\"two.pfm\"/></texture>" GREY(0) "</bsdf>")};
+    static const float pixels[] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1};
+    char path[128];
+    double error;
+    (void)state;
+    write_two(pixels, path);
+    for (size_t i = 0; reads_xml() && koksma_mesh_tracer() && i < 2; i++) {
+        koksma_scene *scene = opened("a.xml", masks[i]);
+        koksma_render_options options = options_of(scene, "random", "path", 256, 16);
+        assert_int_equal(scene->n_unknown, 0);
+        const double mean = mean_of(scene, &options, &error);
+        assert_near(mean, 0.5,
+                    i ? 0.1 : 4 * error + 1e-3); /* the frame shows a little more of one half of the image */
+        koksma_scene_close(scene);
+    }
+    if (reads_xml()) {
+        koksma_scene *scene =
+            opened("a.xml", BEFORE("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.25\"/>" GREY(0.8)
+                                       GREY(0.4) "</bsdf>"));
+        assert_near(scene->materials[scene->shapes[0].material].albedo[0][0], 0.7, 1e-12);
+        koksma_scene_close(scene);
+        scene =
+            opened("a.xml", BEFORE("<bsdf type=\"blendbsdf\"><texture name=\"weight\" type=\"bitmap\"><string "
+                                   "name=\"filename\" value=\"two.pfm\"/></texture>" GREY(0.8) GREY(0.4) "</bsdf>"));
+        const koksma_image *image = scene->materials[scene->placements[0].material].image;
+        assert_int_equal(scene->n_unknown, 0);
+        for (int i = 0; i < 4; i++) {
+            assert_near((double)image->pixels[i * image->channels], i % 2 ? 0.4 : 0.8, 1e-6);
+        }
+        koksma_scene_close(scene);
+    }
+    unlink(path);
+}
+
+/* The texture coordinates that a triangle has without any: of pbrt (0, 0), (1, 0), (1, 1), of Mitsuba the barycentric ones. */
+static void files_without_uv_have_their_peers(void **state)
+{
+    static const char *const names[] = {"a.pbrt", "a.xml"};
+    static const char *const texts[] = {
+        PBRT "Texture \"t\" \"spectrum\" \"checkerboard\" Material \"diffuse\" \"texture reflectance\" \"t\" "
+             "Shape \"plymesh\" \"string filename\" \"one.ply\"",
+        MITSUBA("<shape type=\"ply\"><string name=\"filename\" value=\"one.ply\"/><bsdf type=\"twosided\"><bsdf "
+                "type=\"diffuse\"><texture name=\"reflectance\" type=\"checkerboard\"/></bsdf></bsdf></shape>")};
+    static const float expected[2][6] = {{0, 0, 1, 0, 1, 1}, {0, 0, 1, 0, 0, 1}};
+    (void)state;
+    write_file("one.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+               "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 "
+               "0\n3 0 1 2\n");
+    for (size_t i = 0; i < 2 - !reads_xml(); i++) {
+        koksma_scene *scene = opened(names[i], texts[i]);
+        const koksma__mesh *mesh = &scene->meshes[scene->placements[0].mesh];
+        assert_int_equal(scene->n_unknown, 0);
+        for (size_t k = 0; k < 6; k++) {
+            assert_near((double)mesh->uvs[2 * mesh->indices[k / 2] + k % 2], (double)expected[i][k], 0);
+        }
+        koksma_scene_close(scene);
+    }
 }
 
 /* The spectra of Mitsuba 3 as a light's intensity and as a reflectance. Numbers: those of Mitsuba 3.9.1 (traverse() in
@@ -1705,6 +1785,8 @@ int main(void)
         cmocka_unit_test(checkerboards_are_mapped_as_in_mitsuba),
         cmocka_unit_test(textures_in_checkerboards_are_their_means),
         cmocka_unit_test(images_of_lights_are_their_means),
+        cmocka_unit_test(masks_and_blends_are_exact),
+        cmocka_unit_test(files_without_uv_have_their_peers),
         cmocka_unit_test(the_cameras_medium_is_read),
         cmocka_unit_test(fog_does_not_glow),
         cmocka_unit_test(malformed_and_hostile_texts_are_refused),

@@ -295,12 +295,20 @@ static bool same_mapping(const koksma__mapping *a, const koksma__mapping *b)
            !memcmp(a->wrap, b->wrap, sizeof a->wrap);
 }
 
+static bool same_map(const koksma__map *a, const koksma__map *b)
+{
+    return a->image == b->image && same_mapping(&a->mapping, &b->mapping);
+}
+
 /* Whether two materials, of which an importer has set what this file sets, are the same but for their names. */
 static bool same_material(const koksma__material *a, const koksma__material *b)
 {
     return a->bsdf == b->bsdf && a->image == b->image && a->checker == b->checker &&
            !memcmp(a->albedo, b->albedo, sizeof a->albedo) && !memcmp(&a->period, &b->period, sizeof a->period) &&
-           !memcmp(a->values, b->values, sizeof a->values) && same_mapping(&a->mapping, &b->mapping);
+           !memcmp(a->values, b->values, sizeof a->values) && same_mapping(&a->mapping, &b->mapping) &&
+           same_map(&a->maps[KOKSMA__MAP_ALPHA], &b->maps[KOKSMA__MAP_ALPHA]) &&
+           same_map(&a->maps[KOKSMA__MAP_EMISSION], &b->maps[KOKSMA__MAP_EMISSION]) &&
+           a->see_through == b->see_through && !memcmp(&a->alpha, &b->alpha, sizeof a->alpha);
 }
 
 koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_place place,
@@ -387,6 +395,157 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
     koksma__material m = {0};
     KOKSMA__TRY(set_material(im, place, from, &m));
     return koksma__import_keep_material(im, place, &m, out);
+}
+
+/* ---- Mixtures ---------------------------------------------------------------------------------------------- */
+
+void koksma__import_blend(koksma__import_colour *c, const double amount[3], const double *other)
+{
+    for (int k = 0; k < 3; k++) {
+        const double keep = 1 - amount[k], more = other ? amount[k] * other[k] : 0;
+        c->rgb[k] = keep * c->rgb[k] + more;
+        c->second[k] = keep * c->second[k] + more;
+        c->use.tint[k] *= keep;
+        c->use.plus[k] = keep * c->use.plus[k] + more;
+    }
+}
+
+/* Blends material b into a; returns false if no single material scatters as both together do. A material's light is
+   linear in its albedos and in Schlick's reflectance along the normal, but in no other parameter. */
+static bool blend_materials(koksma__material *a, const koksma__material *b, double amount)
+{
+    const bool same_squares = !a->checker || !b->checker || !memcmp(&a->period, &b->period, sizeof a->period);
+    koksma__material with = *b, both = *a;
+    const bool reflects =
+        a->bsdf == &koksma__bsdf_mirror || a->bsdf == &koksma__bsdf_ggx || a->bsdf == &koksma__bsdf_utah;
+    if (a->bsdf != b->bsdf || a->image || b->image || !same_squares) {
+        return false;
+    }
+    double *from = reflects ? koksma__material_value(&with, "reflectance") : NULL;
+    double *to = reflects ? koksma__material_value(&both, "reflectance") : NULL;
+    for (int k = 0; reflects && k < 3; k++) {
+        to[k] += amount * (from[k] - to[k]);
+        from[k] = to[k];
+    }
+    if (memcmp(with.values, both.values, sizeof with.values) != 0) {
+        return false;
+    }
+    *a = both;
+    for (int k = 0; k < 6; k++) {
+        a->albedo[k / 3][k % 3] += amount * (b->albedo[k / 3][k % 3] - a->albedo[k / 3][k % 3]);
+    }
+    a->period = b->checker ? b->period : a->period;
+    a->checker |= b->checker;
+    return true;
+}
+
+/* Whether a material is Lambert's with one albedo, which light meets everywhere. */
+static bool is_plain(const koksma__material *m)
+{
+    return m->bsdf == &koksma__bsdf_lambert && !m->image && !m->checker && !m->see_through;
+}
+
+/* Reads an image as numbers: Mitsuba takes the luminance of colours; pbrt's reader has set already what it takes. */
+static void use_as_number(const koksma__import *im, koksma__import_colour *c)
+{
+    if (im->rows_down) {
+        c->has_use = true;
+        c->use = KOKSMA__PLAIN_IMAGE;
+        c->use.average = KOKSMA__LUMINANCE;
+    }
+}
+
+/* Makes the Lambert surface whose albedo goes from that of `first` to that of `second` as the image or checkerboard `amount`
+   goes from 0 to 1. */
+static koksma_status mix_albedos(koksma__import *im, koksma__text_place place, const koksma__material *first,
+                                 const koksma__material *second, const koksma__import_colour *amount, int *out)
+{
+    koksma__material mixed = {.bsdf = &koksma__bsdf_lambert};
+    koksma__import_colour c = *amount;
+    use_as_number(im, &c);
+    for (int k = 0; k < 3; k++) {
+        const double from = first->albedo[0][k], step = second->albedo[0][k] - from;
+        c.rgb[k] = from + step * amount->rgb[k];
+        c.second[k] = from + step * amount->second[k];
+        c.use.tint[k] *= step;
+        c.use.plus[k] = from + step * c.use.plus[k];
+    }
+    KOKSMA__TRY(set_colour(im, place, &c, &mixed));
+    return koksma__import_keep_material(im, place, &mixed, out);
+}
+
+koksma_status koksma__import_mix(koksma__import *im, koksma__text_place place, int first, int second,
+                                 koksma__import_colour *amount, int *out)
+{
+    const koksma__material *all = im->scene->materials;
+    const bool both = first >= 0 && second >= 0, varies = *amount->image || amount->is_checker;
+    *out = first;
+    if (first == second) {
+        return KOKSMA_OK;
+    }
+    if (both && varies && is_plain(&all[first]) && is_plain(&all[second])) {
+        return mix_albedos(im, place, &all[first], &all[second], amount, out);
+    }
+    KOKSMA__TRY(koksma__import_mean(im, place, "the amount of a mix", KOKSMA__REFLECTANCE, amount));
+    const double share = amount->rgb[0];
+    if (share <= 0 || share >= 1) {
+        *out = share <= 0 ? first : second;
+        return KOKSMA_OK;
+    }
+    if (both) {
+        koksma__material mixed = all[first];
+        if (blend_materials(&mixed, &all[second], share)) {
+            return koksma__import_keep_material(im, place, &mixed, out);
+        }
+    }
+    *out = share < 0.5 ? first : second;
+    return koksma__import_unknown(im, place,
+                                  "a mix of different materials is replaced by the one with the larger share");
+}
+
+koksma_status koksma__import_mask(koksma__import *im, koksma__text_place place, koksma__import_colour *opacity,
+                                  int *material)
+{
+    if (*material < 0) {
+        return KOKSMA_OK;
+    }
+    koksma__material m = im->scene->materials[*material];
+    koksma__map *map = &m.maps[KOKSMA__MAP_ALPHA];
+    if (opacity->is_checker || map->image) {
+        KOKSMA__TRY(koksma__import_mean(im, place, "an opacity", KOKSMA__REFLECTANCE, opacity));
+    }
+    m.alpha = (m.see_through ? m.alpha : 1) * fmin(fmax(opacity->rgb[0], 0), 1);
+    if (*opacity->image) {
+        m.alpha = 1;
+        use_as_number(im, opacity);
+        KOKSMA__TRY(find_image(im, place, opacity, &map->image));
+        map->mapping = opacity->mapping;
+    }
+    m.see_through = m.alpha < 1 || map->image;
+    if (m.alpha <= 0) {
+        *material = -1;
+        return KOKSMA_OK;
+    }
+    return koksma__import_keep_material(im, place, &m, material);
+}
+
+koksma_status koksma__import_glow(koksma__import *im, koksma__text_place place, const koksma__import_colour *radiance,
+                                  koksma__import_surface *surface)
+{
+    koksma__material m = {.bsdf = &koksma__bsdf_lambert};
+    if (!*radiance->image) {
+        return KOKSMA_OK;
+    }
+    if (surface->material >= 0) {
+        m = im->scene->materials[surface->material];
+    }
+    koksma__map *map = &m.maps[KOKSMA__MAP_EMISSION];
+    KOKSMA__TRY(find_image(im, place, radiance, &map->image));
+    map->mapping = radiance->mapping;
+    for (int k = 0; k < 3; k++) {
+        surface->radiance[k] = map->image ? radiance->image_scale : radiance->rgb[k];
+    }
+    return map->image ? koksma__import_keep_material(im, place, &m, &surface->material) : KOKSMA_OK;
 }
 
 /* ---- Lights ------------------------------------------------------------------------------------------------ */

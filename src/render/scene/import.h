@@ -75,7 +75,7 @@ typedef struct koksma__import {
     size_t n_folders;
     koksma__names files;              /* the meshes from files: 1 + the index of each; 0: it is left out */
     int forms[KOKSMA__N_BASIC_FORMS]; /* 1 + the index of the mesh of each basic shape; 0: it is not made yet */
-    int *twins;                       /* for each mesh: the same mesh turned inside out, or below 0 */
+    struct koksma__mesh_twins *twins; /* for each mesh: forms of the same mesh */
     koksma__serialized *packed;       /* the .serialized files */
     koksma__names packed_names;
     size_t n_twins, n_packed, packed_size; /* packed_size: length of those that are open */
@@ -186,6 +186,10 @@ static inline bool koksma__import_is_white(const koksma__import_colour *c)
 koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, const char *what,
                                   koksma__spectrum_use use, koksma__import_colour *c);
 
+/* Turns a colour, image or checkerboard c into (1 - amount) c + amount other, if `other` is one colour; without `other`
+   into (1 - amount) c. */
+void koksma__import_blend(koksma__import_colour *c, const double amount[3], const double *other);
+
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
                                           const koksma__import_material *from, int *out);
 
@@ -193,6 +197,20 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
    yet: files repeat materials for each shape. Error: MALFORMED (too many). */
 koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_place place,
                                            const koksma__material *material, int *out);
+
+/* Sets *out to a mixture of two materials (-1: light passes through), of which the second has the share `amount`: exactly
+   where one material of Koksma scatters as both do together, and else to the one with the larger share, with a warning. */
+koksma_status koksma__import_mix(koksma__import *im, koksma__text_place place, int first, int second,
+                                 koksma__import_colour *amount, int *out);
+
+/* Replaces a material by one that only the share `opacity` of the light meets. */
+koksma_status koksma__import_mask(koksma__import *im, koksma__text_place place, koksma__import_colour *opacity,
+                                  int *material);
+
+/* Makes a material, or a black one in place of -1, emit the image `radiance`, if that is one: the surface's radiance is
+   then a factor, which becomes the image's scale. */
+koksma_status koksma__import_glow(koksma__import *im, koksma__text_place place, const koksma__import_colour *radiance,
+                                  koksma__import_surface *surface);
 
 /* Adds a light; its radiance is clamped to what scenes allow. */
 koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light);
@@ -267,6 +285,11 @@ typedef struct koksma__mesh_rules {
     bool smooths; /* without normals in the file, it gets those of koksma__mesh_smooth_by_angles() */
     bool flips_v; /* each texture coordinate v becomes 1 - v */
 } koksma__mesh_rules;
+
+/* Gives a mesh the texture coordinates that the triangles of pbrt (or of Mitsuba) have without any: (0, 0), (1, 0), (1, 1)
+   (or (0, 1)) at their corners; of pbrt's bilinear patches, which are two triangles here, from the first corner to the second
+   and fourth, and to the fourth and third: (0, 0), (1, 0), (0, 1), (1, 1). Corners no longer share vertices. Error: MEMORY. */
+koksma_status koksma__import_default_uv(koksma__mesh *mesh, bool quads, bool mitsubas);
 
 /* Add a mesh and set *out to its index in the scene, or to -1 if the mesh is left out with a warning.
    koksma__import_mesh takes over the memory of *mesh. koksma__import_mesh_file reads the mesh from a file, each mesh

@@ -39,8 +39,10 @@ void koksma__import_shapes_fini(koksma__import *im)
 
 /* ---- Meshes ------------------------------------------------------------------------------------------------ */
 
-/* In im->twins: a mesh without a twin yet, of the scene's text or of a file. */
-enum { NO_TWIN = -1, NO_TWIN_OF_FILE = -2 };
+struct koksma__mesh_twins {
+    int inside_out, with_uv; /* the mesh turned inside out; with default texture coordinates; below 0: none yet */
+    bool of_file;            /* the mesh is from a file; otherwise the scene's text has it */
+};
 
 /* in_file: the mesh is from a file; otherwise the scene's text has it. */
 static koksma_status add_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, bool in_file,
@@ -52,13 +54,13 @@ static koksma_status add_mesh(koksma__import *im, koksma__text_place place, koks
         koksma__mesh_fini(mesh);
         return koksma__import_unknown(im, place, "a mesh is left out: %s", koksma_error_text());
     }
-    int *twin = koksma__add_one(&im->twins, &im->n_twins, sizeof *twin);
+    struct koksma__mesh_twins *twin = koksma__add_one(&im->twins, &im->n_twins, sizeof *twin);
     const koksma_status status = twin ? koksma__scene_add_mesh(im->scene, &to) : KOKSMA_MEMORY;
     if (status) {
         koksma__mesh_fini(mesh);
         return koksma__import_fail_at(place, status);
     }
-    *twin = in_file ? NO_TWIN_OF_FILE : NO_TWIN;
+    *twin = (struct koksma__mesh_twins){-1, -1, in_file};
     *to = *mesh;
     *out = (int)im->scene->n_meshes - 1;
     koksma__scene_hash_mesh(im->scene, in_file);
@@ -170,22 +172,65 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
     return koksma__names_put(&im->files, which, strlen(which), (size_t)(*out + 1));
 }
 
-static koksma_status find_twin(koksma__import *im, koksma__text_place place, int mesh, int *out)
+koksma_status koksma__import_default_uv(koksma__mesh *mesh, bool quads, bool mitsubas)
+{
+    static const float corners[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
+    const size_t n = 3 * mesh->n_triangles;
+    koksma__mesh out = {0};
+    koksma_status status = koksma__mesh_init(n, mesh->n_triangles, mesh->normals != NULL, true, &out);
+    for (size_t i = 0; !status && i < n; i++) {
+        const size_t from = mesh->indices[i];
+        memcpy(out.vertices + 3 * i, mesh->vertices + 3 * from, 3 * sizeof *out.vertices);
+        if (mesh->normals) {
+            memcpy(out.normals + 3 * i, mesh->normals + 3 * from, 3 * sizeof *out.normals);
+        }
+        memcpy(out.uvs + 2 * i, corners[quads && i / 3 % 2][i % 3], 2 * sizeof *out.uvs);
+        out.uvs[2 * i] = mitsubas && i % 3 == 2 ? 0 : out.uvs[2 * i];
+        out.indices[i] = (uint32_t)i;
+    }
+    koksma__mesh_fini(status ? &out : mesh);
+    if (!status) {
+        *mesh = out;
+    }
+    return status;
+}
+
+/* Adds a form of a mesh that is in the scene: turned inside out, or with default texture coordinates. */
+static koksma_status add_twin(koksma__import *im, koksma__text_place place, int mesh, bool inside_out, int *out)
 {
     koksma__mesh twin = {0};
-    if (im->twins[mesh] < 0) {
-        const bool of_file = im->twins[mesh] == NO_TWIN_OF_FILE; /* a file may be larger than what counts as held */
-        const koksma_status status = koksma__mesh_copy(&im->scene->meshes[mesh], &twin);
-        if (status) {
-            koksma__mesh_fini(&twin);
-            return status;
-        }
+    const bool of_file = im->twins[mesh].of_file; /* a file may be larger than what counts as held */
+    koksma_status status = koksma__mesh_copy(&im->scene->meshes[mesh], &twin);
+    if (!status && inside_out) {
         koksma__mesh_flip(&twin);
-        KOKSMA__TRY((of_file ? add_mesh(im, place, &twin, false, out) : koksma__import_mesh(im, place, &twin, out)));
-        im->twins[mesh] = *out;
-        im->twins[*out] = mesh;
+    } else if (!status) {
+        status = koksma__import_default_uv(&twin, false, im->rows_down);
     }
-    *out = im->twins[mesh];
+    if (status) {
+        koksma__mesh_fini(&twin);
+        return status;
+    }
+    return of_file ? add_mesh(im, place, &twin, false, out) : koksma__import_mesh(im, place, &twin, out);
+}
+
+static koksma_status find_inside_out(koksma__import *im, koksma__text_place place, int mesh, int *out)
+{
+    if (im->twins[mesh].inside_out < 0) {
+        KOKSMA__TRY(add_twin(im, place, mesh, true, out));
+        im->twins[mesh].inside_out = *out;
+        im->twins[*out].inside_out = mesh;
+    }
+    *out = im->twins[mesh].inside_out;
+    return KOKSMA_OK;
+}
+
+static koksma_status find_with_uv(koksma__import *im, koksma__text_place place, int mesh, int *out)
+{
+    if (im->twins[mesh].with_uv < 0) {
+        KOKSMA__TRY(add_twin(im, place, mesh, false, out));
+        im->twins[mesh].with_uv = *out;
+    }
+    *out = im->twins[mesh].with_uv;
     return KOKSMA_OK;
 }
 
@@ -288,19 +333,10 @@ static koksma_status find_form(koksma__import *im, koksma__text_place place, kok
 
 /* ---- Placing shapes ---------------------------------------------------------------------------------------- */
 
-/* Replaces a material by a copy without its image or checkerboard, for a mesh without texture coordinates. */
-static koksma_status plain(koksma__import *im, koksma__text_place place, int *material)
+/* Whether a material needs texture coordinates. */
+static bool is_textured(const koksma__material *m)
 {
-    koksma__material copy = im->scene->materials[*material];
-    copy.image = NULL;
-    copy.checker = false;
-    copy.mapping = (koksma__mapping){0};
-    for (int k = 0; k < 3; k++) {
-        copy.albedo[0][k] = copy.albedo[1][k] = (copy.albedo[0][k] + copy.albedo[1][k]) / 2;
-    }
-    KOKSMA__TRY(koksma__import_keep_material(im, place, &copy, material));
-    return koksma__import_unknown(im, place,
-                                  "a texture on a mesh without texture coordinates is replaced by its mean colour");
+    return m->image || m->checker || m->maps[KOKSMA__MAP_ALPHA].image || m->maps[KOKSMA__MAP_EMISSION].image;
 }
 
 /* The matrix of a shape at time 0 and, if the shape moves, the poses and matrices of its koksma__placement. */
@@ -337,12 +373,11 @@ static koksma_status put_mesh(koksma__import *im, const koksma__import_item *ite
     koksma_scene *scene = im->scene;
     koksma__import_surface surface = item->surface;
     koksma__placement *p = NULL;
-    if (koksma__matrix_mirrors(matrix) != surface.turned) {
-        KOKSMA__TRY(find_twin(im, item->place, mesh, &mesh));
+    if (surface.material >= 0 && !scene->meshes[mesh].uvs && is_textured(&scene->materials[surface.material])) {
+        KOKSMA__TRY(find_with_uv(im, item->place, mesh, &mesh));
     }
-    if (surface.material >= 0 && !scene->meshes[mesh].uvs &&
-        (scene->materials[surface.material].image || scene->materials[surface.material].checker)) {
-        KOKSMA__TRY(plain(im, item->place, &surface.material));
+    if (koksma__matrix_mirrors(matrix) != surface.turned) {
+        KOKSMA__TRY(find_inside_out(im, item->place, mesh, &mesh));
     }
     KOKSMA__TRY(koksma__import_fail_at(item->place, koksma__scene_add_placement(scene, &p)));
     p->mesh = mesh;
@@ -464,7 +499,8 @@ static const koksma__shape_type *own_shape(const koksma__import *im, const koksm
     const bool square = is_square(at->matrix, length) && !(at->moves && !turns_evenly(at)) &&
                         !(item->surface.emits && item->surface.two_sided);
     const koksma__material *m = item->surface.material < 0 ? NULL : &im->scene->materials[item->surface.material];
-    if (!square || (m && !item->surface.emits && (m->image || m->checker))) {
+    if (!square ||
+        (m && (m->see_through || m->maps[KOKSMA__MAP_EMISSION].image || (!item->surface.emits && is_textured(m))))) {
         return NULL;
     }
     switch (item->form) {
@@ -536,7 +572,7 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
 /* Whether a surface reflects nothing. */
 static bool is_black(const koksma__material *m)
 {
-    return m->bsdf == &koksma__bsdf_lambert && !m->image &&
+    return m->bsdf == &koksma__bsdf_lambert && !m->image && !m->maps[KOKSMA__MAP_EMISSION].image &&
            m->albedo[0][0] + m->albedo[0][1] + m->albedo[0][2] <= 0 && !m->checker;
 }
 

@@ -577,7 +577,6 @@ static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5,
                                   {"polarizer", -1, "", 0, 0, "nothing"},
                                   {"phong", KOKSMA__MATTE, "diffuse_reflectance", 0.5, 0, "its diffuse part"},
                                   {"thindielectric", -1, "", 0, 0, "nothing"},
-                                  {"mask", -1, "", 0, 0, "nothing"},
                                   {"null", -1, "", 0, 0, NULL}};
 
 /* BSDFs that contain others: each is replaced by the first BSDF inside it; a second one is that of the back. */
@@ -585,13 +584,10 @@ static const struct {
     const char *name;
     bool is_exact;
 } wrappers[] = {{"twosided", true},
-                {"mask", false},
                 {"bumpmap", false},
                 {"normalmap", false},
                 {"coating", false},
-                {"blendbsdf", false},
                 {"mixturebsdf", false},
-                {"opacity", false},
                 /* of Mitsuba 0.6 */
                 {"bump", false},
                 {"roughcoating", false}};
@@ -764,6 +760,29 @@ static const node *find_inner(const reader *r, const node *c)
     return c;
 }
 
+static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out);
+
+/* Makes a BSDF that light meets only in part ("mask"), or a blend of two ("blendbsdf"). */
+static koksma_status blend(reader *r, const node *n, int depth, int *out)
+{
+    const bool masks = strcmp(type_of(n), "blendbsdf") != 0;
+    const node *first = find_inner(r, first_of(r, n)), *second = first ? find_inner(r, next_of(r, first)) : NULL;
+    koksma__import_colour share;
+    int other = -1;
+    if (!first || (!masks && !second)) {
+        return koksma__import_fail(n->place, "bsdf '%s': it has %s within it", type_of(n),
+                                   masks ? "no BSDF" : "less than two BSDFs");
+    }
+    KOKSMA__TRY(masks ? KOKSMA_OK : needed(r, n, "weight"));
+    KOKSMA__TRY(colour(r, n, masks ? "opacity" : "weight", 0.5, &share, 0));
+    KOKSMA__TRY(make_bsdf(r, resolve(r, first), depth + 1, out));
+    if (masks) {
+        return koksma__import_mask(r->im, n->place, &share, out);
+    }
+    KOKSMA__TRY(make_bsdf(r, resolve(r, second), depth + 1, &other));
+    return koksma__import_mix(r->im, n->place, *out, other, &share, out);
+}
+
 static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
 {
     static const bsdf_kind other = {"", KOKSMA__MATTE, "reflectance", 0.5, 0, "Lambert"};
@@ -787,6 +806,9 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     }
     if (!strcmp(type, "principled")) {
         return principled(r, n, out);
+    }
+    if ((!strcmp(type, "mask") || !strcmp(type, "blendbsdf")) && depth < MOST_NESTED) {
+        return blend(r, n, depth, out);
     }
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
@@ -842,13 +864,17 @@ static koksma_status weight(reader *r, const node *n)
                : koksma__import_unknown(r->im, n->place, "a light whose sampling weight is 0 is sampled");
 }
 
+/* Reads a light of a surface whose material is known: its radiance may be an image. */
 static koksma_status area_light(reader *r, const node *n, koksma__import_surface *surface)
 {
     koksma__import_colour radiance;
     KOKSMA__TRY(weight(r, n));
     KOKSMA__TRY(colour(r, n, "radiance", 1, &radiance, 0));
-    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &radiance));
-    memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
+    KOKSMA__TRY(koksma__import_glow(r->im, n->place, &radiance, surface));
+    if (!*radiance.image) {
+        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &radiance));
+        memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
+    }
     surface->emits = true;
     return strcmp(type_of(n), "area") != 0 ? koksma__import_unknown(r->im, n->place, "a light's direction is ignored")
                                            : KOKSMA_OK;
@@ -857,6 +883,7 @@ static koksma_status area_light(reader *r, const node *n, koksma__import_surface
 /* Finds a shape's material and emission among its children. */
 static koksma_status surface_of(reader *r, const node *n, koksma__import_surface *out)
 {
+    const node *light = NULL;
     bool has_bsdf = false;
     *out = (koksma__import_surface){.material = -1, .turned = flag(r, n, "flip_normals", false)};
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
@@ -867,10 +894,10 @@ static koksma_status surface_of(reader *r, const node *n, koksma__import_surface
         if (is(to, "bsdf")) {
             KOKSMA__TRY(find_bsdf(r, to, &out->material));
             has_bsdf = true;
-        } else if (is(to, "emitter")) {
-            KOKSMA__TRY(area_light(r, to, out));
         }
+        light = is(to, "emitter") ? to : light;
     }
+    KOKSMA__TRY(light ? area_light(r, light, out) : KOKSMA_OK);
     if (!has_bsdf && !out->emits) {
         const koksma__import_material grey = {.kind = KOKSMA__MATTE, .colour = {.rgb = {0.5, 0.5, 0.5}, .period = 1}};
         KOKSMA__TRY(koksma__import_add_material(r->im, n->place, &grey, &out->material));

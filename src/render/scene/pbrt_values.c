@@ -272,7 +272,7 @@ static koksma_status set_levels(const koksma__pbrt_parameters *p, bool is_float,
     const bool invert = koksma__pbrt_flag(p, "invert", false), png = dot && !strcasecmp(dot, ".png");
     c->has_use = true;
     c->use.part = KOKSMA__IMAGE_SRGB;
-    c->use.average = is_float;
+    c->use.average = is_float ? KOKSMA__MEAN : KOKSMA__NO_AVERAGE;
     char *end = NULL;
     const double gamma = strncmp(encoding, "gamma ", 6) ? 0 : koksma__strtod(encoding + 6, &end);
     if (strcmp(encoding, "sRGB") && strcmp(encoding, "linear") && !(end && !*end && gamma > 0 && gamma < 100)) {
@@ -295,19 +295,6 @@ static bool is_positive(const double rgb[3])
     return rgb[0] >= 0 && rgb[1] >= 0 && rgb[2] >= 0;
 }
 
-/* Turns a colour, image or checkerboard c into (1 - amount) c + amount other, if `other` is one colour; without `other`
-   into (1 - amount) c. */
-static void blend_colour(koksma__import_colour *c, const double amount[3], const double *other)
-{
-    for (int k = 0; k < 3; k++) {
-        const double keep = 1 - amount[k], more = other ? amount[k] * other[k] : 0;
-        c->rgb[k] = keep * c->rgb[k] + more;
-        c->second[k] = keep * c->second[k] + more;
-        c->use.tint[k] *= keep;
-        c->use.plus[k] = keep * c->use.plus[k] + more;
-    }
-}
-
 static bool is_one_colour(const koksma__import_colour *c)
 {
     return !*c->image && !c->is_checker;
@@ -328,13 +315,13 @@ static koksma_status blend(koksma__pbrt_scene *scene, const koksma__pbrt_paramet
         KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, other));
     }
     if (is_one_colour(other)) {
-        blend_colour(c, share, other->rgb);
+        koksma__import_blend(c, share, other->rgb);
     } else if (is_one_colour(c)) {
         const koksma__import_colour first = *c;
         *c = *other;
-        blend_colour(c, rest, first.rgb);
+        koksma__import_blend(c, rest, first.rgb);
     } else {
-        blend_colour(c, share, NULL);
+        koksma__import_blend(c, share, NULL);
         for (int k = 0; k < 3; k++) {
             c->rgb[k] += amount * other->rgb[k];
             c->second[k] += amount * other->second[k];
@@ -591,35 +578,6 @@ static const material_kind kinds[] = {
     {"none", -1, NULL, "", NULL},
     {"", -1, NULL, "", NULL}};
 
-/* Blends material b into a; returns false if no single material scatters as both together do. A material's light is
-   linear in its albedos and in Schlick's reflectance along the normal, but in no other parameter. */
-static bool blend_materials(koksma__material *a, const koksma__material *b, double amount)
-{
-    const bool same_squares = !a->checker || !b->checker || !memcmp(&a->period, &b->period, sizeof a->period);
-    koksma__material with = *b, both = *a;
-    const bool reflects =
-        a->bsdf == &koksma__bsdf_mirror || a->bsdf == &koksma__bsdf_ggx || a->bsdf == &koksma__bsdf_utah;
-    if (a->bsdf != b->bsdf || a->image || b->image || !same_squares) {
-        return false;
-    }
-    double *from = reflects ? koksma__material_value(&with, "reflectance") : NULL;
-    double *to = reflects ? koksma__material_value(&both, "reflectance") : NULL;
-    for (int k = 0; reflects && k < 3; k++) {
-        to[k] += amount * (from[k] - to[k]);
-        from[k] = to[k];
-    }
-    if (memcmp(with.values, both.values, sizeof with.values) != 0) {
-        return false;
-    }
-    *a = both;
-    for (int k = 0; k < 6; k++) {
-        a->albedo[k / 3][k % 3] += amount * (b->albedo[k / 3][k % 3] - a->albedo[k / 3][k % 3]);
-    }
-    a->period = b->checker ? b->period : a->period;
-    a->checker |= b->checker;
-    return true;
-}
-
 /* Reads a mix, whose surface is of the second material with the probability `amount`. */
 static koksma_status mix_materials(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, int *out)
 {
@@ -632,21 +590,7 @@ static koksma_status mix_materials(koksma__pbrt_scene *scene, const koksma__pbrt
     KOKSMA__TRY(koksma__pbrt_find_material(scene, p->place, both->text, out));
     KOKSMA__TRY(koksma__pbrt_find_material(scene, p->place, both->second, &second));
     KOKSMA__TRY(find_texture_colour(scene, p, "amount", 0.5, true, &share));
-    KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "the amount of a mix", KOKSMA__REFLECTANCE, &share));
-    const double amount = share.rgb[0];
-    if (amount <= 0 || amount >= 1 || *out == second) {
-        *out = amount <= 0 ? *out : second;
-        return KOKSMA_OK;
-    }
-    if (*out >= 0 && second >= 0) {
-        koksma__material mixed = scene->im->scene->materials[*out];
-        if (blend_materials(&mixed, &scene->im->scene->materials[second], amount)) {
-            return koksma__import_keep_material(scene->im, p->place, &mixed, out);
-        }
-    }
-    *out = amount < 0.5 ? *out : second;
-    return koksma__import_unknown(scene->im, p->place,
-                                  "a mix of different materials is replaced by the one with the larger share");
+    return koksma__import_mix(scene->im, p->place, *out, second, &share, out);
 }
 
 koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
@@ -746,31 +690,6 @@ static koksma_status take_indices(const koksma__pbrt_parameters *p, const koksma
     return KOKSMA_OK;
 }
 
-/* Gives a mesh the texture coordinates that pbrt's triangles and bilinear patches have by default: (0, 0), (1, 0), (1, 1)
-   at the corners of each triangle; (0, 0), (1, 0), (0, 1), (1, 1) at the four of a patch, which is two triangles here, from
-   its first corner to the second and fourth, and to the fourth and third. Corners no longer share vertices. */
-static koksma_status add_default_uv(bool quads, koksma__mesh *mesh)
-{
-    static const float corners[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
-    const size_t n = 3 * mesh->n_triangles;
-    koksma__mesh out = {0};
-    koksma_status status = koksma__mesh_init(n, mesh->n_triangles, mesh->normals != NULL, true, &out);
-    for (size_t i = 0; !status && i < n; i++) {
-        const size_t from = mesh->indices[i];
-        memcpy(out.vertices + 3 * i, mesh->vertices + 3 * from, 3 * sizeof *out.vertices);
-        if (mesh->normals) {
-            memcpy(out.normals + 3 * i, mesh->normals + 3 * from, 3 * sizeof *out.normals);
-        }
-        memcpy(out.uvs + 2 * i, corners[quads && i / 3 % 2][i % 3], 2 * sizeof *out.uvs);
-        out.indices[i] = (uint32_t)i;
-    }
-    koksma__mesh_fini(status ? &out : mesh);
-    if (!status) {
-        *mesh = out;
-    }
-    return status;
-}
-
 static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv, bool quads, koksma__mesh *mesh)
 {
     const koksma__pbrt_parameter *points = koksma__pbrt_find_typed(p, "P", "point3 point"),
@@ -841,7 +760,7 @@ static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_par
     koksma_status status = fill_mesh(p, uv, quads, &mesh);
     status = status || !divided ? status : divide(scene, p, &mesh);
     if (!status && (!*uv || divided) && is_textured(scene->im, surface) && !koksma__mesh_check(&mesh)) {
-        status = add_default_uv(quads, &mesh);
+        status = koksma__import_default_uv(&mesh, quads, false);
     }
     if (status) {
         koksma__mesh_fini(&mesh);
@@ -859,18 +778,21 @@ static void shape_form(double radius, double height, double z, double m[12])
     m[11] = z;
 }
 
-/* Applies a constant alpha to a shape: 1 changes nothing; at 0 no ray meets the shape, but a light still shines. */
-static koksma_status take_shape_alpha(koksma__import *im, const koksma__pbrt_parameters *p, koksma__import_item *item,
-                                      bool *is_there)
+/* Applies alpha to a shape: a constant of 1 changes nothing; at 0 no ray meets the shape, but a light still shines. */
+static koksma_status take_shape_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p,
+                                      koksma__import_item *item, bool *is_there)
 {
     const koksma__pbrt_parameter *alpha = koksma__pbrt_find(p, "alpha");
     const bool is_number = alpha && !strcmp(alpha->type, "float") && alpha->n == 1;
+    koksma__import_colour opacity;
     if (is_number && alpha->numbers[0] <= 0) {
         item->surface.hidden = item->surface.emits;
         item->surface.material = -1;
         *is_there = item->surface.emits;
     } else if (alpha && !(is_number && alpha->numbers[0] >= 1)) {
-        return koksma__import_unknown(im, p->place, "a shape's 'alpha' is ignored");
+        KOKSMA__TRY(find_texture_colour(scene, p, "alpha", 1, true, &opacity));
+        return item->surface.emits ? koksma__import_unknown(scene->im, p->place, "a light's 'alpha' is ignored")
+                                   : koksma__import_mask(scene->im, p->place, &opacity, &item->surface.material);
     }
     return KOKSMA_OK;
 }
@@ -929,7 +851,7 @@ static koksma_status make_shape(koksma__pbrt_scene *scene, const char *type, con
     koksma__import *im = scene->im;
     koksma_status status = KOKSMA_OK;
     item->mesh = -1;
-    KOKSMA__TRY(take_shape_alpha(im, p, item, is_there));
+    KOKSMA__TRY(take_shape_alpha(scene, p, item, is_there));
     if (!*is_there) {
         return KOKSMA_OK;
     }

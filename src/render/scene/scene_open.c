@@ -90,7 +90,7 @@ static koksma_status refuse_unknown(koksma_scene **out)
 
 /* A number in the hash by which stored studies find a scene; it is raised when a change of the code makes another
    scene from the same files. */
-enum { READER_REVISION = 8 };
+enum { READER_REVISION = 9 };
 
 static bool is_pbrt(const char *path)
 {
