@@ -728,6 +728,25 @@ bool koksma__import_rotation(double angle_deg, const double axis[3], double out[
     return true;
 }
 
+koksma_status koksma__import_look_at(koksma__text_place place, const char *name, const double eye[3],
+                                     const double target[3], const double up[3], double m[12])
+{
+    double ahead[3], across[3], over[3];
+    koksma__subtract(target, eye, ahead);
+    if (!koksma__import_normalise(ahead)) {
+        return koksma__import_fail(place, "%s: there is no direction from the eye to its target", name);
+    }
+    koksma__cross(up, ahead, across);
+    if (!koksma__import_normalise(across)) {
+        return koksma__import_fail(place, "%s: up is along the line of sight", name);
+    }
+    koksma__cross(ahead, across, over);
+    for (int k = 0; k < 3; k++) {
+        m[4 * k] = across[k], m[4 * k + 1] = over[k], m[4 * k + 2] = ahead[k], m[4 * k + 3] = eye[k];
+    }
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double m[12], double right,
                                     const koksma__camera *lens)
 {

@@ -242,6 +242,11 @@ bool koksma__import_normalise(double v[3]);
 /* Finds the inverse of a matrix; returns false if there is none. */
 bool koksma__import_invert(const double matrix[12], double out[12]);
 
+/* Finds the matrix of a camera at `eye` that looks at `target`: its columns are the direction across, up and ahead, and the
+   eye. Error: MALFORMED (there is no such direction; `name` is for the text). */
+koksma_status koksma__import_look_at(koksma__text_place place, const char *name, const double eye[3],
+                                     const double target[3], const double up[3], double out[12]);
+
 /* Finds the matrix of a rotation about an axis; returns false if the axis has no direction. */
 bool koksma__import_rotation(double angle_deg, const double axis[3], double out[12]);
 

@@ -281,23 +281,11 @@ static koksma_status read_vector(const node *n, const char *attribute, const dou
 
 static koksma_status look_at(const node *n, double m[12])
 {
-    double origin[3], target[3], up[3], ahead[3], left[3], over[3];
+    double origin[3], target[3], up[3];
     KOKSMA__TRY(read_vector(n, "origin", NULL, origin));
     KOKSMA__TRY(read_vector(n, "target", NULL, target));
     KOKSMA__TRY(read_vector(n, "up", (const double[3]){0, 1, 0}, up));
-    koksma__subtract(target, origin, ahead);
-    if (!koksma__import_normalise(ahead)) {
-        return koksma__import_fail(n->place, "lookat: there is no direction from origin to target");
-    }
-    koksma__cross(up, ahead, left);
-    if (!koksma__import_normalise(left)) {
-        return koksma__import_fail(n->place, "lookat: up is along the line of sight");
-    }
-    koksma__cross(ahead, left, over);
-    for (int k = 0; k < 3; k++) {
-        m[4 * k] = left[k], m[4 * k + 1] = over[k], m[4 * k + 2] = ahead[k], m[4 * k + 3] = origin[k];
-    }
-    return KOKSMA_OK;
+    return koksma__import_look_at(n->place, "lookat", origin, target, up, m);
 }
 
 static koksma_status matrix(const node *n, double m[12])

@@ -37,67 +37,74 @@ typedef struct graphics {
     char outside[256]; /* name of the medium outside the shapes that follow */
 } graphics;
 
-typedef struct named_space {
-    char name[64];
+typedef struct space {
     double matrix[2][12];
-} named_space;
+} space;
 
-typedef struct named_medium {
+/* A medium, which may be used before it is made. */
+typedef struct medium {
     char name[256];
+    koksma__text_place used; /* first; no file: nowhere */
+    bool is_made, is_read;
     double absorption[3], scattering[3], g;
-} named_medium;
-
-typedef struct medium_use {
-    char name[256];
-    koksma__text_place place;
-} medium_use;
+} medium;
 
 typedef struct object {
-    char name[256];
     koksma__import_item *items;
     size_t n;
 } object;
+
+typedef struct koksma__pbrt_source source;
 
 typedef struct reader {
     koksma__pbrt_scene values;
     koksma__import *im;
     graphics now;
     graphics *stack;
-    size_t n_stack;
-    named_space *spaces;
+    space *spaces;
     object *objects;
-    named_medium *media;
-    size_t n_spaces, n_objects, n_media;
-    koksma__names space_names, object_names;
-    object *open;    /* the object to which shapes are added, or NULL */
-    double times[2]; /* when motions start and end */
+    medium *media;
+    size_t n_stack, n_spaces, n_objects, n_media;
+    koksma__names space_names, object_names, medium_names;
+    bool in_object;        /* shapes are added to the last object */
+    char object_name[256]; /* the name of that one */
+    double times[2];       /* when motions start and end */
     koksma__pbrt_attribute *attributes;
     size_t n_attributes;
-    /* The names of media: those that are made, and where those that are used are first used. */
-    koksma__names medium_names;
-    medium_use *medium_uses;
-    size_t n_medium_uses;
+    /* The directive that is read: its row, where it is, its numbers or texts, and its parameters. */
+    const struct directive *directive;
+    source *source;
+    koksma__text_place place;
+    double numbers[16];
+    char texts[3][1024];
     koksma__pbrt_parameters *parameters;
     koksma__pbrt_mistake mistake;
     bool used[KOKSMA__MAX_PBRT_PARAMETERS]; /* of the parameters */
     /* The camera, completed when the aspect ratio of the film is known. */
-    bool has_camera;
+    bool has_camera, orthographic, has_window, in_world;
     koksma__text_place camera_place;
     char camera_medium[256];
     double camera[2][12], fov_deg, lens_radius, focus_distance, shutter[2];
-    /* the film's width and height in pixels, the part of it that is the picture, and its sensitivity */
-    double film[2], crop[4], iso, exposure_time;
-    bool in_world;
-    size_t number; /* of the directive that is read */
-    char kind[64];
-    bool orthographic, has_window;
     double window[4]; /* the screen window: x from [0] to [1], y from [2] to [3] */
     /* aspect ratio (width / height) of the screen window if the file has no `window`; 0: that of the image */
     double frame;
-    int depth;
+    /* the film's width and height in pixels, the part of it that is the picture, and its sensitivity */
+    double film[2], crop[4], iso, exposure_time;
+    int depth; /* of included files */
 } reader;
 
-typedef struct koksma__pbrt_source source;
+/* Where a directive has its kind: in a text after its name, or in its parameter "type". */
+typedef enum kind_place { NONE, FIRST, SECOND, THIRD, TYPE } kind_place;
+
+typedef struct directive {
+    const char *name;
+    koksma_status (*take)(reader *r); /* NULL: it does not describe the scene */
+    unsigned numbers, texts;          /* how many of them follow the name */
+    bool has_parameters;
+    kind_place kind;
+    bool describes;     /* the parameters describe the scene, so that each unused one gives a warning */
+    const char *target; /* of the attributes that it inherits; or NULL */
+} directive;
 
 /* ---- Transforms -------------------------------------------------------------------------------------------- */
 
@@ -119,133 +126,91 @@ static koksma_status concat(reader *r, const double by[12])
     return change(r, by, false);
 }
 
-static koksma_status take_identity(reader *r, source *s)
+static koksma_status take_identity(reader *r)
 {
-    (void)s;
     return change(r, koksma__import_identity, true);
 }
 
-static koksma_status take_translate(reader *r, source *s)
+static koksma_status take_translate(reader *r)
 {
-    double v[3], m[12];
-    KOKSMA__TRY(koksma__pbrt_numbers(s, 3, v));
-    memcpy(m, koksma__import_identity, sizeof m);
-    m[3] = v[0], m[7] = v[1], m[11] = v[2];
-    return concat(r, m);
+    const double *v = r->numbers;
+    return concat(r, (const double[12]){1, 0, 0, v[0], 0, 1, 0, v[1], 0, 0, 1, v[2]});
 }
 
-static koksma_status take_scale(reader *r, source *s)
+static koksma_status take_scale(reader *r)
 {
-    double v[3];
-    KOKSMA__TRY(koksma__pbrt_numbers(s, 3, v));
+    const double *v = r->numbers;
     return concat(r, (const double[12]){v[0], 0, 0, 0, 0, v[1], 0, 0, 0, 0, v[2], 0});
 }
 
-static koksma_status take_rotate(reader *r, source *s)
+static koksma_status take_rotate(reader *r)
 {
-    double v[4], m[12];
-    KOKSMA__TRY(koksma__pbrt_numbers(s, 4, v));
-    return koksma__import_rotation(v[0], v + 1, m)
+    double m[12];
+    return koksma__import_rotation(r->numbers[0], r->numbers + 1, m)
                ? concat(r, m)
-               : koksma__import_fail(s->place, "Rotate: the axis has no direction");
+               : koksma__import_fail(r->place, "Rotate: the axis has no direction");
 }
 
-static koksma_status take_look_at(reader *r, source *s)
+static koksma_status take_look_at(reader *r)
 {
-    double v[9], ahead[3], right[3], up[3], matrix[12], inverse[12];
-    KOKSMA__TRY(koksma__pbrt_numbers(s, 9, v));
-    koksma__subtract(v + 3, v, ahead);
-    if (!koksma__import_normalise(ahead)) {
-        return koksma__import_fail(s->place, "LookAt: the eye and its target are the same point");
-    }
-    koksma__cross(v + 6, ahead, right);
-    if (!koksma__import_normalise(right)) {
-        return koksma__import_fail(s->place, "LookAt: up is along the line of sight");
-    }
-    koksma__cross(ahead, right, up);
-    for (int k = 0; k < 3; k++) {
-        matrix[4 * k] = right[k], matrix[4 * k + 1] = up[k], matrix[4 * k + 2] = ahead[k], matrix[4 * k + 3] = v[k];
-    }
-    koksma__import_invert(matrix, inverse);
+    double m[12], inverse[12];
+    KOKSMA__TRY(koksma__import_look_at(r->place, "LookAt", r->numbers, r->numbers + 3, r->numbers + 6, m));
+    koksma__import_invert(m, inverse);
     return concat(r, inverse);
 }
 
 /* Reads a matrix, which is given column by column. */
-static koksma_status take_matrix(source *s, double m[12])
+static koksma_status take_transform(reader *r)
 {
-    double v[16];
-    KOKSMA__TRY(koksma__pbrt_numbers(s, 16, v));
+    double m[12];
     for (int i = 0; i < 12; i++) {
-        m[i] = v[4 * (i % 4) + i / 4];
+        m[i] = r->numbers[4 * (i % 4) + i / 4];
     }
+    return change(r, m, *r->directive->name == 'T');
+}
+
+static koksma_status name_space(reader *r, const char *name, double matrix[2][12])
+{
+    KOKSMA__TRY(koksma__import_hold(r->im, r->place, sizeof(space) + KOKSMA__HELD_WITH_NAME));
+    space *to = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    memcpy(to->matrix, matrix, sizeof to->matrix);
+    return koksma__names_put(&r->space_names, name, strlen(name), r->n_spaces - 1);
+}
+
+static koksma_status take_coordinate_system(reader *r)
+{
+    return name_space(r, r->texts[0], r->now.matrix);
+}
+
+static koksma_status take_coordinate_transform(reader *r)
+{
+    size_t i;
+    if (!koksma__names_find(&r->space_names, r->texts[0], strlen(r->texts[0]), &i)) {
+        return koksma__import_fail(r->place, "no coordinate system '%s'", r->texts[0]);
+    }
+    memcpy(r->now.matrix, r->spaces[i].matrix, sizeof r->now.matrix);
     return KOKSMA_OK;
 }
 
-static koksma_status take_transform(reader *r, source *s)
+static koksma_status take_active(reader *r)
 {
-    double m[12];
-    KOKSMA__TRY(take_matrix(s, m));
-    return change(r, m, true);
-}
-
-static koksma_status take_concat(reader *r, source *s)
-{
-    double m[12];
-    KOKSMA__TRY(take_matrix(s, m));
-    return concat(r, m);
-}
-
-static koksma_status name_space(reader *r, koksma__text_place place, const char *name, const double *start,
-                                const double *end)
-{
-    KOKSMA__TRY(koksma__import_hold(r->im, place, sizeof(named_space) + KOKSMA__HELD_WITH_NAME));
-    named_space *space = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *space);
-    KOKSMA__TRY(space ? KOKSMA_OK : KOKSMA_MEMORY);
-    snprintf(space->name, sizeof space->name, "%s", name);
-    memcpy(space->matrix[0], start, sizeof space->matrix[0]);
-    memcpy(space->matrix[1], end, sizeof space->matrix[1]);
-    return koksma__names_put(&r->space_names, space->name, strlen(space->name), r->n_spaces - 1);
-}
-
-static koksma_status take_coordinate_system(reader *r, source *s)
-{
-    char name[64];
-    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    return name_space(r, s->place, name, r->now.matrix[0], r->now.matrix[1]);
-}
-
-static koksma_status take_coordinate_transform(reader *r, source *s)
-{
-    char name[64];
-    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    size_t i;
-    if (koksma__names_find(&r->space_names, name, strlen(name), &i)) {
-        memcpy(r->now.matrix, r->spaces[i].matrix, sizeof r->now.matrix);
-        return KOKSMA_OK;
-    }
-    return koksma__import_fail(s->place, "no coordinate system '%s'", name);
-}
-
-static koksma_status take_active(reader *r, source *s)
-{
-    static const struct {
-        const char *name;
-        unsigned active;
-    } all[] = {{"All", START | END}, {"StartTime", START}, {"EndTime", END}};
+    static const char *const all[] = {[START] = "StartTime", [END] = "EndTime", [START | END] = "All"};
     koksma__pbrt_token t;
-    KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        if (t.kind == KOKSMA__PBRT_WORD && t.length == strlen(all[i].name) && !memcmp(t.at, all[i].name, t.length)) {
-            r->now.active = all[i].active;
+    KOKSMA__TRY(koksma__pbrt_token_next(r->source, &t));
+    for (unsigned i = START; i <= (START | END); i++) {
+        if (t.kind == KOKSMA__PBRT_WORD && koksma__text_is(t.at, t.length, all[i])) {
+            r->now.active = i;
             return KOKSMA_OK;
         }
     }
-    return koksma__import_fail(s->place, "ActiveTransform is StartTime, EndTime or All");
+    return koksma__import_fail(r->source->place, "ActiveTransform is StartTime, EndTime or All");
 }
 
-static koksma_status take_times(reader *r, source *s)
+static koksma_status take_times(reader *r)
 {
-    return koksma__pbrt_numbers(s, 2, r->times);
+    memcpy(r->times, r->numbers, sizeof r->times);
+    return KOKSMA_OK;
 }
 
 /* Whether something placed by the two matrices moves. */
@@ -268,10 +233,10 @@ static koksma_status find_poses(reader *r, koksma__text_place place, const doubl
 
 /* ---- States ------------------------------------------------------------------------------------------------ */
 
-static koksma_status push(reader *r, source *s)
+static koksma_status push(reader *r)
 {
     if (r->n_stack == MOST_STATES) {
-        return koksma__import_fail(s->place, "more than %d attributes or objects are open", MOST_STATES);
+        return koksma__import_fail(r->place, "more than %d attributes or objects are open", MOST_STATES);
     }
     graphics *to = koksma__add_one(&r->stack, &r->n_stack, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
@@ -281,10 +246,10 @@ static koksma_status push(reader *r, source *s)
 
 /* Takes the top entry from the stack, and restores the graphics state or the matrices from it. The stack keeps its
    memory, because koksma__add_one() computes the capacity from nothing but the number of items. */
-static koksma_status pop(reader *r, source *s, bool matrix_alone)
+static koksma_status pop(reader *r, bool matrix_alone)
 {
     if (!r->n_stack) {
-        return koksma__import_fail(s->place, "an AttributeEnd, ObjectEnd or TransformEnd without its begin");
+        return koksma__import_fail(r->place, "an AttributeEnd, ObjectEnd or TransformEnd without its begin");
     }
     const graphics *from = &r->stack[--r->n_stack];
     if (matrix_alone) {
@@ -299,70 +264,57 @@ static koksma_status pop(reader *r, source *s, bool matrix_alone)
     return KOKSMA_OK;
 }
 
-static koksma_status take_attribute_end(reader *r, source *s)
+static koksma_status take_end(reader *r)
 {
-    return pop(r, s, false);
+    return pop(r, *r->directive->name == 'T');
 }
 
-static koksma_status take_transform_end(reader *r, source *s)
+static koksma_status take_reverse(reader *r)
 {
-    return pop(r, s, true);
-}
-
-static koksma_status take_reverse(reader *r, source *s)
-{
-    (void)s;
     r->now.surface.turned = !r->now.surface.turned;
     return KOKSMA_OK;
 }
 
-static koksma_status take_world(reader *r, source *s)
+static koksma_status take_world(reader *r)
 {
     r->now.active = START | END;
     r->in_world = true;
-    return take_identity(r, s);
+    return take_identity(r);
 }
 
-static koksma_status take_object_begin(reader *r, source *s)
+static koksma_status take_object_begin(reader *r)
 {
-    char name[256];
-    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    if (r->open) {
-        return koksma__import_fail(s->place, "an object within another object");
+    if (r->in_object) {
+        return koksma__import_fail(r->place, "an object within another object");
     }
-    KOKSMA__TRY(push(r, s));
-    KOKSMA__TRY(koksma__import_hold(r->im, s->place, sizeof(object) + KOKSMA__HELD_WITH_NAME));
-    object *to = koksma__add_one(&r->objects, &r->n_objects, sizeof *to);
-    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-    snprintf(to->name, sizeof to->name, "%s", name);
-    r->open = to;
-    return KOKSMA_OK;
+    KOKSMA__TRY(push(r));
+    KOKSMA__TRY(koksma__import_hold(r->im, r->place, sizeof(object) + KOKSMA__HELD_WITH_NAME));
+    r->in_object = koksma__add_one(&r->objects, &r->n_objects, sizeof(object)) != NULL;
+    snprintf(r->object_name, sizeof r->object_name, "%s", r->texts[0]);
+    return r->in_object ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
-static koksma_status take_object_end(reader *r, source *s)
+static koksma_status take_object_end(reader *r)
 {
-    if (!r->open) {
-        return koksma__import_fail(s->place, "ObjectEnd without ObjectBegin");
+    if (!r->in_object) {
+        return koksma__import_fail(r->place, "ObjectEnd without ObjectBegin");
     }
-    KOKSMA__TRY(
-        koksma__names_put(&r->object_names, r->open->name, strlen(r->open->name), (size_t)(r->open - r->objects)));
-    r->open = NULL;
-    return pop(r, s, false);
+    KOKSMA__TRY(koksma__names_put(&r->object_names, r->object_name, strlen(r->object_name), r->n_objects - 1));
+    r->in_object = false;
+    return pop(r, false);
 }
 
-static koksma_status take_instance(reader *r, source *s)
+static koksma_status take_instance(reader *r)
 {
-    char name[256];
-    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
     size_t i;
-    if (!koksma__names_find(&r->object_names, name, strlen(name), &i)) {
-        return koksma__import_fail(s->place, "no object '%s'", name);
+    if (!koksma__names_find(&r->object_names, r->texts[0], strlen(r->texts[0]), &i)) {
+        return koksma__import_fail(r->place, "no object '%s'", r->texts[0]);
     }
     const object *o = &r->objects[i];
     koksma__pose poses[2];
     bool moving = moves(r->now.matrix[0], r->now.matrix[1]);
     if (moving) {
-        KOKSMA__TRY(find_poses(r, s->place, r->now.matrix[0], r->now.matrix[1], poses, &moving));
+        KOKSMA__TRY(find_poses(r, r->place, r->now.matrix[0], r->now.matrix[1], poses, &moving));
     }
     for (size_t k = 0; k < o->n; k++) {
         KOKSMA__TRY(koksma__import_put(r->im, &o->items[k], r->now.matrix[0], moving ? poses : NULL));
@@ -374,46 +326,41 @@ static koksma_status take_instance(reader *r, source *s)
 
 static koksma_status put(reader *r, const koksma__import_item *item)
 {
-    if (!r->open) {
+    if (!r->in_object) {
         return koksma__import_put(r->im, item, NULL, NULL);
     }
+    object *open = &r->objects[r->n_objects - 1];
     KOKSMA__TRY(koksma__import_hold(r->im, item->place, sizeof *item));
-    koksma__import_item *to = koksma__add_one(&r->open->items, &r->open->n, sizeof *to);
+    koksma__import_item *to = koksma__add_one(&open->items, &open->n, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     *to = *item;
     return KOKSMA_OK;
 }
 
-static koksma_status take_shape(reader *r, source *s)
+static koksma_status take_shape(reader *r)
 {
-    char type[64];
     double form[12];
     bool is_there = true;
-    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
-    koksma__import_item item = {.surface = r->now.surface, .place = r->parameters->place};
-    if (r->open && item.surface.emits) {
+    koksma__import_item item = {.surface = r->now.surface, .place = r->place};
+    if (r->in_object && item.surface.emits) {
         item.surface.emits = false;
-        KOKSMA__TRY(koksma__import_unknown(r->im, item.place, "a light within an object is dark"));
+        KOKSMA__TRY(koksma__import_unknown(r->im, r->place, "a light within an object is dark"));
     }
     memcpy(form, koksma__import_identity, sizeof form);
-    KOKSMA__TRY(
-        koksma__pbrt_shape(&r->values, type, r->parameters, r->now.power, r->now.matrix[0], &item, form, &is_there));
+    KOKSMA__TRY(koksma__pbrt_shape(&r->values, r->texts[0], r->parameters, r->now.power, r->now.matrix[0], &item,
+                                   form, &is_there));
     koksma__matrix_multiply(r->now.matrix[0], form, item.matrix);
     if (is_there && moves(r->now.matrix[0], r->now.matrix[1])) {
         memcpy(item.motion.before, form, sizeof form);
         KOKSMA__TRY(
-            find_poses(r, item.place, r->now.matrix[0], r->now.matrix[1], item.motion.poses, &item.motion.moves));
+            find_poses(r, r->place, r->now.matrix[0], r->now.matrix[1], item.motion.poses, &item.motion.moves));
     }
     return is_there ? put(r, &item) : KOKSMA_OK;
 }
 
-static koksma_status take_area_light(reader *r, source *s)
+static koksma_status take_area_light(reader *r)
 {
-    char type[64];
     koksma__import_surface *surface = &r->now.surface;
-    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     surface->emits = true;
     surface->two_sided = koksma__pbrt_flag(r->parameters, "twosided", false);
     r->now.power = koksma__pbrt_number(r->parameters, "power", 0);
@@ -444,14 +391,12 @@ static void scale_light(const koksma__pbrt_parameters *p, const char *type, doub
     }
 }
 
-static koksma_status take_light(reader *r, source *s)
+static koksma_status take_light(reader *r)
 {
-    char type[64];
+    const char *type = r->texts[0];
     const koksma__pbrt_parameters *p = r->parameters;
     koksma__light light = {.kind = &koksma__light_point};
     double from[3] = {0}, to[3] = {0, 0, 1}, along[3];
-    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
     KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, far || around ? "L" : "I", light.radiance));
     KOKSMA__TRY(moves(r->now.matrix[0], r->now.matrix[1])
@@ -499,12 +444,10 @@ static void set_exposure(reader *r)
     r->values.exposure = (r->exposure_time > 0 ? r->exposure_time : open) * r->iso / 100;
 }
 
-static koksma_status take_camera(reader *r, source *s)
+static koksma_status take_camera(reader *r)
 {
-    char type[64];
+    const char *type = r->texts[0];
     const koksma__pbrt_parameters *p = r->parameters;
-    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     r->orthographic = !strcmp(type, "orthographic");
     if (!r->orthographic && strcmp(type, "perspective") != 0) {
         return koksma__import_fail(p->place, "camera '%s' is not read; 'perspective' and 'orthographic' are", type);
@@ -534,7 +477,7 @@ static koksma_status take_camera(reader *r, source *s)
         memcpy(r->window, window->numbers, sizeof r->window);
     }
     r->frame = fmax(koksma__pbrt_number(p, "frameaspectratio", 0), 0);
-    return name_space(r, p->place, "camera", r->camera[0], r->camera[1]);
+    return name_space(r, "camera", r->camera);
 }
 
 /* Reads the part of the film that is the picture, in pixels: x from [0] to [1], y from [2] to [3]. A crop window is in
@@ -562,12 +505,9 @@ static koksma_status take_crop(const koksma__pbrt_parameters *p, const double si
                : koksma__import_fail(p->place, "%s: no pixel of the film is in it", from->name);
 }
 
-static koksma_status take_film(reader *r, source *s)
+static koksma_status take_film(reader *r)
 {
-    char type[64];
     const koksma__pbrt_parameters *p = r->parameters;
-    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     const double width = koksma__pbrt_whole(p, "xresolution", 1280),
                  height = koksma__pbrt_whole(p, "yresolution", 720);
     if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
@@ -593,168 +533,136 @@ static koksma_status take_film(reader *r, source *s)
 
 /* ---- Materials and textures --------------------------------------------------------------------------------- */
 
-static koksma_status take_material(reader *r, source *s)
+static koksma_status take_material(reader *r)
 {
-    char type[64];
-    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
-    return koksma__pbrt_material(&r->values, type, r->parameters, &r->now.surface.material);
+    return koksma__pbrt_material(&r->values, r->texts[0], r->parameters, &r->now.surface.material);
 }
 
-static koksma_status take_make_material(reader *r, source *s)
+static koksma_status take_make_material(reader *r)
 {
-    char name[256];
-    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
-    return koksma__pbrt_name_material(&r->values, name, r->parameters);
+    return koksma__pbrt_name_material(&r->values, r->texts[0], r->parameters);
 }
 
-static koksma_status take_named_material(reader *r, source *s)
+static koksma_status take_named_material(reader *r)
 {
-    char name[256];
-    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    return koksma__pbrt_find_material(&r->values, s->place, name, &r->now.surface.material);
+    return koksma__pbrt_find_material(&r->values, r->place, r->texts[0], &r->now.surface.material);
 }
 
-static koksma_status take_texture(reader *r, source *s)
+static koksma_status take_texture(reader *r)
 {
-    char name[256], type[64], kind[64];
-    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
-    KOKSMA__TRY(koksma__pbrt_text(s, kind, sizeof kind));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
-    return koksma__pbrt_texture(&r->values, name, type, kind, r->parameters);
-}
-
-/* Skips the quoted text and the parameters of a directive that does not describe the scene. */
-static koksma_status take_nothing(reader *r, source *s)
-{
-    return koksma__pbrt_parameters_read(s, r->parameters); /* take_options() has already read the text */
-}
-
-static koksma_status take_options(reader *r, source *s)
-{
-    char type[256];
-    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
-    return take_nothing(r, s);
+    return koksma__pbrt_texture(&r->values, r->texts[0], r->texts[1], r->texts[2], r->parameters);
 }
 
 /* An integrator that shows something else than the light of the scene is named. */
-static koksma_status take_integrator(reader *r, source *s)
+static koksma_status take_integrator(reader *r)
 {
-    char type[256];
-    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
-    KOKSMA__TRY(take_nothing(r, s));
+    const char *type = r->texts[0];
     return strcmp(type, "ambientocclusion") && strcmp(type, "function")
                ? KOKSMA_OK
-               : koksma__import_unknown(r->im, r->parameters->place,
+               : koksma__import_unknown(r->im, r->place,
                                         "integrator '%s' is ignored: the picture shows the scene's light", type);
 }
 
-static koksma_status take_option(reader *r, source *s)
+static koksma_status take_option(reader *r)
 {
-    KOKSMA__TRY(take_nothing(r, s));
     return koksma__pbrt_flag(r->parameters, "forcediffuse", false)
-               ? koksma__import_unknown(r->im, r->parameters->place, "option 'forcediffuse' is ignored")
+               ? koksma__import_unknown(r->im, r->place, "option 'forcediffuse' is ignored")
                : KOKSMA_OK;
 }
 
-static koksma_status take_colour_space(reader *r, source *s)
+static koksma_status take_colour_space(reader *r)
 {
-    char name[256];
-    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    KOKSMA__TRY(take_nothing(r, s));
-    return strcasecmp(name, "srgb") != 0
-               ? koksma__import_unknown(r->im, r->parameters->place, "colour space '%s' is replaced by sRGB", name)
+    return strcasecmp(r->texts[0], "srgb") != 0
+               ? koksma__import_unknown(r->im, r->place, "colour space '%s' is replaced by sRGB", r->texts[0])
                : KOKSMA_OK;
+}
+
+/* Finds the medium with this name, or adds it; NULL after an error. */
+static medium *find_medium(reader *r, const char *name)
+{
+    size_t i;
+    if (koksma__names_find(&r->medium_names, name, strlen(name), &i)) {
+        return &r->media[i];
+    }
+    const koksma_status status = koksma__import_hold(r->im, r->place, sizeof(medium) + KOKSMA__HELD_WITH_NAME);
+    medium *to = status ? NULL : koksma__add_one(&r->media, &r->n_media, sizeof *to);
+    if (!to || koksma__names_put(&r->medium_names, name, strlen(name), r->n_media - 1)) {
+        return NULL;
+    }
+    snprintf(to->name, sizeof to->name, "%s", name);
+    return to;
 }
 
 /* Remembers the first use of a medium, which may be made later. */
-static koksma_status use_medium(reader *r, koksma__text_place place, const char *name)
+static koksma_status use_medium(reader *r, const char *name)
 {
-    for (size_t i = 0; i < r->n_medium_uses; i++) {
-        if (!strcmp(r->medium_uses[i].name, name)) {
-            return KOKSMA_OK;
-        }
+    medium *m = *name ? find_medium(r, name) : NULL;
+    if (m && !m->used.file) {
+        m->used = r->source->place;
     }
-    KOKSMA__TRY(koksma__import_spend(r->im, place, r->n_medium_uses));
-    KOKSMA__TRY(koksma__import_hold(r->im, place, sizeof(medium_use)));
-    medium_use *to = *name ? koksma__add_one(&r->medium_uses, &r->n_medium_uses, sizeof *to) : NULL;
-    KOKSMA__TRY(to || !*name ? KOKSMA_OK : KOKSMA_MEMORY);
-    if (to) {
-        *to = (medium_use){.place = place};
-        snprintf(to->name, sizeof to->name, "%s", name);
-    }
-    return KOKSMA_OK;
+    return m || !*name ? KOKSMA_OK : KOKSMA_MALFORMED;
 }
 
 /* Fails if a medium is used and nowhere made, as in pbrt. */
 static koksma_status check_media(const reader *r)
 {
-    size_t ignored;
-    for (size_t i = 0; i < r->n_medium_uses; i++) {
-        const medium_use *u = &r->medium_uses[i];
-        if (!koksma__names_find(&r->medium_names, u->name, strlen(u->name), &ignored)) {
-            return koksma__import_fail(u->place, "no medium '%s'", u->name);
+    for (size_t i = 0; i < r->n_media; i++) {
+        if (!r->media[i].is_made) {
+            return koksma__import_fail(r->media[i].used, "no medium '%s'", r->media[i].name);
         }
     }
     return KOKSMA_OK;
 }
 
-static koksma_status take_medium(reader *r, source *s)
+static koksma_status take_medium(reader *r)
 {
     const koksma__pbrt_parameters *p = r->parameters;
-    named_medium medium = {.g = 0};
-    KOKSMA__TRY(koksma__pbrt_text(s, medium.name, sizeof medium.name));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
-    KOKSMA__TRY(koksma__import_hold(r->im, p->place, KOKSMA__HELD_WITH_NAME));
-    KOKSMA__TRY(koksma__names_put(&r->medium_names, medium.name, strlen(medium.name), 1));
+    medium *to = find_medium(r, r->texts[0]);
+    if (!to) {
+        return KOKSMA_MALFORMED;
+    }
+    to->is_made = true;
     if (strcmp(koksma__pbrt_word(p, "type", ""), "homogeneous") != 0 || koksma__pbrt_find(p, "preset") ||
         koksma__pbrt_find(p, "Le")) {
         return koksma__import_unknown(r->im, p->place,
                                       "media that vary in space, emit light or are presets are ignored");
     }
-    KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_a", medium.absorption));
-    KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_s", medium.scattering));
-    medium.g = fmax(-0.999, fmin(koksma__pbrt_number(p, "g", 0), 0.999));
-    KOKSMA__TRY(koksma__import_hold(r->im, p->place, sizeof medium));
-    named_medium *to = koksma__add_one(&r->media, &r->n_media, sizeof *to);
-    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-    *to = medium;
+    KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_a", to->absorption));
+    KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_s", to->scattering));
+    to->g = fmax(-0.999, fmin(koksma__pbrt_number(p, "g", 0), 0.999));
+    to->is_read = true;
     return KOKSMA_OK;
 }
 
 /* Reads the media inside and outside the shapes that follow; a single name is for both. */
-static koksma_status take_interface(reader *r, source *s)
+static koksma_status take_interface(reader *r)
 {
-    char inside[256], outside[256];
+    const char *inside = r->texts[0], *outside = r->texts[1];
     koksma__pbrt_token t;
-    KOKSMA__TRY(koksma__pbrt_text(s, inside, sizeof inside));
-    memcpy(outside, inside, sizeof outside);
-    KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
-    KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(s, outside, sizeof outside) : KOKSMA_OK);
-    memcpy(r->now.outside, outside, sizeof outside);
-    KOKSMA__TRY(use_medium(r, s->place, inside));
-    KOKSMA__TRY(use_medium(r, s->place, outside));
+    memcpy(r->texts[1], inside, sizeof r->texts[1]);
+    KOKSMA__TRY(koksma__pbrt_token_peek(r->source, &t));
+    KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(r->source, r->texts[1], sizeof r->now.outside)
+                                            : KOKSMA_OK);
+    snprintf(r->now.outside, sizeof r->now.outside, "%s", outside);
+    KOKSMA__TRY(use_medium(r, inside));
+    KOKSMA__TRY(use_medium(r, outside));
     return (*inside && strcmp(inside, outside) != 0) || (r->has_camera && strcmp(outside, r->camera_medium) != 0)
-               ? koksma__import_unknown(r->im, s->place,
+               ? koksma__import_unknown(r->im, r->source->place,
                                         "media of shapes are ignored: the camera's medium is everywhere")
                : KOKSMA_OK;
 }
 
 /* Keeps parameters for the directives of a target that follow, until the AttributeEnd. */
-static koksma_status take_attribute(reader *r, source *s)
+static koksma_status take_attribute(reader *r)
 {
     static const char *const targets[][2] = {{"shape", "Shape"},
                                              {"light", "LightSource"},
                                              {"material", "Material"},
                                              {"medium", "MakeNamedMedium"},
                                              {"texture", "Texture"}};
-    char target[16];
+    const char *target = r->texts[0];
     const koksma__pbrt_parameters *p = r->parameters;
     size_t which = 0;
-    KOKSMA__TRY(koksma__pbrt_text(s, target, sizeof target));
-    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     while (which < sizeof targets / sizeof *targets && strcmp(targets[which][0], target) != 0) {
         which++;
     }
@@ -768,7 +676,7 @@ static koksma_status take_attribute(reader *r, source *s)
                                         sizeof *r->attributes + p->items[i].n * sizeof *p->items[i].numbers));
         koksma__pbrt_attribute *to = koksma__add_one(&r->attributes, &r->n_attributes, sizeof *to);
         KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-        memcpy(to->target, target, sizeof to->target);
+        to->target = targets[which][0];
         KOKSMA__TRY(koksma__pbrt_parameter_copy(&p->items[i], &to->parameter));
     }
     r->now.n_attributes = r->n_attributes;
@@ -779,21 +687,20 @@ static koksma_status take_attribute(reader *r, source *s)
 
 static koksma_status read_source(reader *r, source *s);
 
-static koksma_status take_include(reader *r, source *s)
+static koksma_status take_include(reader *r)
 {
-    char path[1024], *bytes = NULL;
+    char *bytes = NULL;
     size_t size = 0;
-    KOKSMA__TRY(koksma__pbrt_text(s, path, sizeof path));
     if (r->depth == MOST_INCLUDED) {
-        return koksma__import_fail(s->place, "files include each other more than %d deep", MOST_INCLUDED);
+        return koksma__import_fail(r->place, "files include each other more than %d deep", MOST_INCLUDED);
     }
-    KOKSMA__TRY(koksma__import_text(r->im, s->place, path, &bytes, &size));
+    KOKSMA__TRY(koksma__import_text(r->im, r->place, r->texts[0], &bytes, &size));
     char **kept = koksma__add_one(&r->values.texts, &r->values.n_texts, sizeof *kept);
-    char *name = kept ? strdup(path) : NULL;
+    char *name = kept ? strdup(r->texts[0]) : NULL;
     /* messages about places in the file point to the name, which must therefore be kept after the file is closed */
     if (!name) {
         koksma__import_text_close(r->im, bytes, size);
-        return kept ? koksma__fail_memory(sizeof path) : KOKSMA_MEMORY;
+        return kept ? koksma__fail_memory(sizeof r->texts[0]) : KOKSMA_MEMORY;
     }
     *kept = name;
     source inner = {.at = bytes, .end = bytes + size, .place = {name, 1}};
@@ -804,55 +711,47 @@ static koksma_status take_include(reader *r, source *s)
     return status;
 }
 
-/* Where a directive has its kind: nowhere, in the first or third text after its name, or in its parameter "type". */
-typedef enum kind_place { NONE, FIRST, THIRD, TYPE } kind_place;
-
-static const struct {
-    const char *name;
-    koksma_status (*take)(reader *r, source *s);
-    kind_place kind;
-    bool describes;     /* the parameters describe the scene, so that each unused one gives a warning */
-    const char *target; /* of the attributes that it inherits; or "" */
-} directives[] = {{"ActiveTransform", take_active, NONE, false, ""},
-                  {"AreaLightSource", take_area_light, FIRST, true, "light"},
-                  {"Accelerator", take_options, FIRST, false, ""},
-                  {"Attribute", take_attribute, NONE, false, ""},
-                  {"AttributeBegin", push, NONE, false, ""},
-                  {"AttributeEnd", take_attribute_end, NONE, false, ""},
-                  {"Camera", take_camera, FIRST, true, ""},
-                  {"ColorSpace", take_colour_space, NONE, false, ""},
-                  {"ConcatTransform", take_concat, NONE, false, ""},
-                  {"CoordSysTransform", take_coordinate_transform, NONE, false, ""},
-                  {"CoordinateSystem", take_coordinate_system, NONE, false, ""},
-                  {"Film", take_film, FIRST, true, ""},
-                  {"Identity", take_identity, NONE, false, ""},
-                  {"Import", take_include, NONE, false, ""},
-                  {"Include", take_include, NONE, false, ""},
-                  {"Integrator", take_integrator, FIRST, false, ""},
-                  {"LightSource", take_light, FIRST, true, "light"},
-                  {"LookAt", take_look_at, NONE, false, ""},
-                  {"MakeNamedMaterial", take_make_material, TYPE, true, "material"},
-                  {"MakeNamedMedium", take_medium, TYPE, true, "medium"},
-                  {"Material", take_material, FIRST, true, "material"},
-                  {"MediumInterface", take_interface, NONE, false, ""},
-                  {"NamedMaterial", take_named_material, NONE, false, ""},
-                  {"ObjectBegin", take_object_begin, NONE, false, ""},
-                  {"ObjectEnd", take_object_end, NONE, false, ""},
-                  {"ObjectInstance", take_instance, NONE, false, ""},
-                  {"Option", take_option, NONE, false, ""},
-                  {"PixelFilter", take_options, FIRST, false, ""},
-                  {"ReverseOrientation", take_reverse, NONE, false, ""},
-                  {"Rotate", take_rotate, NONE, false, ""},
-                  {"Sampler", take_options, FIRST, false, ""},
-                  {"Scale", take_scale, NONE, false, ""},
-                  {"Shape", take_shape, FIRST, true, "shape"},
-                  {"Texture", take_texture, THIRD, true, "texture"},
-                  {"Transform", take_transform, NONE, false, ""},
-                  {"TransformBegin", push, NONE, false, ""},
-                  {"TransformEnd", take_transform_end, NONE, false, ""},
-                  {"TransformTimes", take_times, NONE, false, ""},
-                  {"Translate", take_translate, NONE, false, ""},
-                  {"WorldBegin", take_world, NONE, false, ""}};
+static const directive directives[] = {
+    {"ActiveTransform", take_active, 0, 0, false, NONE, false, NULL},
+    {"AreaLightSource", take_area_light, 0, 1, true, FIRST, true, "light"},
+    {"Accelerator", NULL, 0, 1, true, FIRST, false, NULL},
+    {"Attribute", take_attribute, 0, 1, true, NONE, false, NULL},
+    {"AttributeBegin", push, 0, 0, false, NONE, false, NULL},
+    {"AttributeEnd", take_end, 0, 0, false, NONE, false, NULL},
+    {"Camera", take_camera, 0, 1, true, FIRST, true, NULL},
+    {"ColorSpace", take_colour_space, 0, 1, true, NONE, false, NULL},
+    {"ConcatTransform", take_transform, 16, 0, false, NONE, false, NULL},
+    {"CoordSysTransform", take_coordinate_transform, 0, 1, false, NONE, false, NULL},
+    {"CoordinateSystem", take_coordinate_system, 0, 1, false, NONE, false, NULL},
+    {"Film", take_film, 0, 1, true, FIRST, true, NULL},
+    {"Identity", take_identity, 0, 0, false, NONE, false, NULL},
+    {"Import", take_include, 0, 1, false, NONE, false, NULL},
+    {"Include", take_include, 0, 1, false, NONE, false, NULL},
+    {"Integrator", take_integrator, 0, 1, true, FIRST, false, NULL},
+    {"LightSource", take_light, 0, 1, true, FIRST, true, "light"},
+    {"LookAt", take_look_at, 9, 0, false, NONE, false, NULL},
+    {"MakeNamedMaterial", take_make_material, 0, 1, true, TYPE, true, "material"},
+    {"MakeNamedMedium", take_medium, 0, 1, true, TYPE, true, "medium"},
+    {"Material", take_material, 0, 1, true, FIRST, true, "material"},
+    {"MediumInterface", take_interface, 0, 1, false, NONE, false, NULL},
+    {"NamedMaterial", take_named_material, 0, 1, false, NONE, false, NULL},
+    {"ObjectBegin", take_object_begin, 0, 1, false, NONE, false, NULL},
+    {"ObjectEnd", take_object_end, 0, 0, false, NONE, false, NULL},
+    {"ObjectInstance", take_instance, 0, 1, false, NONE, false, NULL},
+    {"Option", take_option, 0, 0, true, NONE, false, NULL},
+    {"PixelFilter", NULL, 0, 1, true, FIRST, false, NULL},
+    {"ReverseOrientation", take_reverse, 0, 0, false, NONE, false, NULL},
+    {"Rotate", take_rotate, 4, 0, false, NONE, false, NULL},
+    {"Sampler", NULL, 0, 1, true, FIRST, false, NULL},
+    {"Scale", take_scale, 3, 0, false, NONE, false, NULL},
+    {"Shape", take_shape, 0, 1, true, FIRST, true, "shape"},
+    {"Texture", take_texture, 0, 3, true, THIRD, true, "texture"},
+    {"Transform", take_transform, 16, 0, false, NONE, false, NULL},
+    {"TransformBegin", push, 0, 0, false, NONE, false, NULL},
+    {"TransformEnd", take_end, 0, 0, false, NONE, false, NULL},
+    {"TransformTimes", take_times, 2, 0, false, NONE, false, NULL},
+    {"Translate", take_translate, 3, 0, false, NONE, false, NULL},
+    {"WorldBegin", take_world, 0, 0, false, NONE, false, NULL}};
 
 /* The number of warnings so far; a warning that occurs at several places counts once for each place. */
 static size_t count_unknown(const reader *r)
@@ -864,78 +763,77 @@ static size_t count_unknown(const reader *r)
     return n;
 }
 
-/* Finds the kind of a directive in the texts after its name; "" if it has none. */
-static void find_kind(source s, kind_place where, char kind[64])
-{
-    koksma__pbrt_token t = {.kind = KOKSMA__PBRT_END};
-    *kind = 0;
-    for (int i = 0; i < (where == FIRST ? 1 : where == THIRD ? 3 : 0); i++) {
-        if (koksma__pbrt_token_next(&s, &t) || t.kind != KOKSMA__PBRT_TEXT) {
-            return;
-        }
-    }
-    if (t.kind == KOKSMA__PBRT_TEXT) {
-        snprintf(kind, 64, "%.*s", t.length < 63 ? (int)t.length : 63, t.at);
-    }
-}
-
-/* The kind of the directive that is read: in its parameters, or what find_kind found. */
+/* The kind of the directive that is read; "" if it has none. */
 static const char *kind_of(const reader *r)
 {
-    const char *kind = r->kind, *directive = directives[r->number].name;
     const koksma__pbrt_parameters *p = r->parameters;
-    for (size_t i = 0; directives[r->number].kind == TYPE && i < p->n; i++) {
+    const kind_place where = r->directive->kind;
+    const char *kind = where == FIRST || where == THIRD ? r->texts[where - FIRST] : "";
+    for (size_t i = 0; where == TYPE && i < p->n; i++) {
         kind = strcmp(p->items[i].name, "type") ? kind : p->items[i].text;
     }
-    return *kind || !strstr(directive, "Material") ? kind : "none";
+    return *kind || !strstr(r->directive->name, "Material") ? kind : "none";
 }
 
 /* Warns about parameters that pbrt-v4 would refuse, whoever reads the directive, before it is read. */
 static koksma_status judge_parameters(void *from)
 {
     const reader *r = from;
-    const char *directive = directives[r->number].name, *kind = kind_of(r);
-    if (!strcmp(directive, "Attribute")) {
+    const char *name = r->directive->name, *kind = kind_of(r);
+    if (!strcmp(name, "Attribute")) {
         return KOKSMA_OK; /* take_attribute() knows whose parameters they are */
     }
-    if (directives[r->number].kind == TYPE && *kind && !koksma__pbrt_is_kind(directive, kind)) {
+    if (r->directive->kind == TYPE && *kind && !koksma__pbrt_is_kind(name, kind)) {
         KOKSMA__TRY(
-            koksma__import_unknown(r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", directive, kind));
+            koksma__import_unknown(r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", name, kind));
     }
-    return koksma__pbrt_name_parameters(r->im, directive, kind, r->parameters);
+    return koksma__pbrt_name_parameters(r->im, name, kind, r->parameters);
 }
 
 /* Warns about a kind that pbrt-v4 does not have, and about parameters that nothing has looked up. n_before: the number of
    warnings before the directive was read; if there are more, these name its replacement as a whole. */
 static koksma_status name_unread(reader *r, size_t n_before)
 {
-    const char *directive = directives[r->number].name, *kind = kind_of(r);
+    const char *name = r->directive->name, *kind = kind_of(r);
     const bool silent = n_before == count_unknown(r);
-    if (directives[r->number].kind != NONE && silent && !koksma__pbrt_is_kind(directive, kind)) {
+    if (r->directive->kind != NONE && silent && !koksma__pbrt_is_kind(name, kind)) {
         KOKSMA__TRY(
-            koksma__import_unknown(r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", directive, kind));
+            koksma__import_unknown(r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", name, kind));
     }
-    return directives[r->number].describes && silent ? koksma__pbrt_name_unused(r->im, directive, kind, r->parameters)
-                                                     : KOKSMA_OK;
+    return r->directive->describes && silent ? koksma__pbrt_name_unused(r->im, name, kind, r->parameters) : KOKSMA_OK;
 }
 
-/* Reads the directive number i, and names what is not read of it. */
-static koksma_status read_directive(reader *r, source *s, size_t i)
+/* Reads what follows a directive's name up to its parameters' end. */
+static koksma_status read_arguments(reader *r)
+{
+    const directive *d = r->directive;
+    KOKSMA__TRY(d->numbers ? koksma__pbrt_numbers(r->source, d->numbers, r->numbers) : KOKSMA_OK);
+    for (unsigned i = 0; i < d->texts; i++) {
+        const bool is_path = d->take == take_include;
+        KOKSMA__TRY(koksma__pbrt_text(r->source, r->texts[i], is_path ? sizeof r->texts[i] : 256));
+    }
+    r->place = r->source->place;
+    return d->has_parameters ? koksma__pbrt_parameters_read(r->source, r->parameters) : KOKSMA_OK;
+}
+
+/* Reads a directive, and names what is not read of it. */
+static koksma_status read_directive(reader *r, source *s, const directive *d)
 {
     const size_t before = count_unknown(r), listed = r->im->scene->n_unknown;
     memset(r->used, 0, sizeof r->used);
     r->mistake.at = NULL;
-    r->number = i;
-    s->directive = directives[i].name;
+    r->directive = d;
+    r->source = s;
+    s->directive = d->name;
     r->parameters->attributes = r->attributes;
     r->parameters->n_attributes = r->n_attributes;
-    r->parameters->target = directives[i].target;
-    KOKSMA__TRY(*directives[i].target ? koksma__import_spend(r->im, s->place, r->n_attributes) : KOKSMA_OK);
-    find_kind(*s, directives[i].kind, r->kind);
-    koksma_status status = koksma__pbrt_end(r->parameters, directives[i].take(r, s));
-    if (directives[i].take == take_include) {
-        return status; /* its directives are done */
+    r->parameters->target = d->target ? d->target : "";
+    KOKSMA__TRY(d->target ? koksma__import_spend(r->im, s->place, r->n_attributes) : KOKSMA_OK);
+    koksma_status status = read_arguments(r);
+    if (d->take == take_include) {
+        return status ? status : take_include(r); /* its directives are done */
     }
+    status = koksma__pbrt_end(r->parameters, status || !d->take ? status : d->take(r));
     const koksma__unknown *list = r->im->scene->unknown;
     status = koksma__unknown_explain(status, list, r->im->scene->n_unknown > listed ? listed + 1 : 0);
     status = status ? status : name_unread(r, before);
@@ -960,7 +858,7 @@ static koksma_status read_source(reader *r, source *s)
             return koksma__import_fail(s->place, "'%.*s' is not a directive of pbrt-v4",
                                        t.length < 40 ? (int)t.length : 40, t.at);
         }
-        KOKSMA__TRY(read_directive(r, s, i));
+        KOKSMA__TRY(read_directive(r, s, &directives[i]));
     }
 }
 
@@ -1066,12 +964,10 @@ static koksma_status set_shutter(reader *r)
 static koksma_status set_medium(reader *r)
 {
     koksma__medium *to = &r->im->scene->medium;
-    for (size_t i = r->n_media; *r->camera_medium && i-- > 0;) {
-        const named_medium *m = &r->media[i];
-        if (!strcmp(m->name, r->camera_medium)) {
-            koksma__medium_init(to, m->absorption, m->scattering, m->g);
-            break;
-        }
+    size_t i;
+    if (*r->camera_medium && koksma__names_find(&r->medium_names, r->camera_medium, strlen(r->camera_medium), &i) &&
+        r->media[i].is_read) {
+        koksma__medium_init(to, r->media[i].absorption, r->media[i].scattering, r->media[i].g);
     }
     if (koksma__medium_check(r->im->scene)) {
         to->is_there = false;
@@ -1104,8 +1000,9 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     r.parameters->mistake = &r.mistake;
     r.parameters->judge = judge_parameters;
     r.parameters->reader = &r;
-    koksma_status status = take_identity(&r, &s);
-    status = status ? status : name_space(&r, s.place, "world", r.now.matrix[0], r.now.matrix[1]);
+    r.place = s.place;
+    koksma_status status = take_identity(&r);
+    status = status ? status : name_space(&r, "world", r.now.matrix);
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);
     status = status ? status : read_source(&r, &s);
     status = status ? status : check_media(&r);
@@ -1118,7 +1015,7 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     for (size_t i = 0; i < r.n_attributes; i++) {
         free(r.attributes[i].parameter.numbers);
     }
-    KOKSMA__FREE(r.objects, r.spaces, r.media, r.stack, r.parameters, r.attributes, r.medium_uses);
+    KOKSMA__FREE(r.objects, r.spaces, r.media, r.stack, r.parameters, r.attributes);
     koksma__names_fini(&r.medium_names);
     koksma__names_fini(&r.space_names);
     koksma__names_fini(&r.object_names);

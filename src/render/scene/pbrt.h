@@ -45,7 +45,7 @@ typedef struct koksma__pbrt_parameter {
 
 /* A parameter that an Attribute directive gives to all directives of this target ("shape", "light", ...) that follow. */
 typedef struct koksma__pbrt_attribute {
-    char target[16];
+    const char *target;
     koksma__pbrt_parameter parameter;
 } koksma__pbrt_attribute;
 
