@@ -95,7 +95,7 @@ typedef struct koksma__import_colour {
 
 /* A material as the nearest kind that Koksma has. */
 typedef struct koksma__import_material {
-    enum { KOKSMA__MATTE, KOKSMA__METAL, KOKSMA__GLASS, KOKSMA__COATED } kind;
+    enum { KOKSMA__MATTE, KOKSMA__METAL, KOKSMA__GLASS, KOKSMA__COATED, KOKSMA__NOTHING /* light passes */ } kind;
     koksma__import_colour colour; /* colour of matte and coated materials; reflectance of metals along the normal */
     double alpha;                 /* GGX width of metals and coats; 0: smooth */
     bool has_index;               /* of metals: the index of refraction is eta + i k, and `colour` a factor */
@@ -129,6 +129,46 @@ typedef struct koksma__import_item {
     koksma__import_surface surface;
     koksma__text_place place;
 } koksma__import_item;
+
+/* ---- Tables of plug-ins ---------------------------------------------------------------------------------------------- */
+
+/* A row of a format's table (plugins.c): the kinds of a class of objects that have these parameters. */
+typedef struct koksma__plugin {
+    const char *of, *kinds, *parameters;
+    int makes;           /* what the class's reader makes of it */
+    const char *instead; /* the name of that in a warning; NULL: it is the same */
+} koksma__plugin;
+
+typedef struct koksma__plugins {
+    const koksma__plugin *rows;
+    size_t n;
+} koksma__plugins;
+
+/* A parameter of a row; texts that refer to the row. */
+typedef struct koksma__entry {
+    const char *type, *name, *otherwise, *values; /* otherwise: the default, values: a closed list; or NULL */
+    size_t type_length, length, values_length;
+    bool without_effect, is_needed;
+} koksma__entry;
+
+/* Takes the next parameter from a row's text; *e is zeroed at first, and its type is that of the one before. */
+bool koksma__entry_next(const char **text, koksma__entry *e);
+
+/* The default, 0 if it has none. */
+double koksma__entry_number(const koksma__entry *e);
+
+/* Whether a list of words, separated by a character, has this word. */
+bool koksma__lists(const char *list, size_t size, char separator, const char *word);
+
+/* Whether a row is for this kind of a class. */
+bool koksma__plugin_is(const koksma__plugin *row, const char *of, const char *kind);
+
+/* The row of a kind, or that of unknown kinds ("?"), or NULL. */
+const koksma__plugin *koksma__plugin_find(const koksma__plugins *all, const char *of, const char *kind);
+
+/* Finds a parameter of a kind, or of an unknown kind among those of its class. */
+bool koksma__plugin_entry(const koksma__plugins *all, const char *of, const char *kind, const char *name,
+                          koksma__entry *out);
 
 extern const double koksma__import_identity[12];
 

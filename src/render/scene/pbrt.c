@@ -362,8 +362,8 @@ static koksma_status take_area_light(reader *r)
 {
     koksma__import_surface *surface = &r->now.surface;
     surface->emits = true;
-    surface->two_sided = koksma__pbrt_flag(r->parameters, "twosided", false);
-    r->now.power = koksma__pbrt_number(r->parameters, "power", 0);
+    surface->two_sided = koksma__pbrt_flag(r->parameters, "twosided");
+    r->now.power = koksma__pbrt_number(r->parameters, "power");
     return koksma__pbrt_emission(&r->values, r->parameters, "L", surface->radiance);
 }
 
@@ -379,11 +379,11 @@ static void move_point(const double m[12], const double p[3], double w, double o
 static void scale_light(const koksma__pbrt_parameters *p, const char *type, double rgb[3])
 {
     const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
-    const double given = koksma__pbrt_number(p, far || around ? "illuminance" : "power", 0);
+    const double given = koksma__pbrt_number(p, far || around ? "illuminance" : "power");
     double own = far ? 1 : around ? M_PI : 2 * TURN;
     if (!strcmp(type, "spot")) { /* full within the inner cone, half on average between the cones */
-        const double outer = koksma__pbrt_number(p, "coneangle", 30);
-        const double inner = outer - koksma__pbrt_number(p, "conedeltaangle", 5);
+        const double outer = koksma__pbrt_number(p, "coneangle");
+        const double inner = outer - koksma__pbrt_number(p, "conedeltaangle");
         own = TURN * (1 - (cos(inner * TURN / 360) + cos(outer * TURN / 360)) / 2);
     }
     for (int k = 0; given > 0 && own > 0 && k < 3; k++) {
@@ -404,10 +404,10 @@ static koksma_status take_light(reader *r)
                     : KOKSMA_OK);
     koksma__pbrt_point(p, "from", from);
     koksma__pbrt_point(p, "to", to);
-    if (around && *koksma__pbrt_word(p, "filename", "")) {
-        const double illuminance = koksma__pbrt_number(p, "illuminance", 0);
-        return koksma__import_lit_sky(r->im, p->place, koksma__pbrt_word(p, "filename", ""), illuminance,
-                                      light.radiance, r->now.matrix[0]);
+    if (around && *koksma__pbrt_word(p, "filename")) {
+        const double illuminance = koksma__pbrt_number(p, "illuminance");
+        return koksma__import_lit_sky(r->im, p->place, koksma__pbrt_word(p, "filename"), illuminance, light.radiance,
+                                      r->now.matrix[0]);
     }
     scale_light(p, type, light.radiance);
     if (around) {
@@ -423,11 +423,11 @@ static koksma_status take_light(reader *r)
     } else {
         move_point(r->now.matrix[0], from, 1, light.centre);
         if (!strcmp(type, "spot")) {
-            const double outer = koksma__pbrt_number(p, "coneangle", 30);
+            const double outer = koksma__pbrt_number(p, "coneangle");
             koksma__subtract(to, from, to);
             move_point(r->now.matrix[0], to, 0, along);
-            KOKSMA__TRY(koksma__import_spot(p->place, along, outer - koksma__pbrt_number(p, "conedeltaangle", 5),
-                                            outer, KOKSMA__FALLOFF_SMOOTH, &light));
+            KOKSMA__TRY(koksma__import_spot(p->place, along, outer - koksma__pbrt_number(p, "conedeltaangle"), outer,
+                                            KOKSMA__FALLOFF_SMOOTH, &light));
         } else if (strcmp(type, "point") != 0) {
             KOKSMA__TRY(koksma__import_unknown(
                 r->im, p->place, "light '%s' is replaced by a point light equal in all directions", type));
@@ -462,11 +462,11 @@ static koksma_status take_camera(reader *r)
     r->has_camera = true;
     r->camera_place = p->place;
     snprintf(r->camera_medium, sizeof r->camera_medium, "%s", r->now.outside);
-    r->fov_deg = koksma__pbrt_number(p, "fov", 90);
-    r->lens_radius = koksma__pbrt_number(p, "lensradius", 0);
-    r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
-    r->shutter[0] = koksma__pbrt_number(p, "shutteropen", 0);
-    r->shutter[1] = koksma__pbrt_number(p, "shutterclose", 1);
+    r->fov_deg = koksma__pbrt_number(p, "fov");
+    r->lens_radius = koksma__pbrt_number(p, "lensradius");
+    r->focus_distance = koksma__pbrt_number(p, "focaldistance");
+    r->shutter[0] = koksma__pbrt_number(p, "shutteropen");
+    r->shutter[1] = koksma__pbrt_number(p, "shutterclose");
     set_exposure(r);
     const koksma__pbrt_parameter *window = koksma__pbrt_find_typed(p, "screenwindow", "float");
     r->has_window = window && window->n == 4;
@@ -476,7 +476,7 @@ static koksma_status take_camera(reader *r)
     if (r->has_window) {
         memcpy(r->window, window->numbers, sizeof r->window);
     }
-    r->frame = fmax(koksma__pbrt_number(p, "frameaspectratio", 0), 0);
+    r->frame = fmax(koksma__pbrt_number(p, "frameaspectratio"), 0);
     return name_space(r, "camera", r->camera);
 }
 
@@ -508,8 +508,7 @@ static koksma_status take_crop(const koksma__pbrt_parameters *p, const double si
 static koksma_status take_film(reader *r)
 {
     const koksma__pbrt_parameters *p = r->parameters;
-    const double width = koksma__pbrt_whole(p, "xresolution", 1280),
-                 height = koksma__pbrt_whole(p, "yresolution", 720);
+    const double width = koksma__pbrt_whole(p, "xresolution"), height = koksma__pbrt_whole(p, "yresolution");
     if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
         return koksma__import_fail(p->place, "a film of %g x %g pixels; each side must be 1 to %d", width, height,
                                    KOKSMA_MAX_IMAGE_SIDE);
@@ -522,11 +521,11 @@ static koksma_status take_film(reader *r)
     if (r->in_world) {
         KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "a Film after WorldBegin, which pbrt refuses"));
     }
-    r->iso = koksma__pbrt_number(p, "iso", 100);
-    r->exposure_time = koksma__pbrt_number(p, "exposuretime", 0);
+    r->iso = koksma__pbrt_number(p, "iso");
+    r->exposure_time = koksma__pbrt_number(p, "exposuretime");
     set_exposure(r);
-    const char *sensor = koksma__pbrt_word(p, "sensor", "cie1931");
-    return strcmp(sensor, "cie1931")
+    const char *sensor = koksma__pbrt_word(p, "sensor");
+    return *sensor && strcmp(sensor, "cie1931")
                ? koksma__import_unknown(r->im, p->place, "the sensor '%.40s' is replaced by 'cie1931'", sensor)
                : KOKSMA_OK;
 }
@@ -565,7 +564,7 @@ static koksma_status take_integrator(reader *r)
 
 static koksma_status take_option(reader *r)
 {
-    return koksma__pbrt_flag(r->parameters, "forcediffuse", false)
+    return koksma__pbrt_flag(r->parameters, "forcediffuse")
                ? koksma__import_unknown(r->im, r->place, "option 'forcediffuse' is ignored")
                : KOKSMA_OK;
 }
@@ -622,14 +621,14 @@ static koksma_status take_medium(reader *r)
         return KOKSMA_MALFORMED;
     }
     to->is_made = true;
-    if (strcmp(koksma__pbrt_word(p, "type", ""), "homogeneous") != 0 || koksma__pbrt_find(p, "preset") ||
+    if (strcmp(koksma__pbrt_word(p, "type"), "homogeneous") != 0 || koksma__pbrt_find(p, "preset") ||
         koksma__pbrt_find(p, "Le")) {
         return koksma__import_unknown(r->im, p->place,
                                       "media that vary in space, emit light or are presets are ignored");
     }
     KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_a", to->absorption));
     KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_s", to->scattering));
-    to->g = fmax(-0.999, fmin(koksma__pbrt_number(p, "g", 0), 0.999));
+    to->g = fmax(-0.999, fmin(koksma__pbrt_number(p, "g"), 0.999));
     to->is_read = true;
     return KOKSMA_OK;
 }
@@ -780,6 +779,8 @@ static koksma_status judge_parameters(void *from)
 {
     const reader *r = from;
     const char *name = r->directive->name, *kind = kind_of(r);
+    r->parameters->directive = name;
+    r->parameters->kind = kind;
     if (!strcmp(name, "Attribute")) {
         return KOKSMA_OK; /* take_attribute() knows whose parameters they are */
     }
@@ -996,7 +997,7 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     KOKSMA__REQUIRE_MEMORY(r.parameters, sizeof *r.parameters);
     r.parameters->place = s.place;
     r.parameters->used = r.used;
-    r.parameters->target = "";
+    r.parameters->directive = r.parameters->kind = r.parameters->target = "";
     r.parameters->mistake = &r.mistake;
     r.parameters->judge = judge_parameters;
     r.parameters->reader = &r;

@@ -60,8 +60,9 @@ typedef struct koksma__pbrt_parameters {
     size_t n, n_inherited; /* the first n_inherited come from Attribute directives */
     const koksma__pbrt_attribute *attributes;
     size_t n_attributes;
-    const char *target; /* "": the directive inherits no attributes */
-    bool *used;         /* for each parameter, whether koksma__pbrt_find has found it; or NULL */
+    const char *directive, *kind; /* set by the judge */
+    const char *target;           /* "": the directive inherits no attributes */
+    bool *used;                   /* for each parameter, whether koksma__pbrt_find has found it; or NULL */
     koksma__pbrt_mistake *mistake;
     /* judges the parameters as soon as they are read, before anything uses them; or NULL */
     koksma_status (*judge)(void *reader);
@@ -97,13 +98,13 @@ bool koksma__pbrt_is(const koksma__pbrt_parameter *parameter, const char *types)
 const koksma__pbrt_parameter *koksma__pbrt_find_typed(const koksma__pbrt_parameters *p, const char *name,
                                                       const char *types);
 
-/* The only number, whole number, text or flag of a parameter; `otherwise` if it is missing. A parameter of another type,
-   or with several values, is a mistake. A number may also be a texture or spectrum, which is not read: then the
-   parameter stays unused, and the result is `otherwise`. */
-double koksma__pbrt_number(const koksma__pbrt_parameters *p, const char *name, double otherwise);
-double koksma__pbrt_whole(const koksma__pbrt_parameters *p, const char *name, double otherwise);
-const char *koksma__pbrt_word(const koksma__pbrt_parameters *p, const char *name, const char *otherwise);
-bool koksma__pbrt_flag(const koksma__pbrt_parameters *p, const char *name, bool otherwise);
+/* The only number, whole number, text or flag of a parameter; that of the table if it is missing. A parameter of another
+   type, or with several values, is a mistake. A number may also be a texture or spectrum, which is not read: then the
+   parameter stays unused, and the result is that of the table. */
+double koksma__pbrt_number(const koksma__pbrt_parameters *p, const char *name);
+double koksma__pbrt_whole(const koksma__pbrt_parameters *p, const char *name);
+const char *koksma__pbrt_word(const koksma__pbrt_parameters *p, const char *name);
+bool koksma__pbrt_flag(const koksma__pbrt_parameters *p, const char *name);
 
 /* Reads a point or vector; without it, *out stays as it is. */
 void koksma__pbrt_point(const koksma__pbrt_parameters *p, const char *name, double out[3]);
@@ -112,6 +113,8 @@ void koksma__pbrt_point(const koksma__pbrt_parameters *p, const char *name, doub
 koksma_status koksma__pbrt_end(const koksma__pbrt_parameters *p, koksma_status status);
 
 /* ---- Vocabulary ------------------------------------------------------------------------------------------------------ */
+
+extern const koksma__plugins koksma__pbrt_plugins;
 
 /* Whether a directive has this kind; true for directives that have none. */
 bool koksma__pbrt_is_kind(const char *directive, const char *kind);

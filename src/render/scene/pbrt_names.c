@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The vocabulary of pbrt-v4, so that the reader can name each parameter that pbrt would refuse: pbrt reports an unused
- * parameter as an error, and here it may be a lost light. A row has the parameters of some kinds of a directive, as text:
- * "TYPE NAME NAME; TYPE NAME=VALUE|VALUE", where a list of values is closed, and "~" marks a name that has no effect on
- * the pictures that Koksma makes. The kind "*" stands for all kinds. From pbrt-v4's source of 2024: each name is one that
- * a Create() function of samplers.cpp, lights.cpp, shapes.cpp, ... looks up. `st`, `point`, `vector`, `normal3`, `color`
- * and `exposuretime` are of earlier versions.
+ * The table of pbrt-v4's plug-ins (its form: plugins.c), with what is made of its materials. Values are read by it, with its
+ * defaults, and each parameter is named that pbrt would refuse: pbrt reports an unused parameter as an error, and here it
+ * may be a lost light. From pbrt-v4's source of 2024: each name is one that a Create() function of samplers.cpp,
+ * lights.cpp, shapes.cpp, ... looks up. `st`, `point`, `vector`, `normal3`, `color` and `exposuretime` are of earlier
+ * versions.
  */
 #include "scene/pbrt.h"
 
@@ -23,113 +22,125 @@ typedef enum verdict {
     KNOWN
 } verdict;
 
-typedef struct row {
-    const char *directive, *kinds, *names;
-} row;
-
 #define RANDOMIZATION "string randomization=none|permutedigits|fastowen|owen"
 #define RADII "float xradius yradius"
-#define ROUGHNESS "floats roughness uroughness vroughness; bool remaproughness"
-#define LENS "float lensradius focaldistance frameaspectratio screenwindow"
-#define GRID "integer nx ny nz; point3 p0 p1; float Lescale g scale"
-#define MAPPING "string mapping=uv|spherical|cylindrical|planar; float uscale vscale udelta vdelta; vector3 v1 v2"
+#define ROUGHNESS "floats roughness uroughness vroughness; bool remaproughness:1"
+#define LENS "float lensradius focaldistance:1e6 frameaspectratio screenwindow"
+#define GRID "integer nx ny nz; point3 p0 p1; float Lescale g scale:1"
+#define MAPPING "string mapping=uv|spherical|cylindrical|planar; float uscale:1 vscale:1 udelta vdelta; vector3 v1 v2"
 
-static const row rows[] = {
-    {"Accelerator", "bvh", "string splitmethod=sah|hlbvh|middle|equal; integer maxnodeprims"},
-    {"Accelerator", "kdtree", "integer intersectcost traversalcost maxprims maxdepth; float emptybonus"},
-    {"AreaLightSource", "diffuse", "colour L; float scale power; bool twosided; string filename"},
-    {"Camera", "*", "float shutteropen shutterclose"},
-    {"Camera", "perspective", LENS " fov"},
-    {"Camera", "orthographic", LENS},
-    {"Film", "*",
-     "string ~filename sensor; integer xresolution yresolution pixelbounds; bool ~savefp16; float cropwindow "
-     "~diagonal "
-     "iso whitebalance maxcomponentvalue exposuretime"},
-    {"Film", "rgb", ""},
-    {"Film", "gbuffer", "string ~coordinatesystem=camera|world"},
-    {"Film", "spectral", "integer ~nbuckets; float ~lambdamin ~lambdamax"},
-    {"Integrator", "path volpath",
-     "integer maxdepth; string lightsampler=uniform|power|bvh|exhaustive; bool regularize"},
-    {"Integrator", "simplepath", "integer maxdepth; bool samplelights samplebsdf"},
-    {"Integrator", "lightpath simplevolpath randomwalk", "integer maxdepth"},
-    {"Integrator", "bdpt", "integer maxdepth; bool visualizestrategies visualizeweights regularize"},
-    {"Integrator", "mlt",
-     "integer maxdepth bootstrapsamples chains mutationsperpixel; float largestepprobability sigma; bool regularize"},
-    {"Integrator", "sppm", "integer maxdepth photonsperiteration seed; float radius"},
-    {"Integrator", "ambientocclusion", "bool cossample; float maxdistance"},
-    {"Integrator", "function", "string function filename imagefilename; bool skipbad"},
-    {"LightSource", "point", "colour I; float scale power; point3 from"},
-    {"LightSource", "spot", "colour I; float scale power coneangle conedeltaangle; point3 from to"},
-    {"LightSource", "distant", "colour L; float scale illuminance; point3 from to"},
-    {"LightSource", "infinite", "colour L; float scale illuminance; point3 portal; string filename"},
-    {"LightSource", "goniometric", "colour I; float scale power; string filename"},
-    {"LightSource", "projection", "float scale power fov; string filename"},
-    {"MakeNamedMaterial", "*", "string ~type"},
-    {"MakeNamedMedium", "*", "string ~type"},
-    {"MakeNamedMedium", "homogeneous", "string preset; colour sigma_a sigma_s Le; float Lescale scale g"},
-    {"MakeNamedMedium", "uniformgrid",
-     GRID
-     "; colour sigma_a sigma_s Le; float density temperature temperatureoffset temperaturecutoff temperaturescale"},
-    {"MakeNamedMedium", "rgbgrid", GRID "; colour sigma_a sigma_s Le"},
-    {"MakeNamedMedium", "cloud", "float density g wispiness frequency; colour sigma_a sigma_s; point3 p0 p1"},
-    {"MakeNamedMedium", "nanovdb",
-     "string filename gridname temperaturename; colour sigma_a sigma_s; float Lescale temperatureoffset "
-     "temperaturecutoff temperaturescale g scale"},
-    {"Material", "*", "string normalmap; floats displacement"},
-    {"Material", "interface none", ""},
-    {"Material", "diffuse", "colour reflectance"},
+/* A row that the tables of values need not know more about. */
+#define ROW(of, kinds, parameters)                                                                                   \
+    {                                                                                                                \
+        of, kinds, parameters, 0, NULL                                                                               \
+    }
+
+static const koksma__plugin rows[] = {
+    ROW("Accelerator", "bvh", "string splitmethod=sah|hlbvh|middle|equal; integer maxnodeprims"),
+    ROW("Accelerator", "kdtree", "integer intersectcost traversalcost maxprims maxdepth; float emptybonus"),
+    ROW("AreaLightSource", "diffuse", "colour L; float scale:1 power; bool twosided; string filename"),
+    ROW("Camera", "*", "float shutteropen shutterclose:1"),
+    ROW("Camera", "perspective", LENS " fov:90"),
+    ROW("Camera", "orthographic", LENS),
+    ROW("Film", "*",
+        "string ~filename sensor; integer xresolution:1280 yresolution:720 pixelbounds; bool ~savefp16; float "
+        "cropwindow "
+        "~diagonal "
+        "iso:100 whitebalance maxcomponentvalue exposuretime"),
+    ROW("Film", "rgb", ""),
+    ROW("Film", "gbuffer", "string ~coordinatesystem=camera|world"),
+    ROW("Film", "spectral", "integer ~nbuckets; float ~lambdamin ~lambdamax"),
+    ROW("Integrator", "path volpath",
+        "integer maxdepth; string lightsampler=uniform|power|bvh|exhaustive; bool regularize"),
+    ROW("Integrator", "simplepath", "integer maxdepth; bool samplelights samplebsdf"),
+    ROW("Integrator", "lightpath simplevolpath randomwalk", "integer maxdepth"),
+    ROW("Integrator", "bdpt", "integer maxdepth; bool visualizestrategies visualizeweights regularize"),
+    ROW("Integrator", "mlt",
+        "integer maxdepth bootstrapsamples chains mutationsperpixel; float largestepprobability sigma; bool "
+        "regularize"),
+    ROW("Integrator", "sppm", "integer maxdepth photonsperiteration seed; float radius"),
+    ROW("Integrator", "ambientocclusion", "bool cossample; float maxdistance"),
+    ROW("Integrator", "function", "string function filename imagefilename; bool skipbad"),
+    ROW("LightSource", "point", "colour I; float scale:1 power; point3 from"),
+    ROW("LightSource", "spot", "colour I; float scale:1 power coneangle:30 conedeltaangle:5; point3 from to"),
+    ROW("LightSource", "distant", "colour L; float scale:1 illuminance; point3 from to"),
+    ROW("LightSource", "infinite", "colour L; float scale:1 illuminance; point3 portal; string filename"),
+    ROW("LightSource", "goniometric", "colour I; float scale:1 power; string filename"),
+    ROW("LightSource", "projection", "float scale:1 power fov; string filename"),
+    ROW("MakeNamedMaterial", "*", "string ~type"),
+    ROW("MakeNamedMedium", "*", "string ~type"),
+    ROW("MakeNamedMedium", "homogeneous", "string preset; colour sigma_a sigma_s Le; float Lescale scale:1 g"),
+    ROW("MakeNamedMedium", "uniformgrid",
+        GRID "; colour sigma_a sigma_s Le; float density temperature temperatureoffset temperaturecutoff "
+             "temperaturescale"),
+    ROW("MakeNamedMedium", "rgbgrid", GRID "; colour sigma_a sigma_s Le"),
+    ROW("MakeNamedMedium", "cloud", "float density g wispiness frequency; colour sigma_a sigma_s; point3 p0 p1"),
+    ROW("MakeNamedMedium", "nanovdb",
+        "string filename gridname temperaturename; colour sigma_a sigma_s; float Lescale temperatureoffset "
+        "temperaturecutoff temperaturescale g scale"),
+    ROW("Material", "*", "string normalmap; floats displacement"),
+    {"Material", "?", "colour reflectance", KOKSMA__MATTE, "matte"},
+    {"Material", "interface none", "", KOKSMA__NOTHING, NULL},
+    {"Material", "diffuse", "colour reflectance", KOKSMA__MATTE, NULL},
     {"Material", "coateddiffuse",
-     "colour reflectance albedo eta; floats thickness g; integer ~maxdepth ~nsamples; " ROUGHNESS},
+     "colour reflectance albedo eta:1.5; floats thickness g; integer ~maxdepth ~nsamples; " ROUGHNESS, KOKSMA__COATED,
+     NULL},
     {"Material", "coatedconductor",
      "colour reflectance albedo interface.eta conductor.eta conductor.k; floats thickness g interface.roughness "
      "interface.uroughness interface.vroughness conductor.roughness conductor.uroughness conductor.vroughness; "
-     "integer ~maxdepth ~nsamples; bool remaproughness"},
-    {"Material", "conductor", "colour eta k reflectance; " ROUGHNESS},
-    {"Material", "dielectric", "colour eta; " ROUGHNESS},
-    {"Material", "thindielectric", "colour eta"},
-    {"Material", "mix", "string materials; floats amount"},
-    {"Material", "hair", "colour sigma_a reflectance color; floats eumelanin pheomelanin eta beta_m beta_n alpha"},
-    {"Material", "measured", "string filename"},
-    {"Material", "subsurface", "float g scale eta; string name; colour sigma_a sigma_s reflectance mfp; " ROUGHNESS},
-    {"Material", "diffusetransmission", "colour reflectance transmittance; float scale"},
-    {"PixelFilter", "box triangle", RADII},
-    {"PixelFilter", "gaussian", RADII " sigma"},
-    {"PixelFilter", "mitchell", RADII " B C"},
-    {"PixelFilter", "sinc", RADII " tau"},
-    {"Sampler", "*", "integer seed"},
-    {"Sampler", "halton paddedsobol sobol zsobol", "integer pixelsamples; " RANDOMIZATION},
-    {"Sampler", "independent pmj02bn", "integer pixelsamples"},
-    {"Sampler", "stratified", "bool jitter; integer xsamples ysamples"},
-    {"Shape", "*", "floats alpha"},
-    {"Shape", "sphere cylinder", "float radius zmin zmax phimax"},
-    {"Shape", "disk", "float height radius innerradius phimax"},
-    {"Shape", "trianglemesh", "integer indices ~faceIndices; point3 P; point2 uv st; vector3 ~S; normal N"},
-    {"Shape", "bilinearmesh",
-     "integer indices ~faceIndices; point3 P; point2 uv st; normal N; string emissionfilename"},
-    {"Shape", "curve",
-     "float width width0 width1; integer degree splitdepth; string basis=bezier|bspline type=flat|ribbon|cylinder; "
-     "point3 P; normal N"},
-    {"Shape", "plymesh", "string filename; float edgelength; floats displacement"},
-    {"Shape", "loopsubdiv", "integer levels indices; point3 P; string ~scheme"},
-    {"Texture", "constant", "colour value"},
-    {"Texture", "bilerp", "colour v00 v01 v10 v11; " MAPPING},
-    {"Texture", "checkerboard", "integer dimension; colour tex1 tex2; " MAPPING},
-    {"Texture", "dots", "colour inside outside; " MAPPING},
-    {"Texture", "fbm wrinkled", "integer octaves; float roughness"},
-    {"Texture", "windy", ""},
-    {"Texture", "marble", "integer octaves; float roughness scale variation"},
-    {"Texture", "imagemap",
-     "float ~maxanisotropy scale; string filename encoding ~filter=point|bilinear|trilinear|ewa|EWA "
-     "wrap=repeat|black|clamp|octahedralsphere; bool invert; " MAPPING},
-    {"Texture", "ptex", "string filename encoding; float scale"},
-    {"Texture", "mix", "colour tex1 tex2; floats amount"},
-    {"Texture", "directionmix", "colour tex1 tex2; vector3 dir"},
-    {"Texture", "scale", "colour tex; floats scale"},
-    {"Option", "*",
-     "bool disablepixeljitter disabletexturefiltering disablewavelengthjitter forcediffuse pixelstats wavefront; "
-     "float "
-     "displacementedgescale; string msereferenceimage msereferenceout rendercoordsys=camera|cameraworld|world; "
-     "integer seed"}};
+     "integer ~maxdepth ~nsamples; bool remaproughness:1",
+     KOKSMA__METAL, "a metal without a coat"},
+    {"Material", "conductor", "colour eta k reflectance; " ROUGHNESS, KOKSMA__METAL, NULL},
+    {"Material", "dielectric", "colour eta:1.5; " ROUGHNESS, KOKSMA__GLASS, NULL},
+    {"Material", "thindielectric", "colour eta", KOKSMA__NOTHING, "nothing"},
+    {"Material", "mix", "string materials; floats amount", 0, NULL},
+    {"Material", "hair", "colour color reflectance sigma_a; floats eumelanin pheomelanin eta beta_m beta_n alpha",
+     KOKSMA__MATTE, "matte"},
+    {"Material", "measured", "string filename", KOKSMA__MATTE, "matte grey"},
+    {"Material", "subsurface",
+     "colour reflectance sigma_a sigma_s mfp; float g scale eta:1.5; string name; " ROUGHNESS, KOKSMA__COATED,
+     "a coated surface"},
+    {"Material", "diffusetransmission", "colour reflectance transmittance; float scale", KOKSMA__MATTE,
+     "matte and opaque"},
+    ROW("PixelFilter", "box triangle", RADII),
+    ROW("PixelFilter", "gaussian", RADII " sigma"),
+    ROW("PixelFilter", "mitchell", RADII " B C"),
+    ROW("PixelFilter", "sinc", RADII " tau"),
+    ROW("Sampler", "*", "integer seed"),
+    ROW("Sampler", "halton paddedsobol sobol zsobol", "integer pixelsamples; " RANDOMIZATION),
+    ROW("Sampler", "independent pmj02bn", "integer pixelsamples"),
+    ROW("Sampler", "stratified", "bool jitter; integer xsamples ysamples"),
+    ROW("Shape", "*", "floats alpha"),
+    ROW("Shape", "sphere cylinder", "float radius:1 zmin:-1 zmax:1 phimax:360"),
+    ROW("Shape", "disk", "float height radius:1 innerradius phimax:360"),
+    ROW("Shape", "trianglemesh", "integer indices ~faceIndices; point3 P; point2 uv st; vector3 ~S; normal N"),
+    ROW("Shape", "bilinearmesh",
+        "integer indices ~faceIndices; point3 P; point2 uv st; normal N; string emissionfilename"),
+    ROW("Shape", "curve",
+        "float width width0 width1; integer degree splitdepth; string basis=bezier|bspline "
+        "type=flat|ribbon|cylinder; "
+        "point3 P; normal N"),
+    ROW("Shape", "plymesh", "string filename; float edgelength; floats displacement"),
+    ROW("Shape", "loopsubdiv", "integer levels:3 indices; point3 P; string ~scheme"),
+    ROW("Texture", "constant", "colour value"),
+    ROW("Texture", "bilerp", "colour v00 v01 v10 v11; " MAPPING),
+    ROW("Texture", "checkerboard", "integer dimension:2; colour tex1 tex2; " MAPPING),
+    ROW("Texture", "dots", "colour inside outside; " MAPPING),
+    ROW("Texture", "fbm wrinkled", "integer octaves; float roughness"),
+    ROW("Texture", "windy", ""),
+    ROW("Texture", "marble", "integer octaves; float roughness scale variation"),
+    ROW("Texture", "imagemap",
+        "float ~maxanisotropy scale:1; string filename encoding ~filter=bilinear|point|trilinear|ewa|EWA "
+        "wrap=repeat|black|clamp|octahedralsphere; bool invert; " MAPPING),
+    ROW("Texture", "ptex", "string filename encoding; float scale"),
+    ROW("Texture", "mix", "colour tex1 tex2; floats amount"),
+    ROW("Texture", "directionmix", "colour tex1 tex2; vector3 dir"),
+    ROW("Texture", "scale", "colour tex; floats scale"),
+    ROW("Option", "*",
+        "bool disablepixeljitter disabletexturefiltering disablewavelengthjitter forcediffuse pixelstats wavefront; "
+        "float "
+        "displacementedgescale; string msereferenceimage msereferenceout rendercoordsys=camera|cameraworld|world; "
+        "integer seed")};
 
 /* The classes of types, and the types that pbrt takes for each; it looks up a colour as a texture or spectrum. */
 static const struct {
@@ -141,70 +152,26 @@ static const struct {
                {"vector3", "vector3 vector"},
                {"normal", "normal normal3"}};
 
-/* A name of a row; texts that refer to the row. */
-typedef struct entry {
-    const char *type, *at, *values; /* values: NULL, or a closed list */
-    size_t type_length, length, values_length;
-    bool without_effect;
-} entry;
-
-/* Takes the next name from a row's text; e->type is that of the name before it. */
-static bool next(const char **text, entry *e)
-{
-    const char *word = *text + strspn(*text, " ");
-    bool is_type = !e->type;
-    if (*word == ';') {
-        word += 1 + strspn(word + 1, " ");
-        is_type = true;
-    }
-    if (!*word) {
-        return false;
-    }
-    if (is_type) {
-        e->type = word;
-        e->type_length = strcspn(word, " ");
-        word += e->type_length;
-        word += strspn(word, " ");
-    }
-    e->without_effect = *word == '~';
-    word += e->without_effect;
-    const size_t whole = strcspn(word, " ;");
-    e->at = word;
-    e->length = strcspn(word, " ;=");
-    e->values = word[e->length] == '=' ? word + e->length + 1 : NULL;
-    e->values_length = e->values ? whole - e->length - 1 : 0;
-    *text = word + whole;
-    return true;
-}
-
-/* Whether a list of words, separated by a character, has this word. */
-static bool lists(const char *list, size_t size, char separator, const char *word)
-{
-    const size_t length = strlen(word);
-    for (size_t from = 0, to; from < size; from = to + 1) {
-        const char *end = memchr(list + from, separator, size - from);
-        to = end ? (size_t)(end - list) : size;
-        if (to - from == length && !memcmp(list + from, word, length)) {
-            return true;
-        }
-    }
-    return false;
-}
+const koksma__plugins koksma__pbrt_plugins = {rows, sizeof rows / sizeof *rows};
 
 /* Materials have one vocabulary, whether they have a name or not. */
-static bool is_of(const row *r, const char *directive)
+static bool is_of(const koksma__plugin *row, const char *directive)
 {
-    return !strcmp(r->directive, directive) ||
-           (!strcmp(directive, "MakeNamedMaterial") && !strcmp(r->directive, "Material"));
+    return !strcmp(row->of, directive) || (!strcmp(directive, "MakeNamedMaterial") && !strcmp(row->of, "Material"));
+}
+
+static bool has_kind(const koksma__plugin *row, const char *kind)
+{
+    return koksma__lists(row->kinds, strlen(row->kinds), ' ', kind);
 }
 
 bool koksma__pbrt_is_kind(const char *directive, const char *kind)
 {
     bool has_kinds = false;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        if (is_of(&rows[i], directive) && *rows[i].kinds != '*') {
+        if (is_of(&rows[i], directive) && !strchr("*?", *rows[i].kinds)) {
             has_kinds = true;
-            if (lists(rows[i].kinds, strlen(rows[i].kinds), ' ', kind)) {
+            if (has_kind(&rows[i], kind)) {
                 return true;
             }
         }
@@ -212,7 +179,7 @@ bool koksma__pbrt_is_kind(const char *directive, const char *kind)
     return !has_kinds;
 }
 
-static bool takes_type(const entry *e, const koksma__pbrt_parameter *p)
+static bool takes_type(const koksma__entry *e, const koksma__pbrt_parameter *p)
 {
     for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {
         if (koksma__text_is(e->type, e->type_length, classes[i].name)) {
@@ -247,10 +214,10 @@ static void find_nearest(const candidates *c, const char *name, char nearest[40]
     snprintf(nearest, 40, "%s", found ? found : "");
 }
 
-static verdict judge_value(const entry *e, const koksma__pbrt_parameter *p, char nearest[40])
+static verdict judge_value(const koksma__entry *e, const koksma__pbrt_parameter *p, char nearest[40])
 {
     candidates values = {.n = 0};
-    if (!e->values || lists(e->values, e->values_length, '|', p->text)) {
+    if (!e->values || koksma__lists(e->values, e->values_length, '|', p->text)) {
         return e->without_effect ? WITHOUT_EFFECT : KNOWN;
     }
     for (size_t from = 0; from < e->values_length; from++) {
@@ -271,15 +238,14 @@ static verdict judge(const char *directive, const char *kind, const koksma__pbrt
     candidates names = {.n = 0};
     *nearest = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const char *text = rows[i].names;
-        entry e = {0};
-        if (!is_of(&rows[i], directive) ||
-            !(all || *rows[i].kinds == '*' || lists(rows[i].kinds, strlen(rows[i].kinds), ' ', kind))) {
+        const char *text = rows[i].parameters;
+        koksma__entry e = {.type = NULL};
+        if (!is_of(&rows[i], directive) || !(all || *rows[i].kinds == '*' || has_kind(&rows[i], kind))) {
             continue;
         }
-        while (next(&text, &e)) {
-            add(&names, e.at, e.length);
-            if (!koksma__text_is(e.at, e.length, p->name)) {
+        while (koksma__entry_next(&text, &e)) {
+            add(&names, e.name, e.length);
+            if (!koksma__text_is(e.name, e.length, p->name)) {
                 continue;
             }
             if (takes_type(&e, p)) {
@@ -337,4 +303,117 @@ koksma_status koksma__pbrt_name_parameters(koksma__import *im, const char *direc
         KOKSMA__TRY(status);
     }
     return KOKSMA_OK;
+}
+
+/* ---- Values -------------------------------------------------------------------------------------------------- */
+
+/* The number that a parameter has if it is missing. */
+static double otherwise(const koksma__pbrt_parameters *p, const char *name)
+{
+    koksma__entry e;
+    const char *of = !strcmp(p->directive, "MakeNamedMaterial") ? "Material" : p->directive;
+    return koksma__plugin_entry(&koksma__pbrt_plugins, of, p->kind, name, &e) ? koksma__entry_number(&e) : 0;
+}
+
+const koksma__pbrt_parameter *koksma__pbrt_find(const koksma__pbrt_parameters *p, const char *name)
+{
+    const koksma__pbrt_parameter *found = NULL;
+    for (size_t i = 0; i < p->n; i++) {
+        if (!strcmp(p->items[i].name, name)) {
+            found = &p->items[i];
+            if (p->used) {
+                p->used[i] = true;
+            }
+        }
+    }
+    return found;
+}
+
+bool koksma__pbrt_is(const koksma__pbrt_parameter *parameter, const char *list)
+{
+    const size_t length = strlen(parameter->type);
+    for (; *list; list += strspn(list, " ")) {
+        const size_t word = strcspn(list, " ");
+        if (word == length && !memcmp(list, parameter->type, length)) {
+            return true;
+        }
+        list += word;
+    }
+    return false;
+}
+
+static void note(const koksma__pbrt_parameters *p, const koksma__pbrt_parameter *at, const char *expected)
+{
+    if (!p->mistake->at) {
+        *p->mistake = (koksma__pbrt_mistake){at, expected};
+    }
+}
+
+const koksma__pbrt_parameter *koksma__pbrt_find_typed(const koksma__pbrt_parameters *p, const char *name,
+                                                      const char *list)
+{
+    const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
+    if (found && !koksma__pbrt_is(found, list)) {
+        note(p, found, list);
+        return NULL;
+    }
+    return found;
+}
+
+/* Finds a parameter with `count` numbers, or one text. */
+static const koksma__pbrt_parameter *find_values(const koksma__pbrt_parameters *p, const char *name, const char *list,
+                                                 size_t count)
+{
+    const koksma__pbrt_parameter *found = koksma__pbrt_find_typed(p, name, list);
+    if (found && found->n_texts != 1 && found->n != count) {
+        note(p, found, "one value");
+        return NULL;
+    }
+    return found;
+}
+
+double koksma__pbrt_number(const koksma__pbrt_parameters *p, const char *name)
+{
+    const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
+    if (found && p->used && koksma__pbrt_is(found, "texture spectrum rgb")) {
+        p->used[found - p->items] = false;
+        return otherwise(p, name);
+    }
+    found = find_values(p, name, "float integer", 1);
+    return found ? found->numbers[0] : otherwise(p, name);
+}
+
+double koksma__pbrt_whole(const koksma__pbrt_parameters *p, const char *name)
+{
+    const koksma__pbrt_parameter *found = find_values(p, name, "integer", 1);
+    return found ? found->numbers[0] : otherwise(p, name);
+}
+
+const char *koksma__pbrt_word(const koksma__pbrt_parameters *p, const char *name)
+{
+    const koksma__pbrt_parameter *found = find_values(p, name, "string", 1);
+    return found ? found->text : "";
+}
+
+bool koksma__pbrt_flag(const koksma__pbrt_parameters *p, const char *name)
+{
+    const koksma__pbrt_parameter *found = find_values(p, name, "bool", 1);
+    return found ? !strcmp(found->text, "true") : otherwise(p, name) != 0;
+}
+
+void koksma__pbrt_point(const koksma__pbrt_parameters *p, const char *name, double out[3])
+{
+    const koksma__pbrt_parameter *found = find_values(p, name, "point3 point vector3 vector", 3);
+    if (found) {
+        memcpy(out, found->numbers, 3 * sizeof *out);
+    }
+}
+
+koksma_status koksma__pbrt_end(const koksma__pbrt_parameters *p, koksma_status status)
+{
+    const koksma__pbrt_parameter *at = p->mistake->at;
+    return at && status != KOKSMA_MEMORY ? koksma__import_fail((koksma__text_place){p->place.file, at->line},
+                                                               "%s: a '%s' of %zu values; expected: %s", at->name,
+                                                               at->type, at->n + at->n_texts, p->mistake->expected)
+                                         : status;
 }

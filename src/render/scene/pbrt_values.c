@@ -178,7 +178,7 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
     KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__EMISSION, false, &colour));
     KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "a light's texture", KOKSMA__EMISSION, &colour));
     for (int k = 0; k < 3; k++) {
-        rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1) * scene->exposure;
+        rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale") * scene->exposure;
     }
     return KOKSMA_OK;
 }
@@ -190,7 +190,7 @@ koksma_status koksma__pbrt_coefficient(koksma__pbrt_scene *scene, const koksma__
     KOKSMA__TRY(read_colour(scene, p, name, 1, KOKSMA__UNBOUNDED, false, &colour));
     KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "a medium's texture", KOKSMA__UNBOUNDED, &colour));
     for (int k = 0; k < 3; k++) {
-        const double value = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
+        const double value = colour.rgb[k] * koksma__pbrt_number(p, "scale");
         if (!(value >= 0)) {
             return koksma__import_fail(p->place, "%s: a coefficient of %g; it must be 0 or more", name, value);
         }
@@ -219,10 +219,11 @@ static void mean_of(const koksma__import_colour *a, const koksma__import_colour 
 
 static koksma_status check_mapping(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p)
 {
-    const char *mapping = koksma__pbrt_word(p, "mapping", "uv");
-    return strcmp(mapping, "uv") ? koksma__import_unknown(scene->im, p->place,
-                                                          "a texture's mapping '%.40s' is replaced by 'uv'", mapping)
-                                 : KOKSMA_OK;
+    const char *mapping = koksma__pbrt_word(p, "mapping");
+    return *mapping && strcmp(mapping, "uv")
+               ? koksma__import_unknown(scene->im, p->place, "a texture's mapping '%.40s' is replaced by 'uv'",
+                                        mapping)
+               : KOKSMA_OK;
 }
 
 /* Reads how an image is mapped: (u, v) are scaled, then moved; and what lies beyond it. */
@@ -230,20 +231,20 @@ static koksma_status set_mapping(koksma__pbrt_scene *scene, const koksma__pbrt_p
                                  koksma__import_colour *c)
 {
     koksma__mapping *to = &c->mapping;
-    const double scale[2] = {koksma__pbrt_number(p, "uscale", 1), koksma__pbrt_number(p, "vscale", 1)};
-    const double move[2] = {koksma__pbrt_number(p, "udelta", 0), koksma__pbrt_number(p, "vdelta", 0)};
-    const char *wrap = koksma__pbrt_word(p, "wrap", "repeat");
+    const double scale[2] = {koksma__pbrt_number(p, "uscale"), koksma__pbrt_number(p, "vscale")};
+    const double move[2] = {koksma__pbrt_number(p, "udelta"), koksma__pbrt_number(p, "vdelta")};
+    const char *wrap = koksma__pbrt_word(p, "wrap");
     KOKSMA__TRY(koksma__import_check_uv(p->place, scale, 2));
     KOKSMA__TRY(koksma__import_check_uv(p->place, move, 2));
     KOKSMA__TRY(check_mapping(scene, p));
     if (!strcmp(wrap, "clamp")) {
         to->wrap[0] = to->wrap[1] = KOKSMA__WRAP_CLAMP;
-    } else if (strcmp(wrap, "repeat") && strcmp(wrap, "black")) {
+    } else if (*wrap && strcmp(wrap, "repeat") && strcmp(wrap, "black")) {
         KOKSMA__TRY(
             koksma__import_unknown(scene->im, p->place, "a texture's wrap '%.40s' is replaced by 'repeat'", wrap));
     }
     c->use.border = !strcmp(wrap, "black");
-    to->nearest = !strcmp(koksma__pbrt_word(p, "filter", ""), "point");
+    to->nearest = !strcmp(koksma__pbrt_word(p, "filter"), "point");
     to->moved = scale[0] != 1 || scale[1] != 1 || move[0] != 0 || move[1] != 0;
     for (int k = 0; k < 2; k++) {
         to->matrix[4 * k] = (float)scale[k];
@@ -267,9 +268,10 @@ static koksma_status read_constant(koksma__pbrt_scene *scene, const koksma__pbrt
    numbers. A level v becomes scale v, or 1 - scale v if it is inverted, and at least 0. */
 static koksma_status set_levels(const koksma__pbrt_parameters *p, bool is_float, koksma__import_colour *c)
 {
-    const char *encoding = koksma__pbrt_word(p, "encoding", "sRGB"), *dot = strrchr(c->image, '.');
-    const double scale = koksma__pbrt_number(p, "scale", 1);
-    const bool invert = koksma__pbrt_flag(p, "invert", false), png = dot && !strcasecmp(dot, ".png");
+    const char *given = koksma__pbrt_word(p, "encoding"), *encoding = *given ? given : "sRGB",
+               *dot = strrchr(c->image, '.');
+    const double scale = koksma__pbrt_number(p, "scale");
+    const bool invert = koksma__pbrt_flag(p, "invert"), png = dot && !strcasecmp(dot, ".png");
     c->has_use = true;
     c->use.part = KOKSMA__IMAGE_SRGB;
     c->use.average = is_float ? KOKSMA__MEAN : KOKSMA__NO_AVERAGE;
@@ -392,7 +394,7 @@ static koksma_status read_checkerboard(koksma__pbrt_scene *scene, const koksma__
     KOKSMA__TRY(check_mapping(scene, p));
     c->is_checker = true;
     memcpy(c->second, second.rgb, sizeof c->second);
-    const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
+    const double u = koksma__pbrt_number(p, "uscale"), v = koksma__pbrt_number(p, "vscale");
     KOKSMA__TRY(koksma__import_check_uv(p->place, &u, 1));
     c->period = 1 / fmax(fabs(u), 1e-6); /* turned by 180 degrees, the squares are where they were */
     KOKSMA__TRY(fabs(u) > 1e-6 ? KOKSMA_OK
@@ -407,7 +409,7 @@ static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, b
 {
     koksma__import_colour first, second, *c = &to->colour;
     if (!strcmp(kind, "imagemap")) {
-        KOKSMA__TRY(koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image));
+        KOKSMA__TRY(koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename"), c->image));
         KOKSMA__TRY(set_mapping(scene, p, c));
         c->image_scale = 1;
         return set_levels(p, is_float, c);
@@ -421,7 +423,7 @@ static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, b
     if (!strcmp(kind, "scale")) {
         return read_scaled(scene, p, is_float, c);
     }
-    if (!strcmp(kind, "checkerboard") && koksma__pbrt_whole(p, "dimension", 2) == 2) {
+    if (!strcmp(kind, "checkerboard") && koksma__pbrt_whole(p, "dimension") == 2) {
         return read_checkerboard(scene, p, is_float, c);
     }
     KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind));
@@ -546,37 +548,14 @@ static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_par
     snprintf(name, sizeof name, "%sroughness", prefix);
     snprintf(u_name, sizeof u_name, "%suroughness", prefix);
     snprintf(v_name, sizeof v_name, "%svroughness", prefix);
-    const double both = koksma__pbrt_number(p, name, 0);
-    const double u = koksma__pbrt_number(p, u_name, both), v = koksma__pbrt_number(p, v_name, both);
-    m->alpha = koksma__pbrt_flag(p, "remaproughness", true) ? sqrt(fmax(u * v, 0)) : fmax(u * v, 0);
+    const double both = koksma__pbrt_number(p, name);
+    const double u = koksma__pbrt_find(p, u_name) ? koksma__pbrt_number(p, u_name) : both;
+    const double v = koksma__pbrt_find(p, v_name) ? koksma__pbrt_number(p, v_name) : both;
+    m->alpha = koksma__pbrt_flag(p, "remaproughness") ? sqrt(fmax(u * v, 0)) : fmax(u * v, 0);
     m->alpha = sqrt(m->alpha); /* the geometric mean of the widths along u and v */
     return u != v ? koksma__import_unknown(scene->im, p->place, "anisotropic roughness is replaced by its mean")
                   : KOKSMA_OK;
 }
-
-/* pbrt-v4's kinds of materials and the materials that replace them; a material that is only similar gives a warning. */
-typedef struct material_kind {
-    const char *name;
-    int kind;            /* kind of the replacement; -1: light passes through */
-    const char *colour;  /* name of the parameter for the diffuse albedo */
-    const char *prefix;  /* prefix of the names of the parameters of a metal and of the roughness */
-    const char *instead; /* the replacement's name in a warning, or NULL for no warning */
-} material_kind;
-
-static const material_kind kinds[] = {
-    {"diffuse", KOKSMA__MATTE, "reflectance", "", NULL},
-    {"coateddiffuse", KOKSMA__COATED, "reflectance", "", NULL},
-    {"conductor", KOKSMA__METAL, NULL, "", NULL},
-    {"coatedconductor", KOKSMA__METAL, NULL, "conductor.", "a metal without a coat"},
-    {"dielectric", KOKSMA__GLASS, NULL, "", NULL},
-    {"thindielectric", -1, NULL, "", "nothing"},
-    {"diffusetransmission", KOKSMA__MATTE, "reflectance", "", "matte and opaque"},
-    {"subsurface", KOKSMA__COATED, "reflectance", "", "a coated surface"},
-    {"hair", KOKSMA__MATTE, "color", "", "matte"},
-    {"measured", KOKSMA__MATTE, "reflectance", "", "matte grey"},
-    {"interface", -1, NULL, "", NULL},
-    {"none", -1, NULL, "", NULL},
-    {"", -1, NULL, "", NULL}};
 
 /* Reads a mix, whose surface is of the second material with the probability `amount`. */
 static koksma_status mix_materials(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, int *out)
@@ -596,14 +575,13 @@ static koksma_status mix_materials(koksma__pbrt_scene *scene, const koksma__pbrt
 koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
                                     int *out)
 {
-    static const material_kind other = {"", KOKSMA__MATTE, "reflectance", "", "matte"};
-    const material_kind *found = &other;
+    const koksma__plugin *found = koksma__plugin_find(&koksma__pbrt_plugins, "Material", *type ? type : "none");
+    const char *prefix = strcmp(type, "coatedconductor") ? "" : "conductor.", *row = found->parameters;
+    char name[40] = "";
+    koksma__entry first = {.type = NULL};
     koksma__import_material m = {.ior = 1.5};
     if (!strcmp(type, "mix")) {
         return mix_materials(scene, p, out);
-    }
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
     }
     if (found->instead) {
         KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material '%s': %s here", type, found->instead));
@@ -612,14 +590,16 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
         KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "displacement and normal maps are ignored"));
     }
     *out = -1;
-    if (found->kind < 0) {
+    if (found->makes == KOKSMA__NOTHING) {
         return KOKSMA_OK;
     }
-    m.kind = (unsigned)found->kind;
-    KOKSMA__TRY(m.kind == KOKSMA__METAL ? metal(scene, p, found->prefix, &m)
-                                        : find_colour(scene, p, found->colour ? found->colour : "", 0.5, &m.colour));
+    m.kind = (unsigned)found->makes;
+    if (m.kind != KOKSMA__GLASS && koksma__entry_next(&row, &first)) { /* the colour comes first in its row */
+        snprintf(name, sizeof name, "%.*s", (int)first.length, first.name);
+    }
+    KOKSMA__TRY(m.kind == KOKSMA__METAL ? metal(scene, p, prefix, &m) : find_colour(scene, p, name, 0.5, &m.colour));
     const bool refracts = m.kind == KOKSMA__GLASS || m.kind == KOKSMA__COATED;
-    m.ior = refracts ? koksma__pbrt_number(p, "eta", 1.5) : 1.5;
+    m.ior = refracts ? koksma__pbrt_number(p, "eta") : 1.5;
     m.ior = m.ior == 0 ? 1 : m.ior; /* as in pbrt */
     if (m.ior < 0) {
         return koksma__import_fail(p->place, "eta: an index of refraction of %g; it must be above 0", m.ior);
@@ -629,7 +609,7 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
         KOKSMA__TRY(
             koksma__import_unknown(scene->im, p->place, "the spectrum of a glass is replaced by the index 1.5"));
     }
-    KOKSMA__TRY(set_alpha(scene, p, found->prefix, &m));
+    KOKSMA__TRY(set_alpha(scene, p, prefix, &m));
     return koksma__import_add_material(scene->im, p->place, &m, out);
 }
 
@@ -637,7 +617,7 @@ koksma_status koksma__pbrt_name_material(koksma__pbrt_scene *scene, const char *
                                          const koksma__pbrt_parameters *p)
 {
     int material = -1;
-    KOKSMA__TRY(koksma__pbrt_material(scene, koksma__pbrt_word(p, "type", ""), p, &material));
+    KOKSMA__TRY(koksma__pbrt_material(scene, koksma__pbrt_word(p, "type"), p, &material));
     KOKSMA__TRY(koksma__import_hold(scene->im, p->place, sizeof(struct koksma__pbrt_named) + KOKSMA__HELD_WITH_NAME));
     struct koksma__pbrt_named *to = koksma__add_one(&scene->materials, &scene->n_materials, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
@@ -715,7 +695,7 @@ static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv,
 static koksma_status divide(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, koksma__mesh *mesh)
 {
     koksma__mesh fine = {0};
-    const double asked = koksma__pbrt_whole(p, "levels", 3);
+    const double asked = koksma__pbrt_whole(p, "levels");
     const size_t left = scene->n_divided < MOST_DIVIDED ? MOST_DIVIDED - scene->n_divided : 0;
     int levels = 0;
     if (koksma__mesh_check(mesh)) {
@@ -827,13 +807,13 @@ static koksma_status area_of_faces(koksma__pbrt_scene *scene, koksma__text_place
 static koksma_status set_power(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
                                double power, const double placed[12], koksma__import_item *item)
 {
-    const double radius = koksma__pbrt_number(p, "radius", 1);
+    const double radius = koksma__pbrt_number(p, "radius");
     double area = 0;
     if (item->form == KOKSMA__FORM_MESH) {
         KOKSMA__TRY(area_of_faces(scene, p->place, &scene->im->scene->meshes[item->mesh], placed,
                                   !strcmp(type, "bilinearmesh"), &area));
     } else if (item->form == KOKSMA__FORM_CYLINDER) {
-        area = TURN * radius * (koksma__pbrt_number(p, "zmax", 1) - koksma__pbrt_number(p, "zmin", -1));
+        area = TURN * radius * (koksma__pbrt_number(p, "zmax") - koksma__pbrt_number(p, "zmin"));
     } else {
         area = (item->form == KOKSMA__FORM_DISK ? M_PI : 2 * TURN) * radius * radius;
     }
@@ -847,7 +827,7 @@ static koksma_status set_power(koksma__pbrt_scene *scene, const char *type, cons
 static koksma_status make_shape(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
                                 koksma__import_item *item, double matrix[12], bool *is_there)
 {
-    const double radius = koksma__pbrt_number(p, "radius", 1);
+    const double radius = koksma__pbrt_number(p, "radius");
     koksma__import *im = scene->im;
     koksma_status status = KOKSMA_OK;
     item->mesh = -1;
@@ -856,7 +836,7 @@ static koksma_status make_shape(koksma__pbrt_scene *scene, const char *type, con
         return KOKSMA_OK;
     }
     if (!strcmp(type, "sphere") || !strcmp(type, "disk") || !strcmp(type, "cylinder")) {
-        const double low = koksma__pbrt_number(p, "zmin", -1), high = koksma__pbrt_number(p, "zmax", 1);
+        const double low = koksma__pbrt_number(p, "zmin"), high = koksma__pbrt_number(p, "zmax");
         const bool cylinder = *type == 'c', disk = *type == 'd';
         item->form = cylinder ? KOKSMA__FORM_CYLINDER : disk ? KOKSMA__FORM_DISK : KOKSMA__FORM_SPHERE;
         shape_form(radius,
@@ -864,18 +844,18 @@ static koksma_status make_shape(koksma__pbrt_scene *scene, const char *type, con
                    : disk   ? 1
                             : radius,
                    cylinder ? low
-                   : disk   ? koksma__pbrt_number(p, "height", 0)
+                   : disk   ? koksma__pbrt_number(p, "height")
                             : 0,
                    matrix);
-        if (koksma__pbrt_number(p, "phimax", 360) < 360 || koksma__pbrt_number(p, "innerradius", 0) > 0 ||
+        if (koksma__pbrt_number(p, "phimax") < 360 || koksma__pbrt_number(p, "innerradius") > 0 ||
             (!cylinder && !disk && (koksma__pbrt_find(p, "zmin") || koksma__pbrt_find(p, "zmax")))) {
             status = koksma__import_unknown(im, p->place, "a partial %s is replaced by a whole one", type);
         }
         return status;
     }
     if (!strcmp(type, "plymesh")) {
-        status = koksma__import_mesh_file(im, p->place, koksma__pbrt_word(p, "filename", ""), -1,
-                                          (koksma__mesh_rules){0}, &item->mesh);
+        status = koksma__import_mesh_file(im, p->place, koksma__pbrt_word(p, "filename"), -1, (koksma__mesh_rules){0},
+                                          &item->mesh);
     } else if (!strcmp(type, "trianglemesh") || !strcmp(type, "bilinearmesh")) {
         status = triangles(scene, p, *type == 'b', false, &item->surface, &item->mesh);
     } else if (!strcmp(type, "loopsubdiv")) {
