@@ -187,7 +187,7 @@ static void odd_elements_of_mitsuba_are_refused(void **state)
         {GREY("value=\"400:1,500:inf\"/>"), "is not a spectrum: one finite number, or pairs"},
         {GREY("type=\"regular\"><string name=\"values\" value=\"1 2\"/><float name=\"lambda_min\" "
               "value=\"400\"/></spectrum>"),
-         "spectrum 'regular': no 'wavelength_min'"},
+         "spectrum 'regular': no 'wavelength_max'"},
         {GREY("type=\"srgb_d65\"/>"), "spectrum 'srgb_d65': no 'color'"},
         {BALL("<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"0\"/></bsdf>"),
          "int_ior: <float> '0' is not an index of refraction; it must be above 0"},

@@ -146,8 +146,9 @@ typedef struct koksma__plugins {
 
 /* A parameter of a row; texts that refer to the row. */
 typedef struct koksma__entry {
-    const char *type, *name, *otherwise, *values; /* otherwise: the default, values: a closed list; or NULL */
-    size_t type_length, length, values_length;
+    const char *type, *name;
+    const char *older, *otherwise, *values; /* an older name, the default, a closed list of values; or NULL */
+    size_t type_length, length, older_length, values_length;
     bool without_effect, is_needed;
 } koksma__entry;
 
@@ -157,6 +158,9 @@ bool koksma__entry_next(const char **text, koksma__entry *e);
 /* The default, 0 if it has none. */
 double koksma__entry_number(const koksma__entry *e);
 
+/* The place of a text in the closed list of values, without regard to case; -1: it is not in it. */
+int koksma__entry_choice(const koksma__entry *e, const char *value);
+
 /* Whether a list of words, separated by a character, has this word. */
 bool koksma__lists(const char *list, size_t size, char separator, const char *word);
 
@@ -165,6 +169,9 @@ bool koksma__plugin_is(const koksma__plugin *row, const char *of, const char *ki
 
 /* The row of a kind, or that of unknown kinds ("?"), or NULL. */
 const koksma__plugin *koksma__plugin_find(const koksma__plugins *all, const char *of, const char *kind);
+
+/* Finds a parameter of a row. */
+bool koksma__row_entry(const koksma__plugin *row, const char *name, koksma__entry *out);
 
 /* Finds a parameter of a kind, or of an unknown kind among those of its class. */
 bool koksma__plugin_entry(const koksma__plugins *all, const char *of, const char *kind, const char *name,

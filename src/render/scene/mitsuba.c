@@ -5,7 +5,7 @@
  * shape first refers to it. One homogeneous medium is read, of the sensor, a cube or a sphere; volumes and motion
  * are not read. Of an integrator only the length of paths and whether lights are seen is read; samplers and filters are
  * ignored, because the program's own options choose them. Whatever no function takes or looks up is named at the end
- * (koksma__xml_name_unread). The file is long because all of Mitsuba's names are in one place.
+ * (koksma__xml_name_unread). The table of plug-ins (mitsuba_names.c) says which properties there are.
  */
 #include "scene/mitsuba.h"
 
@@ -46,6 +46,7 @@ typedef struct reader {
     size_t n_identities;
     int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
     bool *looked;   /* for each node: whether its properties were looked up */
+    const koksma__plugin **rows; /* for each node: its row of the table; or NULL */
     bool has_sensor;
     const node *medium, *filled; /* the only medium that is read, and the cube or sphere that it fills; or NULL */
     koksma__medium region;       /* where `filled` is, if it is not NULL */
@@ -113,56 +114,99 @@ static bool is_property(const node *n)
     return false;
 }
 
-/* The child element whose attribute "name" is `name`, or NULL. */
-static const node *property(const reader *r, const node *n, const char *name)
+/* Whether an element is an object that stands for a colour; Mitsuba 3 takes its spectra for textures. */
+static bool is_texture(const node *n)
 {
-    r->looked[n - r->xml.nodes] = true;
-    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
-        const char *has = koksma__xml_attribute(c, "name");
-        if (has && koksma__xml_alike(has, name) && is_property(c)) {
-            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-            return c;
+    return is(n, "texture") || (is(n, "spectrum") && koksma__xml_attribute(n, "type"));
+}
+
+/* The row of an object in the table of plug-ins; NULL: its kind is unknown. */
+static const koksma__plugin *row_of(const reader *r, const node *n)
+{
+    const koksma__plugin **known = &r->rows[n - r->xml.nodes];
+    if (!*known) {
+        *known = koksma__plugin_find(&koksma__mitsuba_plugins, is_texture(n) ? "texture" : n->tag, type_of(n));
+    }
+    return *known;
+}
+
+/* Finds the parameter of an object's row. */
+static bool entry_of(const reader *r, const node *n, const char *name, koksma__entry *e)
+{
+    const koksma__plugin *row = row_of(r, n);
+    return row && koksma__row_entry(row, name, e);
+}
+
+/* The child element that is the property of this entry, or NULL. */
+static const node *find_property(const reader *r, const node *n, const koksma__entry *e)
+{
+    const char *const names[] = {e->name, e->older};
+    const size_t lengths[] = {e->length, e->older_length};
+    for (size_t i = 0; i < 2 && names[i]; i++) {
+        for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+            const char *has = koksma__xml_attribute(c, "name");
+            if (has && koksma__xml_alike(has, names[i], lengths[i]) && is_property(c)) {
+                return c;
+            }
         }
     }
     return NULL;
+}
+
+/* The same by its name in the table, in which it must be; it is marked. */
+static const node *property(const reader *r, const node *n, const char *name)
+{
+    koksma__entry e;
+    r->looked[n - r->xml.nodes] = true;
+    const node *found = entry_of(r, n, name, &e) ? find_property(r, n, &e) : NULL;
+    if (found) {
+        koksma__xml_mark(found, KOKSMA__XML_TAKEN);
+    }
+    return found;
 }
 
 /* Warns of what becomes of a node, which covers all that it contains. */
 #define REPLACE(r, n, ...)                                                                                           \
     (koksma__xml_mark(n, KOKSMA__XML_COVERED), koksma__import_unknown((r)->im, (n)->place, __VA_ARGS__))
 
-/* Takes the properties of this list of names, which have no effect on the pictures that are made here. */
-static void pass(const reader *r, const node *n, const char *names)
+/* Takes the properties that have no effect on the pictures that are made here: those of the row with "~", unless they have a
+   default, or a list of values, and another value. */
+static void pass(const reader *r, const node *n)
 {
-    char name[64];
-    for (int length; sscanf(names, "%63s%n", name, &length) == 1; names += length) {
-        property(r, n, name);
+    const char *at = row_of(r, n)->parameters;
+    koksma__entry e = {.type = NULL};
+    while (koksma__entry_next(&at, &e)) {
+        const node *c = e.without_effect ? find_property(r, n, &e) : NULL;
+        const char *value = c ? koksma__xml_attribute(c, "value") : NULL;
+        if (c && (!e.otherwise || (value && !strcasecmp(value, "false"))) &&
+            (!e.values || (value && koksma__entry_choice(&e, value) >= 0))) {
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+        }
     }
 }
 
-static const char *text(const reader *r, const node *n, const char *name, const char *otherwise)
+/* The text of a property; "" without one. */
+static const char *text(const reader *r, const node *n, const char *name)
 {
     const node *c = property(r, n, name);
     const char *value = c && is(c, "string") ? koksma__xml_attribute(c, "value") : NULL;
     if (c && !value) {
         note(r, c, "a text");
     }
-    return value ? value : otherwise;
+    return value ? value : "";
 }
 
-/* The index of the text in the list of those that are possible, which ends with NULL; without a text, 0. Mitsuba, too,
-   compares most of these texts without case. */
-static size_t choice(const reader *r, const node *n, const char *name, const char *const *all)
+/* The place of the text in the closed list of those that are possible; without a text, 0. Mitsuba, too, compares most of
+   these texts without case. */
+static size_t choice(const reader *r, const node *n, const char *name)
 {
-    const char *value = text(r, n, name, all[0]);
-    size_t i = 0;
-    while (all[i] && strcasecmp(all[i], value) != 0) {
-        i++;
-    }
-    if (!all[i]) {
+    koksma__entry e;
+    const char *value = text(r, n, name);
+    const int i = *value && entry_of(r, n, name, &e) ? koksma__entry_choice(&e, value) : 0;
+    if (i < 0) {
         note(r, property(r, n, name), "a value that this property can have");
     }
-    return all[i] ? i : 0;
+    return i < 0 ? 0 : (size_t)i;
 }
 
 static int by_name(const void *a, const void *b)
@@ -220,10 +264,17 @@ static koksma_status find_identities(reader *r)
     return KOKSMA_OK;
 }
 
-static double number(const reader *r, const node *n, const char *name, double otherwise)
+/* The default of a property, which its row has. */
+static double otherwise(const reader *r, const node *n, const char *name)
+{
+    koksma__entry e;
+    return entry_of(r, n, name, &e) ? koksma__entry_number(&e) : 0;
+}
+
+static double number(const reader *r, const node *n, const char *name)
 {
     const node *c = property(r, n, name), *to = c ? resolve(r, c) : NULL;
-    double x = otherwise;
+    double x = otherwise(r, n, name);
     if (to && (is(to, "texture") || (koksma__mitsuba_is_colour(to) && !koksma__mitsuba_is_number(to)))) {
         c->marks[0] &= (unsigned char)~KOKSMA__XML_TAKEN; /* it varies, which is not read here */
     } else if (c && (!koksma__mitsuba_is_number(c) || koksma__mitsuba_number(c, "value", &x))) {
@@ -232,10 +283,10 @@ static double number(const reader *r, const node *n, const char *name, double ot
     return x;
 }
 
-static bool flag(const reader *r, const node *n, const char *name, bool otherwise)
+static bool flag(const reader *r, const node *n, const char *name)
 {
     const node *c = property(r, n, name);
-    bool is_set = otherwise;
+    bool is_set = otherwise(r, n, name) != 0;
     if (c && (!is(c, "boolean") || koksma__mitsuba_flag(c, &is_set))) {
         note(r, c, "true or false");
     }
@@ -311,10 +362,9 @@ static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use
                : KOKSMA_OK;
 }
 
-static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
-                            int depth);
-static koksma_status colour_for(reader *r, const node *n, const char *name, double otherwise,
-                                koksma__spectrum_use use, koksma__import_colour *out, int depth);
+static koksma_status colour(reader *r, const node *n, const char *name, koksma__import_colour *out, int depth);
+static koksma_status colour_for(reader *r, const node *n, const char *name, koksma__spectrum_use use,
+                                koksma__import_colour *out, int depth);
 
 /* Reads a texture's transform of the plane z = 0: the third row and column have no effect. */
 static koksma_status set_matrix(reader *r, const node *n, koksma__mapping *to)
@@ -326,7 +376,7 @@ static koksma_status set_matrix(reader *r, const node *n, koksma__mapping *to)
     double m[12], by[4] = {1, 1, 0, 0}, all[6];
     KOKSMA__TRY(transform(r, n, "to_uv", m));
     for (size_t i = 0; !t && i < 4; i++) {
-        by[i] = number(r, n, older[i], by[i]);
+        by[i] = number(r, n, older[i]);
     }
     for (int i = 0; i < 6; i++) {
         all[i] = by[i / 3] * (m[i / 3 * 4 + (i % 3 < 2 ? i % 3 : 3)] + (i % 3 == 2 ? by[2 + i / 3] : 0));
@@ -339,36 +389,34 @@ static koksma_status set_matrix(reader *r, const node *n, koksma__mapping *to)
 /* Reads how an image is mapped. */
 static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
 {
-    /* Mitsuba 0.6 has four more: it filters by MIP maps unless the file says "nearest" */
-    static const char *const wraps[] = {"repeat", "clamp", "mirror", "zero", "one", NULL};
-    static const char *const filters[] = {"bilinear", "nearest", "trilinear", "ewa", NULL};
+    /* Mitsuba 0.6 has four values more: it filters by MIP maps unless the file says "nearest" */
     static const koksma__wrap kinds[] = {KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR,
                                          KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_CLAMP};
-    const size_t wrap = choice(r, n, "wrap_mode", wraps), filter = choice(r, n, "filter_type", filters);
+    const size_t wrap = choice(r, n, "wrap_mode"), filter = choice(r, n, "filter_type");
     to->wrap[0] = to->wrap[1] = kinds[wrap];
     to->nearest = filter == 1;
     if (wrap > 2) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a texture's wrap mode '%s' is replaced by 'clamp'",
-                                           wraps[wrap]));
+                                           text(r, n, "wrap_mode")));
     }
     if (filter > 1) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a texture's filter '%s' is replaced by 'bilinear'",
-                                           filters[filter]));
+                                           text(r, n, "filter_type")));
     }
     return set_matrix(r, n, to);
 }
 
 /* Fails if an object lacks a property that Mitsuba has no default for. */
-static koksma_status needed(const reader *r, const node *n, const char *name)
+static koksma_status check_needed(const reader *r, const node *n)
 {
-    return property(r, n, name) ? KOKSMA_OK
-                                : koksma__import_fail(n->place, "%s '%s': no '%s'", n->tag, type_of(n), name);
-}
-
-/* Whether an element is an object that stands for a colour; Mitsuba 3 takes its spectra for textures. */
-static bool is_texture(const node *n)
-{
-    return is(n, "texture") || (is(n, "spectrum") && koksma__xml_attribute(n, "type"));
+    const char *at = row_of(r, n)->parameters;
+    koksma__entry e = {.type = NULL};
+    while (koksma__entry_next(&at, &e)) {
+        if (e.is_needed && !find_property(r, n, &e)) {
+            return koksma__import_fail(n->place, "%s '%s': no '%.*s'", n->tag, type_of(n), (int)e.length, e.name);
+        }
+    }
+    return KOKSMA_OK;
 }
 
 static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
@@ -378,7 +426,7 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
    those of 1 everywhere leave it white, also in a light. */
 static koksma_status in_daylight(reader *r, const node *n, koksma__import_colour *out, int depth)
 {
-    const double scale = number(r, n, "scale", 1);
+    const double scale = number(r, n, "scale");
     const node *inner = NULL;
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         if (is_texture(resolve(r, c))) {
@@ -387,8 +435,7 @@ static koksma_status in_daylight(reader *r, const node *n, koksma__import_colour
             inner = resolve(r, c);
         }
     }
-    KOKSMA__TRY(inner ? texture(r, inner, KOKSMA__UNBOUNDED, out, depth + 1)
-                      : colour(r, n, "color", 1, out, depth + 1));
+    KOKSMA__TRY(inner ? texture(r, inner, KOKSMA__UNBOUNDED, out, depth + 1) : colour(r, n, "color", out, depth + 1));
     for (int k = 0; k < 3; k++) {
         out->rgb[k] *= scale;
         out->second[k] *= scale;
@@ -401,128 +448,89 @@ static koksma_status in_daylight(reader *r, const node *n, koksma__import_colour
 static koksma_status samples(reader *r, const node *n, bool regular, koksma__spectrum_use use, double rgb[3])
 {
     const node *pairs = property(r, n, "value"), *values = property(r, n, "values");
+    const node *wavelengths = property(r, n, "wavelengths");
     koksma__sampled_spectrum s = {0};
     if (pairs) {
         return value_of(r, resolve(r, pairs), use, rgb);
     }
-    KOKSMA__TRY(values ? KOKSMA_OK : needed(r, n, "values"));
+    KOKSMA__TRY(check_needed(r, n));
     KOKSMA__TRY(koksma__import_spend(r->im, n->place, KOKSMA__SPECTRUM_STEPS));
-    const bool older = property(r, n, "lambda_min") && property(r, n, "lambda_max"); /* Mitsuba 2 */
-    const char *const low = older ? "lambda_min" : "wavelength_min", *high = older ? "lambda_max" : "wavelength_max";
-    KOKSMA__TRY(needed(r, n, regular ? low : "wavelengths"));
-    KOKSMA__TRY(regular ? needed(r, n, high) : KOKSMA_OK);
-    (void)text(r, n, "values", "");
-    if (regular) {
-        const double from = number(r, n, low, 360), to = number(r, n, high, 830);
-        KOKSMA__TRY(koksma__mitsuba_samples(values, NULL, from, to, &s));
-    } else {
-        (void)text(r, n, "wavelengths", "");
-        KOKSMA__TRY(koksma__mitsuba_samples(values, property(r, n, "wavelengths"), 0, 0, &s));
-    }
+    (void)text(r, n, "values");
+    (void)text(r, n, "wavelengths");
+    const double from = regular ? number(r, n, "wavelength_min") : 0,
+                 to = regular ? number(r, n, "wavelength_max") : 0;
+    KOKSMA__TRY(koksma__mitsuba_samples(values, wavelengths, from, to, &s));
     koksma__sampled_spectrum_colour(&s, use, rgb);
     return KOKSMA_OK;
 }
 
-typedef enum spectrum_kind {
-    D65,
-    COLOUR_IN_D65, /* the name of "d65" with a colour in Mitsuba 2 */
-    UNIFORM,
-    SRGB,
-    REGULAR,
-    IRREGULAR,
-    BLACK_BODY,
-    NO_SPECTRUM
-} spectrum_kind;
-
-/* The kind of spectrum that an object is; NO_SPECTRUM: none that is read. */
-static spectrum_kind kind_of_spectrum(const node *n)
+static koksma_status bitmap(reader *r, const node *n, koksma__import_colour *out)
 {
-    static const char *const all[] = {"d65", "srgb_d65", "uniform", "srgb", "regular", "irregular", "blackbody"};
-    int kind = 0;
-    while (kind < NO_SPECTRUM && strcmp(all[kind], type_of(n)) != 0) {
-        kind++;
-    }
-    return (spectrum_kind)kind;
+    const char *name = text(r, n, "filename"), *dot = strrchr(name, '.');
+    const bool linear = dot && (!strcasecmp(dot, ".exr") || !strcasecmp(dot, ".pfm"));
+    KOKSMA__TRY(flag(r, n, "raw") && !linear
+                    ? koksma__import_unknown(r->im, n->place, "a texture's 'raw' is ignored: its levels are sRGB")
+                    : KOKSMA_OK);
+    KOKSMA__TRY(set_mapping(r, n, &out->mapping));
+    out->image_scale = 1;
+    return koksma__import_path(r->im, n->place, name, out->image);
 }
 
-/* Reads the object of a spectrum as the RGB variants of Mitsuba do, and sampled ones as the observer sees them; *known
-   tells whether there is such a kind. */
-static koksma_status spectrum(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
-                              int depth, bool *known)
+static koksma_status checkerboard(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
+                                  int depth)
 {
-    const spectrum_kind kind = kind_of_spectrum(n);
-    *known = kind != NO_SPECTRUM;
-    if (!*known) {
-        return KOKSMA_OK;
-    }
-    switch (kind) {
-    case COLOUR_IN_D65:
-        KOKSMA__TRY(needed(r, n, "color"));
-        return in_daylight(r, n, out, depth);
-    case D65:
-        return in_daylight(r, n, out, depth);
-    case UNIFORM:
-        KOKSMA__TRY(needed(r, n, "value"));
-        /* the range of wavelengths only tells where Mitsuba samples */
-        property(r, n, "wavelength_min");
-        property(r, n, "wavelength_max");
-        out->rgb[0] = out->rgb[1] = out->rgb[2] = number(r, n, "value", 1);
-        return KOKSMA_OK;
-    case SRGB:
-        KOKSMA__TRY(needed(r, n, "color"));
-        property(r, n, "unbounded");
-        return colour(r, n, "color", 1, out, depth + 1);
-    case BLACK_BODY: {
-        KOKSMA__TRY(needed(r, n, "temperature"));
-        const double kelvins = number(r, n, "temperature", 6500);
-        if (!(kelvins > 0)) {
-            return koksma__import_fail(n->place, "a temperature of %g kelvins; it must be above 0", kelvins);
-        }
-        koksma__import_black_body(kelvins, out->rgb);
-        return koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1");
-    }
-    default:
-        return samples(r, n, kind == REGULAR, use, out->rgb);
-    }
+    koksma__import_colour second;
+    const koksma__spectrum_use each = use == KOKSMA__REFLECTANCE ? use : KOKSMA__UNBOUNDED;
+    KOKSMA__TRY(colour_for(r, n, "color0", each, out, depth + 1));
+    KOKSMA__TRY(colour_for(r, n, "color1", each, &second, depth + 1));
+    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, out));
+    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, &second));
+    KOKSMA__TRY(set_matrix(r, n, &out->mapping));
+    memcpy(out->second, second.rgb, sizeof second.rgb);
+    out->is_checker = true;
+    out->period = 0.5;
+    return KOKSMA_OK;
 }
 
+/* Reads the object of a texture, or of a spectrum as the RGB variants of Mitsuba do, and sampled ones as the observer sees
+   them. */
 static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
                              int depth)
 {
-    const char *type = type_of(n);
-    bool known;
+    const koksma__plugin *row = row_of(r, n);
+    double value;
     if (depth > MOST_NESTED) {
         return koksma__import_fail(n->place, "textures are nested more than %d deep", MOST_NESTED);
     }
-    if (!strcmp(type, "bitmap")) {
-        const char *name = text(r, n, "filename", ""), *dot = strrchr(name, '.');
-        const bool linear = dot && (!strcasecmp(dot, ".exr") || !strcasecmp(dot, ".pfm"));
-        KOKSMA__TRY(flag(r, n, "raw", false) && !linear
-                        ? koksma__import_unknown(r->im, n->place, "a texture's 'raw' is ignored: its levels are sRGB")
-                        : KOKSMA_OK);
-        KOKSMA__TRY(set_mapping(r, n, &out->mapping));
-        out->image_scale = 1;
-        return koksma__import_path(r->im, n->place, name, out->image);
+    if (!row) {
+        out->rgb[0] = is(n, "spectrum") ? 1 : out->rgb[0];
+        out->rgb[1] = out->rgb[2] = out->rgb[0];
+        return REPLACE(r, n, "%s '%s' is replaced by %s", n->tag, type_of(n), is(n, "spectrum") ? "white" : "grey");
     }
-    if (!strcmp(type, "checkerboard")) {
-        koksma__import_colour second;
-        const koksma__spectrum_use each = use == KOKSMA__REFLECTANCE ? use : KOKSMA__UNBOUNDED;
-        KOKSMA__TRY(colour_for(r, n, "color0", 0.4, each, out, depth + 1));
-        KOKSMA__TRY(colour_for(r, n, "color1", 0.2, each, &second, depth + 1));
-        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, out));
-        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, &second));
-        KOKSMA__TRY(set_matrix(r, n, &out->mapping));
-        memcpy(out->second, second.rgb, sizeof second.rgb);
-        out->is_checker = true;
-        out->period = 0.5;
+    KOKSMA__TRY(row->makes == KOKSMA__REGULAR || row->makes == KOKSMA__IRREGULAR ? KOKSMA_OK : check_needed(r, n));
+    pass(r, n);
+    switch (row->makes) {
+    case KOKSMA__BITMAP:
+        return bitmap(r, n, out);
+    case KOKSMA__CHECKERBOARD:
+        return checkerboard(r, n, use, out, depth);
+    case KOKSMA__D65:
+        return in_daylight(r, n, out, depth);
+    case KOKSMA__SRGB:
+        return colour(r, n, "color", out, depth + 1);
+    case KOKSMA__UNIFORM:
+        out->rgb[0] = out->rgb[1] = out->rgb[2] = number(r, n, "value");
         return KOKSMA_OK;
+    case KOKSMA__TEMPERATURE:
+        value = number(r, n, "temperature");
+        if (!(value > 0)) {
+            return koksma__import_fail(n->place, "a temperature of %g kelvins; it must be above 0", value);
+        }
+        koksma__import_black_body(value, out->rgb);
+        return koksma__import_unknown(r->im, n->place, "a black body is replaced by %s", row->instead);
+    default:
+        return samples(r, n, row->makes == KOKSMA__REGULAR, use, out->rgb);
     }
-    KOKSMA__TRY(spectrum(r, n, use, out, depth, &known));
-    if (!known && is(n, "spectrum")) {
-        out->rgb[0] = out->rgb[1] = out->rgb[2] = 1;
-        return REPLACE(r, n, "spectrum '%s' is replaced by white", type);
-    }
-    return known ? KOKSMA_OK : REPLACE(r, n, "texture '%s' is replaced by grey", type);
 }
 
 /* What the samples of a property are. Those of the spectra "d65" and "srgb" are factors of daylight, also in a light;
@@ -534,12 +542,13 @@ static koksma__spectrum_use use_of(const node *n, const char *name)
     return is(n, "emitter") ? KOKSMA__EMISSION : unbounded ? KOKSMA__UNBOUNDED : KOKSMA__REFLECTANCE;
 }
 
-/* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
-static koksma_status colour_for(reader *r, const node *n, const char *name, double otherwise,
-                                koksma__spectrum_use use, koksma__import_colour *out, int depth)
+/* Reads the colour or texture with this name; without one, *out is grey with the row's default. */
+static koksma_status colour_for(reader *r, const node *n, const char *name, koksma__spectrum_use use,
+                                koksma__import_colour *out, int depth)
 {
     const node *found = property(r, n, name);
-    *out = (koksma__import_colour){.rgb = {otherwise, otherwise, otherwise}, .period = 1};
+    const double grey = otherwise(r, n, name);
+    *out = (koksma__import_colour){.rgb = {grey, grey, grey}, .period = 1};
     if (!found) {
         return KOKSMA_OK;
     }
@@ -548,72 +557,22 @@ static koksma_status colour_for(reader *r, const node *n, const char *name, doub
 }
 
 /* The same, for what the name says. */
-static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
-                            int depth)
+static koksma_status colour(reader *r, const node *n, const char *name, koksma__import_colour *out, int depth)
 {
-    return colour_for(r, n, name, otherwise, use_of(n, name), out, depth);
+    return colour_for(r, n, name, use_of(n, name), out, depth);
 }
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */
 
-/* Mitsuba's kinds of BSDFs and the materials that replace them; a material that is only similar gives a warning. */
-typedef struct bsdf_kind {
-    const char *name;
-    int kind;           /* kind of the replacement; -1: light passes through */
-    const char *colour; /* name of the BSDF's parameter for the diffuse albedo or the reflectance */
-    double otherwise, alpha;
-    const char *instead; /* the replacement's name in a warning, or NULL for no warning */
-} bsdf_kind;
-
-static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5, 0, NULL},
-                                  {"roughdiffuse", KOKSMA__MATTE, "reflectance", 0.5, 0, "Lambert"},
-                                  {"conductor", KOKSMA__METAL, "specular_reflectance", 1, 0, NULL},
-                                  {"roughconductor", KOKSMA__METAL, "specular_reflectance", 1, 0.1, NULL},
-                                  {"dielectric", KOKSMA__GLASS, "specular_transmittance", 1, 0, NULL},
-                                  {"roughdielectric", KOKSMA__GLASS, "specular_transmittance", 1, 0.1, NULL},
-                                  {"plastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0, NULL},
-                                  {"roughplastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0.1, NULL},
-                                  {"pplastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0.1, "unpolarised"},
-                                  {"polarizer", -1, "", 0, 0, "nothing"},
-                                  {"phong", KOKSMA__MATTE, "diffuse_reflectance", 0.5, 0, "its diffuse part"},
-                                  {"thindielectric", -1, "", 0, 0, "nothing"},
-                                  {"null", -1, "", 0, 0, NULL}};
-
-/* BSDFs that contain others: each is replaced by the first BSDF inside it; a second one is that of the back. */
-static const struct {
-    const char *name;
-    bool is_exact;
-} wrappers[] = {{"twosided", true},
-                {"bumpmap", false},
-                {"normalmap", false},
-                {"coating", false},
-                {"mixturebsdf", false},
-                /* of Mitsuba 0.6 */
-                {"bump", false},
-                {"roughcoating", false}};
-
 /* An index of refraction: a number or the name of a material. One that is not above 0 is a mistake. */
-static double index_of(const reader *r, const node *n, const char *name, double otherwise)
+static double index_of(const reader *r, const node *n, const char *name)
 {
-    static const struct {
-        const char *name;
-        double ior;
-    } known[] = {{"vacuum", 1},        {"helium", 1.000036},        {"hydrogen", 1.000132},
-                 {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.333},
-                 {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
-                 {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
-                 {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
-                 {"pyrex", 1.47},      {"acrylic glass", 1.49},     {"polypropylene", 1.49},
-                 {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
-                 {"pet", 1.575},       {"diamond", 2.419}};
     const node *c = property(r, n, name);
-    const char *value = c && is(c, "string") ? text(r, n, name, "") : NULL;
-    for (size_t i = 0; value && i < sizeof known / sizeof *known; i++) {
-        if (!strcasecmp(known[i].name, value)) {
-            return known[i].ior;
-        }
+    double ior;
+    if (c && is(c, "string") && koksma__mitsuba_index(text(r, n, name), &ior)) {
+        return ior;
     }
-    const double ior = number(r, n, name, otherwise);
+    ior = number(r, n, name);
     if (!(ior > 0)) {
         note(r, c, "an index of refraction; it must be above 0");
     }
@@ -622,19 +581,18 @@ static double index_of(const reader *r, const node *n, const char *name, double 
 
 /* Reads eta or k of a metal. An object that is not one colour, or a spectrum in a file, is not read and makes *is_constant
    false. */
-static koksma_status constant(reader *r, const node *n, const char *name, double otherwise, bool *is_constant,
-                              double rgb[3])
+static koksma_status constant(reader *r, const node *n, const char *name, bool *is_constant, double rgb[3])
 {
     const node *found = property(r, n, name), *to = found ? resolve(r, found) : NULL;
-    koksma__import_colour c = {.rgb = {otherwise, otherwise, otherwise}};
+    koksma__import_colour c;
     const bool is_object = to && !koksma__mitsuba_is_colour(to) && koksma__xml_attribute(to, "type");
     const bool is_file = to && is(to, "spectrum") && koksma__xml_attribute(to, "filename");
-    if (to && is_texture(to) ? kind_of_spectrum(to) == NO_SPECTRUM : is_object || is_file) {
+    if (to && is_texture(to) ? !row_of(r, to) || row_of(r, to)->makes < KOKSMA__D65 : is_object || is_file) {
         *is_constant = false;
         koksma__xml_mark(found, KOKSMA__XML_COVERED);
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(colour(r, n, name, otherwise, &c, 0));
+    KOKSMA__TRY(colour(r, n, name, &c, 0));
     *is_constant &= !*c.image && !c.is_checker;
     memcpy(rgb, c.rgb, sizeof c.rgb);
     return KOKSMA_OK;
@@ -648,59 +606,6 @@ static koksma_status mean_of_metal(reader *r, const node *n, koksma__import_mate
                : KOKSMA_OK;
 }
 
-/* Finds eta and k of a conductor in the RGB variants of Mitsuba 3.9.1, which are
-   mi.traverse(mi.load_dict({'type': 'conductor', 'material': NAME})). */
-static bool find_conductor(const char *name, double eta[3], double k[3])
-{
-    static const struct {
-        const char *name;
-        double eta[3], k[3];
-    } all[] = {
-        {"a-C", {2.944, 2.227, 1.968}, {0.8875, 0.7993, 0.8153}},
-        {"Ag", {0.1553, 0.1167, 0.1384}, {4.828, 3.122, 2.147}},
-        {"Al", {1.658, 0.8804, 0.5212}, {9.224, 6.27, 4.837}},
-        {"AlAs", {3.605, 3.233, 2.216}, {0.0006794, 0, 0.007513}},
-        {"AlSb", {0, 4.139, 4.669}, {0, 0.09401, 1.301}},
-        {"Au", {0.143, 0.3753, 1.442}, {3.983, 2.386, 1.603}},
-        {"Be", {4.185, 3.185, 2.784}, {3.835, 3.01, 2.869}},
-        {"Cr", {4.37, 2.917, 1.655}, {5.207, 4.231, 3.755}},
-        {"CsI", {2.145, 1.702, 1.662}, {0, 0, 0}},
-        {"Cu", {0.201, 0.9237, 1.102}, {3.913, 2.453, 2.142}},
-        {"Cu2O", {3.552, 2.95, 2.752}, {0.1142, 0.1939, 0.6061}},
-        {"CuO", {3.248, 2.448, 2.21}, {0.5211, 0.57, 0.7222}},
-        {"d-C", {2.709, 2.319, 2.229}, {0, 0, 0}},
-        {"Hg", {2.399, 1.44, 0.9096}, {6.328, 4.372, 3.422}},
-        {"HgTe", {4.779, 3.231, 2.66}, {1.632, 1.581, 1.729}},
-        {"Ir", {3.086, 2.082, 1.618}, {5.592, 4.067, 3.267}},
-        {"K", {0.06404, 0.04641, 0.03818}, {2.104, 1.349, 0.9131}},
-        {"Li", {0.2658, 0.1956, 0.2209}, {3.54, 2.311, 1.669}},
-        {"MgO", {2.09, 1.651, 1.595}, {0, 0, 0}},
-        {"Mo", {4.484, 3.525, 2.776}, {4.111, 3.421, 3.151}},
-        {"Nb", {3.42, 2.79, 2.396}, {3.441, 2.738, 2.58}},
-        {"Rh", {2.586, 1.86, 1.554}, {6.782, 4.703, 3.976}},
-        {"Se", {4.058, 2.843, 2.821}, {0.754, 0.6384, 0.5218}},
-        {"SiC", {3.172, 2.526, 2.479}, {0, 0, 1.019e-05}},
-        {"SnTe", {4.524, 1.982, 1.282}, {0, 0, 0}},
-        {"Ta", {2.063, 2.393, 2.628}, {2.408, 1.741, 1.947}},
-        {"Te", {7.39, 4.482, 2.637}, {3.256, 3.527, 3.292}},
-        {"ThF4", {1.831, 1.442, 1.388}, {0, 0, 0}},
-        {"TiC", {3.701, 2.837, 2.582}, {3.266, 2.352, 2.173}},
-        {"TiN", {1.648, 1.151, 1.38}, {3.368, 1.943, 1.102}},
-        {"TiO2", {3.457, 2.802, 2.905}, {0.0001053, 0, 0.0006529}},
-        {"VC", {3.658, 2.753, 2.533}, {3.068, 2.199, 1.963}},
-        {"VN", {2.866, 2.119, 1.94}, {3.032, 2.056, 1.616}},
-        {"W", {4.371, 3.3, 2.998}, {3.501, 2.605, 2.273}},
-    };
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        if (!strcmp(all[i].name, name)) {
-            memcpy(eta, all[i].eta, sizeof all[i].eta);
-            memcpy(k, all[i].k, sizeof all[i].k);
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Reads what a metal is made of: a name, or eta and k. Those metals whose constants Mitsuba does not have reflect as tables
    of import.c say, by Schlick's approximation. */
 static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
@@ -708,11 +613,11 @@ static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
     double rgb[3];
     KOKSMA__TRY(mean_of_metal(r, n, m));
     bool is_constant = true;
-    const char *name = text(r, n, "material", property(r, n, "eta") ? "" : "none");
-    m->has_index = !*name || find_conductor(name, m->eta, m->k);
+    const char *given = text(r, n, "material"), *name = *given || property(r, n, "eta") ? given : "none";
+    m->has_index = !*name || koksma__mitsuba_conductor(name, m->eta, m->k);
     if (!*name) {
-        KOKSMA__TRY(constant(r, n, "eta", 0, &is_constant, m->eta));
-        KOKSMA__TRY(constant(r, n, "k", 1, &is_constant, m->k));
+        KOKSMA__TRY(constant(r, n, "eta", &is_constant, m->eta));
+        KOKSMA__TRY(constant(r, n, "k", &is_constant, m->k));
     } else if (!m->has_index && koksma__import_metal(name, rgb)) {
         for (int i = 0; i < 3; i++) {
             m->colour.rgb[i] *= rgb[i];
@@ -727,7 +632,7 @@ static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
                 ? koksma__import_unknown(r->im, n->place,
                                          "a metal whose eta or k varies or is in a file is replaced by chromium")
                 : koksma__import_unknown(r->im, n->place, "metal '%s' is replaced by chromium", name));
-        m->has_index = find_conductor("Cr", m->eta, m->k);
+        m->has_index = koksma__mitsuba_conductor("Cr", m->eta, m->k);
     }
     return KOKSMA_OK;
 }
@@ -735,15 +640,13 @@ static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
 static koksma_status principled(reader *r, const node *n, int *out)
 {
     koksma__import_material m = {.ior = 1.5};
-    KOKSMA__TRY(
-        koksma__import_unknown(r->im, n->place, "BSDF 'principled' is replaced by metal, glass or a coated surface"));
-    KOKSMA__TRY(colour(r, n, "base_color", 0.5, &m.colour, 0));
-    const double roughness = number(r, n, "roughness", 0.5);
+    KOKSMA__TRY(colour(r, n, "base_color", &m.colour, 0));
+    const double roughness = number(r, n, "roughness");
     m.alpha = roughness * roughness;
-    m.ior = index_of(r, n, "eta", 1.5);
-    m.kind = number(r, n, "metallic", 0) > 0.5     ? KOKSMA__METAL
-             : number(r, n, "spec_trans", 0) > 0.5 ? KOKSMA__GLASS
-                                                   : KOKSMA__COATED;
+    m.ior = index_of(r, n, "eta");
+    m.kind = number(r, n, "metallic") > 0.5     ? KOKSMA__METAL
+             : number(r, n, "spec_trans") > 0.5 ? KOKSMA__GLASS
+                                                : KOKSMA__COATED;
     KOKSMA__TRY(mean_of_metal(r, n, &m));
     return koksma__import_add_material(r->im, n->place, &m, out);
 }
@@ -765,7 +668,7 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out);
 /* Makes a BSDF that light meets only in part ("mask"), or a blend of two ("blendbsdf"). */
 static koksma_status blend(reader *r, const node *n, int depth, int *out)
 {
-    const bool masks = strcmp(type_of(n), "blendbsdf") != 0;
+    const bool masks = row_of(r, n)->makes == KOKSMA__MASK;
     const node *first = find_inner(r, first_of(r, n)), *second = first ? find_inner(r, next_of(r, first)) : NULL;
     koksma__import_colour share;
     int other = -1;
@@ -773,8 +676,8 @@ static koksma_status blend(reader *r, const node *n, int depth, int *out)
         return koksma__import_fail(n->place, "bsdf '%s': it has %s within it", type_of(n),
                                    masks ? "no BSDF" : "less than two BSDFs");
     }
-    KOKSMA__TRY(masks ? KOKSMA_OK : needed(r, n, "weight"));
-    KOKSMA__TRY(colour(r, n, masks ? "opacity" : "weight", 0.5, &share, 0));
+    KOKSMA__TRY(check_needed(r, n));
+    KOKSMA__TRY(colour(r, n, masks ? "opacity" : "weight", &share, 0));
     KOKSMA__TRY(make_bsdf(r, resolve(r, first), depth + 1, out));
     if (masks) {
         return koksma__import_mask(r->im, n->place, &share, out);
@@ -783,67 +686,76 @@ static koksma_status blend(reader *r, const node *n, int depth, int *out)
     return koksma__import_mix(r->im, n->place, *out, other, &share, out);
 }
 
-static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
+/* Makes a BSDF that is replaced by the first BSDF inside it; a second one is that of the back of "twosided". */
+static koksma_status within(reader *r, const node *n, const node *inner, int depth, int *out)
 {
-    static const bsdf_kind other = {"", KOKSMA__MATTE, "reflectance", 0.5, 0, "Lambert"};
-    static const char *const distributions[] = {"beckmann", "ggx", "phong", "as", NULL};
-    const char *type = type_of(n);
-    const bsdf_kind *found = &other;
-    koksma__import_material m = {0};
-    for (size_t i = 0; i < sizeof wrappers / sizeof *wrappers; i++) {
-        const bool wraps = !strcmp(wrappers[i].name, type) && depth < MOST_NESTED;
-        const node *inner = wraps ? find_inner(r, first_of(r, n)) : NULL;
-        if (inner) {
-            const node *back = wrappers[i].is_exact ? find_inner(r, next_of(r, inner)) : NULL;
-            KOKSMA__TRY(wrappers[i].is_exact ? KOKSMA_OK
-                                             : REPLACE(r, n, "BSDF '%s' is replaced by the BSDF within it", type));
-            KOKSMA__TRY(back && resolve(r, back) != resolve(r, inner)
-                            ? koksma__import_unknown(r->im, back->place,
-                                                     "the BSDF of a back is replaced by that of the front")
-                            : KOKSMA_OK);
-            return make_bsdf(r, resolve(r, inner), depth + 1, out);
-        }
+    const node *back = row_of(r, n)->instead ? NULL : find_inner(r, next_of(r, inner));
+    KOKSMA__TRY(
+        back && resolve(r, back) != resolve(r, inner)
+            ? koksma__import_unknown(r->im, back->place, "the BSDF of a back is replaced by that of the front")
+            : KOKSMA_OK);
+    return make_bsdf(r, resolve(r, inner), depth + 1, out);
+}
+
+/* Makes a BSDF of the kinds that koksma__import_material has; its colour comes first in its row. */
+static koksma_status plain_bsdf(reader *r, const node *n, koksma__import_material *m, int *out)
+{
+    const char *at = row_of(r, n)->parameters, *type = type_of(n);
+    char name[40];
+    koksma__entry e = {.type = NULL};
+    koksma__entry_next(&at, &e);
+    snprintf(name, sizeof name, "%.*s", (int)e.length, e.name);
+    KOKSMA__TRY(colour(r, n, name, &m->colour, 0));
+    if (m->kind == KOKSMA__GLASS &&
+        !koksma__import_is_white(&m->colour)) { /* a tint would colour what it reflects as well */
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a glass's '%s' is ignored", name));
     }
-    if (!strcmp(type, "principled")) {
-        return principled(r, n, out);
+    KOKSMA__TRY(m->kind == KOKSMA__METAL ? metal(r, n, m) : KOKSMA_OK);
+    const double both = number(r, n, "alpha");
+    const double u = property(r, n, "alpha_u") ? number(r, n, "alpha_u") : both;
+    const double v = property(r, n, "alpha_v") ? number(r, n, "alpha_v") : both;
+    m->alpha = sqrt(fmax(u * v, 0));
+    if (m->kind == KOKSMA__GLASS || m->kind == KOKSMA__COATED) {
+        m->ior = index_of(r, n, "int_ior") / index_of(r, n, "ext_ior");
     }
-    if ((!strcmp(type, "mask") || !strcmp(type, "blendbsdf")) && depth < MOST_NESTED) {
-        return blend(r, n, depth, out);
-    }
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
-    }
-    if (found->instead) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF '%s': %s here", type, found->instead));
-    }
-    if (found == &other || found->kind < 0) {
-        koksma__xml_mark(n, found->instead ? KOKSMA__XML_COVERED : 0);
-    }
-    *out = -1;
-    if (found->kind < 0) {
-        return KOKSMA_OK;
-    }
-    m.kind = (unsigned)found->kind;
-    const char *name = found->colour, *older = "diffuse_reflectance"; /* Mitsuba 0.6 has both names */
-    name = m.kind == KOKSMA__MATTE && !property(r, n, name) && property(r, n, older) ? older : name;
-    KOKSMA__TRY(colour(r, n, name, found->otherwise, &m.colour, 0));
-    if (m.kind == KOKSMA__GLASS &&
-        !koksma__import_is_white(&m.colour)) { /* a tint would colour what it reflects as well */
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a glass's '%s' is ignored", found->colour));
-    }
-    KOKSMA__TRY(m.kind == KOKSMA__METAL ? metal(r, n, &m) : KOKSMA_OK);
-    const double both = number(r, n, "alpha", found->alpha);
-    const double u = number(r, n, "alpha_u", both), v = number(r, n, "alpha_v", both);
-    m.alpha = sqrt(fmax(u * v, 0));
-    m.ior = index_of(r, n, "int_ior", m.kind == KOKSMA__COATED ? 1.49 : 1.5046) / index_of(r, n, "ext_ior", 1.000277);
-    if (!strncmp(type, "rough", 5) && m.kind != KOKSMA__MATTE && m.kind != KOKSMA__COATED &&
-        choice(r, n, "distribution", distributions) != 1) {
+    if (!strncmp(type, "rough", 5) && entry_of(r, n, "distribution", &e) && choice(r, n, "distribution") != 1) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "Beckmann's distribution is replaced by GGX"));
     }
     if (u != v) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "anisotropic roughness is replaced by its mean"));
     }
-    return koksma__import_add_material(r->im, n->place, &m, out);
+    return koksma__import_add_material(r->im, n->place, m, out);
+}
+
+static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
+{
+    const koksma__plugin *row = row_of(r, n);
+    const bool is_known = *row->kinds != '?', nests = depth < MOST_NESTED;
+    const node *inner = row->makes == KOKSMA__WITHIN && nests ? find_inner(r, first_of(r, n)) : NULL;
+    koksma__import_material m = {.kind = (unsigned)row->makes};
+    *out = -1;
+    if (row->instead) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF '%s' is replaced by %s", type_of(n), row->instead));
+    }
+    if (row->instead && (!is_known || row->makes == KOKSMA__NOTHING || row->makes == KOKSMA__WITHIN)) {
+        koksma__xml_mark(n, KOKSMA__XML_COVERED);
+    }
+    pass(r, n);
+    switch (row->makes) {
+    case KOKSMA__NOTHING:
+        return KOKSMA_OK;
+    case KOKSMA__WITHIN:
+        return inner ? within(r, n, inner, depth, out)
+                     : koksma__import_fail(n->place, "bsdf '%s': it has no BSDF within it", type_of(n));
+    case KOKSMA__MASK:
+    case KOKSMA__BLEND:
+        return nests ? blend(r, n, depth, out)
+                     : koksma__import_fail(n->place, "BSDFs are nested more than %d deep", MOST_NESTED);
+    case KOKSMA__PRINCIPLED:
+        return principled(r, n, out);
+    default:
+        return plain_bsdf(r, n, &m, out);
+    }
 }
 
 static koksma_status find_bsdf(reader *r, const node *n, int *out)
@@ -859,7 +771,7 @@ static koksma_status find_bsdf(reader *r, const node *n, int *out)
 /* Mitsuba samples no light of weight 0; here all lights are sampled. */
 static koksma_status weight(reader *r, const node *n)
 {
-    return number(r, n, "sampling_weight", 1) > 0
+    return number(r, n, "sampling_weight") > 0
                ? KOKSMA_OK
                : koksma__import_unknown(r->im, n->place, "a light whose sampling weight is 0 is sampled");
 }
@@ -869,7 +781,7 @@ static koksma_status area_light(reader *r, const node *n, koksma__import_surface
 {
     koksma__import_colour radiance;
     KOKSMA__TRY(weight(r, n));
-    KOKSMA__TRY(colour(r, n, "radiance", 1, &radiance, 0));
+    KOKSMA__TRY(colour(r, n, "radiance", &radiance, 0));
     KOKSMA__TRY(koksma__import_glow(r->im, n->place, &radiance, surface));
     if (!*radiance.image) {
         KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &radiance));
@@ -885,7 +797,7 @@ static koksma_status surface_of(reader *r, const node *n, koksma__import_surface
 {
     const node *light = NULL;
     bool has_bsdf = false;
-    *out = (koksma__import_surface){.material = -1, .turned = flag(r, n, "flip_normals", false)};
+    *out = (koksma__import_surface){.material = -1, .turned = flag(r, n, "flip_normals")};
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const node *to = resolve(r, c);
         if (is(to, "bsdf") || is(to, "emitter")) {
@@ -909,7 +821,7 @@ static koksma_status surface_of(reader *r, const node *n, koksma__import_surface
 static void cylinder(const reader *r, const node *n, double m[12])
 {
     double from[3] = {0}, to[3] = {0, 0, 1}, axis[3], side[3], over[3];
-    const double radius = number(r, n, "radius", 1);
+    const double radius = number(r, n, "radius");
     point(r, n, "p0", from);
     point(r, n, "p1", to);
     koksma__subtract(to, from, axis);
@@ -926,40 +838,28 @@ static void cylinder(const reader *r, const node *n, double m[12])
 /* Finds the basic shape or the mesh for a <shape>, and the matrix that gives it its size. */
 static koksma_status form_of(reader *r, const node *n, koksma__import_item *item, double m[12])
 {
-    static const struct {
-        const char *type;
-        koksma__form form;
-    } forms[] = {{"sphere", KOKSMA__FORM_SPHERE},
-                 {"rectangle", KOKSMA__FORM_SQUARE},
-                 {"disk", KOKSMA__FORM_DISK},
-                 {"cube", KOKSMA__FORM_CUBE},
-                 {"cylinder", KOKSMA__FORM_CYLINDER}};
-    const char *type = type_of(n);
-    const bool numbered = !strcmp(type, "serialized");
+    const koksma__plugin *row = row_of(r, n);
+    const bool numbered = !strcmp(type_of(n), "serialized");
     memcpy(m, koksma__import_identity, sizeof koksma__import_identity);
-    item->form = KOKSMA__FORM_MESH;
+    item->form = row->makes == KOKSMA__N_BASIC_FORMS ? KOKSMA__FORM_MESH : (koksma__form)row->makes;
     item->mesh = -1;
-    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
-        item->form = !strcmp(forms[i].type, type) ? forms[i].form : item->form;
-    }
     if (item->form == KOKSMA__FORM_SPHERE) {
         double centre[3] = {0};
         point(r, n, "center", centre);
-        m[0] = m[5] = m[10] = number(r, n, "radius", 1);
+        m[0] = m[5] = m[10] = number(r, n, "radius");
         m[3] = centre[0], m[7] = centre[1], m[11] = centre[2];
     } else if (item->form == KOKSMA__FORM_CYLINDER) {
         cylinder(r, n, m);
-    } else if (item->form == KOKSMA__FORM_MESH && (!strcmp(type, "obj") || !strcmp(type, "ply") || numbered)) {
-        const double part = numbered ? number(r, n, "shape_index", 0) : -1;
+    } else if (row->makes == KOKSMA__FORM_MESH) {
+        const double part = numbered ? number(r, n, "shape_index") : -1;
         if (numbered && !(part >= 0 && part <= 1e9 && part == floor(part))) {
             return koksma__import_fail(n->place, "a shape_index of %g: it is a whole number from 0 on", part);
         }
-        const koksma__mesh_rules rules = {.facets = flag(r, n, "face_normals", false),
-                                          .smooths = true,
-                                          .flips_v = flag(r, n, "flip_tex_coords", !strcmp(type, "obj"))};
-        return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename", ""), (long)part, rules, &item->mesh);
+        const koksma__mesh_rules rules = {
+            .facets = flag(r, n, "face_normals"), .smooths = true, .flips_v = flag(r, n, "flip_tex_coords")};
+        return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename"), (long)part, rules, &item->mesh);
     } else if (item->form == KOKSMA__FORM_MESH) {
-        return REPLACE(r, n, "shape '%s' is left out", type);
+        return REPLACE(r, n, "shape '%s' is left out", type_of(n));
     }
     return KOKSMA_OK;
 }
@@ -972,7 +872,7 @@ static const node *medium_of(const reader *r, const node *n, const char *name)
 {
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const char *has = koksma__xml_attribute(c, "name");
-        if (is(resolve(r, c), "medium") && (!name || (has && koksma__xml_alike(has, name)))) {
+        if (is(resolve(r, c), "medium") && (!name || (has && koksma__xml_alike(has, name, strlen(name))))) {
             koksma__xml_mark(c, KOKSMA__XML_TAKEN);
             return resolve(r, c);
         }
@@ -1073,17 +973,16 @@ static koksma_status name_media(reader *r, const node *n, int material)
 }
 
 /* Reads a colour of a medium, which is given directly or by a constant volume, of "color" in Mitsuba 2. */
-static koksma_status medium_colour(reader *r, const node *n, const char *name, double otherwise, double rgb[3])
+static koksma_status medium_colour(reader *r, const node *n, const char *name, double rgb[3])
 {
     const node *found = property(r, n, name);
-    koksma__import_colour c = {.rgb = {otherwise, otherwise, otherwise}};
+    const double grey = otherwise(r, n, name);
+    koksma__import_colour c = {.rgb = {grey, grey, grey}};
     found = found ? resolve(r, found) : NULL;
     if (found && is(found, "volume") && strcmp(type_of(found), "constvolume") != 0) {
-        KOKSMA__TRY(REPLACE(r, found, "volume '%s' is replaced by %g", type_of(found), otherwise));
+        KOKSMA__TRY(REPLACE(r, found, "volume '%s' is replaced by %g", type_of(found), grey));
     } else {
-        KOKSMA__TRY(found && is(found, "volume")
-                        ? colour(r, found, property(r, found, "color") ? "color" : "value", 1, &c, 0)
-                        : colour(r, n, name, otherwise, &c, 0));
+        KOKSMA__TRY(found && is(found, "volume") ? colour(r, found, "value", &c, 0) : colour(r, n, name, &c, 0));
         KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a medium's texture", KOKSMA__UNBOUNDED, &c));
     }
     for (int k = 0; k < 3; k++) {
@@ -1101,7 +1000,7 @@ static koksma_status phase_of(reader *r, const node *n, double *g)
             koksma__xml_mark(c, KOKSMA__XML_TAKEN);
         }
         if (is(phase, "phase") && !strcmp(type_of(phase), "hg")) {
-            *g = fmax(-0.999, fmin(number(r, phase, "g", 0.8), 0.999));
+            *g = fmax(-0.999, fmin(number(r, phase, "g"), 0.999));
         } else if (is(phase, "phase") && strcmp(type_of(phase), "isotropic") != 0) {
             return REPLACE(r, phase, "phase function '%s' is replaced by the isotropic", type_of(phase));
         }
@@ -1119,11 +1018,11 @@ static koksma_status read_medium(reader *r, const node *n)
     if (strcmp(type_of(n), "homogeneous") != 0 || property(r, n, "material")) {
         return REPLACE(r, n, "media that vary in space, and media named in place of a material, are ignored");
     }
-    pass(r, n, "sample_emitters sampling_density");
+    pass(r, n);
     const bool old = property(r, n, "sigma_s") || property(r, n, "sigma_a");
-    const double scale = fmin(fmax(number(r, n, "scale", 1), 0), FAR);
-    KOKSMA__TRY(medium_colour(r, n, old ? "sigma_s" : "albedo", old ? 0 : 0.75, b));
-    KOKSMA__TRY(medium_colour(r, n, old ? "sigma_a" : "sigma_t", old ? 0 : 1, a));
+    const double scale = fmin(fmax(number(r, n, "scale"), 0), FAR);
+    KOKSMA__TRY(medium_colour(r, n, old ? "sigma_s" : "albedo", b));
+    KOKSMA__TRY(medium_colour(r, n, old ? "sigma_a" : "sigma_t", a));
     KOKSMA__TRY(phase_of(r, n, &g));
     for (int k = 0; k < 3; k++) {
         const double extinction = scale * (old ? a[k] + b[k] : a[k]);
@@ -1229,102 +1128,60 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
 
 static koksma_status emitter(reader *r, const node *n)
 {
+    static const char *const colours[] = {[KOKSMA__POINT_LIGHT] = "intensity",
+                                          [KOKSMA__SPOT] = "intensity",
+                                          [KOKSMA__FAR_LIGHT] = "irradiance",
+                                          [KOKSMA__SKY] = "radiance",
+                                          [KOKSMA__PICTURE] = "radiance"};
+    const koksma__plugin *row = row_of(r, n);
     koksma__light light = {.kind = &koksma__light_point};
     koksma__import_colour c;
-    double m[12], along[3] = {0, 0, 1};
-    const char *type = type_of(n);
-    const bool far = !strcmp(type, "directional"), around = !strcmp(type, "constant");
+    double m[12];
     KOKSMA__TRY(weight(r, n));
     KOKSMA__TRY(transform(r, n, "to_world", m));
-    KOKSMA__TRY(colour(r, n, around ? "radiance" : far ? "irradiance" : "intensity", 1, &c, 0));
+    KOKSMA__TRY(colour(r, n, colours[row->makes], &c, 0));
     KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &c));
+    KOKSMA__TRY(row->instead ? REPLACE(r, n, "emitter '%s' is replaced by %s", type_of(n), row->instead) : KOKSMA_OK);
     memcpy(light.radiance, c.rgb, sizeof c.rgb);
-    if (!strcmp(type, "envmap")) {
-        const double scale = number(r, n, "scale", 1), rgb[3] = {scale, scale, scale};
-        return koksma__import_sky(r->im, n->place, text(r, n, "filename", ""), false, rgb, m);
+    double along[3] = {m[2], m[6], m[10]};
+    for (int k = 0; k < 3 && row->makes <= KOKSMA__SPOT; k++) {
+        light.centre[k] = m[4 * k + 3];
     }
-    if (around || !strcmp(type, "sunsky") || !strcmp(type, "sky") || !strcmp(type, "sun")) {
+    if (row->makes == KOKSMA__PICTURE) {
+        const double scale = number(r, n, "scale"), rgb[3] = {scale, scale, scale};
+        return koksma__import_sky(r->im, n->place, text(r, n, "filename"), false, rgb, m);
+    }
+    if (row->makes == KOKSMA__SKY) {
         light.kind = &koksma__light_environment;
         light.visible = true;
-        KOKSMA__TRY(around ? KOKSMA_OK : REPLACE(r, n, "emitter '%s' is replaced by a white sky", type));
-    } else if (far) {
+    } else if (row->makes == KOKSMA__FAR_LIGHT) {
         light.kind = &koksma__light_directional;
         point(r, n, "direction", along);
-        for (int k = 0; k < 3; k++) {
-            light.normal[k] = property(r, n, "direction") ? along[k] : m[4 * k + 2];
-        }
+        memcpy(light.normal, along, sizeof light.normal);
         if (!koksma__import_normalise(light.normal)) {
             return koksma__import_fail(n->place, "a directional light without a direction");
         }
     } else {
-        for (int k = 0; k < 3; k++) {
-            light.centre[k] = m[4 * k + 3];
-        }
         point(r, n, "position", light.centre);
-        if (!strcmp(type, "spot")) {
-            const double outer = number(r, n, "cutoff_angle", 20);
-            const node *picture = property(r, n, "texture");
-            KOKSMA__TRY(picture ? REPLACE(r, picture, "a spot's texture is ignored") : KOKSMA_OK);
-            for (int k = 0; k < 3; k++) {
-                along[k] = m[4 * k + 2];
-            }
-            KOKSMA__TRY(koksma__import_spot(n->place, along, number(r, n, "beam_width", outer * 3 / 4), outer,
-                                            KOKSMA__FALLOFF_ANGLE, &light));
-        } else if (strcmp(type, "point") != 0) {
-            KOKSMA__TRY(REPLACE(r, n, "emitter '%s' is replaced by a point light equal in all directions", type));
-        }
+    }
+    if (row->makes == KOKSMA__SPOT) {
+        const double outer = number(r, n, "cutoff_angle");
+        const double inner = property(r, n, "beam_width") ? number(r, n, "beam_width") : outer * 3 / 4;
+        KOKSMA__TRY(koksma__import_spot(n->place, along, inner, outer, KOKSMA__FALLOFF_ANGLE, &light));
     }
     return koksma__import_light(r->im, n->place, &light);
 }
 
-/* Objects that choose how a picture is computed or stored, which the program's own options do here, with the names of
-   those of their parameters that have no effect on what the picture shows. Those of Mitsuba 0.6 are here, too. */
-typedef struct plain_object {
-    const char *tag, *type, *parameters;
-} plain_object;
+/* ---- Sensors and films --------------------------------------------------------------------------------------- */
 
-#define FILM "file_format pixel_format component_format compensate banner high_quality_edges attach_log"
-#define PATHS "rr_depth block_size samples_per_pass timeout"
-
-static const plain_object plain_objects[] = {
-    {"sampler", "independent", "sample_count seed"},
-    {"sampler", "stratified", "sample_count seed jitter"},
-    {"sampler", "multijitter", "sample_count seed jitter"},
-    {"sampler", "orthogonal", "sample_count seed jitter strength"},
-    {"sampler", "ldsampler", "sample_count seed dimension"},
-    {"sampler", "halton", "sample_count scramble"},
-    {"sampler", "hammersley", "sample_count scramble"},
-    {"sampler", "sobol", "sample_count scramble"},
-    {"rfilter", "box", "radius"},
-    {"rfilter", "tent", "radius"},
-    {"rfilter", "gaussian", "radius stddev"},
-    {"rfilter", "mitchell", "a b c"},
-    {"rfilter", "catmullrom", ""},
-    {"rfilter", "lanczos", "lobes"},
-    {"film", "hdrfilm", FILM},
-    {"film", "tiledhdrfilm", FILM},
-    {"film", "ldrfilm", FILM},
-    {"integrator", "path", PATHS},
-    {"integrator", "volpath", PATHS},
-    {"integrator", "volpathmis", PATHS " use_spectral_mis"},
-    {"integrator", "volpath_simple", PATHS},
-    {"integrator", "prb", PATHS},
-    {"integrator", "prb_basic", PATHS},
-    {"integrator", "prbvolpath", PATHS},
-    {"integrator", "ptracer", PATHS},
-    {"integrator", "bdpt", PATHS " light_image sample_direct"},
-    {"integrator", "pssmlt", PATHS " bidirectional direct_samples luminance_samples two_stage p_large"},
-    {"integrator", "direct", "emitter_samples bsdf_samples shading_samples block_size samples_per_pass timeout"}};
-
-/* Takes the parameters of such an object; returns false, with a warning, if it has another type. */
+/* Takes the parameters of an object that chooses how a picture is computed or stored, which the program's own options do
+   here; returns false, with a warning, if it has another type. */
 static bool plain(reader *r, const node *n, koksma_status *status)
 {
-    for (size_t i = 0; i < sizeof plain_objects / sizeof *plain_objects; i++) {
-        const plain_object *known = &plain_objects[i];
-        if (is(n, known->tag) && !strcmp(type_of(n), known->type)) {
-            pass(r, n, known->parameters);
-            return true;
-        }
+    const koksma__plugin *row = row_of(r, n);
+    if (row && !row->instead) {
+        pass(r, n);
+        return true;
     }
     *status = REPLACE(r, n, "%s '%s' is ignored", n->tag, type_of(n));
     return false;
@@ -1348,33 +1205,15 @@ static koksma_status plain_children(reader *r, const node *n)
 /* Reads the sides of a film. */
 static koksma_status film(reader *r, const node *n, double *width, double *height)
 {
-    static const char *const formats[] = {
-        "rgb", "rgba", "xyz", "xyza", "spectrum", "spectrumalpha", "luminance", "luminancealpha", "luminance_alpha",
-        NULL};
     koksma_status status = KOKSMA_OK;
-    *width = number(r, n, "width", *width);
-    *height = number(r, n, "height", *height);
+    *width = number(r, n, "width");
+    *height = number(r, n, "height");
     if (!(*width >= 1 && *height >= 1 && *width <= KOKSMA_MAX_IMAGE_SIDE && *height <= KOKSMA_MAX_IMAGE_SIDE &&
           *width == floor(*width) && *height == floor(*height))) {
         return koksma__import_fail(n->place, "a film of %g x %g pixels; each side must be a whole number, 1 to %d",
                                    *width, *height, KOKSMA_MAX_IMAGE_SIDE);
     }
-    if (!plain(r, n, &status)) {
-        return status;
-    }
-    static const char *const crops[] = {"crop_width", "crop_height", "crop_offset_x", "crop_offset_y"};
-    bool crops_it = false;
-    for (size_t i = 0; i < sizeof crops / sizeof *crops; i++) {
-        crops_it |= property(r, n, crops[i]) != NULL;
-    }
-    KOKSMA__TRY(crops_it ? koksma__import_unknown(r->im, n->place, "a film's crop is ignored") : KOKSMA_OK);
-    KOKSMA__TRY(choice(r, n, "pixel_format", formats) > 5
-                    ? koksma__import_unknown(r->im, n->place, "a film's 'luminance' is ignored: it has colours")
-                    : KOKSMA_OK);
-    KOKSMA__TRY(flag(r, n, "sample_border", false)
-                    ? koksma__import_unknown(r->im, n->place, "a film's 'sample_border' is ignored")
-                    : KOKSMA_OK);
-    return plain_children(r, n);
+    return plain(r, n, &status) ? plain_children(r, n) : status;
 }
 
 /* Reads the objects of a sensor. */
@@ -1399,9 +1238,9 @@ static double focal_length(const reader *r, const node *n)
     const node *c = property(r, n, "focal_length");
     double length_mm = 50;
     if (!c || koksma__mitsuba_is_number(c)) {
-        return number(r, n, "focal_length", length_mm);
+        return number(r, n, "focal_length");
     }
-    if (!koksma__mitsuba_measure(text(r, n, "focal_length", ""), "mm", &length_mm)) {
+    if (!koksma__mitsuba_measure(text(r, n, "focal_length"), "mm", &length_mm)) {
         note(r, c, "a length in mm");
     }
     return length_mm;
@@ -1410,9 +1249,8 @@ static double focal_length(const reader *r, const node *n)
 /* The vertical angle of view. */
 static double height_angle(const reader *r, const node *n, double width, double height)
 {
-    static const char *const axes[] = {"x", "y", "diagonal", "smaller", "larger", NULL};
     const double sides[] = {width, height, hypot(width, height), fmin(width, height), fmax(width, height)};
-    const double side = sides[choice(r, n, "fov_axis", axes)], half = number(r, n, "fov", 0) * TURN / 720;
+    const double side = sides[choice(r, n, "fov_axis")], half = number(r, n, "fov") * TURN / 720;
     if (property(r, n, "fov")) {
         return 2 * atan(tan(half) * height / side);
     }
@@ -1424,27 +1262,26 @@ static koksma_status sensor(reader *r, const node *n)
 {
     double m[12];
     const char *type = type_of(n);
-    const bool lens = !strcmp(type, "thinlens");
+    const bool lens = !strcmp(type, "thinlens"), parallel = !strcmp(type, "orthographic");
     if (r->has_sensor) {
         return REPLACE(r, n, "the scene has a second sensor, which is left out");
     }
-    const bool parallel = !strcmp(type, "orthographic");
-    if (!lens && !parallel && strcmp(type, "perspective") != 0) {
+    if (!row_of(r, n)) {
         return koksma__import_fail(n->place,
                                    "sensor '%s' is not read; 'perspective', 'thinlens' and 'orthographic' are", type);
     }
     r->has_sensor = true;
     KOKSMA__TRY(objects_of_sensor(r, n));
-    const double near = number(r, n, "near_clip", 0.01), far = number(r, n, "far_clip", 1e4);
+    const double near = number(r, n, "near_clip"), far = number(r, n, "far_clip");
     if (!(near > 0 && far > near)) {
         return koksma__import_fail(
             n->place, "the camera sees from near_clip, above 0, to far_clip: not from %g to %g", near, far);
     }
-    pass(r, n, lens ? "shutter_open shutter_close" : "shutter_open shutter_close focus_distance");
+    pass(r, n);
     KOKSMA__TRY(transform(r, n, "to_world", m));
     const double width = r->im->scene->width, height = r->im->scene->height;
-    koksma__camera camera = {.focus_distance = lens ? number(r, n, "focus_distance", 1) : 1,
-                             .lens_radius = lens ? number(r, n, "aperture_radius", 0) : 0,
+    koksma__camera camera = {.focus_distance = lens ? number(r, n, "focus_distance") : 1,
+                             .lens_radius = lens ? number(r, n, "aperture_radius") : 0,
                              .near_clip = near,
                              .far_clip = far};
     if (parallel) { /* an orthographic sensor shows -1 to 1 along x */
@@ -1470,7 +1307,7 @@ static koksma_status integrator(reader *r, const node *n, int depth)
     koksma_scene *scene = r->im->scene;
     koksma_status status = KOKSMA_OK;
     if (!strcmp(type_of(n), "aov") && depth < MOST_NESTED) { /* the picture is that of the integrator within */
-        pass(r, n, "aovs");
+        pass(r, n);
         for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
             if (is(resolve(r, c), "integrator")) {
                 koksma__xml_mark(c, KOKSMA__XML_TAKEN);
@@ -1482,11 +1319,8 @@ static koksma_status integrator(reader *r, const node *n, int depth)
         return status;
     }
     const bool direct = !strcmp(type_of(n), "direct");
-    const double most = direct ? 2 : number(r, n, "max_depth", -1);
-    scene->hides_lights = flag(r, n, "hide_emitters", false);
-    KOKSMA__TRY(flag(r, n, "strict_normals", false)
-                    ? koksma__import_unknown(r->im, n->place, "'strict_normals' is ignored")
-                    : KOKSMA_OK);
+    const double most = direct ? 2 : number(r, n, "max_depth");
+    scene->hides_lights = flag(r, n, "hide_emitters");
     if (most >= 0 && most < 2) {
         return koksma__import_unknown(r->im, n->place, "a max_depth of %g is replaced by 2", most);
     }
@@ -1568,7 +1402,8 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
     if (!status) {
         r.materials = malloc((r.xml.n + 1) * sizeof *r.materials);
         r.looked = calloc(r.xml.n + 1, sizeof *r.looked);
-        status = r.materials && r.looked ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
+        r.rows = calloc(r.xml.n + 1, sizeof *r.rows);
+        status = r.materials && r.looked && r.rows ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
         for (size_t i = 0; r.materials && i < r.xml.n; i++) {
             r.materials[i] = -2;
         }
@@ -1582,7 +1417,7 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
                                                       first.at->tag, value ? value : "", first.expected)
                                 : koksma__import_spend(im, first.at->place, 0);
     }
-    KOKSMA__FREE(r.materials, r.looked, r.identities);
+    KOKSMA__FREE(r.materials, r.looked, r.rows, r.identities);
     koksma__xml_fini(&r.xml);
     return status;
 }

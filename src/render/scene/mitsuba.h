@@ -10,6 +10,28 @@
    lacks expat). */
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *text, size_t size);
 
+/* ---- The table of plug-ins ------------------------------------------------------------------------------------------- */
+
+/* What is made of BSDFs beside the kinds of koksma__import_material; of textures and spectra; of emitters. */
+enum { KOKSMA__PRINCIPLED = KOKSMA__NOTHING + 1, KOKSMA__MASK, KOKSMA__BLEND, KOKSMA__WITHIN };
+enum {
+    KOKSMA__BITMAP,
+    KOKSMA__CHECKERBOARD,
+    KOKSMA__D65,
+    KOKSMA__UNIFORM,
+    KOKSMA__SRGB,
+    KOKSMA__REGULAR,
+    KOKSMA__IRREGULAR,
+    KOKSMA__TEMPERATURE
+};
+enum { KOKSMA__POINT_LIGHT, KOKSMA__SPOT, KOKSMA__FAR_LIGHT, KOKSMA__SKY, KOKSMA__PICTURE };
+
+extern const koksma__plugins koksma__mitsuba_plugins;
+
+/* Finds eta and k of a conductor in the RGB variants of Mitsuba, or an index of refraction, by the material's name. */
+bool koksma__mitsuba_conductor(const char *name, double eta[3], double k[3]);
+bool koksma__mitsuba_index(const char *name, double *out);
+
 /* ---- XML ------------------------------------------------------------------------------------------------------------- */
 
 /* Marks of an element: TAKEN: a reader has taken it for what its parent may contain; COVERED: a warning says already what
@@ -53,8 +75,8 @@ static inline void koksma__xml_mark(const koksma__xml_node *node, unsigned char 
    what is covered. Errors: MEMORY, MALFORMED (koksma__import_spend). */
 koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml);
 
-/* Whether a text has this name, as it is or in the form of Mitsuba 0.6: a capital is in place of '_' (toWorld, intIOR). */
-bool koksma__xml_alike(const char *text, const char *name);
+/* Whether a text has this name of `length` bytes, as it is or in the form of Mitsuba 0.6: a capital is in place of '_' (toWorld, intIOR). */
+bool koksma__xml_alike(const char *text, const char *name, size_t length);
 
 /* ---- Values ---------------------------------------------------------------------------------------------------------- */
 

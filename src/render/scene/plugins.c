@@ -3,14 +3,16 @@
  * The tables of plug-ins and parameters from which other renderers' scenes are read (pbrt_names.c, mitsuba_names.c). A row
  * is for the plug-ins of one class that have the same parameters. These are a text, as short as the documentation of the
  * other renderer: "TYPE NAME NAME:DEFAULT; TYPE NAME=VALUE|VALUE". A name after "~" has no effect on the pictures that Koksma
- * makes; one before "!" must be given; where a list of values is closed, the first is the default. The kind "*" has
- * parameters that all kinds have, "?" is what an unknown kind is read as.
+ * makes (where it has a default or a closed list: if its value is that or in the list); one before "!" must be given, and
+ * NAME|OLDER is a name and that of earlier versions. Where a list of values is closed, the first is the default. The kind "*"
+ * has parameters that all kinds have, "?" is what an unknown kind is read as.
  */
 #include "scene/import.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "core/c_locale.h"
 #include "meshes/mesh_text.h"
@@ -53,8 +55,11 @@ bool koksma__entry_next(const char **text, koksma__entry *e)
     e->without_effect = *word == '~';
     word += e->without_effect;
     e->name = word;
-    e->length = strcspn(word, " ;=:!");
+    e->length = strcspn(word, " ;=:!|");
     word += e->length;
+    e->older = *word == '|' ? word + 1 : NULL;
+    e->older_length = e->older ? strcspn(e->older, " ;=:!") : 0;
+    word += e->older ? e->older_length + 1 : 0;
     e->is_needed = *word == '!';
     word += e->is_needed;
     const size_t rest = strcspn(word, " ;");
@@ -77,27 +82,45 @@ const koksma__plugin *koksma__plugin_find(const koksma__plugins *all, const char
     return other;
 }
 
+bool koksma__row_entry(const koksma__plugin *row, const char *name, koksma__entry *out)
+{
+    const char *text = row->parameters;
+    *out = (koksma__entry){.type = NULL};
+    while (koksma__entry_next(&text, out)) {
+        if (koksma__text_is(out->name, out->length, name)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool koksma__plugin_entry(const koksma__plugins *all, const char *of, const char *kind, const char *name,
                           koksma__entry *out)
 {
     const koksma__plugin *own = koksma__plugin_find(all, of, kind);
     for (size_t i = 0; i < all->n; i++) {
-        const char *text = all->rows[i].parameters;
-        if (&all->rows[i] != own && !koksma__plugin_is(&all->rows[i], of, own ? "*" : all->rows[i].kinds)) {
-            continue;
-        }
-        *out = (koksma__entry){.type = NULL};
-        while (koksma__entry_next(&text, out)) {
-            if (koksma__text_is(out->name, out->length, name)) {
-                return true;
-            }
+        const koksma__plugin *row = &all->rows[i];
+        if ((row == own || koksma__plugin_is(row, of, own ? "*" : row->kinds)) && koksma__row_entry(row, name, out)) {
+            return true;
         }
     }
-    *out = (koksma__entry){.type = NULL};
     return false;
 }
 
 double koksma__entry_number(const koksma__entry *e)
 {
     return e->otherwise ? koksma__strtod(e->otherwise, NULL) : 0;
+}
+
+int koksma__entry_choice(const koksma__entry *e, const char *value)
+{
+    const char *at = e->values;
+    for (int i = 0; at && at < e->values + e->values_length; i++) {
+        const size_t length = strcspn(at, "| ;");
+        if (strlen(value) == length && !strncasecmp(at, value, length)) {
+            return i;
+        }
+        at += length + 1;
+    }
+    return -1;
 }

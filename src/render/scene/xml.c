@@ -86,21 +86,22 @@ koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml
     return KOKSMA_OK;
 }
 
-bool koksma__xml_alike(const char *text, const char *name)
+bool koksma__xml_alike(const char *text, const char *name, size_t length)
 {
+    const char *end = name + length;
     for (bool in_capitals = false; *text; text++, name++) {
         const bool capital = isupper((unsigned char)*text);
-        if (capital && *name == '_') {
+        if (capital && name < end && *name == '_') {
             name++;
         } else if (capital && !in_capitals) {
             return false;
         }
-        if (tolower((unsigned char)*text) != *name) {
+        if (name >= end || tolower((unsigned char)*text) != *name) {
             return false;
         }
         in_capitals = capital;
     }
-    return !*name;
+    return name == end;
 }
 
 #ifdef KOKSMA_EXPAT
