@@ -1086,6 +1086,8 @@ static const struct {
     {"a.xml", BALL("<bsdf type=\"bumpmap\"><bsdf type=\"diffuse\"/></bsdf>"),
      "a.xml:2: BSDF 'bumpmap' is replaced by the BSDF within"},
     {"a.xml", BALL("<bsdf type=\"roughdielectric\"/>"), "a.xml:2: Beckmann"},
+    {"a.xml", BALL("<bsdf type=\"ward\"><rgb name=\"diffuseReflectance\" value=\"0.1\"/></bsdf>"),
+     "a.xml:2: BSDF 'ward' is replaced by its diffuse part"},
     {"a.xml", BALL("<bsdf type=\"hair\"/>"), "a.xml:2: BSDF 'hair' is replaced by Lambert"},
     {"a.xml",
      BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"ggx\"/><float name=\"alpha_u\" "

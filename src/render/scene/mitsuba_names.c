@@ -33,7 +33,7 @@ static const koksma__plugin rows[] = {
     {"bsdf", "?", MATTE, KOKSMA__MATTE, "Lambert"},
     {"bsdf", "diffuse", MATTE, KOKSMA__MATTE, NULL},
     {"bsdf", "roughdiffuse", MATTE "; float ~alpha", KOKSMA__MATTE, "Lambert"},
-    {"bsdf", "phong", "colour diffuse_reflectance:0.5", KOKSMA__MATTE, "its diffuse part"},
+    {"bsdf", "phong ward", "colour diffuse_reflectance:0.5", KOKSMA__MATTE, "its diffuse part"},
     {"bsdf", "conductor", METAL, KOKSMA__METAL, NULL},
     {"bsdf", "roughconductor", METAL ROUGH, KOKSMA__METAL, NULL},
     {"bsdf", "dielectric", GLASS, KOKSMA__GLASS, NULL},
