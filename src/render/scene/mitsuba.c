@@ -84,34 +84,23 @@ static const node *count(const reader *r, const node *n, uint64_t steps)
     return n;
 }
 
-static const node *look_at(const reader *r, int i)
-{
-    return i < 0 ? NULL : count(r, &r->xml.nodes[i], 1);
-}
-
 static const node *first_of(const reader *r, const node *n)
 {
-    return look_at(r, n->first);
+    return n->first < 0 ? NULL : count(r, &r->xml.nodes[n->first], 1);
 }
 
 static const node *next_of(const reader *r, const node *n)
 {
-    return look_at(r, n->next);
+    return n->next < 0 ? NULL : count(r, &r->xml.nodes[n->next], 1);
 }
 
 /* Whether elements with this tag are values or objects that a property can be. */
 static bool is_property(const node *n)
 {
-    static const char *const tags[] = {"float",     "integer", "boolean", "string",   "point",     "vector",
-                                       "rgb",       "srgb",    "color",   "spectrum", "blackbody", "transform",
-                                       "animation", "texture", "bsdf",    "emitter",  "medium",    "volume",
-                                       "phase",     "film",    "sampler", "rfilter",  "shape",     "ref"};
-    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++) {
-        if (is(n, tags[i])) {
-            return true;
-        }
-    }
-    return false;
+    static const char tags[] =
+        "float integer boolean string point vector rgb srgb color spectrum blackbody transform "
+        "animation texture bsdf emitter medium volume phase film sampler rfilter shape ref";
+    return koksma__lists(tags, sizeof tags - 1, ' ', n->tag);
 }
 
 /* Whether an element is an object that stands for a colour; Mitsuba 3 takes its spectra for textures. */
@@ -233,6 +222,22 @@ static const node *resolve(const reader *r, const node *n)
     const node *to = target(r, n);
     return to ? to : n;
 }
+
+/* The first child from c on that leads to an element with this tag, which is marked; or NULL. */
+static const node *find_child(const reader *r, const node *c, const char *tag)
+{
+    while (c && !is(resolve(r, c), tag)) {
+        c = next_of(r, c);
+    }
+    if (c) {
+        koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+    }
+    return c;
+}
+
+/* Walks over the children c of n that lead to elements with this tag. */
+#define EACH_CHILD(r, n, c, tag)                                                                                     \
+    for (const node *c = find_child(r, first_of(r, n), tag); c; c = find_child(r, next_of(r, c), tag))
 
 /* Lists the names of all elements, and checks that each name is given once and that each <ref> leads to one. */
 static koksma_status find_identities(reader *r)
@@ -651,25 +656,14 @@ static koksma_status principled(reader *r, const node *n, int *out)
     return koksma__import_add_material(r->im, n->place, &m, out);
 }
 
-/* The first child from c on that leads to a BSDF, or NULL. */
-static const node *find_inner(const reader *r, const node *c)
-{
-    while (c && !is(resolve(r, c), "bsdf")) {
-        c = next_of(r, c);
-    }
-    if (c) {
-        koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-    }
-    return c;
-}
-
 static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out);
 
 /* Makes a BSDF that light meets only in part ("mask"), or a blend of two ("blendbsdf"). */
 static koksma_status blend(reader *r, const node *n, int depth, int *out)
 {
     const bool masks = row_of(r, n)->makes == KOKSMA__MASK;
-    const node *first = find_inner(r, first_of(r, n)), *second = first ? find_inner(r, next_of(r, first)) : NULL;
+    const node *first = find_child(r, first_of(r, n), "bsdf"),
+               *second = first ? find_child(r, next_of(r, first), "bsdf") : NULL;
     koksma__import_colour share;
     int other = -1;
     if (!first || (!masks && !second)) {
@@ -689,7 +683,7 @@ static koksma_status blend(reader *r, const node *n, int depth, int *out)
 /* Makes a BSDF that is replaced by the first BSDF inside it; a second one is that of the back of "twosided". */
 static koksma_status within(reader *r, const node *n, const node *inner, int depth, int *out)
 {
-    const node *back = row_of(r, n)->instead ? NULL : find_inner(r, next_of(r, inner));
+    const node *back = row_of(r, n)->instead ? NULL : find_child(r, next_of(r, inner), "bsdf");
     KOKSMA__TRY(
         back && resolve(r, back) != resolve(r, inner)
             ? koksma__import_unknown(r->im, back->place, "the BSDF of a back is replaced by that of the front")
@@ -731,7 +725,7 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
 {
     const koksma__plugin *row = row_of(r, n);
     const bool is_known = *row->kinds != '?', nests = depth < MOST_NESTED;
-    const node *inner = row->makes == KOKSMA__WITHIN && nests ? find_inner(r, first_of(r, n)) : NULL;
+    const node *inner = row->makes == KOKSMA__WITHIN && nests ? find_child(r, first_of(r, n), "bsdf") : NULL;
     koksma__import_material m = {.kind = (unsigned)row->makes};
     *out = -1;
     if (row->instead) {
@@ -795,21 +789,17 @@ static koksma_status area_light(reader *r, const node *n, koksma__import_surface
 /* Finds a shape's material and emission among its children. */
 static koksma_status surface_of(reader *r, const node *n, koksma__import_surface *out)
 {
-    const node *light = NULL;
     bool has_bsdf = false;
     *out = (koksma__import_surface){.material = -1, .turned = flag(r, n, "flip_normals")};
-    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
-        const node *to = resolve(r, c);
-        if (is(to, "bsdf") || is(to, "emitter")) {
-            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-        }
-        if (is(to, "bsdf")) {
-            KOKSMA__TRY(find_bsdf(r, to, &out->material));
-            has_bsdf = true;
-        }
-        light = is(to, "emitter") ? to : light;
+    EACH_CHILD(r, n, c, "bsdf")
+    {
+        KOKSMA__TRY(find_bsdf(r, resolve(r, c), &out->material));
+        has_bsdf = true;
     }
-    KOKSMA__TRY(light ? area_light(r, light, out) : KOKSMA_OK);
+    EACH_CHILD(r, n, c, "emitter")
+    {
+        KOKSMA__TRY(area_light(r, resolve(r, c), out));
+    }
     if (!has_bsdf && !out->emits) {
         const koksma__import_material grey = {.kind = KOKSMA__MATTE, .colour = {.rgb = {0.5, 0.5, 0.5}, .period = 1}};
         KOKSMA__TRY(koksma__import_add_material(r->im, n->place, &grey, &out->material));
@@ -934,14 +924,6 @@ static koksma_status find_medium(reader *r, const node *root)
     return KOKSMA_OK;
 }
 
-/* A medium that is not the one to read is covered by the warning of name_media(). */
-static void cover_medium(const reader *r, const node *medium)
-{
-    if (medium && medium != r->medium) {
-        koksma__xml_mark(medium, KOKSMA__XML_COVERED);
-    }
-}
-
 static bool is_glass(const reader *r, int material)
 {
     const koksma__bsdf *bsdf = material < 0 ? NULL : r->im->scene->materials[material].bsdf;
@@ -952,8 +934,12 @@ static bool is_glass(const reader *r, int material)
 static koksma_status name_media(reader *r, const node *n, int material)
 {
     const node *inside = medium_of(r, n, "interior"), *outside = medium_of(r, n, "exterior");
-    cover_medium(r, inside);
-    cover_medium(r, outside);
+    for (int i = 0; i < 2; i++) {
+        const node *medium = i ? outside : inside;
+        if (medium && medium != r->medium) {
+            koksma__xml_mark(medium, KOKSMA__XML_COVERED);
+        }
+    }
     if (r->im->only_checks) {
         return KOKSMA_OK;
     }
@@ -994,16 +980,13 @@ static koksma_status medium_colour(reader *r, const node *n, const char *name, d
 static koksma_status phase_of(reader *r, const node *n, double *g)
 {
     *g = 0;
-    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+    EACH_CHILD(r, n, c, "phase")
+    {
         const node *phase = resolve(r, c);
-        if (is(phase, "phase")) {
-            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-        }
-        if (is(phase, "phase") && !strcmp(type_of(phase), "hg")) {
-            *g = fmax(-0.999, fmin(number(r, phase, "g"), 0.999));
-        } else if (is(phase, "phase") && strcmp(type_of(phase), "isotropic") != 0) {
+        if (!row_of(r, phase)) {
             return REPLACE(r, phase, "phase function '%s' is replaced by the isotropic", type_of(phase));
         }
+        *g = fmax(-0.999, fmin(number(r, phase, "g"), 0.999));
     }
     return KOKSMA_OK;
 }
@@ -1051,12 +1034,9 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
 static koksma_status parts_of_group(reader *r, const node *group, const double matrix[12], int depth)
 {
     r->looked[group - r->xml.nodes] = true;
-    for (const node *c = first_of(r, group); c; c = next_of(r, c)) {
-        const node *part = resolve(r, c);
-        if (is(part, "shape")) {
-            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-            KOKSMA__TRY(shape(r, part, matrix, depth + 1));
-        }
+    EACH_CHILD(r, group, c, "shape")
+    {
+        KOKSMA__TRY(shape(r, resolve(r, c), matrix, depth + 1));
     }
     return KOKSMA_OK;
 }
@@ -1071,13 +1051,10 @@ static koksma_status instance(reader *r, const node *n, const double outer[12], 
     }
     KOKSMA__TRY(transform(r, n, "to_world", m));
     koksma__matrix_multiply(outer ? outer : koksma__import_identity, m, matrix);
-    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
-        const node *group = resolve(r, c);
-        if (is(group, "shape")) {
-            found = true;
-            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-            KOKSMA__TRY(parts_of_group(r, group, matrix, depth));
-        }
+    EACH_CHILD(r, n, c, "shape")
+    {
+        found = true;
+        KOKSMA__TRY(parts_of_group(r, resolve(r, c), matrix, depth));
     }
     return found ? KOKSMA_OK : koksma__import_fail(n->place, "an instance without a reference to a shape group");
 }
@@ -1086,7 +1063,7 @@ static koksma_status instance(reader *r, const node *n, const double outer[12], 
    glass has its own normals. */
 static koksma_status name_flip(reader *r, const node *n, const koksma__import_item *item)
 {
-    const node *bsdf = find_inner(r, first_of(r, n));
+    const node *bsdf = find_child(r, first_of(r, n), "bsdf");
     const char *type = bsdf ? type_of(resolve(r, bsdf)) : "";
     const bool none = item->surface.emits || item->surface.material < 0 || !strcmp(type, "twosided") ||
                       (is_glass(r, item->surface.material) && item->form != KOKSMA__FORM_SPHERE);
@@ -1175,61 +1152,45 @@ static koksma_status emitter(reader *r, const node *n)
 /* ---- Sensors and films --------------------------------------------------------------------------------------- */
 
 /* Takes the parameters of an object that chooses how a picture is computed or stored, which the program's own options do
-   here; returns false, with a warning, if it has another type. */
-static bool plain(reader *r, const node *n, koksma_status *status)
+   here, or warns that it has another type. */
+static koksma_status plain(reader *r, const node *n)
 {
     const koksma__plugin *row = row_of(r, n);
-    if (row && !row->instead) {
-        pass(r, n);
-        return true;
+    if (!row || row->instead) {
+        return REPLACE(r, n, "%s '%s' is ignored", n->tag, type_of(n));
     }
-    *status = REPLACE(r, n, "%s '%s' is ignored", n->tag, type_of(n));
-    return false;
-}
-
-/* Takes the children of an object that are samplers or filters. */
-static koksma_status plain_children(reader *r, const node *n)
-{
-    koksma_status status = KOKSMA_OK;
-    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
-        const node *to = resolve(r, c);
-        if (is(to, "sampler") || is(to, "rfilter")) {
-            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-            plain(r, to, &status);
-            KOKSMA__TRY(status);
-        }
+    pass(r, n);
+    EACH_CHILD(r, n, c, "sampler")
+    {
+        KOKSMA__TRY(plain(r, resolve(r, c)));
+    }
+    EACH_CHILD(r, n, c, "rfilter")
+    {
+        KOKSMA__TRY(plain(r, resolve(r, c)));
     }
     return KOKSMA_OK;
 }
 
-/* Reads the sides of a film. */
-static koksma_status film(reader *r, const node *n, double *width, double *height)
-{
-    koksma_status status = KOKSMA_OK;
-    *width = number(r, n, "width");
-    *height = number(r, n, "height");
-    if (!(*width >= 1 && *height >= 1 && *width <= KOKSMA_MAX_IMAGE_SIDE && *height <= KOKSMA_MAX_IMAGE_SIDE &&
-          *width == floor(*width) && *height == floor(*height))) {
-        return koksma__import_fail(n->place, "a film of %g x %g pixels; each side must be a whole number, 1 to %d",
-                                   *width, *height, KOKSMA_MAX_IMAGE_SIDE);
-    }
-    return plain(r, n, &status) ? plain_children(r, n) : status;
-}
-
-/* Reads the objects of a sensor. */
+/* Reads the objects of a sensor, of which the film has the sides of the picture. */
 static koksma_status objects_of_sensor(reader *r, const node *n)
 {
     double width = 768, height = 576;
-    for (const node *child = first_of(r, n); child; child = next_of(r, child)) {
-        const node *c = resolve(r, child);
-        if (is(c, "film")) {
-            koksma__xml_mark(child, KOKSMA__XML_TAKEN);
-            KOKSMA__TRY(film(r, c, &width, &height));
+    EACH_CHILD(r, n, c, "film")
+    {
+        const node *film = resolve(r, c);
+        width = number(r, film, "width");
+        height = number(r, film, "height");
+        if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE &&
+              width == floor(width) && height == floor(height))) {
+            return koksma__import_fail(film->place,
+                                       "a film of %g x %g pixels; each side must be a whole number, 1 to %d", width,
+                                       height, KOKSMA_MAX_IMAGE_SIDE);
         }
+        KOKSMA__TRY(plain(r, film));
     }
     r->im->scene->width = (int)width;
     r->im->scene->height = (int)height;
-    return plain_children(r, n);
+    return plain(r, n);
 }
 
 /* The focal length in mm: a number, or a text that may end in "mm". */
@@ -1277,7 +1238,6 @@ static koksma_status sensor(reader *r, const node *n)
         return koksma__import_fail(
             n->place, "the camera sees from near_clip, above 0, to far_clip: not from %g to %g", near, far);
     }
-    pass(r, n);
     KOKSMA__TRY(transform(r, n, "to_world", m));
     const double width = r->im->scene->width, height = r->im->scene->height;
     koksma__camera camera = {.focus_distance = lens ? number(r, n, "focus_distance") : 1,
@@ -1305,18 +1265,10 @@ static koksma_status sensor(reader *r, const node *n)
 static koksma_status integrator(reader *r, const node *n, int depth)
 {
     koksma_scene *scene = r->im->scene;
-    koksma_status status = KOKSMA_OK;
-    if (!strcmp(type_of(n), "aov") && depth < MOST_NESTED) { /* the picture is that of the integrator within */
-        pass(r, n);
-        for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
-            if (is(resolve(r, c), "integrator")) {
-                koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-                return integrator(r, resolve(r, c), depth + 1);
-            }
-        }
-    }
-    if (!plain(r, n, &status)) {
-        return status;
+    const node *inner = strcmp(type_of(n), "aov") ? NULL : find_child(r, first_of(r, n), "integrator");
+    KOKSMA__TRY(plain(r, n));
+    if (!row_of(r, n) || (inner && depth < MOST_NESTED)) { /* the picture is that of the integrator within */
+        return inner ? integrator(r, resolve(r, inner), depth + 1) : KOKSMA_OK;
     }
     const bool direct = !strcmp(type_of(n), "direct");
     const double most = direct ? 2 : number(r, n, "max_depth");
@@ -1334,14 +1286,10 @@ static koksma_status integrator(reader *r, const node *n, int depth)
 /* Whether the children of a scene with this tag are read, wherever else they are referred to. */
 static bool is_of_scene(const node *n)
 {
-    static const char *const tags[] = {"sensor", "shape", "emitter", "integrator", "bsdf",    "texture", "spectrum",
-                                       "medium", "ref",   "alias",   "default",    "include", "path"};
-    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++) {
-        if (is(n, tags[i])) {
-            return !is(n, "emitter") || strcmp(type_of(n), "area") != 0;
-        }
-    }
-    return false;
+    static const char tags[] =
+        "sensor shape emitter integrator bsdf texture spectrum medium ref alias default include path";
+    return koksma__lists(tags, sizeof tags - 1, ' ', n->tag) &&
+           (!is(n, "emitter") || strcmp(type_of(n), "area") != 0);
 }
 
 /* Reads the objects that nothing refers to, so that what is wrong in them is an error and what is unknown in them a

@@ -341,15 +341,13 @@ koksma_status koksma__mitsuba_operation(const node *n, double m[12])
 /* Checks an element that has a value; a transform's operations are its children. */
 static koksma_status check(const koksma__xml *xml, const node *n)
 {
-    static const char *const objects[] = {"sensor",     "shape",   "bsdf",  "emitter", "texture", "film",
-                                          "integrator", "sampler", "phase", "medium",  "volume",  "rfilter"};
+    static const char objects[] =
+        "sensor shape bsdf emitter texture film integrator sampler phase medium volume rfilter";
     koksma__mitsuba_colour colour;
     double v[12];
     bool flag;
-    for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
-        if (is(n, objects[i]) && !koksma__xml_attribute(n, "type")) {
-            return koksma__import_fail(n->place, "%s: no type", n->tag);
-        }
+    if (koksma__lists(objects, sizeof objects - 1, ' ', n->tag) && !koksma__xml_attribute(n, "type")) {
+        return koksma__import_fail(n->place, "%s: no type", n->tag);
     }
     if (is(n, "spectrum") && koksma__xml_attribute(n, "type")) { /* an object, whose values are its children */
         return koksma__xml_attribute(n, "value") || koksma__xml_attribute(n, "filename")
