@@ -5,46 +5,9 @@
  * Mitsuba 2) gives the same colour, also within textures of pbrt. Indices of refraction and directions of any size give
  * finite pictures. Long because all of them share the scenes and the checks.
  */
-#include <math.h>
-#include <string.h>
-#include <unistd.h>
-
 #include "render/materials/materials.h"
-#include "rendering.h"
 #include "scene/import.h"
-
-static char folder[64];
-
-static koksma_status open_as(const char *name, const char *text, koksma_scene **out)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-    const koksma_status status = koksma_scene_open(path, out);
-    unlink(path);
-    return status;
-}
-
-static koksma_scene *opened(const char *name, const char *text)
-{
-    koksma_scene *scene = NULL;
-    if (open_as(name, text, &scene)) {
-        fail_msg("%s: %s", text, koksma_error_text());
-    }
-    return scene;
-}
-
-/* A build without expat reads no XML. */
-static bool can_read(const char *name)
-{
-    koksma_scene *scene = NULL;
-    const koksma_status status = open_as(name, "<scene version=\"3.0.0\"/>", &scene);
-    koksma_scene_close(scene);
-    return status != KOKSMA_UNSUPPORTED;
-}
+#include "scene_files.h"
 
 #define PBRT(head, world)                                                                                            \
     "LookAt 0 0 5  0 0 0  0 1 0\n" head " Camera \"perspective\" Film \"rgb\" \"integer xresolution\" 8 "            \
@@ -633,11 +596,5 @@ int main(void)
                                        cmocka_unit_test(coats_are_finite),
                                        cmocka_unit_test(textures_combine),
                                        cmocka_unit_test(names_of_spectra_are_read)};
-    strcpy(folder, "/tmp/koksma-colours-XXXXXX");
-    if (!mkdtemp(folder)) {
-        return 1;
-    }
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    rmdir(folder);
-    return failed;
+    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }

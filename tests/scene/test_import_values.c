@@ -3,16 +3,12 @@
    texts that are no such value, one at a time: each is refused with one line that names the file, the line and the
    property. Mitsuba 3 throws on all of them except for an empty number, nan and infinite ones; pbrt-v4 ends. */
 #include <ctype.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-#include "scene/scene.h"
-#include "test.h"
+#include "scene_files.h"
 
 enum { MOST = 1 << 14 };
 
-static char folder[64], text[MOST];
+static char text[MOST];
 
 /* Reads a seed without its first line, which is the ending of its name. */
 static void read_seed(const char *name)
@@ -29,14 +25,8 @@ static void read_seed(const char *name)
 
 static koksma_status open_bytes(const char *name, const char *bytes)
 {
-    char path[128];
     koksma_scene *scene = NULL;
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(bytes, file);
-    fclose(file);
-    const koksma_status status = koksma_scene_open(path, &scene);
+    const koksma_status status = open_as(name, bytes, &scene);
     koksma_scene_close(scene);
     return status;
 }
@@ -328,11 +318,8 @@ static void odd_directives_of_pbrt_are_refused(void **state)
         }
     }
     /* of two parameters with one name pbrt takes the last */
-    koksma_scene *scene;
-    char path[128];
-    assert_ok(open_bytes("two.pbrt", PBRT("") "Film \"rgb\" \"integer xresolution\" 8 \"integer xresolution\" 9"));
-    snprintf(path, sizeof path, "%s/two.pbrt", folder);
-    assert_ok(koksma_scene_open(path, &scene));
+    koksma_scene *scene =
+        opened("two.pbrt", PBRT("") "Film \"rgb\" \"integer xresolution\" 8 \"integer xresolution\" 9");
     assert_int_equal(scene->width, 9);
     koksma_scene_close(scene);
 }
@@ -342,19 +329,5 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_of_mitsuba_are_whole), cmocka_unit_test(odd_elements_of_mitsuba_are_refused),
         cmocka_unit_test(values_of_pbrt_are_whole), cmocka_unit_test(odd_directives_of_pbrt_are_refused)};
-    strcpy(folder, "/tmp/koksma-values-XXXXXX");
-    if (!mkdtemp(folder)) {
-        return 1;
-    }
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    static const char *const names[] = {"parameters.xml",    "older.xml", "orthographic.xml", "parameters.pbrt",
-                                        "orthographic.pbrt", "odd.xml",   "good.xml",         "odd.pbrt",
-                                        "two.pbrt",          "probe.xml", "spectra.xml"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        char path[128];
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        unlink(path);
-    }
-    rmdir(folder);
-    return failed;
+    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }

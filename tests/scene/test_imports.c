@@ -6,52 +6,11 @@
  * one line with the place.
  * Long because both formats share the scenes and the table of texts.
  */
-#include <stdio.h>
-#include <unistd.h>
-
 #include <sys/stat.h>
 
 #include "core/c_locale.h"
-#include "rendering.h"
 #include "scene/import.h"
-
-static char folder[64];
-
-static void write_file(const char *name, const char *text)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
-
-static koksma_status open_as(const char *name, const char *text, koksma_scene **out)
-{
-    char path[128];
-    write_file(name, text);
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return koksma_scene_open(path, out);
-}
-
-static koksma_scene *opened(const char *name, const char *text)
-{
-    koksma_scene *scene = NULL;
-    if (open_as(name, text, &scene)) {
-        fail_msg("%s", koksma_error_text());
-    }
-    return scene;
-}
-
-/* A build without expat reads no XML, and one without Embree traces no meshes. */
-static bool reads_xml(void)
-{
-    koksma_scene *scene = NULL;
-    const koksma_status status = open_as("probe.xml", "<scene version=\"3.0.0\"/>", &scene);
-    koksma_scene_close(scene);
-    return status != KOKSMA_UNSUPPORTED;
-}
+#include "scene_files.h"
 
 /* ---- One scene three times ------------------------------------------------------------------------------------- */
 
@@ -120,7 +79,7 @@ static void one_scene_is_one_picture(void **state)
     double mean = 0, error = 0;
     (void)state;
     for (size_t i = 0; i < 3; i++) {
-        if (i == 2 ? !reads_xml() : i && !koksma_mesh_tracer()) {
+        if (i == 2 ? !can_read("probe.xml") : i && !koksma_mesh_tracer()) {
             continue;
         }
         koksma_scene *scene = opened(names[i], texts[i]);
@@ -186,7 +145,7 @@ static void orthographic_cameras_show_their_height(void **state)
          "</transform><emitter type=\"area\"><rgb name=\"radiance\" value=\"2\"/></emitter></shape></scene>"}};
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        if (strstr(scenes[i].name, ".xml") ? !reads_xml() : i && !koksma_mesh_tracer()) {
+        if (strstr(scenes[i].name, ".xml") ? !can_read("probe.xml") : i && !koksma_mesh_tracer()) {
             continue;
         }
         koksma_scene *scene = opened(scenes[i].name, scenes[i].text);
@@ -246,7 +205,7 @@ static void spots_light_a_circle(void **state)
          "name=\"to_world\"><scale value=\"4\"/></transform><bsdf type=\"diffuse\"/></shape></scene>"}};
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        if (strstr(scenes[i].name, ".xml") ? !reads_xml() : !koksma_mesh_tracer()) {
+        if (strstr(scenes[i].name, ".xml") ? !can_read("probe.xml") : !koksma_mesh_tracer()) {
             continue;
         }
         koksma_scene *scene = opened(scenes[i].name, scenes[i].text);
@@ -285,7 +244,7 @@ static void a_luminous_room_is_a_geometric_series(void **state)
         "</emitter></shape></scene>"};
     (void)state;
     for (size_t i = 0; koksma_mesh_tracer() && i < 2; i++) {
-        if (i == 1 && !reads_xml()) {
+        if (i == 1 && !can_read("probe.xml")) {
             continue;
         }
         koksma_scene *scene = opened(names[i], texts[i]);
@@ -318,7 +277,7 @@ static void mitsubas_cameras_see_what_they_may(void **state)
                  {"", "<boolean name=\"hide_emitters\" value=\"true\"/>", 0, KOKSMA_MAX_DEPTH},
                  {"", "<boolean name=\"hideEmitters\" value=\"false\"/>", 7, KOKSMA_MAX_DEPTH}};
     (void)state;
-    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[2048];
         koksma_render_options options;
         koksma_image image = {0};
@@ -366,7 +325,7 @@ static void media_fill_the_shapes_of_mitsuba(void **state)
         {"<shape type=\"cube\"><transform name=\"to_world\"><rotate y=\"1\" angle=\"45\"/></transform>",
          2.8284271247461901}};
     (void)state;
-    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[2048];
         koksma_render_options options;
         koksma_image image = {0};
@@ -445,7 +404,7 @@ static void round_shapes_have_mitsubas_coordinates(void **state)
 {
     static const char *const shapes[] = {"sphere", "disk"};
     (void)state;
-    for (int i = 0; i < 2 && reads_xml() && koksma_mesh_tracer(); i++) {
+    for (int i = 0; i < 2 && can_read("probe.xml") && koksma_mesh_tracer(); i++) {
         char text[1024];
         snprintf(
             text, sizeof text,
@@ -643,7 +602,7 @@ static void check_medium(const char *text, const double absorption[3], const dou
 static void media_of_mitsuba_are_read(void **state)
 {
     (void)state;
-    if (!reads_xml()) {
+    if (!can_read("probe.xml")) {
         return;
     }
     check_medium(FOGGY("", ""), (double[]){.25, .25, .25}, (double[]){.75, .75, .75}, 0, -INFINITY);
@@ -762,7 +721,7 @@ static void environments_have_a_shape(void **state)
         {"a.xml", MATRIX_SKY("3.3e-309 -7e153 0 0 3.3e-309 7e153 0 0 0 0 1e154 0"),
          "/a.xml:2: the matrix of an environment, or its inverse, has an entry beyond 1e9", 64, 32}};
     char path[128];
-    const bool xml = reads_xml();
+    const bool xml = can_read("probe.xml");
     (void)state;
     snprintf(path, sizeof path, "%s/sky.pfm", folder);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -937,7 +896,6 @@ static const struct {
     {"a.pbrt", PBRT "LightSource \"goniometric\" \"rgb I\" [1 2 3]", "a.pbrt:2: light 'goniometric'"},
     {"a.pbrt", PBRT "LightSource \"distant\" \"blackbody L\" 5000", NULL},
     {"a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 1 500 2 600 3]", NULL},
-    {"a.xml", BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" value=\"400:1, 700:0.2\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" filename=\"a.spd\"/></bsdf>"),
      "a.xml:2: a spectrum"},
     {"a.pbrt", PBRT "Shape \"sphere\" \"float alpha\" 1", NULL},
@@ -970,8 +928,6 @@ static const struct {
     {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"wrinkled\" Shape \"sphere\"", "a.pbrt:2: texture 'wrinkled'"},
     {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.bz2\"",
      "a.pbrt:2: the mesh a.ply.bz2 has an unsupported format"},
-    {"a.pbrt", PBRT "Material \"diffuse\"\nShape \"sphere\" \"float radios\" 2",
-     "a.pbrt:3: parameter 'radios' of Shape"},
     {"a.pbrt", PBRT "Material \"none\" AreaLightSource \"diffuse\" \"string filename\" \"a.png\" Shape \"disk\"",
      "a.pbrt:2: parameter 'filename' of AreaLightSource"},
     {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" \"bool invert\" true",
@@ -1010,11 +966,6 @@ static const struct {
      "ObjectBegin \"o\" ActiveTransform EndTime Translate 1 0 0 Shape \"sphere\" ObjectEnd\nActiveTransform EndTime "
      "Translate 0 1 0 ObjectInstance \"o\"",
      "a.pbrt:2: motion within an object whose instance moves"},
-    {"a.xml", BALL("<bsdf type=\"diffuse\"/>"), NULL},
-    {"a.xml", BALL("<bsdf type=\"diffuse\"/>\n<float name=\"radios\" value=\"2\"/>"),
-     "a.xml:3: 'radios' of shape 'sphere'"},
-    {"a.xml", BALL("<bsdf type=\"conductor\">\n<float name=\"gloss\" value=\"2\"/></bsdf>"),
-     "a.xml:3: 'gloss' of bsdf 'conductor'"},
     {"a.xml",
      MITSUBA("<shape type=\"sphere\">\n<animation name=\"to_world\"><transform time=\"0\"><translate "
              "x=\"1\"/></transform>"
@@ -1062,13 +1013,7 @@ static const struct {
            "<string name=\"distribution\" value=\"ggx\"/><float name=\"specularTransmittance\" value=\"0.2\"/>"),
      TINTED},
     {"a.xml", GLASS("dielectric", "<texture name=\"specular_transmittance\" type=\"checkerboard\"/>"), TINTED},
-    {"a.xml", GLASS("dielectric", "<rgb name=\"specular_transmittance\" value=\"1\"/>"), NULL},
-    {"a.xml", GLASS("dielectric", "<spectrum name=\"specular_transmittance\" value=\"360:1, 830:1\"/>"), NULL},
-    {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"water\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"plastic\"/>"), "a.xml:2: a coated surface"},
-    {"a.xml",
-     BALL("<bsdf type=\"conductor\"><rgb name=\"eta\" value=\"1 2 3\"/><float name=\"k\" value=\"2\"/></bsdf>"),
-     NULL},
     {"a.xml", BALL("<bsdf type=\"conductor\"><spectrum name=\"eta\" filename=\"a.spd\"/></bsdf>"), CHROMIUM},
     {"a.xml",
      BALL("<bsdf type=\"conductor\"><texture name=\"k\" type=\"checkerboard\"/><float name=\"eta\" "
@@ -1095,15 +1040,10 @@ static const struct {
      "a.xml:2: anisotropic"},
     {"a.xml", BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" type=\"rawconstant\"/></bsdf>"),
      "a.xml:2: spectrum 'rawconstant' is replaced by white"},
-    {"a.xml", BALL("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"d65\"/></bsdf>"), NULL},
     {"a.xml",
      MITSUBA("<emitter type=\"point\"><spectrum name=\"intensity\" type=\"blackbody\"><float name=\"temperature\" "
              "value=\"5000\"/></spectrum></emitter>"),
      "a.xml:2: a black body is replaced by its colour with luminance 1"},
-    {"a.xml",
-     MITSUBA("<emitter type=\"point\"><spectrum name=\"intensity\" type=\"d65\">\n<float name=\"gain\" value=\"2\"/>"
-             "</spectrum></emitter>"),
-     "a.xml:3: 'gain' of spectrum 'd65' is ignored"},
     {"a.xml",
      BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"ggx\"/>\n<spectrum name=\"alpha\" "
           "type=\"uniform\"><float name=\"value\" value=\"0.1\"/></spectrum></bsdf>"),
@@ -1112,21 +1052,6 @@ static const struct {
      IMAGED(
          "<spectrum name=\"reflectance\" type=\"d65\"><float name=\"scale\" value=\"0.5\"/>" WHITE("") "</spectrum>"),
      "a.xml:2: an image's scale is ignored"},
-    {"a.xml", CHECKED("<scale value=\"2\"/>"), NULL},
-    {"a.xml", CHECKED("<scale x=\"-2\" y=\"-2\"/>"), NULL},
-    {"a.xml", CHECKED("<scale x=\"2\" y=\"3\"/>"), NULL},
-    {"a.xml", CHECKED("<scale x=\"-1\"/>"), NULL},
-    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"180\"/>"), NULL},
-    {"a.xml", CHECKED("<translate x=\"1\" y=\"-2\"/>"), NULL},
-    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"45\"/>"), NULL},
-    {"a.xml", CHECKED("<rotate z=\"1\" angle=\"90\"/>"), NULL},
-    {"a.xml", CHECKED("<translate x=\"0.25\"/>"), NULL},
-    {"a.xml", CHECKED("<translate y=\"0.25\"/>"), NULL},
-    {"a.xml", CHECKED("<matrix value=\"1 0.5 0 0 1 0 0 0 1\"/>"), NULL},
-    {"a.xml", CHECKED("<matrix value=\"1 0 0 0.5 1 0 0 0 1\"/>"), NULL},
-    /* choices of Mitsuba 0.6, and in other case */
-    {"a.xml", IMAGE("<string name=\"filterType\" value=\"nearest\"/><string name=\"wrapMode\" value=\"Mirror\"/>"),
-     NULL},
     {"a.xml", IMAGE("<string name=\"filterType\" value=\"ewa\"/>"),
      "a.xml:2: a texture's filter 'ewa' is replaced by 'bilinear'"},
     {"a.xml", IMAGE("<string name=\"filterType\" value=\"Trilinear\"/>"),
@@ -1135,26 +1060,13 @@ static const struct {
      "a.xml:2: a texture's wrap mode 'zero' is replaced by 'clamp'"},
     {"a.xml", IMAGE("<string name=\"wrapMode\" value=\"one\"/>"),
      "a.xml:2: a texture's wrap mode 'one' is replaced by 'clamp'"},
-    {"a.xml", BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"GGX\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"Beckmann\"/></bsdf>"),
      "a.xml:2: Beckmann"},
-    {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"BK7\"/></bsdf>"), NULL},
-    {"a.xml",
-     "<scene version=\"3.0.0\"><sensor type=\"perspective\"><string name=\"fovAxis\" "
-     "value=\"Larger\"/></sensor></scene>",
-     NULL},
-    /* what another picture than Mitsuba's would come of */
-    {"a.xml", INTEGRATOR("path", "<integer name=\"max_depth\" value=\"2\"/>"), NULL},
     {"a.xml", INTEGRATOR("path", "<integer name=\"maxDepth\" value=\"1\"/>"), "a.xml:2: a max_depth of 1"},
-    {"a.xml", INTEGRATOR("path", "<boolean name=\"hide_emitters\" value=\"true\"/>"), NULL},
     {"a.xml", INTEGRATOR("path", "<boolean name=\"strictNormals\" value=\"true\"/>"),
      "a.xml:2: 'strictNormals' of integrator 'path'"},
     {"a.xml", INTEGRATOR("path", "\n<integer name=\"max_dept\" value=\"2\"/>"), "a.xml:3: 'max_dept' of integrator"},
-    {"a.xml", INTEGRATOR("direct", ""), NULL},
     {"a.xml", INTEGRATOR("depth", ""), "a.xml:2: integrator 'depth' is ignored"},
-    {"a.xml", INTEGRATOR("aov", "<string name=\"aovs\" value=\"d:depth\"/><integrator type=\"path\"/>"), NULL},
-    {"a.xml", SENSOR("<float name=\"near_clip\" value=\"2\"/>"), NULL},
-    {"a.xml", SENSOR("<float name=\"shutter_open\" value=\"0\"/>"), NULL},
     {"a.xml", SENSOR("<film type=\"hdrfilm\"><string name=\"pixelFormat\" value=\"luminance\"/></film>"),
      "a.xml:1: 'pixelFormat' of film 'hdrfilm' is ignored"},
     {"a.xml", SENSOR("<film type=\"hdrfilm\"><boolean name=\"sample_border\" value=\"true\"/></film>"),
@@ -1162,7 +1074,6 @@ static const struct {
     {"a.xml", SENSOR("<film type=\"hdrfilm\"><float name=\"cropOffsetX\" value=\"2\"/></film>"),
      "a.xml:1: 'cropOffsetX' of film 'hdrfilm' is ignored"},
     {"a.xml", SENSOR("<film type=\"specfilm\"/>"), "a.xml:1: film 'specfilm' is ignored"},
-    {"a.xml", SENSOR("<sampler type=\"independant\"/>"), "a.xml:1: sampler 'independant' is ignored"},
     {"a.xml", MITSUBA("<emitter type=\"point\"><float name=\"sampling_weight\" value=\"0\"/></emitter>"),
      "a.xml:2: a light whose sampling weight is 0"},
     {"a.xml", BALL("<boolean name=\"flip_normals\" value=\"true\"/><bsdf type=\"diffuse\"/>"),
@@ -1172,29 +1083,16 @@ static const struct {
      NULL},
     {"a.xml", BALL("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1.5, 0, 0\"/></bsdf>"),
      "a.xml:2: a reflectance beyond 0 to 1"},
-    /* elements and attributes that nothing takes */
-    {"a.xml", MITSUBA("<emiter type=\"point\"/>"), "a.xml:2: <emiter> in scene is ignored"},
-    {"a.xml", MITSUBA("<film type=\"hdrfilm\"/>"), "a.xml:2: <film> in scene is ignored"},
-    {"a.xml", BALL("<bdsf type=\"diffuse\"/>"), "a.xml:2: <bdsf> in shape 'sphere' is ignored"},
     {"a.xml", BALL("<transform><translate x=\"1\"/></transform>"), "a.xml:2: <transform> in shape 'sphere'"},
-    {"a.xml", BALL("<trnsform name=\"to_world\"><translate x=\"1\"/></trnsform>"),
-     "a.xml:2: 'to_world' of shape 'sphere' is ignored"},
-    {"a.xml", BALL("<transform name=\"to_world\"><translate x=\"1\" yy=\"2\"/></transform>"),
-     "a.xml:2: attribute 'yy' of <translate> is ignored"},
     {"a.xml", BALL("<float name=\"radius\" value=\"1\"/><float name=\"radius\" value=\"2\"/>"),
      "a.xml:2: 'radius' of shape 'sphere' is ignored"},
-    {"a.xml", MITSUBA("<bsdf type=\"diffuse\" id=\"unused\"><rgb name=\"reflectence\" value=\"1\"/></bsdf>"),
-     "a.xml:2: 'reflectence' of bsdf 'diffuse' is ignored"},
-    {"a.xml", MITSUBA("<bsdf type=\"diffuse\" id=\"unused\"><rgb name=\"reflectance\" value=\"1\"/></bsdf>"), NULL},
     {"a.xml", MITSUBA("<shape type=\"sdfgrid\"/>"), "a.xml:2: shape 'sdfgrid' is left out"},
-    {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), NULL},
     {"a.xml",
      MITSUBA("<emitter type=\"spot\"><float name=\"beam_width\" value=\"20\"/>"
              "<texture type=\"bitmap\" name=\"texture\"/></emitter>"),
      "a.xml:2: 'texture' of emitter 'spot' is ignored"},
     {"a.xml", MITSUBA("<emitter type=\"projector\"/>"), "a.xml:2: emitter 'projector' is replaced by a point"},
     {"a.xml", MITSUBA("<emitter type=\"sunsky\"/>"), "a.xml:2: emitter 'sunsky' is replaced by a white sky"},
-    {"a.xml", MITSUBA("<shape type=\"cube\"/>"), NULL},
     {"a.xml", /* Mitsuba's own writer names what a sensor holds */
      "<scene version=\"3.0.0\"><sensor type=\"perspective\" name=\"sensor\"><sampler type=\"independent\" "
      "name=\"sampler\"/><film "
@@ -1218,7 +1116,7 @@ static void write_white(void)
 
 static void unknown_things_are_named(void **state)
 {
-    const bool xml = reads_xml();
+    const bool xml = can_read("probe.xml");
     (void)state;
     write_white();
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
@@ -1268,7 +1166,7 @@ static void references_and_includes_are_objects(void **state)
         {CAMERA "<shape type=\"sphere\"><ref id=\"b\"/></shape>",
          "<bsdf version=\"3.0.0\" type=\"diffuse\" id=\"b\"/>", 768, 1, 0}};
     (void)state;
-    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[1024];
         write_file("o.xml", cases[i].included);
         snprintf(text, sizeof text, "<scene version=\"3.0.0\">%s<include filename=\"o.xml\"/></scene>",
@@ -1296,7 +1194,7 @@ static void images_are_mapped_as_in_mitsuba(void **state)
                  {"<matrix value=\"1 2 3 4 5 6 7 8 9\"/>", {1, 2, 0, 4, 5, 0}},
                  {"<matrix value=\"1 2 3 4 5 6 7 8 9 10 11 12 0 0 0 1\"/>", {1, 2, 4, 5, 6, 8}}};
     (void)state;
-    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[1024];
         snprintf(text, sizeof text, IMAGE("<transform name=\"to_uv\">%s</transform>"), cases[i].to_uv);
         write_white();
@@ -1327,7 +1225,7 @@ static void checkerboards_are_mapped_as_in_mitsuba(void **state)
                          "value=\"0.5\"/><float name=\"voffset\" value=\"0.25\"/></texture>"),
                   {8, 0, 4, 0, 4, 1}}};
     (void)state;
-    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         koksma_scene *scene = opened("a.xml", cases[i].text);
         const koksma__material *m = &scene->materials[0];
         assert_int_equal(scene->n_unknown, 0);
@@ -1373,7 +1271,7 @@ static void textures_in_checkerboards_are_their_means(void **state)
     char path[128];
     (void)state;
     write_two(pixels, path);
-    for (size_t i = 0; reads_xml() && i < 2 * sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; can_read("probe.xml") && i < 2 * sizeof cases / sizeof *cases; i++) {
         const int which = (int)(i % 2);
         char inner[512], text[1024];
         snprintf(inner, sizeof inner, cases[i / 2].inner, which);
@@ -1418,7 +1316,7 @@ static void images_of_lights_are_their_means(void **state)
     char path[128];
     (void)state;
     write_two(pixels, path);
-    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[2048], of[3][512];
         static const char *const names[] = {"intensity", "radiance", "radiance"};
         for (int k = 0; k < 3; k++) {
@@ -1465,7 +1363,7 @@ static void masks_and_blends_are_exact(void **state)
     double error;
     (void)state;
     write_two(pixels, path);
-    for (size_t i = 0; reads_xml() && koksma_mesh_tracer() && i < 2; i++) {
+    for (size_t i = 0; can_read("probe.xml") && koksma_mesh_tracer() && i < 2; i++) {
         koksma_scene *scene = opened("a.xml", masks[i]);
         koksma_render_options options = options_of(scene, "random", "path", 256, 16);
         assert_int_equal(scene->n_unknown, 0);
@@ -1474,7 +1372,7 @@ static void masks_and_blends_are_exact(void **state)
                     i ? 0.1 : 4 * error + 1e-3); /* the frame shows a little more of one half of the image */
         koksma_scene_close(scene);
     }
-    if (reads_xml()) {
+    if (can_read("probe.xml")) {
         koksma_scene *scene =
             opened("a.xml", BEFORE("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.25\"/>" GREY(0.8)
                                        GREY(0.4) "</bsdf>"));
@@ -1508,7 +1406,7 @@ static void files_without_uv_have_their_peers(void **state)
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
                "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 "
                "0\n3 0 1 2\n");
-    for (size_t i = 0; i < 2 - !reads_xml(); i++) {
+    for (size_t i = 0; i < 2 - !can_read("probe.xml"); i++) {
         koksma_scene *scene = opened(names[i], texts[i]);
         const koksma__mesh *mesh = &scene->meshes[scene->placements[0].mesh];
         assert_int_equal(scene->n_unknown, 0);
@@ -1557,7 +1455,7 @@ static void spectra_of_mitsuba_are_read(void **state)
 #undef SAMPLES
     double pairs[3] = {0};
     (void)state;
-    for (size_t i = 0; reads_xml() && i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[1024];
         snprintf(
             text, sizeof text,
@@ -1711,7 +1609,7 @@ static const struct {
 static void malformed_and_hostile_texts_are_refused(void **state)
 {
     char outside[80], path[128];
-    const bool xml = reads_xml();
+    const bool xml = can_read("probe.xml");
     (void)state;
     snprintf(outside, sizeof outside, "%s.pbrt", folder); /* beside the folder */
     snprintf(path, sizeof path, "%s/link.pbrt", folder);
@@ -1795,19 +1693,5 @@ int main(void)
         cmocka_unit_test(malformed_and_hostile_texts_are_refused),
         cmocka_unit_test(cut_texts_are_survived),
     };
-    strcpy(folder, "/tmp/koksma-imports-XXXXXX");
-    if (!mkdtemp(folder)) {
-        return 1;
-    }
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    static const char *const left[] = {"probe.xml", "o.json",   "o.pbrt",  "o.xml",    "s.pbrt", "s.xml",
-                                       "one.json",  "one.pbrt", "one.xml", "a.pbrt",   "a.xml",  "b.pbrt",
-                                       "b.xml",     "c.pbrt",   "c.xml",   "white.pfm"};
-    for (size_t i = 0; i < sizeof left / sizeof *left; i++) {
-        char path[128];
-        snprintf(path, sizeof path, "%s/%s", folder, left[i]);
-        unlink(path);
-    }
-    rmdir(folder);
-    return failed;
+    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }

@@ -2,14 +2,8 @@
 /* Mitsuba's rules for meshes, each in every format of a mesh: what has no normals is smooth over the vertices that the file
    shares, or has facets with face_normals; the texture coordinate v is turned round in OBJ only, or as flip_tex_coords
    says. The mesh is a tetrahedron whose smooth normals are those that Mitsuba 3.9.1 gives (its vertex_normals). */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
 #include "meshes/mesh.h"
-#include "scene/scene.h"
-#include "test.h"
+#include "scene_files.h"
 
 static const float places[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 static const uint32_t sides[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -17,18 +11,6 @@ static const double smooth[4][3] = {{-0.57735026, -0.57735026, -0.57735026},
                                     {0.92102444, -0.27542147, -0.27542147},
                                     {-0.27542147, 0.92102444, -0.27542147},
                                     {-0.27542147, -0.27542147, 0.92102444}};
-
-static char folder[64];
-
-static void write_bytes(const char *name, const void *bytes, size_t size)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    fclose(file);
-}
 
 /* Writes t.obj; each vertex has the texture coordinates (x, y). seam: the last side has texture vertices of its own. */
 static void write_obj(bool groups, bool seam)
@@ -96,30 +78,21 @@ static void write_serialized(void)
     write_bytes("t.serialized", file, 15 + n + sizeof ends);
 }
 
-static koksma_scene *opened(const char *format, const char *rules, size_t warnings)
+static koksma_scene *shown(const char *format, const char *rules, size_t warnings)
 {
-    char text[512], path[128];
-    koksma_scene *scene;
+    char text[512];
     snprintf(text, sizeof text,
              "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"%s\"><string name=\"filename\" "
              "value=\"t.%s\"/>%s<bsdf type=\"diffuse\"/></shape></scene>",
              format, format, rules);
-    write_bytes("t.xml", text, strlen(text));
-    snprintf(path, sizeof path, "%s/t.xml", folder);
-    assert_ok(koksma_scene_open(path, &scene));
+    koksma_scene *scene = opened("t.xml", text);
     assert_int_equal(scene->n_unknown, warnings);
     return scene;
 }
 
 static bool reads_them(void)
 {
-    char path[128];
-    koksma_scene *scene = NULL;
-    write_bytes("t.xml", "<scene version=\"3.0.0\"/>", 24);
-    snprintf(path, sizeof path, "%s/t.xml", folder);
-    const koksma_status status = koksma_scene_open(path, &scene);
-    koksma_scene_close(scene);
-    return status != KOKSMA_UNSUPPORTED && *(const unsigned char *)&(const uint32_t){1} == 1;
+    return can_read("t.xml") && *(const unsigned char *)&(const uint32_t){1} == 1;
 }
 
 /* Checks the normals of all corners. seam: the corners of the last side have their own, which are those of that side. */
@@ -148,7 +121,7 @@ static void meshes_without_normals_are_smooth(void **state)
         const bool seam = i == 3 || i == 4;
         write_obj(i == 1 || i == 4, seam);
         for (size_t f = 0; f < (i ? 1 : 3); f++) {
-            koksma_scene *scene = opened(formats[f], "", 0);
+            koksma_scene *scene = shown(formats[f], "", 0);
             check_normals(scene, seam);
             koksma_scene_close(scene);
         }
@@ -160,7 +133,7 @@ static void facets_have_no_normals(void **state)
     (void)state;
     write_obj(false, false);
     for (size_t f = 0; reads_them() && f < 3; f++) {
-        koksma_scene *scene = opened(formats[f], "<boolean name=\"face_normals\" value=\"true\"/>", 0);
+        koksma_scene *scene = shown(formats[f], "<boolean name=\"face_normals\" value=\"true\"/>", 0);
         assert_null(scene->meshes[0].normals);
         koksma_scene_close(scene);
     }
@@ -174,7 +147,7 @@ static void smooth_lights_are_named(void **state)
     (void)state;
     write_obj(false, false);
     for (size_t i = 0; reads_them() && i < 6; i++) {
-        koksma_scene *scene = opened(formats[i % 3], rules[i / 3], i / 3);
+        koksma_scene *scene = shown(formats[i % 3], rules[i / 3], i / 3);
         koksma_scene_close(scene);
     }
 }
@@ -186,7 +159,7 @@ static void texture_coordinates_are_turned(void **state)
     (void)state;
     for (size_t i = 0; reads_them() && i < 9; i++) {
         const bool turned = i / 3 == 0 ? i % 3 == 0 : i / 3 == 1;
-        koksma_scene *scene = opened(formats[i % 3], rules[i / 3], 0);
+        koksma_scene *scene = shown(formats[i % 3], rules[i / 3], 0);
         const koksma__mesh *mesh = &scene->meshes[0];
         for (size_t k = 0; k < 12; k++) {
             const float *uv = mesh->uvs + 2 * mesh->indices[k], *p = places[sides[k / 3][k % 3]];
@@ -197,24 +170,18 @@ static void texture_coordinates_are_turned(void **state)
     }
 }
 
+static void files_are_written(void **state)
+{
+    (void)state;
+    write_ply();
+    write_serialized();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(meshes_without_normals_are_smooth), cmocka_unit_test(facets_have_no_normals),
-        cmocka_unit_test(smooth_lights_are_named), cmocka_unit_test(texture_coordinates_are_turned)};
-    strcpy(folder, "/tmp/koksma-mitsuba-XXXXXX");
-    if (!mkdtemp(folder)) {
-        return 1;
-    }
-    write_ply();
-    write_serialized();
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    static const char *const names[] = {"t.obj", "t.ply", "t.serialized", "t.xml"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        char path[128];
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        unlink(path);
-    }
-    rmdir(folder);
-    return failed;
+        cmocka_unit_test(files_are_written), cmocka_unit_test(meshes_without_normals_are_smooth),
+        cmocka_unit_test(facets_have_no_normals), cmocka_unit_test(smooth_lights_are_named),
+        cmocka_unit_test(texture_coordinates_are_turned)};
+    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }

@@ -5,29 +5,7 @@
  * coordinates. Each is rendered beside a twin with the numbers written out, which follow from pbrt-v4's definitions
  * (lights.cpp, film.cpp, textures.cpp, materials.h, shapes.h), and all pixels are equal.
  */
-#include <math.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "rendering.h"
-
-static char folder[64];
-
-static koksma_scene *opened(const char *text)
-{
-    char path[128];
-    koksma_scene *scene = NULL;
-    snprintf(path, sizeof path, "%s/a.pbrt", folder);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-    if (koksma_scene_open(path, &scene)) {
-        fail_msg("%s: %s", text, koksma_error_text());
-    }
-    unlink(path);
-    return scene;
-}
+#include "scene_files.h"
 
 static void render(const koksma_scene *scene, const char *pattern, const char *integrator, koksma_image *out)
 {
@@ -45,7 +23,7 @@ static void check_twins(const char *text, const char *twin)
     char warning[256];
     double largest = 0, off = 0;
     for (int i = 0; i < 2; i++) {
-        koksma_scene *scene = opened(texts[i]);
+        koksma_scene *scene = opened("a.pbrt", texts[i]);
         if (koksma_scene_unknown(scene, 0, warning, sizeof warning)) {
             fail_msg("%s: %s", texts[i], warning);
         }
@@ -405,7 +383,7 @@ static void crops_are_parts(void **state)
                      "LookAt 0 0 4  0 0 0  0 1 0 Camera %s Film \"rgb\" " SIZE " %s WorldBegin LightSource "
                      "\"point\" \"rgb I\" [9 9 9] \"point3 from\" [1 2 2] %s",
                      all[i].camera, k ? all[i].crop : "", all[i].world);
-            koksma_scene *scene = opened(text);
+            koksma_scene *scene = opened("a.pbrt", text);
             assert_int_equal(scene->n_unknown, 0);
             render(scene, "regular", "direct", &images[k]);
             koksma_scene_close(scene);
@@ -447,7 +425,7 @@ static void windows_may_be_off_centre(void **state)
             "Film \"rgb\" \"integer xresolution\" 9 \"integer yresolution\" 9 WorldBegin " SKY
             "Material \"diffuse\" Translate %s Shape \"sphere\" \"float radius\" 0.4",
             places[i]);
-        koksma_scene *scene = opened(whole);
+        koksma_scene *scene = opened("a.pbrt", whole);
         koksma_render_options options = options_of(scene, "regular", "utah", 1, 9);
         options.height = 9;
         assert_ok(koksma_render_layers(scene, &options, NULL, &layers));
@@ -466,17 +444,5 @@ int main(void)
         cmocka_unit_test(attributes_are_parameters), cmocka_unit_test(mixes_are_means),
         cmocka_unit_test(images_have_their_levels),  cmocka_unit_test(meshes_have_default_coordinates),
         cmocka_unit_test(crops_are_parts),           cmocka_unit_test(windows_may_be_off_centre)};
-    char path[128];
-    strcpy(folder, "/tmp/koksma-formulas-XXXXXX");
-    if (!mkdtemp(folder)) {
-        return 1;
-    }
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    static const char *const names[] = {"base.pfm", "base.png", "twin.pfm"};
-    for (int i = 0; i < 3; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        unlink(path);
-    }
-    rmdir(folder);
-    return failed;
+    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }
