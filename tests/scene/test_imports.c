@@ -1345,8 +1345,9 @@ static void images_of_lights_are_their_means(void **state)
     unlink(path);
 }
 
-/* A sky of radiance 1 is all the light. What covers the whole picture is black and meets half of it: .5 remains, of an image
-   with the levels 0 and 1 as of a constant; a blend of Lambert surfaces has the blended albedo, by each level of an image. */
+/* A sky of radiance 1 is all the light. What covers the whole picture is black and meets half of it: .5 remains, of an
+   image with the levels 0 and 1 as of a constant; a blend of Lambert surfaces has the blended albedo, by each level of
+   an image. */
 static void masks_and_blends_are_exact(void **state)
 {
 #define BEFORE(bsdf)                                                                                                 \
@@ -1391,7 +1392,8 @@ static void masks_and_blends_are_exact(void **state)
     unlink(path);
 }
 
-/* The texture coordinates that a triangle has without any: of pbrt (0, 0), (1, 0), (1, 1), of Mitsuba the barycentric ones. */
+/* The texture coordinates that a triangle has without any: of pbrt (0, 0), (1, 0), (1, 1), of Mitsuba the barycentric
+   ones. */
 static void files_without_uv_have_their_peers(void **state)
 {
     static const char *const names[] = {"a.pbrt", "a.xml"};

@@ -455,8 +455,8 @@ static void use_as_number(const koksma__import *im, koksma__import_colour *c)
     }
 }
 
-/* Makes the Lambert surface whose albedo goes from that of `first` to that of `second` as the image or checkerboard `amount`
-   goes from 0 to 1. */
+/* Makes the Lambert surface whose albedo goes from that of `first` to that of `second` as the image or checkerboard
+   `amount` goes from 0 to 1. */
 static koksma_status mix_albedos(koksma__import *im, koksma__text_place place, const koksma__material *first,
                                  const koksma__material *second, const koksma__import_colour *amount, int *out)
 {

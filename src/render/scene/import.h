@@ -338,9 +338,10 @@ typedef struct koksma__mesh_rules {
     bool flips_v; /* each texture coordinate v becomes 1 - v */
 } koksma__mesh_rules;
 
-/* Gives a mesh the texture coordinates that the triangles of pbrt (or of Mitsuba) have without any: (0, 0), (1, 0), (1, 1)
-   (or (0, 1)) at their corners; of pbrt's bilinear patches, which are two triangles here, from the first corner to the second
-   and fourth, and to the fourth and third: (0, 0), (1, 0), (0, 1), (1, 1). Corners no longer share vertices. Error: MEMORY. */
+/* Gives a mesh the texture coordinates that the triangles of pbrt (or of Mitsuba) have without any: (0, 0), (1, 0),
+   (1, 1) (or (0, 1)) at their corners; of pbrt's bilinear patches, which are two triangles here, from the first corner
+   to the second and fourth, and to the fourth and third: (0, 0), (1, 0), (0, 1), (1, 1). Corners no longer share
+   vertices. Error: MEMORY. */
 koksma_status koksma__import_default_uv(koksma__mesh *mesh, bool quads, bool mitsubas);
 
 /* Add a mesh and set *out to its index in the scene, or to -1 if the mesh is left out with a warning.

@@ -5,7 +5,8 @@
  * shape first refers to it. One homogeneous medium is read, of the sensor, a cube or a sphere; volumes and motion
  * are not read. Of an integrator only the length of paths and whether lights are seen is read; samplers and filters are
  * ignored, because the program's own options choose them. Whatever no function takes or looks up is named at the end
- * (koksma__xml_name_unread). The table of plug-ins (mitsuba_names.c) says which properties there are.
+ * (koksma__xml_name_unread). The table of plug-ins (mitsuba_names.c) says
+ * which properties there are. Long because all objects share the references and marks of one reader.
  */
 #include "scene/mitsuba.h"
 
@@ -158,8 +159,8 @@ static const node *property(const reader *r, const node *n, const char *name)
 #define REPLACE(r, n, ...)                                                                                           \
     (koksma__xml_mark(n, KOKSMA__XML_COVERED), koksma__import_unknown((r)->im, (n)->place, __VA_ARGS__))
 
-/* Takes the properties that have no effect on the pictures that are made here: those of the row with "~", unless they have a
-   default, or a list of values, and another value. */
+/* Takes the properties that have no effect on the pictures that are made here: those of the row with "~", unless they
+   have a default, or a list of values, and another value. */
 static void pass(const reader *r, const node *n)
 {
     const char *at = row_of(r, n)->parameters;

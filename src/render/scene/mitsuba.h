@@ -75,7 +75,8 @@ static inline void koksma__xml_mark(const koksma__xml_node *node, unsigned char 
    what is covered. Errors: MEMORY, MALFORMED (koksma__import_spend). */
 koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml);
 
-/* Whether a text has this name of `length` bytes, as it is or in the form of Mitsuba 0.6: a capital is in place of '_' (toWorld, intIOR). */
+/* Whether a text has this name of `length` bytes, as it is or in the form of Mitsuba 0.6: a capital is in place of '_'
+   (toWorld, intIOR). */
 bool koksma__xml_alike(const char *text, const char *name, size_t length);
 
 /* ---- Values ---------------------------------------------------------------------------------------------------------- */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of Mitsuba's plug-ins (its form: plugins.c): what is read of them, with Mitsuba 3's defaults, and what becomes of
- * them. Names of Mitsuba 0.6 and 2 are here, too. A parameter that no row has is named as ignored (koksma__xml_name_unread).
- * Also the materials that have a name: conductors, and indices of refraction.
+ * The table of Mitsuba's plug-ins (its form: plugins.c): what is read of them, with Mitsuba 3's defaults, and what
+ * becomes of them. Names of Mitsuba 0.6 and 2 are here, too. A parameter that no row has is named as ignored
+ * (koksma__xml_name_unread). Also the materials that have a name: conductors, and indices of refraction.
  */
 #include "scene/mitsuba.h"
 

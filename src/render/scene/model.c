@@ -6,7 +6,8 @@
  *
  * The scene gets an image size; a camera if the file has none; and, if no mesh emits light and the file has no other
  * lights, a studio: a key light, a dim sky and, if the camera was added, a ground. This file also replaces the sky of a
- * scene by one that the user chooses (koksma_scene_set_sky).
+ * scene by one that the user chooses (koksma_scene_set_sky). Long because reading a model and completing it share the
+ * scene.
  */
 #include "scene/scene.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of pbrt-v4's plug-ins (its form: plugins.c), with what is made of its materials. Values are read by it, with its
- * defaults, and each parameter is named that pbrt would refuse: pbrt reports an unused parameter as an error, and here it
- * may be a lost light. From pbrt-v4's source of 2024: each name is one that a Create() function of samplers.cpp,
+ * The table of pbrt-v4's plug-ins (its form: plugins.c), with what is made of its materials. Values are read by it, with
+ * its defaults, and each parameter is named that pbrt would refuse: pbrt reports an unused parameter as an error, and
+ * here it may be a lost light. From pbrt-v4's source of 2024: each name is one that a Create() function of samplers.cpp,
  * lights.cpp, shapes.cpp, ... looks up. `st`, `point`, `vector`, `normal3`, `color` and `exposuretime` are of earlier
  * versions.
  */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The tables of plug-ins and parameters from which other renderers' scenes are read (pbrt_names.c, mitsuba_names.c). A row
- * is for the plug-ins of one class that have the same parameters. These are a text, as short as the documentation of the
- * other renderer: "TYPE NAME NAME:DEFAULT; TYPE NAME=VALUE|VALUE". A name after "~" has no effect on the pictures that Koksma
- * makes (where it has a default or a closed list: if its value is that or in the list); one before "!" must be given, and
- * NAME|OLDER is a name and that of earlier versions. Where a list of values is closed, the first is the default. The kind "*"
- * has parameters that all kinds have, "?" is what an unknown kind is read as.
+ * The tables of plug-ins and parameters from which other renderers' scenes are read (pbrt_names.c, mitsuba_names.c). A
+ * row is for the plug-ins of one class that have the same parameters. These are a text, as short as the documentation of
+ * the other renderer: "TYPE NAME NAME:DEFAULT; TYPE NAME=VALUE|VALUE". A name after "~" has no effect on the pictures
+ * that Koksma makes (where it has a default or a closed list: if its value is that or in the list); one before "!" must
+ * be given, and NAME|OLDER is a name and that of earlier versions. Where a list of values is closed, the first is the
+ * default. The kind "*" has parameters that all kinds have, "?" is what an unknown kind is read as.
  */
 #include "scene/import.h"
 
