@@ -439,6 +439,17 @@ static bool blend_materials(koksma__material *a, const koksma__material *b, doub
     return true;
 }
 
+void koksma__import_between(koksma__import_colour *c, const double first[3], const double second[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const double from = first[k], step = second[k] - from;
+        c->rgb[k] = from + step * c->rgb[k];
+        c->second[k] = from + step * c->second[k];
+        c->use.tint[k] *= step;
+        c->use.plus[k] = from + step * c->use.plus[k];
+    }
+}
+
 /* Whether a material is Lambert's with one albedo, which light meets everywhere. */
 static bool is_plain(const koksma__material *m)
 {
@@ -463,13 +474,7 @@ static koksma_status mix_albedos(koksma__import *im, koksma__text_place place, c
     koksma__material mixed = {.bsdf = &koksma__bsdf_lambert};
     koksma__import_colour c = *amount;
     use_as_number(im, &c);
-    for (int k = 0; k < 3; k++) {
-        const double from = first->albedo[0][k], step = second->albedo[0][k] - from;
-        c.rgb[k] = from + step * amount->rgb[k];
-        c.second[k] = from + step * amount->second[k];
-        c.use.tint[k] *= step;
-        c.use.plus[k] = from + step * c.use.plus[k];
-    }
+    koksma__import_between(&c, first->albedo[0], second->albedo[0]);
     KOKSMA__TRY(set_colour(im, place, &c, &mixed));
     return koksma__import_keep_material(im, place, &mixed, out);
 }
@@ -606,9 +611,8 @@ static double map_illuminance(const koksma_image *image)
     return 2 * M_PI * sum / (double)n;
 }
 
-/* illuminance 0: the scale stays. */
-static koksma_status add_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
-                             double illuminance, const double scale[3], const double matrix[12])
+koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, double illuminance,
+                                 const double scale[3], const double matrix[12])
 {
     char full[KOKSMA__MAX_PATH];
     koksma_image image = {0}, turned = {0};
@@ -637,24 +641,13 @@ static koksma_status add_sky(koksma__import *im, koksma__text_place place, const
                  ? check_turn(place, matrix)
                  : koksma__import_fail(place, "the matrix of an environment has no inverse");
     status = status ? status : check_turn(place, inverse);
-    status = status ? status : koksma__import_fail_at(place, koksma__sky_turn(&image, octahedral, inverse, &turned));
+    status =
+        status ? status : koksma__import_fail_at(place, koksma__sky_turn(&image, !im->rows_down, inverse, &turned));
     status =
         status ? status : koksma__import_fail_at(place, koksma__scene_image_keep(im->scene, &turned, &light.image));
     koksma_image_fini(&image);
     koksma_image_fini(&turned);
     return status ? status : koksma__import_light(im, place, &light);
-}
-
-koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
-                                 const double scale[3], const double matrix[12])
-{
-    return add_sky(im, place, name, octahedral, 0, scale, matrix);
-}
-
-koksma_status koksma__import_lit_sky(koksma__import *im, koksma__text_place place, const char *name,
-                                     double illuminance, const double scale[3], const double matrix[12])
-{
-    return add_sky(im, place, name, true, illuminance, scale, matrix);
 }
 
 koksma_status koksma__import_spot(koksma__text_place place, const double direction[3], double inner_deg,

@@ -76,9 +76,9 @@ typedef struct koksma__import {
     koksma__names files;              /* the meshes from files: 1 + the index of each; 0: it is left out */
     int forms[KOKSMA__N_BASIC_FORMS]; /* 1 + the index of the mesh of each basic shape; 0: it is not made yet */
     struct koksma__mesh_twins *twins; /* for each mesh: forms of the same mesh */
-    koksma__serialized *packed;       /* the .serialized files */
-    koksma__names packed_names;
-    size_t n_twins, n_packed, packed_size; /* packed_size: length of those that are open */
+    size_t n_twins;
+    koksma__serialized packed; /* the .serialized file that was used last, and its key */
+    char packed_key[KOKSMA__FILE_KEY];
 } koksma__import;
 
 /* A colour, or an image over texture coordinates, or a checkerboard with two colours. */
@@ -245,6 +245,9 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
 koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_place place,
                                            const koksma__material *material, int *out);
 
+/* Turns an amount into the colour, image or checkerboard that goes from `first` to `second` as it goes from 0 to 1. */
+void koksma__import_between(koksma__import_colour *amount, const double first[3], const double second[3]);
+
 /* Sets *out to a mixture of two materials (-1: light passes through), of which the second has the share `amount`: exactly
    where one material of Koksma scatters as both do together, and else to the one with the larger share, with a warning. */
 koksma_status koksma__import_mix(koksma__import *im, koksma__text_place place, int first, int second,
@@ -267,15 +270,12 @@ koksma_status koksma__import_light(koksma__import *im, koksma__text_place place,
 koksma_status koksma__import_spot(koksma__text_place place, const double direction[3], double inner_deg,
                                   double outer_deg, int falloff, koksma__light *light);
 
-/* Adds an environment from a latitude-longitude image or from the octahedral map of pbrt-v4 (Clarberg 2008),
-   multiplied by `scale`; `matrix` transforms the image's directions to the scene's. */
-koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
+/* Adds an environment, multiplied by `scale`: of Mitsuba a latitude-longitude image, of pbrt-v4 an octahedral map (Clarberg
+   2008); `matrix` transforms the image's directions to the scene's. With an illuminance above 0 the map has another factor,
+   the illuminance divided by what pbrt takes for that of its upper half, z > 0: 2 pi times the mean over all pixels of
+   luminance times cosine, twice the integral. */
+koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, double illuminance,
                                  const double scale[3], const double matrix[12]);
-
-/* The same for an octahedral map that gets another factor, `illuminance` divided by what pbrt takes for the illuminance
-   of its upper half, z > 0: 2 pi times the mean over all pixels of luminance times cosine, twice the integral. */
-koksma_status koksma__import_lit_sky(koksma__import *im, koksma__text_place place, const char *name,
-                                     double illuminance, const double scale[3], const double matrix[12]);
 
 /* Sets the camera. The columns of the matrix are the direction to the right (times `right`, 1 or -1), the direction
    up (whose length scales an orthographic camera's height), the direction ahead and the position; `lens` gives the

@@ -1127,7 +1127,7 @@ static koksma_status emitter(reader *r, const node *n)
     }
     if (row->makes == KOKSMA__PICTURE) {
         const double scale = number(r, n, "scale"), rgb[3] = {scale, scale, scale};
-        return koksma__import_sky(r->im, n->place, text(r, n, "filename"), false, rgb, m);
+        return koksma__import_sky(r->im, n->place, text(r, n, "filename"), 0, rgb, m);
     }
     if (row->makes == KOKSMA__SKY) {
         light.kind = &koksma__light_environment;

@@ -20,6 +20,12 @@
 #include "render/medium.h"
 #include "render/shapes/shapes.h"
 
+/* Returns `status`; if that is an error, its text begins with the field. */
+static koksma_status at_field(const field *f, koksma_status status)
+{
+    return status ? koksma__json_fail_in(f, status) : KOKSMA_OK;
+}
+
 /* The map from the unit square to the lens that has this name; NULL for other names. */
 static const koksma_warp *lens_map(const char *name)
 {
@@ -55,23 +61,23 @@ static koksma_status parse_albedo(const field *f, koksma__material *m)
     size_t n = 0;
     double angle_deg = 0;
     if (!m->checker) {
-        const koksma_status status = koksma__parse_colour(f, "albedo", true, 1, m->albedo[0]);
+        KOKSMA__TRY(koksma__parse_colour(f, "albedo", true, 1, m->albedo[0]));
         memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
-        return status;
+        return KOKSMA_OK;
     }
-    koksma_status status = koksma__json_member(f, "albedos", &pair);
-    status = status ? status : koksma__json_length(&pair, 2, &n);
-    KOKSMA__JSON_FAIL_IF(!status && n != 2, &pair, "it takes 2 albedos");
-    for (size_t i = 0; !status && i < 2; i++) {
+    KOKSMA__TRY(koksma__json_member(f, "albedos", &pair));
+    KOKSMA__TRY(koksma__json_length(&pair, 2, &n));
+    KOKSMA__JSON_FAIL_IF(n != 2, &pair, "it takes 2 albedos");
+    for (size_t i = 0; i < 2; i++) {
         item = koksma__json_item(&pair, i);
-        status = koksma__parse_colour_value(&item, 1, m->albedo[i]);
+        KOKSMA__TRY(koksma__parse_colour_value(&item, 1, m->albedo[i]));
     }
     m->period = 1;
-    status = status ? status : koksma__json_get_number(f, "period", false, TINY, FAR, &m->period);
-    status = status ? status : koksma__json_get_numbers(f, "phase", false, -FAR, FAR, 2, m->phase);
-    status = status ? status : koksma__json_get_number(f, "angle_deg", false, -360, 360, &angle_deg);
+    KOKSMA__TRY(koksma__json_get_number(f, "period", false, TINY, FAR, &m->period));
+    KOKSMA__TRY(koksma__json_get_numbers(f, "phase", false, -FAR, FAR, 2, m->phase));
+    KOKSMA__TRY(koksma__json_get_number(f, "angle_deg", false, -360, 360, &angle_deg));
     m->angle_rad = angle_deg * TURN / 360;
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Reads "albedo": {"image": FILE} of a Lambert surface; the image's mean colour is used where a single colour is
@@ -80,14 +86,12 @@ static koksma_status parse_texture(koksma_scene *scene, const char *name, const 
 {
     field albedo;
     const char *path = "";
-    koksma_status status = koksma__json_member(f, "albedo", &albedo);
-    status = status ? status : koksma__json_only(&albedo, KEYS("image"));
-    status = status ? status : koksma__json_get_text(&albedo, "image", true, &path);
-    status = status ? status : koksma__parse_image(scene, name, &albedo, path, &m->image);
-    if (!status) {
-        koksma__material_mean(scene, m);
-    }
-    return status;
+    KOKSMA__TRY(koksma__json_member(f, "albedo", &albedo));
+    KOKSMA__TRY(koksma__json_only(&albedo, KEYS("image")));
+    KOKSMA__TRY(koksma__json_get_text(&albedo, "image", true, &path));
+    KOKSMA__TRY(koksma__parse_image(scene, name, &albedo, path, &m->image));
+    koksma__material_mean(scene, m);
+    return KOKSMA_OK;
 }
 
 /* Reads the diffuse albedo, in one of the forms that the kind of material allows. */
@@ -134,31 +138,28 @@ static koksma_status parse_blades(const field *f, koksma__camera *camera)
 {
     long long blades = 0;
     double angle_deg = 0;
-    koksma_status status = koksma__json_get_whole(f, "lens_blades", false, 3, MOST_BLADES, &blades);
-    status = status ? status : koksma__json_get_number(f, "lens_angle_deg", false, -360, 360, &angle_deg);
-    KOKSMA__JSON_FAIL_IF(!status && koksma__json_has(f, "lens_angle_deg") && !blades, f,
+    KOKSMA__TRY(koksma__json_get_whole(f, "lens_blades", false, 3, MOST_BLADES, &blades));
+    KOKSMA__TRY(koksma__json_get_number(f, "lens_angle_deg", false, -360, 360, &angle_deg));
+    KOKSMA__JSON_FAIL_IF(koksma__json_has(f, "lens_angle_deg") && !blades, f,
                          "lens_angle_deg turns the corners of the lens, whose number 'lens_blades' gives");
-    KOKSMA__JSON_FAIL_IF(!status && blades && !(camera->lens_radius > 0), f, "lens_blades needs a 'lens_radius'");
+    KOKSMA__JSON_FAIL_IF(blades && !(camera->lens_radius > 0), f, "lens_blades needs a 'lens_radius'");
     camera->blades = (int)blades;
     camera->blade_angle_rad = angle_deg * TURN / 360;
-    return status;
+    return KOKSMA_OK;
 }
 
 static koksma_status parse_lens(const field *f, koksma__camera *camera)
 {
     const char *map = "concentric";
-    koksma_status status = koksma__json_get_number(f, "lens_radius", false, 0, FAR, &camera->lens_radius);
-    status = status ? status : koksma__json_get_text(f, "lens_map", false, &map);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_get_number(f, "lens_radius", false, 0, FAR, &camera->lens_radius));
+    KOKSMA__TRY(koksma__json_get_text(f, "lens_map", false, &map));
     camera->focus_distance = 1;
     if (camera->lens_radius > 0 || koksma__json_has(f, "focus_distance")) {
-        status = koksma__json_get_number(f, "focus_distance", true, TINY, FAR, &camera->focus_distance);
+        KOKSMA__TRY(koksma__json_get_number(f, "focus_distance", true, TINY, FAR, &camera->focus_distance));
     }
     camera->lens_map = lens_map(map);
-    KOKSMA__JSON_FAIL_IF(!status && !camera->lens_map, f, "no lens_map '%s'; it takes concentric or polar", map);
-    return status ? status : parse_blades(f, camera);
+    KOKSMA__JSON_FAIL_IF(!camera->lens_map, f, "no lens_map '%s'; it takes concentric or polar", map);
+    return parse_blades(f, camera);
 }
 
 static koksma_status parse_shutter(const field *f, koksma__camera *camera)
@@ -190,22 +191,18 @@ static koksma_status parse_camera(const field *root, koksma__camera *camera)
 {
     field f;
     double target[3], up[3] = {0, 1, 0};
-    koksma_status status = koksma__json_member(root, "camera", &f);
-    status = status ? status
-                    : koksma__json_only(&f, KEYS("eye", "target", "up", "fov_deg", "orthographic_height",
-                                                 "lens_radius", "focus_distance", "lens_map", "lens_blades",
-                                                 "lens_angle_deg", "shutter", "motion"));
-    status = status ? status : koksma__parse_point(&f, "eye", camera->eye);
-    status = status ? status : koksma__parse_point(&f, "target", target);
-    status = status ? status : parse_view(&f, camera);
-    if (!status && koksma__json_has(&f, "up")) {
-        status = koksma__parse_direction(&f, "up", up);
+    KOKSMA__TRY(koksma__json_member(root, "camera", &f));
+    KOKSMA__TRY(koksma__json_only(&f, KEYS("eye", "target", "up", "fov_deg", "orthographic_height", "lens_radius",
+                                           "focus_distance", "lens_map", "lens_blades", "lens_angle_deg", "shutter",
+                                           "motion")));
+    KOKSMA__TRY(koksma__parse_point(&f, "eye", camera->eye));
+    KOKSMA__TRY(koksma__parse_point(&f, "target", target));
+    KOKSMA__TRY(parse_view(&f, camera));
+    if (koksma__json_has(&f, "up")) {
+        KOKSMA__TRY(koksma__parse_direction(&f, "up", up));
     }
-    status = status ? status : parse_lens(&f, camera);
-    status = status ? status : parse_shutter(&f, camera);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(parse_lens(&f, camera));
+    KOKSMA__TRY(parse_shutter(&f, camera));
     koksma__subtract(target, camera->eye, camera->forward);
     KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->forward), &f, "'eye' and 'target' are the same point");
     koksma__cross(camera->forward, up, camera->right);
@@ -265,17 +262,14 @@ static koksma_status parse_material(const field *f, const koksma_scene *scene, k
 static koksma_status parse_shape(const char *scene_name, const field *f, koksma_scene *scene)
 {
     size_t kind = 0;
-    koksma_status status = koksma__parse_kind(f, koksma__shape_kinds, &kind);
+    KOKSMA__TRY(koksma__parse_kind(f, koksma__shape_kinds, &kind));
     koksma__shape shape = {.type = koksma__shape_types[kind], .material = -1, .light = -1}, *added;
-    status = status ? status : koksma__parse_fields(f, &shape.type->kind, KEYS("kind", "material"), &shape);
-    status = status ? status : parse_material(f, scene, &shape);
-    if (!status && shape.type->parse) {
-        status = shape.type->parse(scene_name, f, scene, &shape);
+    KOKSMA__TRY(koksma__parse_fields(f, &shape.type->kind, KEYS("kind", "material"), &shape));
+    KOKSMA__TRY(parse_material(f, scene, &shape));
+    if (shape.type->parse) {
+        KOKSMA__TRY(shape.type->parse(scene_name, f, scene, &shape));
     }
-    if (!status && shape.type->hit && (status = koksma__scene_add_shape(scene, &shape, &added))) {
-        status = koksma__json_fail_in(f, status);
-    }
-    return status;
+    return shape.type->hit ? at_field(f, koksma__scene_add_shape(scene, &shape, &added)) : KOKSMA_OK;
 }
 
 /* ---- Lights --------------------------------------------------------------------------------------------- */
@@ -286,76 +280,54 @@ static koksma_status parse_light(const char *name, const field *f, koksma_scene 
 {
     size_t kind = 0;
     koksma__light *light = NULL;
-    koksma_status status = koksma__parse_kind(f, koksma__light_kinds, &kind);
-    if (!status && (status = koksma__scene_add_light(scene, &light))) {
-        status = koksma__json_fail_in(f, status);
-    }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__parse_kind(f, koksma__light_kinds, &kind));
+    KOKSMA__TRY(at_field(f, koksma__scene_add_light(scene, &light)));
     light->kind = koksma__light_types[kind];
-    status = koksma__parse_fields(f, &light->kind->kind, KEYS("kind"), light);
-    return !status && light->kind->parse ? light->kind->parse(name, f, scene, light) : status;
+    KOKSMA__TRY(koksma__parse_fields(f, &light->kind->kind, KEYS("kind"), light));
+    return light->kind->parse ? light->kind->parse(name, f, scene, light) : KOKSMA_OK;
 }
 
 static koksma_status parse_image(const field *root, koksma_scene *scene)
 {
     field image;
     long long width = 128, height = 96;
-    koksma_status status = KOKSMA_OK;
     if (koksma__json_has(root, "image")) {
-        status = koksma__json_member(root, "image", &image);
-        status = status ? status : koksma__json_only(&image, KEYS("width", "height"));
-        status = status ? status : koksma__json_get_whole(&image, "width", true, 1, KOKSMA_MAX_IMAGE_SIDE, &width);
-        status = status ? status : koksma__json_get_whole(&image, "height", true, 1, KOKSMA_MAX_IMAGE_SIDE, &height);
+        KOKSMA__TRY(koksma__json_member(root, "image", &image));
+        KOKSMA__TRY(koksma__json_only(&image, KEYS("width", "height")));
+        KOKSMA__TRY(koksma__json_get_whole(&image, "width", true, 1, KOKSMA_MAX_IMAGE_SIDE, &width));
+        KOKSMA__TRY(koksma__json_get_whole(&image, "height", true, 1, KOKSMA_MAX_IMAGE_SIDE, &height));
     }
     scene->width = (int)width;
     scene->height = (int)height;
-    return status;
+    return KOKSMA_OK;
 }
 
-/* Opens the list `key`; if `out` is given, allocates an array for its items of `size` bytes each. */
-static koksma_status open_list(const field *root, const char *key, size_t max, size_t size, void *out, field *list,
-                               size_t *n)
+/* Reads each item of the list `key`. */
+static koksma_status parse_list(const char *name, const field *root, const char *key, size_t most,
+                                koksma_status (*parse)(const char *name, const field *f, koksma_scene *scene),
+                                koksma_scene *scene)
 {
-    koksma_status status = koksma__json_member(root, key, list);
-    status = status ? status : koksma__json_length(list, max, n);
-    if (status || !out) {
-        return status;
+    field list, item;
+    size_t n = 0;
+    KOKSMA__TRY(koksma__json_member(root, key, &list));
+    KOKSMA__TRY(koksma__json_length(&list, most, &n));
+    for (size_t i = 0; i < n; i++) {
+        item = koksma__json_item(&list, i);
+        KOKSMA__TRY(parse(name, &item, scene));
     }
-    void *items = calloc(*n + 1, size);
-    KOKSMA__REQUIRE_MEMORY(items, *n * size);
-    memcpy(out, &items, sizeof items);
     return KOKSMA_OK;
 }
 
 static koksma_status parse_lists(const char *name, const field *root, koksma_scene *scene)
 {
-    field list, item;
-    size_t n = 0;
-    /* allocated at the maximum size, because meshes may add lights */
+    scene->materials = calloc(KOKSMA__MAX_MATERIALS, sizeof *scene->materials);
     scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
+    KOKSMA__REQUIRE_MEMORY(scene->materials, KOKSMA__MAX_MATERIALS * sizeof *scene->materials);
     KOKSMA__REQUIRE_MEMORY(scene->lights, KOKSMA__MAX_LIGHTS * sizeof *scene->lights);
-    koksma_status status =
-        open_list(root, "materials", KOKSMA__MAX_MATERIALS, sizeof *scene->materials, &scene->materials, &list, &n);
-    for (size_t i = 0; !status && i < n; i++) {
-        item = koksma__json_item(&list, i);
-        status = read_material(name, &item, scene);
-    }
-    status = status ? status : open_list(root, "shapes", KOKSMA__MAX_SHAPES, 0, NULL, &list, &n);
-    for (size_t i = 0; !status && i < n; i++) {
-        item = koksma__json_item(&list, i);
-        status = parse_shape(name, &item, scene);
-    }
-    if (status || !koksma__json_has(root, "lights")) {
-        return status;
-    }
-    status = open_list(root, "lights", KOKSMA__MAX_LIGHTS, 0, NULL, &list, &n);
-    for (size_t i = 0; !status && i < n; i++) {
-        item = koksma__json_item(&list, i);
-        status = parse_light(name, &item, scene);
-    }
-    return status;
+    KOKSMA__TRY(parse_list(name, root, "materials", KOKSMA__MAX_MATERIALS, read_material, scene));
+    KOKSMA__TRY(parse_list(name, root, "shapes", KOKSMA__MAX_SHAPES, parse_shape, scene));
+    return koksma__json_has(root, "lights") ? parse_list(name, root, "lights", KOKSMA__MAX_LIGHTS, parse_light, scene)
+                                            : KOKSMA_OK;
 }
 
 /* ---- The medium ------------------------------------------------------------------------------------------- */
@@ -372,14 +344,11 @@ static koksma_status parse_medium(const field *root, koksma_scene *scene)
     if (!koksma__json_has(root, "medium")) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__json_member(root, "medium", &f);
-    status = status ? status : koksma__json_only(&f, KEYS("sigma_a", "sigma_s", "g", "low", "high"));
-    status = status ? status : koksma__parse_colour(&f, "sigma_a", false, BRIGHT, absorption);
-    status = status ? status : koksma__parse_colour(&f, "sigma_s", false, BRIGHT, scattering);
-    status = status ? status : koksma__json_get_number(&f, "g", false, -0.999, 0.999, &g);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_member(root, "medium", &f));
+    KOKSMA__TRY(koksma__json_only(&f, KEYS("sigma_a", "sigma_s", "g", "low", "high")));
+    KOKSMA__TRY(koksma__parse_colour(&f, "sigma_a", false, BRIGHT, absorption));
+    KOKSMA__TRY(koksma__parse_colour(&f, "sigma_s", false, BRIGHT, scattering));
+    KOKSMA__TRY(koksma__json_get_number(&f, "g", false, -0.999, 0.999, &g));
     bool is_empty = true;
     for (int k = 0; k < 3; k++) {
         is_empty &= absorption[k] == 0 && scattering[k] == 0;
@@ -388,40 +357,35 @@ static koksma_status parse_medium(const field *root, koksma_scene *scene)
     koksma__medium_init(&scene->medium, absorption, scattering, g);
     scene->hash += MEDIUM_REVISION;
     if (koksma__json_has(&f, "low") || koksma__json_has(&f, "high")) {
-        status = koksma__parse_point(&f, "low", low);
-        status = status ? status : koksma__parse_point(&f, "high", high);
-        for (int k = 0; !status && k < 3; k++) {
+        KOKSMA__TRY(koksma__parse_point(&f, "low", low));
+        KOKSMA__TRY(koksma__parse_point(&f, "high", high));
+        for (int k = 0; k < 3; k++) {
             KOKSMA__JSON_FAIL_IF(!(high[k] - low[k] > TINY), &f, "'low' must be below 'high' in every coordinate");
             scene->medium.low[k] = low[k];
             scene->medium.high[k] = high[k];
         }
     }
-    if (!status && (status = koksma__medium_check(scene))) {
-        status = koksma__json_fail_in(&f, status);
-    }
-    return status;
+    return at_field(&f, koksma__medium_check(scene));
 }
 
 static koksma_status parse_root(const char *name, const field *root, koksma_scene *scene)
 {
     const char *title = "", *note;
-    koksma_status status = koksma__json_only(root, KEYS("title", "note", "image", "camera", "background", "ambient",
-                                                        "clamp", "medium", "materials", "shapes", "lights"));
-    status = status ? status : koksma__json_get_text(root, "title", false, &title);
+    KOKSMA__TRY(koksma__json_only(root, KEYS("title", "note", "image", "camera", "background", "ambient", "clamp",
+                                             "medium", "materials", "shapes", "lights")));
+    KOKSMA__TRY(koksma__json_get_text(root, "title", false, &title));
     snprintf(scene->title, sizeof scene->title, "%s", title);
     scene->clamp = INFINITY;
-    status = status ? status : koksma__json_get_text(root, "note", false, &note);
-    status = status ? status : parse_image(root, scene);
-    status = status ? status : parse_camera(root, &scene->camera);
-    status = status ? status : koksma__parse_colour(root, "background", false, BRIGHT, scene->background);
-    status = status ? status : koksma__parse_colour(root, "ambient", false, BRIGHT, scene->ambient);
-    status = status ? status : koksma__json_get_number(root, "clamp", false, TINY, BRIGHT, &scene->clamp);
-    status = status ? status : parse_lists(name, root, scene);
-    status = status ? status : parse_medium(root, scene);
-    if (!status) {
-        koksma__scene_finish(scene);
-    }
-    return status;
+    KOKSMA__TRY(koksma__json_get_text(root, "note", false, &note));
+    KOKSMA__TRY(parse_image(root, scene));
+    KOKSMA__TRY(parse_camera(root, &scene->camera));
+    KOKSMA__TRY(koksma__parse_colour(root, "background", false, BRIGHT, scene->background));
+    KOKSMA__TRY(koksma__parse_colour(root, "ambient", false, BRIGHT, scene->ambient));
+    KOKSMA__TRY(koksma__json_get_number(root, "clamp", false, TINY, BRIGHT, &scene->clamp));
+    KOKSMA__TRY(parse_lists(name, root, scene));
+    KOKSMA__TRY(parse_medium(root, scene));
+    koksma__scene_finish(scene);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__scene_parse(const char *name, const char *text, size_t size, koksma_scene *scene)

@@ -406,8 +406,8 @@ static koksma_status take_light(reader *r)
     koksma__pbrt_point(p, "to", to);
     if (around && *koksma__pbrt_word(p, "filename")) {
         const double illuminance = koksma__pbrt_number(p, "illuminance");
-        return koksma__import_lit_sky(r->im, p->place, koksma__pbrt_word(p, "filename"), illuminance, light.radiance,
-                                      r->now.matrix[0]);
+        return koksma__import_sky(r->im, p->place, koksma__pbrt_word(p, "filename"), illuminance, light.radiance,
+                                  r->now.matrix[0]);
     }
     scale_light(p, type, light.radiance);
     if (around) {

@@ -343,13 +343,7 @@ static koksma_status read_mix(koksma__pbrt_scene *scene, const koksma__pbrt_para
     if (!is_one_colour(&amount) && is_one_colour(c) && is_one_colour(&second)) {
         const koksma__import_colour first = *c;
         *c = amount;
-        for (int k = 0; k < 3; k++) {
-            const double step = second.rgb[k] - first.rgb[k];
-            c->rgb[k] = first.rgb[k] + step * amount.rgb[k];
-            c->second[k] = first.rgb[k] + step * amount.second[k];
-            c->use.tint[k] *= step;
-            c->use.plus[k] = first.rgb[k] + step * amount.use.plus[k];
-        }
+        koksma__import_between(c, first.rgb, second.rgb);
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__import_mean(scene->im, p->place, "the amount of a mix", KOKSMA__REFLECTANCE, &amount));
