@@ -60,18 +60,34 @@ koksma_status koksma__import_spend(koksma__import *im, koksma__text_place place,
                                      MOST_STEPS);
 }
 
-koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
+static koksma_status add_unknown(koksma__import *im, koksma__text_place place, const char *format, va_list arguments)
 {
     koksma_scene *scene = im->scene;
     char text[256];
-    va_list arguments;
-    va_start(arguments, format);
     koksma__vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
     KOKSMA__TRY(koksma__import_spend(im, place, 16 + scene->n_unknown / 4));
     return koksma__unknown_count(scene->unknown, scene->n_unknown, text)
                ? KOKSMA_OK
                : koksma__unknown_add(&scene->unknown, &scene->n_unknown, place.file, place.line, text);
+}
+
+koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const koksma_status status = add_unknown(im, place, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+koksma_status koksma__import_unknown_if(bool is_so, koksma__import *im, koksma__text_place place, const char *format,
+                                        ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const koksma_status status = is_so ? add_unknown(im, place, format, arguments) : KOKSMA_OK;
+    va_end(arguments);
+    return status;
 }
 
 bool koksma__import_is_full(const koksma__import *im)
@@ -264,8 +280,7 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
         }
         koksma__material_mean(im->scene, m);
     }
-    return m->image && from->image_scale != 1 ? koksma__import_unknown(im, place, "an image's scale is ignored")
-                                              : KOKSMA_OK;
+    return koksma__import_unknown_if(m->image && from->image_scale != 1, im, place, "an image's scale is ignored");
 }
 
 /* Replaces a coated material by a Phong lobe, which has a dielectric's reflectance along the normal, over a Lambert
@@ -625,9 +640,7 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
     memcpy(light.radiance, scale, sizeof light.radiance);
     koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, &image);
     status = status ? status : koksma__image_check(&image, full);
-    if (!status && *koksma_image_remark()) {
-        KOKSMA__TRY(koksma__import_unknown(im, place, "%s", koksma_image_remark()));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(!status && *koksma_image_remark(), im, place, "%s", koksma_image_remark()));
     if (status) {
         koksma_image_fini(&image);
         KOKSMA__TRY(leave_out(im, place, status));

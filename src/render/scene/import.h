@@ -188,10 +188,12 @@ koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status sta
    amount of it, so the whole scene may take at most 2^26 steps, a second or two. Error: MALFORMED. */
 koksma_status koksma__import_spend(koksma__import *im, koksma__text_place place, uint64_t steps);
 
-/* Adds a warning about an unsupported feature and its replacement, "FILE:LINE: ...". Warnings with equal texts become
-   one, with the number of places. Errors: MEMORY, MALFORMED (koksma__import_spend). */
+/* Adds a warning about an unsupported feature and its replacement, "FILE:LINE: ...", the second one if `is_so` is true.
+   Warnings with equal texts become one, with the number of places. Errors: MEMORY, MALFORMED (koksma__import_spend). */
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
     KOKSMA_PRINTF(3, 4);
+koksma_status koksma__import_unknown_if(bool is_so, koksma__import *im, koksma__text_place place, const char *format,
+                                        ...) KOKSMA_PRINTF(4, 5);
 
 /* Whether the list of warnings is full: more would only be counted in its last entry. */
 bool koksma__import_is_full(const koksma__import *im);

@@ -371,8 +371,8 @@ static koksma_status put_mesh(koksma__import *im, const koksma__import_item *ite
     }
     KOKSMA__TRY(at->moves ? set_mesh_motion(scene, item, at, p) : KOKSMA_OK);
     koksma__import_radiance(im, surface.radiance);
-    KOKSMA__TRY(surface.hidden ? koksma__import_unknown(im, item->place, "an invisible light of triangles is visible")
-                               : KOKSMA_OK);
+    KOKSMA__TRY(
+        koksma__import_unknown_if(surface.hidden, im, item->place, "an invisible light of triangles is visible"));
     if (!surface.emits) {
         return KOKSMA_OK;
     }
@@ -577,9 +577,8 @@ static koksma_status place(koksma__import *im, const koksma__import_item *item, 
         memcpy(at->before, poses ? item->matrix : item->motion.before, sizeof at->before);
         memcpy(at->after, poses ? koksma__import_identity : first, sizeof at->after);
     }
-    return poses && item->motion.moves
-               ? koksma__import_unknown(im, item->place, "motion within an object whose instance moves is ignored")
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(poses && item->motion.moves, im, item->place,
+                                     "motion within an object whose instance moves is ignored");
 }
 
 koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *item, const double outer[12],
@@ -601,18 +600,15 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     KOKSMA__TRY(place(im, item, outer, poses, &at));
     const koksma__shape_type *own = item->form == KOKSMA__FORM_MESH ? NULL : own_shape(im, item, &at, length);
     if (own) {
-        if (item->surface.emits && item->surface.material >= 0) {
-            KOKSMA__TRY(koksma__import_unknown(im, item->place, "the reflection of a round light is left out"));
-        }
+        KOKSMA__TRY(koksma__import_unknown_if(item->surface.emits && item->surface.material >= 0, im, item->place,
+                                              "the reflection of a round light is left out"));
         return put_own(im, item, own, &at, length);
     }
     if (item->form != KOKSMA__FORM_MESH) {
         KOKSMA__TRY(find_form(im, item->place, item->form, &mesh));
     }
-    if (item->form == KOKSMA__FORM_CYLINDER || item->form == KOKSMA__FORM_SPHERE || item->form == KOKSMA__FORM_DISK) {
-        KOKSMA__TRY(koksma__import_unknown(
-            im, item->place, "a cylinder, or a stretched or textured round shape, becomes a mesh with %d sides",
-            SIDES));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(
+        item->form == KOKSMA__FORM_CYLINDER || item->form == KOKSMA__FORM_SPHERE || item->form == KOKSMA__FORM_DISK,
+        im, item->place, "a cylinder, or a stretched or textured round shape, becomes a mesh with %d sides", SIDES));
     return mesh < 0 ? KOKSMA_OK : put_mesh(im, item, mesh, &at);
 }

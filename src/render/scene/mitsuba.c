@@ -356,9 +356,8 @@ static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use
         return KOKSMA_OK;
     }
     const double low = fmin(fmin(c.rgb[0], c.rgb[1]), c.rgb[2]), high = fmax(fmax(c.rgb[0], c.rgb[1]), c.rgb[2]);
-    KOKSMA__TRY(use == KOKSMA__REFLECTANCE && (low < 0 || high > 1)
-                    ? koksma__import_unknown(r->im, n->place, "a reflectance beyond 0 to 1 is clamped")
-                    : KOKSMA_OK);
+    KOKSMA__TRY(koksma__import_unknown_if(use == KOKSMA__REFLECTANCE && (low < 0 || high > 1), r->im, n->place,
+                                          "a reflectance beyond 0 to 1 is clamped"));
     for (int k = 0; k < 3; k++) {
         rgb[k] = c.form == KOKSMA__NO_COLOUR ? 1 : c.rgb[k];
     }
@@ -401,14 +400,10 @@ static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
     const size_t wrap = choice(r, n, "wrap_mode"), filter = choice(r, n, "filter_type");
     to->wrap[0] = to->wrap[1] = kinds[wrap];
     to->nearest = filter == 1;
-    if (wrap > 2) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a texture's wrap mode '%s' is replaced by 'clamp'",
-                                           text(r, n, "wrap_mode")));
-    }
-    if (filter > 1) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a texture's filter '%s' is replaced by 'bilinear'",
-                                           text(r, n, "filter_type")));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(
+        wrap > 2, r->im, n->place, "a texture's wrap mode '%s' is replaced by 'clamp'", text(r, n, "wrap_mode")));
+    KOKSMA__TRY(koksma__import_unknown_if(
+        filter > 1, r->im, n->place, "a texture's filter '%s' is replaced by 'bilinear'", text(r, n, "filter_type")));
     return set_matrix(r, n, to);
 }
 
@@ -474,9 +469,8 @@ static koksma_status bitmap(reader *r, const node *n, koksma__import_colour *out
 {
     const char *name = text(r, n, "filename"), *dot = strrchr(name, '.');
     const bool linear = dot && (!strcasecmp(dot, ".exr") || !strcasecmp(dot, ".pfm"));
-    KOKSMA__TRY(flag(r, n, "raw") && !linear
-                    ? koksma__import_unknown(r->im, n->place, "a texture's 'raw' is ignored: its levels are sRGB")
-                    : KOKSMA_OK);
+    KOKSMA__TRY(koksma__import_unknown_if(flag(r, n, "raw") && !linear, r->im, n->place,
+                                          "a texture's 'raw' is ignored: its levels are sRGB"));
     KOKSMA__TRY(set_mapping(r, n, &out->mapping));
     out->image_scale = 1;
     return koksma__import_path(r->im, n->place, name, out->image);
@@ -628,9 +622,8 @@ static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
         for (int i = 0; i < 3; i++) {
             m->colour.rgb[i] *= rgb[i];
         }
-        return strcmp(name, "none") != 0
-                   ? koksma__import_unknown(r->im, n->place, "metal '%s' has Schlick's reflectance", name)
-                   : KOKSMA_OK;
+        return koksma__import_unknown_if(strcmp(name, "none") != 0, r->im, n->place,
+                                         "metal '%s' has Schlick's reflectance", name);
     }
     if (!m->has_index || !is_constant) {
         KOKSMA__TRY(
@@ -685,10 +678,10 @@ static koksma_status blend(reader *r, const node *n, int depth, int *out)
 static koksma_status within(reader *r, const node *n, const node *inner, int depth, int *out)
 {
     const node *back = row_of(r, n)->instead ? NULL : find_child(r, next_of(r, inner), "bsdf");
-    KOKSMA__TRY(
-        back && resolve(r, back) != resolve(r, inner)
-            ? koksma__import_unknown(r->im, back->place, "the BSDF of a back is replaced by that of the front")
-            : KOKSMA_OK);
+    if (back && resolve(r, back) != resolve(r, inner)) {
+        KOKSMA__TRY(
+            koksma__import_unknown(r->im, back->place, "the BSDF of a back is replaced by that of the front"));
+    }
     return make_bsdf(r, resolve(r, inner), depth + 1, out);
 }
 
@@ -713,12 +706,10 @@ static koksma_status plain_bsdf(reader *r, const node *n, koksma__import_materia
     if (m->kind == KOKSMA__GLASS || m->kind == KOKSMA__COATED) {
         m->ior = index_of(r, n, "int_ior") / index_of(r, n, "ext_ior");
     }
-    if (!strncmp(type, "rough", 5) && entry_of(r, n, "distribution", &e) && choice(r, n, "distribution") != 1) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "Beckmann's distribution is replaced by GGX"));
-    }
-    if (u != v) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "anisotropic roughness is replaced by its mean"));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(!strncmp(type, "rough", 5) && entry_of(r, n, "distribution", &e) &&
+                                              choice(r, n, "distribution") != 1,
+                                          r->im, n->place, "Beckmann's distribution is replaced by GGX"));
+    KOKSMA__TRY(koksma__import_unknown_if(u != v, r->im, n->place, "anisotropic roughness is replaced by its mean"));
     return koksma__import_add_material(r->im, n->place, m, out);
 }
 
@@ -729,9 +720,8 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     const node *inner = row->makes == KOKSMA__WITHIN && nests ? find_child(r, first_of(r, n), "bsdf") : NULL;
     koksma__import_material m = {.kind = (unsigned)row->makes};
     *out = -1;
-    if (row->instead) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF '%s' is replaced by %s", type_of(n), row->instead));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(row->instead, r->im, n->place, "BSDF '%s' is replaced by %s", type_of(n),
+                                          row->instead));
     if (row->instead && (!is_known || row->makes == KOKSMA__NOTHING || row->makes == KOKSMA__WITHIN)) {
         koksma__xml_mark(n, KOKSMA__XML_COVERED);
     }
@@ -783,8 +773,8 @@ static koksma_status area_light(reader *r, const node *n, koksma__import_surface
         memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
     }
     surface->emits = true;
-    return strcmp(type_of(n), "area") != 0 ? koksma__import_unknown(r->im, n->place, "a light's direction is ignored")
-                                           : KOKSMA_OK;
+    return koksma__import_unknown_if(strcmp(type_of(n), "area") != 0, r->im, n->place,
+                                     "a light's direction is ignored");
 }
 
 /* Finds a shape's material and emission among its children. */
@@ -954,9 +944,8 @@ static koksma_status name_media(reader *r, const node *n, int material)
     if (outside && outside != r->medium) {
         return koksma__import_unknown(r->im, n->place, "a medium around a shape is ignored: only one is read");
     }
-    return outside && !inside && is_glass(r, material)
-               ? koksma__import_unknown(r->im, n->place, "glass in a medium is filled by the medium")
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(outside && !inside && is_glass(r, material), r->im, n->place,
+                                     "glass in a medium is filled by the medium");
 }
 
 /* Reads a colour of a medium, which is given directly or by a constant volume, of "color" in Mitsuba 2. */
@@ -1068,9 +1057,8 @@ static koksma_status name_flip(reader *r, const node *n, const koksma__import_it
     const char *type = bsdf ? type_of(resolve(r, bsdf)) : "";
     const bool none = item->surface.emits || item->surface.material < 0 || !strcmp(type, "twosided") ||
                       (is_glass(r, item->surface.material) && item->form != KOKSMA__FORM_SPHERE);
-    return item->surface.turned && !none
-               ? koksma__import_unknown(r->im, n->place, "'flip_normals' is ignored: surfaces have two sides")
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(item->surface.turned && !none, r->im, n->place,
+                                     "'flip_normals' is ignored: surfaces have two sides");
 }
 
 static koksma_status shape(reader *r, const node *n, const double outer[12], int depth)
@@ -1092,10 +1080,9 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
     KOKSMA__TRY(name_flip(r, n, &item));
     KOKSMA__TRY(
         koksma__import_spend(r->im, n->place, item.mesh < 0 ? 0 : r->im->scene->meshes[item.mesh].n_triangles / 16));
-    KOKSMA__TRY(item.surface.emits && item.mesh >= 0 && koksma__mesh_is_curved(&r->im->scene->meshes[item.mesh])
-                    ? koksma__import_unknown(r->im, n->place,
-                                             "a luminous mesh shines from its flat sides, not by its smooth normals")
-                    : KOKSMA_OK);
+    KOKSMA__TRY(koksma__import_unknown_if(
+        item.surface.emits && item.mesh >= 0 && koksma__mesh_is_curved(&r->im->scene->meshes[item.mesh]), r->im,
+        n->place, "a luminous mesh shines from its flat sides, not by its smooth normals"));
     KOKSMA__TRY(name_media(r, n, item.surface.material));
     KOKSMA__TRY(transform(r, n, "to_world", to_world));
     koksma__matrix_multiply(to_world, form, item.matrix);
@@ -1249,10 +1236,8 @@ static koksma_status sensor(reader *r, const node *n)
         const double x = sqrt(m[0] * m[0] + m[4] * m[4] + m[8] * m[8]),
                      y = sqrt(m[1] * m[1] + m[5] * m[5] + m[9] * m[9]);
         camera.height = 2 * height / width;
-        if (fabs(x - y) > 1e-4 * y) {
-            KOKSMA__TRY(koksma__import_unknown(r->im, n->place,
-                                               "the camera's scale along x is replaced by the scale along y"));
-        }
+        KOKSMA__TRY(koksma__import_unknown_if(fabs(x - y) > 1e-4 * y, r->im, n->place,
+                                              "the camera's scale along x is replaced by the scale along y"));
     } else {
         camera.fov_rad = height_angle(r, n, width, height);
     }

@@ -399,9 +399,8 @@ static koksma_status take_light(reader *r)
     double from[3] = {0}, to[3] = {0, 0, 1}, along[3];
     const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
     KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, far || around ? "L" : "I", light.radiance));
-    KOKSMA__TRY(moves(r->now.matrix[0], r->now.matrix[1])
-                    ? koksma__import_unknown(r->im, p->place, "a moving light stays where it is at the start")
-                    : KOKSMA_OK);
+    KOKSMA__TRY(koksma__import_unknown_if(moves(r->now.matrix[0], r->now.matrix[1]), r->im, p->place,
+                                          "a moving light stays where it is at the start"));
     koksma__pbrt_point(p, "from", from);
     koksma__pbrt_point(p, "to", to);
     if (around && *koksma__pbrt_word(p, "filename")) {
@@ -456,9 +455,8 @@ static koksma_status take_camera(reader *r)
         !koksma__import_invert(r->now.matrix[1], r->camera[1])) {
         return koksma__import_fail(p->place, "the camera's matrix has no inverse");
     }
-    if (r->in_world) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "a Camera after WorldBegin, which pbrt refuses"));
-    }
+    KOKSMA__TRY(
+        koksma__import_unknown_if(r->in_world, r->im, p->place, "a Camera after WorldBegin, which pbrt refuses"));
     r->has_camera = true;
     r->camera_place = p->place;
     snprintf(r->camera_medium, sizeof r->camera_medium, "%s", r->now.outside);
@@ -518,16 +516,14 @@ static koksma_status take_film(reader *r)
     KOKSMA__TRY(take_crop(p, r->film, r->crop));
     r->im->scene->width = (int)(r->crop[1] - r->crop[0]);
     r->im->scene->height = (int)(r->crop[3] - r->crop[2]);
-    if (r->in_world) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "a Film after WorldBegin, which pbrt refuses"));
-    }
+    KOKSMA__TRY(
+        koksma__import_unknown_if(r->in_world, r->im, p->place, "a Film after WorldBegin, which pbrt refuses"));
     r->iso = koksma__pbrt_number(p, "iso");
     r->exposure_time = koksma__pbrt_number(p, "exposuretime");
     set_exposure(r);
     const char *sensor = koksma__pbrt_word(p, "sensor");
-    return *sensor && strcmp(sensor, "cie1931")
-               ? koksma__import_unknown(r->im, p->place, "the sensor '%.40s' is replaced by 'cie1931'", sensor)
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(*sensor && strcmp(sensor, "cie1931"), r->im, p->place,
+                                     "the sensor '%.40s' is replaced by 'cie1931'", sensor);
 }
 
 /* ---- Materials and textures --------------------------------------------------------------------------------- */
@@ -564,16 +560,14 @@ static koksma_status take_integrator(reader *r)
 
 static koksma_status take_option(reader *r)
 {
-    return koksma__pbrt_flag(r->parameters, "forcediffuse")
-               ? koksma__import_unknown(r->im, r->place, "option 'forcediffuse' is ignored")
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(koksma__pbrt_flag(r->parameters, "forcediffuse"), r->im, r->place,
+                                     "option 'forcediffuse' is ignored");
 }
 
 static koksma_status take_colour_space(reader *r)
 {
-    return strcasecmp(r->texts[0], "srgb") != 0
-               ? koksma__import_unknown(r->im, r->place, "colour space '%s' is replaced by sRGB", r->texts[0])
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(strcasecmp(r->texts[0], "srgb") != 0, r->im, r->place,
+                                     "colour space '%s' is replaced by sRGB", r->texts[0]);
 }
 
 /* Finds the medium with this name, or adds it; NULL after an error. */
@@ -645,10 +639,9 @@ static koksma_status take_interface(reader *r)
     snprintf(r->now.outside, sizeof r->now.outside, "%s", outside);
     KOKSMA__TRY(use_medium(r, inside));
     KOKSMA__TRY(use_medium(r, outside));
-    return (*inside && strcmp(inside, outside) != 0) || (r->has_camera && strcmp(outside, r->camera_medium) != 0)
-               ? koksma__import_unknown(r->im, r->source->place,
-                                        "media of shapes are ignored: the camera's medium is everywhere")
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(
+        (*inside && strcmp(inside, outside) != 0) || (r->has_camera && strcmp(outside, r->camera_medium) != 0), r->im,
+        r->source->place, "media of shapes are ignored: the camera's medium is everywhere");
 }
 
 /* Keeps parameters for the directives of a target that follow, until the AttributeEnd. */
@@ -784,10 +777,9 @@ static koksma_status judge_parameters(void *from)
     if (!strcmp(name, "Attribute")) {
         return KOKSMA_OK; /* take_attribute() knows whose parameters they are */
     }
-    if (r->directive->kind == TYPE && *kind && !koksma__pbrt_is_kind(name, kind)) {
-        KOKSMA__TRY(
-            koksma__import_unknown(r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", name, kind));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(r->directive->kind == TYPE && *kind && !koksma__pbrt_is_kind(name, kind),
+                                          r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", name,
+                                          kind));
     return koksma__pbrt_name_parameters(r->im, name, kind, r->parameters);
 }
 
@@ -797,10 +789,9 @@ static koksma_status name_unread(reader *r, size_t n_before)
 {
     const char *name = r->directive->name, *kind = kind_of(r);
     const bool silent = n_before == count_unknown(r);
-    if (r->directive->kind != NONE && silent && !koksma__pbrt_is_kind(name, kind)) {
-        KOKSMA__TRY(
-            koksma__import_unknown(r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", name, kind));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(r->directive->kind != NONE && silent && !koksma__pbrt_is_kind(name, kind),
+                                          r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", name,
+                                          kind));
     return r->directive->describes && silent ? koksma__pbrt_name_unused(r->im, name, kind, r->parameters) : KOKSMA_OK;
 }
 
@@ -879,11 +870,9 @@ static koksma_status check_window(reader *r, double aspect)
     if (!(w[1] > w[0] && w[3] > w[2])) {
         return koksma__import_fail(r->camera_place, "the screen window is empty; it is x from, x to, y from, y to");
     }
-    return fabs((w[1] - w[0]) / height - aspect) > 1e-3 * aspect
-               ? koksma__import_unknown(
-                     r->im, r->camera_place,
-                     "the screen window and the image have different aspect ratios: the window's height is used")
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(
+        fabs((w[1] - w[0]) / height - aspect) > 1e-3 * aspect, r->im, r->camera_place,
+        "the screen window and the image have different aspect ratios: the window's height is used");
 }
 
 /* Sets the camera's motion, which is straight here: a camera that turns as well stays at rest. */

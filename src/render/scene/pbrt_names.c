@@ -266,10 +266,9 @@ koksma_status koksma__pbrt_name_unused(koksma__import *im, const char *directive
 {
     for (size_t i = p->n_inherited; i < p->n; i++) {
         char nearest[40];
-        if (!p->used[i] && judge(directive, kind, &p->items[i], nearest) == KNOWN) {
-            KOKSMA__TRY(koksma__import_unknown(im, (koksma__text_place){p->place.file, p->items[i].line},
-                                               "parameter '%s' of %s is ignored", p->items[i].name, directive));
-        }
+        KOKSMA__TRY(koksma__import_unknown_if(!p->used[i] && judge(directive, kind, &p->items[i], nearest) == KNOWN,
+                                              im, (koksma__text_place){p->place.file, p->items[i].line},
+                                              "parameter '%s' of %s is ignored", p->items[i].name, directive));
     }
     return KOKSMA_OK;
 }

@@ -220,10 +220,8 @@ static void mean_of(const koksma__import_colour *a, const koksma__import_colour 
 static koksma_status check_mapping(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p)
 {
     const char *mapping = koksma__pbrt_word(p, "mapping");
-    return *mapping && strcmp(mapping, "uv")
-               ? koksma__import_unknown(scene->im, p->place, "a texture's mapping '%.40s' is replaced by 'uv'",
-                                        mapping)
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(*mapping && strcmp(mapping, "uv"), scene->im, p->place,
+                                     "a texture's mapping '%.40s' is replaced by 'uv'", mapping);
 }
 
 /* Reads how an image is mapped: (u, v) are scaled, then moved; and what lies beyond it. */
@@ -394,8 +392,7 @@ static koksma_status read_checkerboard(koksma__pbrt_scene *scene, const koksma__
     KOKSMA__TRY(fabs(u) > 1e-6 ? KOKSMA_OK
                                : koksma__import_unknown(scene->im, p->place,
                                                         "a checkerboard's uscale of %g is replaced by 1e-6", u));
-    return u != v ? koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale is replaced by uscale")
-                  : KOKSMA_OK;
+    return koksma__import_unknown_if(u != v, scene->im, p->place, "a checkerboard's vscale is replaced by uscale");
 }
 
 static koksma_status read_texture(koksma__pbrt_scene *scene, const char *kind, bool is_float,
@@ -547,8 +544,7 @@ static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_par
     const double v = koksma__pbrt_find(p, v_name) ? koksma__pbrt_number(p, v_name) : both;
     m->alpha = koksma__pbrt_flag(p, "remaproughness") ? sqrt(fmax(u * v, 0)) : fmax(u * v, 0);
     m->alpha = sqrt(m->alpha); /* the geometric mean of the widths along u and v */
-    return u != v ? koksma__import_unknown(scene->im, p->place, "anisotropic roughness is replaced by its mean")
-                  : KOKSMA_OK;
+    return koksma__import_unknown_if(u != v, scene->im, p->place, "anisotropic roughness is replaced by its mean");
 }
 
 /* Reads a mix, whose surface is of the second material with the probability `amount`. */
@@ -577,12 +573,10 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
     if (!strcmp(type, "mix")) {
         return mix_materials(scene, p, out);
     }
-    if (found->instead) {
-        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material '%s': %s here", type, found->instead));
-    }
-    if (koksma__pbrt_find(p, "displacement") || koksma__pbrt_find(p, "normalmap")) {
-        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "displacement and normal maps are ignored"));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(found->instead, scene->im, p->place, "material '%s': %s here", type,
+                                          found->instead));
+    KOKSMA__TRY(koksma__import_unknown_if(koksma__pbrt_find(p, "displacement") || koksma__pbrt_find(p, "normalmap"),
+                                          scene->im, p->place, "displacement and normal maps are ignored"));
     *out = -1;
     if (found->makes == KOKSMA__NOTHING) {
         return KOKSMA_OK;
@@ -599,10 +593,8 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
         return koksma__import_fail(p->place, "eta: an index of refraction of %g; it must be above 0", m.ior);
     }
     const koksma__pbrt_parameter *eta = refracts ? koksma__pbrt_find(p, "eta") : NULL;
-    if (eta && !koksma__pbrt_is(eta, "float integer")) {
-        KOKSMA__TRY(
-            koksma__import_unknown(scene->im, p->place, "the spectrum of a glass is replaced by the index 1.5"));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(eta && !koksma__pbrt_is(eta, "float integer"), scene->im, p->place,
+                                          "the spectrum of a glass is replaced by the index 1.5"));
     KOKSMA__TRY(set_alpha(scene, p, prefix, &m));
     return koksma__import_add_material(scene->im, p->place, &m, out);
 }
@@ -698,10 +690,8 @@ static koksma_status divide(koksma__pbrt_scene *scene, const koksma__pbrt_parame
     while (levels < asked && mesh->n_triangles << 2 * (levels + 1) <= left) {
         levels++;
     }
-    if (levels < asked) {
-        KOKSMA__TRY(
-            koksma__import_unknown(scene->im, p->place, "shape 'loopsubdiv' is divided %d times only", levels));
-    }
+    KOKSMA__TRY(koksma__import_unknown_if(levels < asked, scene->im, p->place,
+                                          "shape 'loopsubdiv' is divided %d times only", levels));
     scene->n_divided += mesh->n_triangles << 2 * levels;
     const uint64_t passing = ((uint64_t)mesh->n_triangles << 2 * levels) * DIVIDED_BYTES;
     KOKSMA__TRY(koksma__import_hold(scene->im, p->place, passing));
@@ -789,12 +779,9 @@ static koksma_status area_of_faces(koksma__pbrt_scene *scene, koksma__text_place
         sum += area;
     }
     *out = n ? sum / (double)n : 0;
-    return largest > 1.001 * smallest
-               ? koksma__import_unknown(
-                     scene->im, place,
-                     "a light's power, which pbrt gives to each face, is spread evenly over faces of "
-                     "different areas")
-               : KOKSMA_OK;
+    return koksma__import_unknown_if(largest > 1.001 * smallest, scene->im, place,
+                                     "a light's power, which pbrt gives to each face, is spread evenly over faces of "
+                                     "different areas");
 }
 
 /* Scales a light's radiance so that it has this power. */
