@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The contents of a mesh file as plain data: meshes, materials, their placements by nodes, lights and a camera. The
    readers (mesh_obj.c, mesh_mtl.c, mesh_off.c, mesh_ply.c, mesh_serialized.c, gltf_*.c) fill it in one pass over the
-   file; scene/model_build.c builds a scene from it, koksma__mesh_read() a single mesh. */
+   file; scene/model.c builds a scene from it, koksma__mesh_read() a single mesh. */
 #ifndef KOKSMA_MESHES_MESH_FILE_H
 #define KOKSMA_MESHES_MESH_FILE_H
 

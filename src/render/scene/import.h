@@ -70,7 +70,7 @@ typedef struct koksma__import {
     struct koksma__text_file *texts; /* the different files among them */
     size_t n_texts;
     uint64_t surplus;                  /* bytes of text beyond those on the disk: koksma__import_surplus */
-    uint64_t steps, held;              /* work so far, and bytes of memory: import_limits.h */
+    uint64_t steps, held;              /* work so far, and bytes of memory: koksma__import_hold */
     char folders[8][KOKSMA__MAX_PATH]; /* folders to search for files that are not beside the scene */
     size_t n_folders;
     koksma__names files;              /* the meshes from files: 1 + the index of each; 0: it is left out */
