@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -124,19 +125,10 @@ koksma_status koksma__mitsuba_triple(const node *n, double otherwise, double out
 
 static koksma_status read_hexadecimal(const node *n, const char *digits, double rgb[3])
 {
-    unsigned levels = 0;
-    for (size_t i = 0; i < 7; i++) {
-        static const char all[] = "0123456789abcdef";
-        const char lower = (char)(digits[i] >= 'A' && digits[i] <= 'F' ? digits[i] + 'a' - 'A' : digits[i]);
-        const char *found = memchr(all, lower, sizeof all);
-        if (!found || (i == 6) != !*found) {
-            return wrong(n, "value", "a colour: # and six hexadecimal digits");
-        }
-        levels = i < 6 ? levels << 4 | (unsigned)(found - all) : levels;
-        if (i == 6) {
-            break;
-        }
+    if (strspn(digits, "0123456789abcdefABCDEF") != 6 || digits[6]) {
+        return wrong(n, "value", "a colour: # and six hexadecimal digits");
     }
+    const unsigned long levels = strtoul(digits, NULL, 16);
     for (int k = 0; k < 3; k++) {
         const double level = (double)(levels >> (16 - 8 * k) & 255) / 255;
         rgb[k] = level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
@@ -261,8 +253,8 @@ bool koksma__mitsuba_is_number(const node *n)
 
 bool koksma__mitsuba_is_colour(const node *n)
 {
-    return koksma__mitsuba_is_number(n) || is(n, "rgb") || is(n, "srgb") || is(n, "color") || is(n, "spectrum") ||
-           is(n, "blackbody");
+    static const char tags[] = "float integer rgb srgb color spectrum blackbody";
+    return koksma__lists(tags, sizeof tags - 1, ' ', n->tag);
 }
 
 /* ---- Transforms -------------------------------------------------------------------------------------------- */

@@ -48,12 +48,10 @@ const char *koksma__xml_attribute(const koksma__xml_node *node, const char *name
 static koksma_status name_element(koksma__import *im, const koksma__xml_node *parent, const koksma__xml_node *n)
 {
     const char *name = koksma__xml_attribute(n, "name"), *type = koksma__xml_attribute(parent, "type");
-    const char *open = type ? " '" : "", *close = type ? "'" : "";
-    type = type ? type : "";
-    return name ? koksma__import_unknown(im, n->place, "'%.60s' of %.60s%s%.60s%s is ignored", name, parent->tag,
-                                         open, type, close)
-                : koksma__import_unknown(im, n->place, "<%.60s> in %.60s%s%.60s%s is ignored", n->tag, parent->tag,
-                                         open, type, close);
+    char what[80], where[136];
+    snprintf(what, sizeof what, name ? "'%.60s' of" : "<%.60s> in", name ? name : n->tag);
+    snprintf(where, sizeof where, type ? "%.60s '%.60s'" : "%.60s", parent->tag, type);
+    return koksma__import_unknown(im, n->place, "%s %s is ignored", what, where);
 }
 
 /* Warns about the attributes of an element that no reader has looked up; all elements may have a name and an id. */
