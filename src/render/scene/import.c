@@ -214,9 +214,6 @@ static koksma_status find_image(koksma__import *im, koksma__text_place place, co
     koksma__image_use use = c->has_use ? c->use : KOKSMA__PLAIN_IMAGE;
     use.upside_down = im->rows_down;
     *out = NULL;
-    if (im->only_checks) {
-        return KOKSMA_OK;
-    }
     const koksma_status status = koksma__scene_image(im->scene, c->image, &use, out);
     return status ? leave_out(im, place, status) : KOKSMA_OK;
 }
@@ -331,10 +328,6 @@ koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_plac
 {
     koksma_scene *scene = im->scene;
     KOKSMA__TRY(koksma__import_spend(im, place, scene->n_materials / 8));
-    if (im->only_checks) {
-        *out = -1;
-        return KOKSMA_OK;
-    }
     for (size_t i = 0; i < scene->n_materials; i++) {
         if (same_material(&scene->materials[i], material)) {
             *out = (int)i;

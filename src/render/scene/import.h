@@ -63,10 +63,9 @@ typedef enum koksma__form {
 
 typedef struct koksma__import {
     koksma_scene *scene;
-    const char *path; /* path of the scene's own file */
-    bool rows_down;   /* images lie upside down: texture coordinate 0 is their upper edge */
-    bool only_checks; /* what is read is used by nothing: it adds nothing to the scene, and opens no file */
-    size_t n_files;   /* number of texts that were read */
+    const char *path;                /* path of the scene's own file */
+    bool rows_down;                  /* images lie upside down: texture coordinate 0 is their upper edge */
+    size_t n_files;                  /* number of texts that were read */
     struct koksma__text_file *texts; /* the different files among them */
     size_t n_texts;
     uint64_t surplus;                  /* bytes of text beyond those on the disk: koksma__import_surplus */

@@ -125,9 +125,6 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
     size_t known = 0;
     KOKSMA__TRY(koksma__import_path(im, place, name, full));
     *out = -1;
-    if (im->only_checks) {
-        return KOKSMA_OK;
-    }
     if (!koksma__is_mesh_file(full)) {
         return koksma__import_unknown(im, place, "the mesh %s has an unsupported format: it is left out", name);
     }
@@ -588,7 +585,7 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     double length[3];
     int mesh = item->mesh;
     KOKSMA__TRY(koksma__import_spend(im, item->place, 64));
-    if (im->only_checks || (item->surface.material < 0 && !item->surface.emits)) {
+    if (item->surface.material < 0 && !item->surface.emits) {
         return KOKSMA_OK; /* no surface: light passes through */
     }
     if (item->surface.emits && item->surface.material >= 0 &&

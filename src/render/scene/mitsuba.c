@@ -46,7 +46,6 @@ typedef struct reader {
     identity *identities; /* sorted by name */
     size_t n_identities;
     int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
-    bool *looked;   /* for each node: whether its properties were looked up */
     const koksma__plugin **rows; /* for each node: its row of the table; or NULL */
     bool has_sensor;
     const node *medium, *filled; /* the only medium that is read, and the cube or sphere that it fills; or NULL */
@@ -147,7 +146,6 @@ static const node *find_property(const reader *r, const node *n, const koksma__e
 static const node *property(const reader *r, const node *n, const char *name)
 {
     koksma__entry e;
-    r->looked[n - r->xml.nodes] = true;
     const node *found = entry_of(r, n, name, &e) ? find_property(r, n, &e) : NULL;
     if (found) {
         koksma__xml_mark(found, KOKSMA__XML_TAKEN);
@@ -931,9 +929,6 @@ static koksma_status name_media(reader *r, const node *n, int material)
             koksma__xml_mark(medium, KOKSMA__XML_COVERED);
         }
     }
-    if (r->im->only_checks) {
-        return KOKSMA_OK;
-    }
     if (inside && strcmp(type_of(inside), "homogeneous") != 0) {
         return koksma__import_unknown(r->im, inside->place, "media that vary in space are ignored");
     }
@@ -986,7 +981,7 @@ static koksma_status phase_of(reader *r, const node *n, double *g)
    all coefficients. */
 static koksma_status read_medium(reader *r, const node *n)
 {
-    koksma__medium medium = {0}, *to = r->im->only_checks ? &medium : &r->im->scene->medium;
+    koksma__medium *to = &r->im->scene->medium;
     double a[3], b[3], g;
     if (strcmp(type_of(n), "homogeneous") != 0 || property(r, n, "material")) {
         return REPLACE(r, n, "media that vary in space, and media named in place of a material, are ignored");
@@ -1010,7 +1005,7 @@ static koksma_status read_medium(reader *r, const node *n)
         to->in_shape = r->region.in_shape;
         to->is_ball = r->region.is_ball;
     }
-    if (!r->im->only_checks && koksma__medium_check(r->im->scene)) {
+    if (koksma__medium_check(r->im->scene)) {
         to->is_there = false;
         return koksma__import_unknown(
             r->im, n->place, "the sensor's medium is ignored, because it would absorb all light of distant lights");
@@ -1023,7 +1018,7 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
 /* Adds the shapes of a group. */
 static koksma_status parts_of_group(reader *r, const node *group, const double matrix[12], int depth)
 {
-    r->looked[group - r->xml.nodes] = true;
+    (void)row_of(r, group);
     EACH_CHILD(r, group, c, "shape")
     {
         KOKSMA__TRY(shape(r, resolve(r, c), matrix, depth + 1));
@@ -1072,7 +1067,7 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
         return instance(r, n, outer, depth);
     }
     KOKSMA__TRY(form_of(r, n, &item, form));
-    if (item.form == KOKSMA__FORM_MESH && item.mesh < 0 && !r->im->only_checks) {
+    if (item.form == KOKSMA__FORM_MESH && item.mesh < 0) {
         koksma__xml_mark(n, KOKSMA__XML_COVERED);
         return KOKSMA_OK;
     }
@@ -1278,27 +1273,38 @@ static bool is_of_scene(const node *n)
            (!is(n, "emitter") || strcmp(type_of(n), "area") != 0);
 }
 
-/* Reads the objects that nothing refers to, so that what is wrong in them is an error and what is unknown in them a
-   warning. */
-static koksma_status check_unused(reader *r, const node *root)
+/* Marks what the table knows of an object that nothing refers to, and of those in it, so that what is misspelt there is
+   named, too. */
+static koksma_status judge(reader *r, const node *n)
 {
-    double rgb[3];
-    int material;
-    koksma__import_colour c = {0};
-    r->im->only_checks = true;
-    for (const node *n = first_of(r, root); n; n = next_of(r, n)) {
-        if (r->looked[n - r->xml.nodes]) {
-            continue;
-        }
-        KOKSMA__TRY(is(n, "bsdf")       ? make_bsdf(r, n, 0, &material)
-                    : is_texture(n)     ? texture(r, n, KOKSMA__UNBOUNDED, &c, 0)
-                    : is(n, "spectrum") ? value_of(r, n, KOKSMA__UNBOUNDED, rgb)
-                    : is(n, "shape") && !strcmp(type_of(n), "shapegroup")
-                        ? parts_of_group(r, n, koksma__import_identity, 0)
-                    : is(n, "medium") ? read_medium(r, n)
-                                      : KOKSMA_OK);
+    const koksma__plugin *row = row_of(r, n);
+    if (!row || *row->kinds == '?') {
+        return REPLACE(r, n, "%s '%s' is ignored", n->tag, type_of(n));
     }
-    r->im->only_checks = false;
+    const char *at = row->parameters;
+    koksma__entry e = {.type = NULL};
+    while (koksma__entry_next(&at, &e)) {
+        const node *c = find_property(r, n, &e);
+        koksma__xml_mark(c ? c : n, c ? KOKSMA__XML_TAKEN : 0);
+    }
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        const bool is_object = koksma__xml_attribute(resolve(r, c), "type") != NULL;
+        koksma__xml_mark(c, is_object && !koksma__xml_attribute(c, "name") ? KOKSMA__XML_TAKEN : 0);
+        for (const node *o = is(c, "transform") ? first_of(r, c) : NULL; o; o = next_of(r, o)) {
+            koksma__xml_mark(o, KOKSMA__XML_TAKEN);
+        }
+        KOKSMA__TRY(is_object && !is(c, "ref") && !r->rows[c - r->xml.nodes] ? judge(r, c) : KOKSMA_OK);
+    }
+    return KOKSMA_OK;
+}
+
+/* Judges the objects of the scene that nothing has looked up. */
+static koksma_status judge_unused(reader *r, const node *root)
+{
+    for (const node *n = first_of(r, root); n; n = next_of(r, n)) {
+        const bool is_named = is(n, "bsdf") || is_texture(n) || is(n, "medium") || is(n, "shape");
+        KOKSMA__TRY(is_named && !r->rows[n - r->xml.nodes] ? judge(r, n) : KOKSMA_OK);
+    }
     return KOKSMA_OK;
 }
 
@@ -1322,7 +1328,7 @@ static koksma_status read_root(reader *r)
     KOKSMA__TRY(r->has_sensor ? (r->medium ? read_medium(r, r->medium) : KOKSMA_OK)
                               : koksma__import_fail(root->place, "no <sensor>"));
     (void)koksma__xml_attribute(root, "version");
-    KOKSMA__TRY(check_unused(r, root));
+    KOKSMA__TRY(judge_unused(r, root));
     koksma__xml_mark(root, KOKSMA__XML_TAKEN);
     return koksma__xml_name_unread(r->im, &r->xml);
 }
@@ -1335,9 +1341,8 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
     koksma_status status = koksma__xml_read(im, bytes, size, &r.xml);
     if (!status) {
         r.materials = malloc((r.xml.n + 1) * sizeof *r.materials);
-        r.looked = calloc(r.xml.n + 1, sizeof *r.looked);
         r.rows = calloc(r.xml.n + 1, sizeof *r.rows);
-        status = r.materials && r.looked && r.rows ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
+        status = r.materials && r.rows ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
         for (size_t i = 0; r.materials && i < r.xml.n; i++) {
             r.materials[i] = -2;
         }
@@ -1351,7 +1356,7 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
                                                       first.at->tag, value ? value : "", first.expected)
                                 : koksma__import_spend(im, first.at->place, 0);
     }
-    KOKSMA__FREE(r.materials, r.looked, r.rows, r.identities);
+    KOKSMA__FREE(r.materials, r.rows, r.identities);
     koksma__xml_fini(&r.xml);
     return status;
 }
