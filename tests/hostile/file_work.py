@@ -234,7 +234,7 @@ def materials(bench):
     bench.counts("shapes without a BSDF", "s.xml", mitsuba('<shape type="sphere"/>' * n), shapes=n, materials=1)
     checker = '<bsdf type="diffuse" id="m"><texture type="checkerboard" name="reflectance"/></bsdf>'
     mesh = '<shape type="obj"><string name="filename" value="p.obj"/><ref id="m"/></shape>'
-    bench.counts("meshes without texture coordinates", "s.xml", mitsuba(checker, mesh * n), placements=n, meshes=1, materials=2)
+    bench.counts("meshes without texture coordinates", "s.xml", mitsuba(checker, mesh * n), placements=n, meshes=2, materials=1)
     bench.counts("meshes of pbrt without texture coordinates", "s.pbrt",
                  PBRT + 'Texture "t" "spectrum" "checkerboard" "rgb tex1" [.2 .2 .2] Material "diffuse" "texture reflectance" "t"\n'
                  + f'Shape "trianglemesh" {triangle}\n' * n, placements=n, materials=2)  # and the one before any Material

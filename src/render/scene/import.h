@@ -75,9 +75,9 @@ typedef struct koksma__import {
     koksma__names files;              /* the meshes from files: 1 + the index of each; 0: it is left out */
     int forms[KOKSMA__N_BASIC_FORMS]; /* 1 + the index of the mesh of each basic shape; 0: it is not made yet */
     struct koksma__mesh_twins *twins; /* for each mesh: forms of the same mesh */
-    size_t n_twins;
-    koksma__serialized packed; /* the .serialized file that was used last, and its key */
-    char packed_key[KOKSMA__FILE_KEY];
+    koksma__serialized *packed;       /* the .serialized files */
+    koksma__names packed_names;
+    size_t n_twins, n_packed, packed_size; /* packed_size: length of those that are open */
 } koksma__import;
 
 /* A colour, or an image over texture coordinates, or a checkerboard with two colours. */

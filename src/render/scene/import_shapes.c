@@ -29,9 +29,12 @@ enum { SIDES = 64, RINGS = 32 };
 
 void koksma__import_shapes_fini(koksma__import *im)
 {
-    koksma__serialized_close(&im->packed);
-    free(im->twins);
+    for (size_t i = 0; i < im->n_packed; i++) {
+        koksma__serialized_close(&im->packed[i]);
+    }
+    KOKSMA__FREE(im->twins, im->packed);
     koksma__names_fini(&im->files);
+    koksma__names_fini(&im->packed_names);
 }
 
 /* ---- Meshes ------------------------------------------------------------------------------------------------ */
@@ -82,26 +85,43 @@ static void turn_rows(koksma__mesh *mesh)
     }
 }
 
-/* Opens the .serialized file with this key. It stays open until another is needed, because a scene names one for each of
-   its meshes; closing one counts as the work of opening it again. */
-static koksma_status open_packed(koksma__import *im, koksma__text_place place, const char *path, const char *key)
+/* The .serialized file with this key; opened anew if it was closed meanwhile. Files stay open, because a scene names one
+   for each of its meshes, up to the length of one file together. */
+static koksma_status find_packed(koksma__import *im, koksma__text_place place, const char *path, const char *key,
+                                 koksma__serialized **out)
 {
-    if (im->packed.bytes && *key && !strcmp(im->packed_key, key)) {
+    size_t at;
+    if (!koksma__names_find(&im->packed_names, key, strlen(key), &at)) {
+        koksma__serialized *new = koksma__add_one(&im->packed, &im->n_packed, sizeof *new);
+        KOKSMA__TRY(new ? KOKSMA_OK : KOKSMA_MEMORY);
+        at = im->n_packed - 1;
+        KOKSMA__TRY(koksma__names_put(&im->packed_names, key, strlen(key), at));
+    }
+    koksma__serialized *s = *out = &im->packed[at];
+    if (s->bytes) {
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(koksma__import_spend(im, place, im->packed.size / 64));
-    koksma__serialized_close(&im->packed);
+    KOKSMA__TRY(koksma__import_spend(im, place, s->size / 64)); /* 0 the first time */
     KOKSMA__TRY(koksma__file_count(&im->scene->mesh_files, path));
-    snprintf(im->packed_key, sizeof im->packed_key, "%s", key);
-    return koksma__import_fail_at(place, koksma__serialized_open(path, &im->packed));
+    KOKSMA__TRY(koksma__import_fail_at(place, koksma__serialized_open(path, s)));
+    im->packed_size += s->size;
+    if (im->packed_size > koksma__file_most(KOKSMA__FILE_MESH)) {
+        im->packed_size = s->size;
+        for (size_t i = 0; i < im->n_packed; i++) {
+            if (i != at) {
+                koksma__serialized_close(&im->packed[i]);
+            }
+        }
+    }
+    return KOKSMA_OK;
 }
 
 /* Reads the mesh and adapts it to the conventions of the other renderer. */
-static koksma_status read_mesh(koksma__import *im, const char *path, long part, koksma__mesh_rules rules,
-                               koksma__mesh *mesh)
+static koksma_status read_mesh(koksma__import *im, const char *path, koksma__serialized *packed, long part,
+                               koksma__mesh_rules rules, koksma__mesh *mesh)
 {
-    KOKSMA__TRY(part >= 0 ? koksma__serialized_mesh(&im->packed, path, part, mesh)
-                          : koksma__mesh_read(path, KOKSMA__BY_FILE, &im->scene->mesh_files, mesh));
+    KOKSMA__TRY(packed ? koksma__serialized_mesh(packed, path, part, mesh)
+                       : koksma__mesh_read(path, KOKSMA__BY_FILE, &im->scene->mesh_files, mesh));
     KOKSMA__TRY(koksma__scene_limit_mesh(im->scene, mesh, path));
     if (rules.flips_v) {
         turn_rows(mesh);
@@ -122,6 +142,7 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
     char full[KOKSMA__MAX_PATH], file[KOKSMA__FILE_KEY], which[128];
     const char *ending = NULL;
     koksma__mesh mesh = {0};
+    koksma__serialized *packed = NULL;
     size_t known = 0;
     KOKSMA__TRY(koksma__import_path(im, place, name, full));
     *out = -1;
@@ -138,8 +159,8 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
         *out = (int)known - 1;
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(part < 0 ? KOKSMA_OK : open_packed(im, place, full, file));
-    const koksma_status status = read_mesh(im, full, part, rules, &mesh);
+    KOKSMA__TRY(part < 0 ? KOKSMA_OK : find_packed(im, place, full, file, &packed));
+    const koksma_status status = read_mesh(im, full, packed, part, rules, &mesh);
     if (status) {
         koksma__mesh_fini(&mesh);
         return koksma__import_fail_at(place, status);
