@@ -890,6 +890,8 @@ static const struct {
     {"a.pbrt", PBRT "Material \"interface\" Shape \"disk\"", NULL},
     {"a.pbrt", PBRT "\n\nMaterial \"hair\" Shape \"sphere\"", "a.pbrt:4: material 'hair'"},
     {"a.pbrt", PBRT "Material \"velvet\" Shape \"sphere\"", "a.pbrt:2: material 'velvet'"},
+    {"a.pbrt", PBRT "Material \"measured\" \"string filename\" \"a.bsdf\" Shape \"sphere\"",
+     "a.pbrt:2: material 'measured'"},
     {"a.pbrt", PBRT "Shape \"curve\" \"point3 P\" [0 0 0]", "a.pbrt:2: shape 'curve' is left out"},
     {"a.pbrt", PBRT "Shape \"sphere\" \"float zmax\" 0.5", "a.pbrt:2: a partial sphere"},
     {"a.pbrt", PBRT "LightSource \"spot\" \"rgb I\" [1 2 3]", NULL},

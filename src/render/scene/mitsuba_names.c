@@ -51,9 +51,8 @@ static const koksma__plugin rows[] = {
     {"bsdf", "bumpmap normalmap coating mixturebsdf bump roughcoating", "", KOKSMA__WITHIN, "the BSDF within it"},
 
     {"texture", "bitmap",
-     "string filename filter_type=bilinear|nearest|trilinear|ewa wrap_mode=repeat|clamp|mirror|zero|one; boolean "
-     "raw; "
-     "transform to_uv; float uscale:1 vscale:1 uoffset voffset",
+     "string filename filter_type=bilinear|nearest|trilinear|ewa wrap_mode=repeat|clamp|mirror|zero|one; "
+     "boolean raw; transform to_uv; float uscale:1 vscale:1 uoffset voffset",
      KOKSMA__BITMAP, NULL},
     {"texture", "checkerboard",
      "colour color0:0.4 color1:0.2; transform to_uv; float uscale:1 vscale:1 uoffset voffset", KOKSMA__CHECKERBOARD,

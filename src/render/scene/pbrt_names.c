@@ -43,10 +43,8 @@ static const koksma__plugin rows[] = {
     ROW("Camera", "perspective", LENS " fov:90"),
     ROW("Camera", "orthographic", LENS),
     ROW("Film", "*",
-        "string ~filename sensor; integer xresolution:1280 yresolution:720 pixelbounds; bool ~savefp16; float "
-        "cropwindow "
-        "~diagonal "
-        "iso:100 whitebalance maxcomponentvalue exposuretime"),
+        "string ~filename sensor; integer xresolution:1280 yresolution:720 pixelbounds; bool ~savefp16; "
+        "float cropwindow ~diagonal iso:100 whitebalance maxcomponentvalue exposuretime"),
     ROW("Film", "rgb", ""),
     ROW("Film", "gbuffer", "string ~coordinatesystem=camera|world"),
     ROW("Film", "spectral", "integer ~nbuckets; float ~lambdamin ~lambdamax"),
@@ -56,8 +54,8 @@ static const koksma__plugin rows[] = {
     ROW("Integrator", "lightpath simplevolpath randomwalk", "integer maxdepth"),
     ROW("Integrator", "bdpt", "integer maxdepth; bool visualizestrategies visualizeweights regularize"),
     ROW("Integrator", "mlt",
-        "integer maxdepth bootstrapsamples chains mutationsperpixel; float largestepprobability sigma; bool "
-        "regularize"),
+        "integer maxdepth bootstrapsamples chains mutationsperpixel; float largestepprobability sigma; "
+        "bool regularize"),
     ROW("Integrator", "sppm", "integer maxdepth photonsperiteration seed; float radius"),
     ROW("Integrator", "ambientocclusion", "bool cossample; float maxdistance"),
     ROW("Integrator", "function", "string function filename imagefilename; bool skipbad"),
@@ -138,8 +136,8 @@ static const koksma__plugin rows[] = {
     ROW("Texture", "scale", "colour tex; floats scale"),
     ROW("Option", "*",
         "bool disablepixeljitter disabletexturefiltering disablewavelengthjitter forcediffuse pixelstats wavefront; "
-        "float "
-        "displacementedgescale; string msereferenceimage msereferenceout rendercoordsys=camera|cameraworld|world; "
+        "float displacementedgescale; string msereferenceimage msereferenceout "
+        "rendercoordsys=camera|cameraworld|world; "
         "integer seed")};
 
 /* The classes of types, and the types that pbrt takes for each; it looks up a colour as a texture or spectrum. */

@@ -582,10 +582,13 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
         return KOKSMA_OK;
     }
     m.kind = (unsigned)found->makes;
-    if (m.kind != KOKSMA__GLASS && koksma__entry_next(&row, &first)) { /* the colour comes first in its row */
+    if (koksma__entry_next(&row, &first) &&
+        !strncmp(first.type, "colour ", 7)) { /* the colour comes first in its row */
         snprintf(name, sizeof name, "%.*s", (int)first.length, first.name);
     }
-    KOKSMA__TRY(m.kind == KOKSMA__METAL ? metal(scene, p, prefix, &m) : find_colour(scene, p, name, 0.5, &m.colour));
+    KOKSMA__TRY(m.kind == KOKSMA__METAL   ? metal(scene, p, prefix, &m)
+                : m.kind == KOKSMA__GLASS ? KOKSMA_OK
+                                          : find_colour(scene, p, name, 0.5, &m.colour));
     const bool refracts = m.kind == KOKSMA__GLASS || m.kind == KOKSMA__COATED;
     m.ior = refracts ? koksma__pbrt_number(p, "eta") : 1.5;
     m.ior = m.ior == 0 ? 1 : m.ior; /* as in pbrt */
