@@ -138,17 +138,13 @@ static koksma_status read_import(const char *path, koksma__named by, koksma_scen
     return status;
 }
 
-static koksma_status open_import(const char *path, koksma__named by, koksma_scene **out)
+/* Opens a scene of another renderer or a model, by its reader. */
+static koksma_status open_foreign(const char *path, koksma__named by,
+                                  koksma_status (*read)(const char *path, koksma__named by, koksma_scene *scene),
+                                  koksma_scene **out)
 {
     const koksma_status status = new_scene(out);
-    KOKSMA__TRY(status ? status : close_failed(read_import(path, by, *out), out));
-    return refuse_unknown(out);
-}
-
-static koksma_status open_model(const char *path, koksma__named by, koksma_scene **out)
-{
-    const koksma_status status = new_scene(out);
-    KOKSMA__TRY(status ? status : close_failed(koksma__model_parse(path, by, *out), out));
+    KOKSMA__TRY(status ? status : close_failed(read(path, by, *out), out));
     return refuse_unknown(out);
 }
 
@@ -175,10 +171,10 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
             "as a model, such as .obj, .ply or .gltf");
     }
     if (koksma__is_mesh_file(name_or_path)) {
-        return open_model(name_or_path, by, out);
+        return open_foreign(name_or_path, by, koksma__model_parse, out);
     }
     if (is_import_file(name_or_path)) {
-        return open_import(name_or_path, by, out);
+        return open_foreign(name_or_path, by, read_import, out);
     }
     unsigned char *bytes;
     size_t size;
