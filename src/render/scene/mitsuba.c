@@ -33,18 +33,11 @@ typedef struct mistake {
     const char *expected; /* NULL: too many steps */
 } mistake;
 
-/* The name by which a <ref> finds an element. */
-typedef struct identity {
-    const char *name;
-    const node *at; /* an <alias> has the element's name in its attribute "id" */
-} identity;
-
 typedef struct reader {
     koksma__import *im;
     koksma__xml xml;
-    mistake *mistake;     /* the first one */
-    identity *identities; /* sorted by name */
-    size_t n_identities;
+    mistake *mistake;         /* the first one */
+    koksma__names identities; /* the elements that a <ref> finds; an <alias> leads to another by its attribute "id" */
     int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
     const koksma__plugin **rows; /* for each node: its row of the table; or NULL */
     bool has_sensor;
@@ -197,20 +190,14 @@ static size_t choice(const reader *r, const node *n, const char *name)
     return i < 0 ? 0 : (size_t)i;
 }
 
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(((const identity *)a)->name, ((const identity *)b)->name);
-}
-
 /* The element to which a <ref> or an <alias> leads, or NULL; any other element is itself. */
 static const node *target(const reader *r, const node *n)
 {
     for (int hops = 0; n && (is(n, "ref") || is(n, "alias")); hops++) {
-        const identity wanted = {koksma__xml_attribute(n, "id"), NULL};
-        const identity *found = wanted.name && hops < MOST_NESTED
-                                    ? bsearch(&wanted, r->identities, r->n_identities, sizeof wanted, by_name)
-                                    : NULL;
-        n = count(r, found ? found->at : NULL, 4);
+        const char *id = koksma__xml_attribute(n, "id");
+        size_t at = 0;
+        const bool found = id && hops < MOST_NESTED && koksma__names_find(&r->identities, id, strlen(id), &at);
+        n = count(r, found ? &r->xml.nodes[at] : NULL, 4);
     }
     return n;
 }
@@ -241,20 +228,16 @@ static const node *find_child(const reader *r, const node *c, const char *tag)
 /* Lists the names of all elements, and checks that each name is given once and that each <ref> leads to one. */
 static koksma_status find_identities(reader *r)
 {
-    r->identities = calloc(r->xml.n + 1, sizeof *r->identities);
-    KOKSMA__REQUIRE_MEMORY(r->identities, (r->xml.n + 1) * sizeof *r->identities);
+    size_t other;
     for (const node *n = r->xml.nodes; n < r->xml.nodes + r->xml.n; n++) {
         const char *name = koksma__xml_attribute(n, is(n, "alias") ? "as" : "id");
-        if (name && !is(n, "ref")) {
-            r->identities[r->n_identities++] = (identity){name, n};
+        if (!name || is(n, "ref")) {
+            continue;
         }
-    }
-    qsort(r->identities, r->n_identities, sizeof *r->identities, by_name);
-    for (size_t i = 1; i < r->n_identities; i++) {
-        const identity *a = &r->identities[i - 1], *b = a + 1;
-        if (!by_name(a, b)) {
-            return koksma__import_fail((a->at > b->at ? a : b)->at->place, "the id '%.60s' is given twice", a->name);
+        if (koksma__names_find(&r->identities, name, strlen(name), &other)) {
+            return koksma__import_fail(n->place, "the id '%.60s' is given twice", name);
         }
+        KOKSMA__TRY(koksma__names_put(&r->identities, name, strlen(name), (size_t)(n - r->xml.nodes)));
     }
     for (const node *n = r->xml.nodes; n < r->xml.nodes + r->xml.n; n++) {
         const node *to = target(r, n);
@@ -1356,7 +1339,8 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
                                                       first.at->tag, value ? value : "", first.expected)
                                 : koksma__import_spend(im, first.at->place, 0);
     }
-    KOKSMA__FREE(r.materials, r.rows, r.identities);
+    KOKSMA__FREE(r.materials, r.rows);
+    koksma__names_fini(&r.identities);
     koksma__xml_fini(&r.xml);
     return status;
 }
