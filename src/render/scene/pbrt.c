@@ -169,12 +169,13 @@ static koksma_status take_transform(reader *r)
     return change(r, m, *r->directive->name == 'T');
 }
 
-static koksma_status name_space(reader *r, const char *name, double matrix[2][12])
+static koksma_status name_space(reader *r, const char *name, double (*matrix)[12])
 {
     KOKSMA__TRY(koksma__import_hold(r->im, r->place, sizeof(space) + KOKSMA__HELD_WITH_NAME));
     space *to = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-    memcpy(to->matrix, matrix, sizeof to->matrix);
+    memcpy(to->matrix[0], matrix[0], sizeof to->matrix[0]);
+    memcpy(to->matrix[1], matrix[1], sizeof to->matrix[1]);
     return koksma__names_put(&r->space_names, name, strlen(name), r->n_spaces - 1);
 }
 
@@ -290,7 +291,7 @@ static koksma_status take_object_begin(reader *r)
     KOKSMA__TRY(push(r));
     KOKSMA__TRY(koksma__import_hold(r->im, r->place, sizeof(object) + KOKSMA__HELD_WITH_NAME));
     r->in_object = koksma__add_one(&r->objects, &r->n_objects, sizeof(object)) != NULL;
-    snprintf(r->object_name, sizeof r->object_name, "%s", r->texts[0]);
+    snprintf(r->object_name, sizeof r->object_name, "%.255s", r->texts[0]);
     return r->in_object ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
@@ -636,7 +637,7 @@ static koksma_status take_interface(reader *r)
     KOKSMA__TRY(koksma__pbrt_token_peek(r->source, &t));
     KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(r->source, r->texts[1], sizeof r->now.outside)
                                             : KOKSMA_OK);
-    snprintf(r->now.outside, sizeof r->now.outside, "%s", outside);
+    snprintf(r->now.outside, sizeof r->now.outside, "%.255s", outside);
     KOKSMA__TRY(use_medium(r, inside));
     KOKSMA__TRY(use_medium(r, outside));
     return koksma__import_unknown_if(

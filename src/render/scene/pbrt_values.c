@@ -121,7 +121,7 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
                                koksma__spectrum_use use, bool is_float, koksma__import_colour *out)
 {
     if (!strcmp(p->type, "texture")) {
-        const struct koksma__pbrt_named_texture *texture;
+        const struct koksma__pbrt_named_texture *texture = NULL;
         KOKSMA__TRY(find_texture(scene, place, p, is_float, &texture));
         *out = texture->colour;
         return *texture->spectrum ? named_spectrum(scene, place, texture->spectrum, use, out->rgb) : KOKSMA_OK;
