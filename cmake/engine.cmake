@@ -14,7 +14,7 @@ macro(koksma_engine_sources folder)
   file(GLOB ENGINE_SOURCES CONFIGURE_DEPENDS ${engine}/core/*.c ${engine}/api/*.c ${engine}/patterns/*.c ${engine}/patterns/*/*.c
        ${engine}/measures/*.c ${engine}/measures/*/*.c ${engine}/warps/*.c ${engine}/integrands/*.c ${engine}/verify/*.c
        ${engine}/optimise/*.c ${engine}/kernels/kernels*.c)
-  foreach(part joint least_squares log_gamma mean_square quantiles running_stats) # the rest of stats/ is koksma-lab's
+  foreach(part mean_square quantiles running_stats) # the rest of stats/ is koksma-lab's
     list(APPEND ENGINE_SOURCES ${engine}/stats/${part}.c)
   endforeach()
   file(GLOB FAST_KERNELS CONFIGURE_DEPENDS ${engine}/kernels/fast_*.c)

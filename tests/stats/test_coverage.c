@@ -13,8 +13,7 @@
 #include <koksma/series.h>
 
 #include "core/random.h"
-#include "stats/slopes.h"
-#include "stats/statistics.h"
+#include "stats/stats.h"
 #include "test.h"
 
 enum { SIZES = 5, MOST_TRIALS = 128 };

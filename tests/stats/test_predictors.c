@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "stats/correlation.h"
-#include "stats/holm.h"
-#include "stats/rank_regression.h"
+#include "stats/stats.h"
 #include "study/report/rho_words.h"
 #include "study/report/said.h"
 #include "test.h"

@@ -2,7 +2,7 @@
 /* Quantiles against published tables, closed forms and expansions. */
 #include <koksma/series.h>
 
-#include "stats/quantiles.h"
+#include "stats/stats.h"
 #include "test.h"
 
 /* Abramowitz & Stegun 1964, tables 26.8 and 26.10; and in closed form: t with 1 degree is Cauchy's, chi-squared with

@@ -5,11 +5,7 @@
 #include <koksma/series.h>
 
 #include "core/random.h"
-#include "stats/bootstrap.h"
-#include "stats/correlation.h"
-#include "stats/quantiles.h"
-#include "stats/slopes.h"
-#include "stats/statistics.h"
+#include "stats/stats.h"
 #include "test.h"
 
 /* A standard normal number (Box and Muller 1958). */

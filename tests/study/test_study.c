@@ -8,7 +8,8 @@
 #include <koksma/series.h>
 #include <koksma/study.h>
 
-#include "stats/statistics.h"
+#include "stats/stats.h"
+#include "study/plan/plan.h"
 #include "study/plan/plan_read.h"
 #include "study/report/rho_words.h"
 #include "study/report/said.h"

@@ -15,9 +15,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "integrands/integrands.h"
-#include "stats/joint.h"
-#include "stats/mean_square.h"
-#include "stats/quantiles.h"
+#include "stats/stats.h"
 
 enum { MOST_TRIALS = 1000000 };
 

@@ -2,11 +2,9 @@
 /* Rank correlation: Spearman's rho and Kendall's tau-b, by their definitions in O(n^2), which is fast because n is
    the number of patterns and thus small. Values that koksma__compare finds equal are ties, so that rounding does not
    decide an order. */
-#include "stats/correlation.h"
+#include "stats/stats.h"
 
 #include <math.h>
-
-#include "stats/statistics.h"
 
 /* Returns the mean rank of value i minus the middle rank (n + 1) / 2. The mean rank is b + (e + 1) / 2, with b the
    number of smaller values and e the number of equal values, i included. Spearman's rho is Pearson's correlation of

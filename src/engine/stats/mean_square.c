@@ -18,11 +18,9 @@
  * that intervals hold in 93 to 97 % for many laws; docs/findings/integration.md has what was measured
  * (tests/stats/test_coverage.c).
  */
-#include "stats/mean_square.h"
+#include "stats/stats.h"
 
 #include <math.h>
-
-#include "stats/quantiles.h"
 
 /* With fewer errors nobody can tell how skewed or heavy-tailed they are. */
 enum { TOO_FEW = 16 };

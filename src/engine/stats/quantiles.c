@@ -9,11 +9,10 @@
  * normal quantile z by the first terms of its expansion in 1/nu (26.7.5):
  *     t = z + (z^3 + z) / (4 nu) + (5 z^5 + 16 z^3 + 3 z) / (96 nu^2) + O(nu^-3)
  */
-#include "stats/quantiles.h"
+#define _DEFAULT_SOURCE /* for lgamma_r */
+#include "stats/stats.h"
 
 #include <math.h>
-
-#include "stats/log_gamma.h"
 
 enum { TERMS = 100000, HALVINGS = 200 };
 #define MANY 1e6
@@ -104,4 +103,12 @@ double koksma__chi_squared_quantile(double p, double degrees)
         }
     }
     return 0.5 * (lo + hi);
+}
+
+/* The logarithm of the gamma function, computed by lgamma_r. lgamma is not safe with several threads, because it
+   stores the sign in a global variable. */
+double koksma__log_gamma(double x)
+{
+    int sign;
+    return lgamma_r(x, &sign);
 }

@@ -11,7 +11,7 @@
  *   pair     the pair of measures with the largest c' G^-1 c, among all k (k - 1) / 2 pairs
  *   all      ridge: (G + penalty I) b = c, with the penalty of least error in a cross-validation among the other scenes
  */
-#include "stats/rank_regression.h"
+#include "stats/stats.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,7 +19,6 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/vector.h"
-#include "stats/correlation.h"
 
 enum { PENALTIES = 9 };
 

@@ -4,14 +4,9 @@
    the errors are unknown. The lack of fit of a weighted line shows whether the means lie on a line at all. The number
    of samples that reaches a given error is interpolated between the two nearest sizes, as if the error followed c
    n^slope between them. */
-#include "stats/slopes.h"
+#include "stats/stats.h"
 
 #include <math.h>
-
-#include <koksma/series.h>
-
-#include "stats/least_squares.h"
-#include "stats/quantiles.h"
 
 #define NORMAL_99 2.3263478740408408 /* the 99 % quantile of the normal distribution */
 

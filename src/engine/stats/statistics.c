@@ -3,11 +3,9 @@
    compensated (core/sum.h) and in order of the index, so that equal values give equal bits. If all differences are 0
    in exact arithmetic, rounding leaves about 1e-16 of the values, and an interval of width 0 would make this
    difference significant. Therefore differences up to 1e-12 of the values count as 0. */
-#include "stats/statistics.h"
+#include "stats/stats.h"
 
 #include <math.h>
-
-#include <koksma/series.h>
 
 #include "core/sum.h"
 

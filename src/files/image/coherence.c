@@ -38,7 +38,7 @@
 #include "core/sum.h"
 #include "image/coherence.h"
 #include "image/image.h"
-#include "stats/log_gamma.h"
+#include "stats/stats.h"
 
 enum { MAX_RINGS = 16, RING_FREQUENCIES = 64, ROUNDS = 4 };
 

@@ -9,7 +9,7 @@
 
 #include "core/clock.h"
 #include "core/random.h"
-#include "stats/quantiles.h"
+#include "stats/stats.h"
 #include "study/ranking/ranking_decisions.h"
 #include "study/ranking/ranking_reference.h"
 #include "study/run/study.h"

@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-#include "stats/log_gamma.h"
+#include "stats/stats.h"
 
 static const double square_optima[] = {
     1.4142135624, 1.0352761804, 1,

@@ -44,7 +44,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "stats/quantiles.h"
+#include "stats/stats.h"
 
 /* Relative bound of the rounding error in the difference of two values that are equal in exact arithmetic. */
 #define ROUNDING 1e-12

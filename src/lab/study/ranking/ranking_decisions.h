@@ -11,7 +11,7 @@
 
 #include <koksma/study.h>
 
-#include "stats/statistics.h"
+#include "stats/stats.h"
 
 enum {
     KOKSMA__RANK_REPLICATES = 16, /* number of replicates of the reference */

@@ -3,7 +3,7 @@
    each scene it chooses the single measure, the pair of measures and the combination of all measures that fit the
    errors of the other scenes best, and finds how well each of the three orders the errors of the scene itself. */
 #include "study/report/combinations.h"
-#include "stats/correlation.h"
+#include "stats/stats.h"
 
 #include <math.h>
 #include <stdio.h>

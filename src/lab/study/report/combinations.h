@@ -4,7 +4,7 @@
 #ifndef KOKSMA_STUDY_REPORT_COMBINATIONS_H
 #define KOKSMA_STUDY_REPORT_COMBINATIONS_H
 
-#include "stats/rank_regression.h"
+#include "stats/stats.h"
 #include "study/report/cases.h"
 
 /* A case, with the ranks of the measures that were visited so far. */

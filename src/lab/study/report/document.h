@@ -12,7 +12,7 @@
 
 #include "core/json_writer.h"
 #include "plot/palette.h"
-#include "stats/statistics.h"
+#include "stats/stats.h"
 
 typedef struct koksma__document {
     koksma__json_writer json;

@@ -3,7 +3,7 @@
 #ifndef KOKSMA_STUDY_REPORT_MEANS_H
 #define KOKSMA_STUDY_REPORT_MEANS_H
 
-#include "stats/statistics.h"
+#include "stats/stats.h"
 #include "study/report/document.h"
 #include "study/run/study.h"
 

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "stats/quantiles.h"
+#include "stats/stats.h"
 
 void koksma__published_begin(koksma__document *d, const koksma__table *t)
 {

@@ -10,8 +10,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "stats/slopes.h"
-#include "stats/statistics.h"
+#include "stats/stats.h"
 #include "study/plan/plan.h"
 #include "study/report/means.h"
 #include "study/report/published_tables.h"

@@ -3,7 +3,7 @@
 #ifndef KOKSMA_STUDY_REPORT_PUBLISHED_TABLES_H
 #define KOKSMA_STUDY_REPORT_PUBLISHED_TABLES_H
 
-#include "stats/statistics.h"
+#include "stats/stats.h"
 #include "study/run/study.h"
 
 /* The mean, SD and maximum of one cell of a table. */

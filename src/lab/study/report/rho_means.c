@@ -2,7 +2,7 @@
 /* Sums of rank correlations. A measure has a cell for each scene and number of samples; the cells are few, so linear
    search finds them. */
 #include "study/report/rho_means.h"
-#include "stats/bootstrap.h"
+#include "stats/stats.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #ifndef KOKSMA_STUDY_REPORT_RHO_MEANS_H
 #define KOKSMA_STUDY_REPORT_RHO_MEANS_H
 
-#include "stats/statistics.h"
+#include "stats/stats.h"
 
 /* KOKSMA__RHO_VARIANTS: the number of combinations of options that have a column in a table. KOKSMA__RHO_SAMPLES:
    the number of bootstrap resamples. With ten measures, Holm's correction compares the smallest p-value of the 45

@@ -8,8 +8,7 @@
  * jackknife (Efron 1982) uses the same subsets, but to estimate a variance.
  */
 #include "study/report/rho_ranking.h"
-#include "stats/bootstrap.h"
-#include "stats/holm.h"
+#include "stats/stats.h"
 
 #include <math.h>
 #include <stdlib.h>

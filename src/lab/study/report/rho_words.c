@@ -5,7 +5,7 @@
  * left out is not made; the text then says that the result depends on that scene.
  */
 #include "study/report/rho_words.h"
-#include "stats/bootstrap.h"
+#include "stats/stats.h"
 
 #include <math.h>
 #include <stdio.h>

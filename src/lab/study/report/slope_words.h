@@ -3,7 +3,7 @@
 #ifndef KOKSMA_STUDY_REPORT_SLOPE_WORDS_H
 #define KOKSMA_STUDY_REPORT_SLOPE_WORDS_H
 
-#include "stats/slopes.h"
+#include "stats/stats.h"
 #include "study/report/document.h"
 
 /* Whether a steeper slope means a better pattern. */

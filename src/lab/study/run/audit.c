@@ -20,7 +20,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "image/formats.h"
-#include "stats/log_gamma.h"
+#include "stats/stats.h"
 #include "study/run/audit_series.h"
 #include "study/run/references.h"
 #include "study/run/run.h"

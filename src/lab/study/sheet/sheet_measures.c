@@ -19,7 +19,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "stats/quantiles.h"
+#include "stats/stats.h"
 #include "study/run/run_control.h"
 #include "study/sheet/sheet_samplers.h"
 

@@ -34,7 +34,7 @@
 
 #include "core/status.h"
 #include "render/samples/adaptive/adaptive.h"
-#include "stats/quantiles.h"
+#include "stats/stats.h"
 
 /* ---- contrast --------------------------------------------------------------------------------------------------- */
 

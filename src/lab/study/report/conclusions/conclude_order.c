@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "stats/correlation.h"
+#include "stats/stats.h"
 #include "study/report/conclusions/conclusion.h"
 
 /* Adds the rank of each of n values: 1 + the number of smaller ones, and half a rank for each other equal one. */

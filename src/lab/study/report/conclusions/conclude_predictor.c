@@ -8,8 +8,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "stats/correlation.h"
-#include "stats/quantiles.h"
+#include "stats/stats.h"
 #include "study/report/conclusions/conclusion.h"
 
 typedef struct pair {

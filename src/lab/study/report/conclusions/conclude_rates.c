@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "stats/slopes.h"
+#include "stats/stats.h"
 #include "study/plan/plan.h"
 #include "study/report/conclusions/conclusion.h"
 #include "study/report/means.h"

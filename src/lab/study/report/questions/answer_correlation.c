@@ -14,8 +14,7 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
-#include "stats/bootstrap.h"
-#include "stats/correlation.h"
+#include "stats/stats.h"
 #include "study/report/cases.h"
 #include "study/report/combinations.h"
 #include "study/report/means.h"

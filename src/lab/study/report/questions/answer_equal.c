@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "stats/slopes.h"
+#include "stats/stats.h"
 #include "study/report/means.h"
 #include "study/report/questions/topic.h"
 

@@ -12,7 +12,7 @@
 
 #include "core/status.h"
 #include "measures/shared/shared.h"
-#include "stats/slopes.h"
+#include "stats/stats.h"
 #include "study/report/means.h"
 #include "study/report/questions/topic.h"
 #include "study/report/slope_words.h"

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "stats/quantiles.h"
+#include "stats/stats.h"
 #include "study/report/mean_coherence.h"
 #include "study/report/means.h"
 #include "study/report/questions/topic.h"

@@ -12,8 +12,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "stats/slopes.h"
-#include "stats/statistics.h"
+#include "stats/stats.h"
 #include "study/report/published_columns.h"
 #include "study/report/report.h"
 
