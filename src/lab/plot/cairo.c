@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The module koksma-cairo.so: the backend (backend.h) that draws PDF and PNG into memory, by cairo. */
+/* The module koksma-cairo.so: the backend that draws PDF and PNG into memory, by cairo. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include <cairo.h>
 
 #include "modules/module_side.h"
-#include "plot/backend.h"
+#include "plot/plot.h"
 
 typedef struct picture {
     koksma__canvas base;

@@ -4,14 +4,13 @@
  * Liang and Barsky, polygons by Sutherland and Hodgman); and texts. The layout uses an upper bound of the width of
  * each class of characters instead of real widths, so that positions and line breaks are the same with any font.
  */
-#include "plot/canvas.h"
+#include "plot/plot.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "core/status.h"
 #include "modules/module.h"
-#include "plot/svg.h"
 
 static const koksma__module module = {"cairo", "cairo", {koksma__fail, koksma__fail_memory, NULL}};
 

@@ -5,7 +5,7 @@
  * abscissas of the marks if there are few. The layout from top to bottom: title, label of y, axes, ticks and label of
  * x, and the legend, which is below the axes so that it hides no curve.
  */
-#include "plot/chart.h"
+#include "plot/plot.h"
 
 #include <math.h>
 #include <stdio.h>

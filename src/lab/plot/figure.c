@@ -4,7 +4,7 @@
  * heights follow from the width: texts are measured, squares are as wide as their column, and axes have a fixed
  * aspect ratio. If the caller requests a smaller height, squares and axes shrink; if a larger one, axes grow.
  */
-#include "plot/figure.h"
+#include "plot/plot.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,8 +12,6 @@
 
 #include "core/files.h"
 #include "core/status.h"
-#include "plot/chart.h"
-#include "plot/scatter.h"
 
 enum { TITLE = 15, TOP = 6, CHART = 480, MIN_PANEL = 128, MIN_CHART = 300, LEAST_CHART = 112, WIDE = 960 };
 

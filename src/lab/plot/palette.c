@@ -7,7 +7,7 @@
  * family the family's colour with different dashes. In both, a curve that belongs to no pattern gets the first free
  * number.
  */
-#include "plot/palette.h"
+#include "plot/plot.h"
 
 #include <string.h>
 

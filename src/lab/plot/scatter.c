@@ -4,7 +4,7 @@
  * warp, with the borders of the cells, as in figure 5.34; points of more than two dimensions as the lower triangle of
  * a scatter matrix, which has a projection for each pair of axes; and power spectra.
  */
-#include "plot/scatter.h"
+#include "plot/plot.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,8 +8,7 @@
 #include <math.h>
 
 #include "core/status.h"
-#include "plot/canvas.h"
-#include "plot/figure.h"
+#include "plot/plot.h"
 
 static const koksma__colour line = {0.2, 0.35, 0.75, 1}, dot = {0.85, 0.25, 0.1, 1}, ink = {0.1, 0.1, 0.12, 1},
                             black = {0, 0, 0, 1}, ring = {0, 0.5, 0.2, 1}, paper = {1, 1, 1, 1};

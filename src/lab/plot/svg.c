@@ -4,7 +4,7 @@
  * edited, and images become PNG. Successive shapes of one style share a <g>. Elements have no ids, so that several
  * pictures can be put into one page. Nothing is kept between canvases, so that equal drawings give equal bytes.
  */
-#include "plot/svg.h"
+#include "plot/plot.h"
 
 #include <math.h>
 #include <stdio.h>

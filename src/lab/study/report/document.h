@@ -11,7 +11,7 @@
 #include <koksma/image.h>
 
 #include "core/json_writer.h"
-#include "plot/palette.h"
+#include "plot/plot.h"
 #include "stats/stats.h"
 
 typedef struct koksma__document {
