@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 #include "stats/stats.h"
-#include "study/report/rho_words.h"
+#include "study/report/rho.h"
 #include "study/report/said.h"
 #include "test.h"
 
@@ -140,7 +140,7 @@ static size_t number_of(const koksma__rho_means *s, const char *measure)
 
 static bool better(const koksma__rho_means *s, const koksma__rho_jackknife *j, const char *a, const char *b)
 {
-    return koksma__rho_always_better(j, number_of(s, a), number_of(s, b));
+    return koksma__rho_always(j, KOKSMA__RHO_BETTER, number_of(s, a), number_of(s, b));
 }
 
 /* C is surely worse than A over all scenes and surely better than B, but only because of s3 and of the others. */
@@ -154,17 +154,17 @@ static void headline_without_one_scene(void **state)
     koksma__document words = {0};
     char text[4096];
     add_means(&s, rho, 4, 0.03, SCENES);
-    assert_ok(koksma__rho_leave_out(&s, &j));
+    assert_ok(koksma__rho_leave_out(&s, NULL, &j));
     assert_int_equal(j.n, 1 + SCENES);
     assert_true(j.of[0].n_pairs == 6 && j.of[0].n == 4);
     const size_t a = number_of(&s, "A"), b = number_of(&s, "B"), c = number_of(&s, "C"), d = number_of(&s, "D");
     assert_true(koksma__rho_is_better(&j.of[0], a, c) && koksma__rho_is_better(&j.of[0], c, b));
     assert_true(better(&s, &j, "A", "B") && better(&s, &j, "B", "D") && better(&s, &j, "A", "D"));
     assert_true(!better(&s, &j, "A", "C") && !better(&s, &j, "C", "B") && !better(&s, &j, "B", "A"));
-    assert_true(koksma__rho_always_predicts(&j, b) && !koksma__rho_always_predicts(&j, d));
+    assert_true(koksma__rho_always(&j, KOKSMA__RHO_PREDICTS, b, 0) && !koksma__rho_always(&j, KOKSMA__RHO_PREDICTS, d, 0));
     assert_near(koksma__rho_range(&j, c).low, (0.9 + 0.9 - 0.4) / 3, 1e-15);
     assert_near(koksma__rho_range(&j, c).high, 0.9, 1e-15);
-    koksma__rho_sentence(&words, &s, &j);
+    koksma__rho_say(&words, &s, &j);
     said(&words, text, sizeof text);
     assert_non_null(strstr(text, "Best predictor: A (mean Spearman +0.92 over 4 cases"));
     assert_non_null(strstr(text, "It comes first whichever one of the 4 scenes is left out (+0.92 to +0.92)"));
@@ -186,8 +186,8 @@ static void headline_that_depends_on_a_scene(void **state)
     koksma__document words = {0};
     char text[4096];
     add_means(&s, rho, 2, 0.03, SCENES);
-    assert_ok(koksma__rho_leave_out(&s, &j));
-    koksma__rho_sentence(&words, &s, &j);
+    assert_ok(koksma__rho_leave_out(&s, NULL, &j));
+    koksma__rho_say(&words, &s, &j);
     said(&words, text, sizeof text);
     assert_non_null(strstr(text, "The best predictor depends on the scenes. Over all of them it is B (mean Spearman "
                                  "+0.60 over 4 cases"));
@@ -212,11 +212,11 @@ static void statements_survive_any_scene(void **state)
         koksma__rho_means all, less;
         koksma__rho_jackknife j;
         add_means(&all, rho, MEASURES, 0.05, SCENES);
-        assert_ok(koksma__rho_leave_out(&all, &j));
+        assert_ok(koksma__rho_leave_out(&all, NULL, &j));
         for (size_t k = 0; k < SCENES; k++) {
             koksma__rho_ranking r;
             add_means(&less, rho, MEASURES, 0.05, k);
-            assert_ok(koksma__rho_rank(&less, &(koksma__rho_subset){0}, &r));
+            assert_ok(koksma__rho_rank(&less, &(koksma__rho_subset){0}, NULL, &r));
             for (size_t a = 0; a < MEASURES; a++) {
                 for (size_t b = 0; b < MEASURES; b++) {
                     const size_t x = number_of(&less, measure_names[a]), y = number_of(&less, measure_names[b]);
@@ -227,7 +227,7 @@ static void statements_survive_any_scene(void **state)
                                                                 number_of(&all, measure_names[b]));
                 }
             }
-            if (koksma__rho_always_first(&j, number_of(&all, "A"))) {
+            if (koksma__rho_always(&j, KOKSMA__RHO_FIRST, number_of(&all, "A"), 0)) {
                 assert_int_equal(r.at[0].measure, number_of(&less, "A"));
             }
             koksma__rho_ranking_fini(&r);
@@ -248,17 +248,17 @@ static void means_of_parts(void **state)
     koksma__rho_means s;
     koksma__rho_ranking r;
     add_means(&s, rho, 2, 0.02, SCENES);
-    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.scenes = first_two}, &r));
+    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.scenes = first_two}, NULL, &r));
     assert_string_equal(s.of[r.at[0].measure].measure, "A");
     assert_near(r.at[0].mean.value, 0.7, 1e-15);
     assert_near(r.at[1].less.value, 0.3 - 0.7, 1e-15);
     assert_in_range(1000 * (r.at[0].mean.high - r.at[0].mean.low), 50, 61); /* 2 x 1.96 x 0.02 / sqrt(2) = 0.0554 */
     koksma__rho_ranking_fini(&r);
-    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.spp = 4}, &r)); /* s2 and s3 */
+    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.spp = 4}, NULL, &r)); /* s2 and s3 */
     assert_string_equal(s.of[r.at[0].measure].measure, "B");
     assert_near(r.at[0].mean.value, 0.7, 1e-15);
     koksma__rho_ranking_fini(&r);
-    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.scenes = first_two, .spp = 4}, &r));
+    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.scenes = first_two, .spp = 4}, NULL, &r));
     assert_int_equal(r.n, 0);
     koksma__rho_ranking_fini(&r);
     koksma__rho_fini(&s);

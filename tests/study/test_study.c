@@ -11,7 +11,7 @@
 #include "stats/stats.h"
 #include "study/plan/plan.h"
 #include "study/plan/plan_read.h"
-#include "study/report/rho_words.h"
+#include "study/report/rho.h"
 #include "study/report/said.h"
 #include "study/run/references.h"
 #include "study/run/study.h"
@@ -434,8 +434,8 @@ static void correlations_as_shown(void **state)
         assert_ok(koksma__rho_add(&means, &source, &shown, draws));
     }
     assert_int_equal(means.of[0].sure, 1);
-    assert_ok(koksma__rho_leave_out(&means, &jackknife));
-    koksma__rho_sentence(&words, &means, &jackknife);
+    assert_ok(koksma__rho_leave_out(&means, NULL, &jackknife));
+    koksma__rho_say(&words, &means, &jackknife);
     koksma__rho_jackknife_fini(&jackknife);
     assert_non_null(
         strstr(said(&words, text, sizeof text),

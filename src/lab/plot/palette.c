@@ -21,6 +21,7 @@ static const struct {
 #include "plot/palette.def"
 #undef COLOUR
 };
+_Static_assert(sizeof colours / sizeof *colours == KOKSMA__COLOURS, "plot.h has the number of colours");
 
 const koksma__theme *koksma__theme_of(bool dark)
 {

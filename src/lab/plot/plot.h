@@ -116,14 +116,8 @@ typedef struct koksma__theme {
 
 const koksma__theme *koksma__theme_of(bool dark);
 
-enum {
-    KOKSMA__COLOURS = 0
-#define COLOUR(light, dark, patterns) +1
-#include "plot/palette.def"
-#undef COLOUR
-    ,
-    KOKSMA__CURVE_STYLES = KOKSMA__COLOURS * KOKSMA__DASH_GUIDE
-};
+/* KOKSMA__COLOURS: the number of lines of palette.def. */
+enum { KOKSMA__COLOURS = 8, KOKSMA__CURVE_STYLES = KOKSMA__COLOURS * KOKSMA__DASH_GUIDE };
 
 /* Returns the colour of the family of the pattern whose spec this is, or KOKSMA__COLOURS if the text names no
    pattern. */

@@ -4,6 +4,7 @@
 (sections.def). Each report.json must be as docs/report.schema.json says and have the answer or the section; the page must
 hold the same text; the same rows must give the same bytes; a study of blocks that a question can't be answered from must
 say what it takes. Documents and error messages must name every kind of question. With sanitizers each report is made once."""
+import base64
 import json
 import os
 import re
@@ -119,6 +120,8 @@ def run_study(name, plan, limit=0):
     check_colours(name, report)
     check_tables(name, report)
     check_numbers(name, report)
+    if "\ufffd" in text:
+        complain(f"{name}: a character was cut")
     if one := re.search(r"\b1 (points|samples|sets|trials|renders|scenes|patterns|images|rows)\b", text):
         complain(f"{name}: '{one[0]}'")
     return report
@@ -136,6 +139,7 @@ def check_images():
         koksma("render", "ball", "--size", "16x12", "--spp", 1024, "-p", "jittered", "-o", "ref.pfm", "-q")
         rows = [json.loads(line) for line in koksma("study", "images", "i_{p}_{spp}_{trial}.pfm", "--reference", "ref.pfm", "--json", "-o", "out").splitlines()]
         text, page = ((Path(folder) / "out" / name).read_text() for name in ("report.json", "report.html"))
+        reference = (Path(folder) / "ref.pfm").read_bytes()
     report = json.loads(text)
     if text.strip() not in page:
         complain("images: the page does not hold report.json")
@@ -157,6 +161,12 @@ def check_images():
     wanted = ["decided" if all(r["position"] == 1 or r["behind_low"] > 0 for r in rows if r["spp"] == spp) else "undecided" for spp in (4, 16, 64)]
     if answers != wanted:
         complain(f"images: the answers are {answers}, the intervals say {wanted}")
+    # Pictures are little-endian floats from the top; a PFM file (of a scale below 0) has its rows from the bottom.
+    image = next(b for b in found if b["kind"] == "pictures")
+    row = 4 * image["width"] * image["images"][0]["channels"]
+    pixels = reference[-row * image["height"]:]
+    if base64.b64decode(image["images"][0]["pixels"]) != b"".join(pixels[row * y:row * (y + 1)] for y in reversed(range(image["height"]))):
+        complain("images: the picture of the reference is not its file")
     if [len(b["images"]) for b in found if b["kind"] == "pictures"] != [3] or {s["label"] for b in found if b["kind"] == "chart" for s in b["series"]} != {"random", "jittered"}:
         complain("images: other pictures or lines")
 
@@ -184,7 +194,7 @@ def check_sections():
                         {"id": "3", "title": "L", "pattern": "random", "n": 16, "lines": "dual"}],
             "questions": [{"id": "q", "title": "Q", "kind": "table", "discrepancies": "d"}]}
     plan["discrepancies"] = [{**POINTS, "n": [4, 8, 16, 64], "skip": True}]
-    sections, undone = lines_of("report/sections/sections.def", "SECTION"), "undone"  # the last is of a part of a study
+    sections, undone = lines_of("report/sections.def", "SECTION"), "undone"  # the last is of a part of a study
     part = run_study("part", {"discrepancies": [POINTS]}, 1e-9)
     if part and undone not in [b["id"] for b in part["content"] if "id" in b]:
         complain("sections: a part of a study does not say what is not done")

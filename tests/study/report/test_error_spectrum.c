@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/report/error_spectrum.h"
+#include "study/report/report.h"
 #include "test.h"
 
 static void images_of(int width, int height, koksma_image *image, koksma_image *reference)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* How a printed mean goes with ours: every verdict, z with half of the last printed digit, slopes of printed means. */
-#include "study/report/published_tables.h"
+#include "study/report/report.h"
 
 #include <math.h>
 

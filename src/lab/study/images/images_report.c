@@ -14,7 +14,6 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "study/report/document.h"
-#include "study/report/page.h"
 
 /* The maximum number of bytes of floats on a page, before base64 encoding, and the maximum number of images shown. */
 enum { MOST_BYTES = 24 << 20, MAX_SHOWN = 24 };
@@ -122,17 +121,16 @@ static void put_table(koksma__document *d, const koksma__images *all, long long 
         const koksma_images_row *row = &all->rows[i];
         if (row->spp == spp) {
             koksma__doc_row(d);
-            koksma__doc_text(d, row->group[0] ? row->group : "all images");
-            koksma__doc_number(d, (double)row->trials);
-            koksma__doc_interval(d, (koksma__estimate){row->mean, row->low, row->high});
-            koksma__doc_interval(d, row->position == 1 ? (koksma__estimate){0, 0, 0}
-                                                       : (koksma__estimate){100 * row->behind, 100 * row->behind_low,
-                                                                            100 * row->behind_high});
-            koksma__doc_number(d, row->rmse);
-            koksma__doc_number(d, row->max);
-            koksma__doc_text(d, !row->coherence.images ? "–" : row->coherence.coherent ? "yes" : "no");
-            koksma__doc_number(d, (double)row->position);
-            koksma__doc_number(d, row->coherence.coherence);
+            koksma__doc_cells(d, "tniinntnn", row->group[0] ? row->group : "all images", (double)row->trials,
+                              (koksma__estimate){row->mean, row->low, row->high},
+                              row->position == 1 ? (koksma__estimate){0, 0, 0}
+                                                 : (koksma__estimate){100 * row->behind, 100 * row->behind_low,
+                                                                      100 * row->behind_high},
+                              row->rmse, row->max,
+                              !row->coherence.images    ? "–"
+                              : row->coherence.coherent ? "yes"
+                                                        : "no",
+                              (double)row->position, row->coherence.coherence);
         }
     }
     koksma__doc_table_end(d);
@@ -206,14 +204,13 @@ static void put_slopes(koksma__document *d, const koksma__images *all)
                              "interval; independent random samples have -0.5.");
     put_chart(d, all);
     koksma__doc_sorted_table_begin(d, "slopes", "slope", false, false);
-    koksma__doc_head(d, "images");
-    koksma__doc_head_interval(d, "slope", 3);
+    koksma__doc_columns(d, "t images;i3 slope");
     for (size_t i = 0; i < all->n; i++) {
         const koksma_images_row *row = &all->rows[i];
         if (i == 0 || !same_group(row, row - 1)) {
             koksma__doc_row(d);
-            koksma__doc_text(d, row->group[0] ? row->group : "all images");
-            koksma__doc_interval(d, (koksma__estimate){row->slope, row->slope_low, row->slope_high});
+            koksma__doc_cells(d, "ti", row->group[0] ? row->group : "all images",
+                              (koksma__estimate){row->slope, row->slope_low, row->slope_high});
         }
     }
     koksma__doc_table_end(d);

@@ -1,20 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Lists the cases of a question (cases.h) and reads their means. Blocks of one question may overlap: a case is
+ * Lists the cases of a question (koksma__cases) and reads their means. Blocks of one question may overlap: a case is
  * visited in the first block that renders it (is_before). If several blocks have results of a pattern, its means are
  * read from the one with the most trials (images) or point sets (measures).
  */
-#include "study/report/cases.h"
-
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/capacity.h"
 #include "core/status.h"
 #include "study/plan/plan.h"
-#include "study/report/means.h"
+#include "study/report/report.h"
 #include "study/run/references.h"
 
 /* Whether a sorted list has the number n; plans sort their sizes when they are parsed. */
@@ -30,45 +27,39 @@ static bool has_size(const koksma__wholes *sizes, long long n)
 
 /* ---- Measures ------------------------------------------------------------------------------------------ */
 
-static koksma_status add_measured(koksma__cases *c, const char *measure, int dim)
+/* Adds a measure in a number of dimensions, unless it is listed already. */
+static void add_measured(koksma__cases *c, const char *measure, int dim)
 {
     for (size_t i = 0; i < c->n; i++) {
         if (c->measured[i].dim == dim && !strcmp(c->measured[i].measure, measure)) {
-            return KOKSMA_OK;
+            return;
         }
     }
-    koksma__measured *m = koksma__add_one(&c->measured, &c->n, sizeof *m);
-    if (!m) {
-        return KOKSMA_MEMORY;
-    }
     koksma_spec spec;
+    koksma__measured *m = &c->measured[c->n++];
     *m = (koksma__measured){.measure = measure, .dim = dim};
     m->larger = !koksma_measure_spec(measure, &spec) && spec.measure->larger_is_better;
     const int length = snprintf(m->label, sizeof m->label, "%s", measure);
     if (dim != 2) {
         snprintf(m->label + length, sizeof m->label - (size_t)length, " (%dD)", dim);
     }
-    return KOKSMA_OK;
 }
 
-koksma_status koksma__cases_open(koksma_study *study, const koksma__topic *topic, koksma__cases *cases)
+koksma__cases koksma__cases_of(koksma__report *r, const koksma__topic *topic)
 {
-    koksma_status status = KOKSMA_OK;
-    *cases = (koksma__cases){.study = study, .topic = topic};
-    for (size_t b = 0; !status && b < topic->n_discrepancies; b++) {
+    koksma__cases cases = {.report = r, .topic = topic};
+    size_t most = 0;
+    for (size_t b = 0; b < topic->n_discrepancies; b++) {
+        most += topic->discrepancies[b]->measures.n;
+    }
+    cases.measured = koksma__report_memory(r, most, sizeof *cases.measured);
+    for (size_t b = 0; b < topic->n_discrepancies && koksma__report_goes_on(r); b++) {
         const koksma__discrepancy_block *d = topic->discrepancies[b];
-        status = koksma__report_goes_on(study);
-        for (size_t m = 0; !status && !d->warps.n && m < d->measures.n; m++) {
-            status = add_measured(cases, d->measures.at[m], d->dim);
+        for (size_t m = 0; !d->warps.n && m < d->measures.n; m++) {
+            add_measured(&cases, d->measures.at[m], d->dim);
         }
     }
-    return status;
-}
-
-void koksma__cases_close(koksma__cases *cases)
-{
-    free(cases->measured);
-    *cases = (koksma__cases){0};
+    return cases;
 }
 
 /* Whether a block evaluates the case's measure, without a warp, at the case's dimension and number of points. */
@@ -124,7 +115,8 @@ static const koksma__image_block *rendered_in(const koksma__cases *c, const koks
     const koksma__image_block *most = c->topic->images[b];
     for (; b < c->topic->n_images; b++) {
         const koksma__image_block *i = c->topic->images[b];
-        if (i->trials > most->trials && koksma__texts_have(&i->patterns, pattern) && renders_it(c->study, i, at)) {
+        if (i->trials > most->trials && koksma__texts_have(&i->patterns, pattern) &&
+            renders_it(c->report->study, i, at)) {
             most = i;
         }
     }
@@ -138,66 +130,61 @@ static bool is_before(const koksma__cases *c, const koksma__case *at, const char
 {
     for (size_t k = 0; k < b; k++) {
         const koksma__image_block *i = c->topic->images[k];
-        if ((!pattern || koksma__texts_have(&i->patterns, pattern)) && renders_it(c->study, i, at)) {
+        if ((!pattern || koksma__texts_have(&i->patterns, pattern)) && renders_it(c->report->study, i, at)) {
             return true;
         }
     }
     return false;
 }
 
-static koksma_status visit_measures(const koksma__cases *c, koksma__case *at, koksma__case_visitor visit,
-                                    void *context)
+static void visit_measures(const koksma__cases *c, koksma__case *at, koksma__case_visitor visit, void *context)
 {
-    koksma_status status = KOKSMA_OK;
     for (size_t m = 0; m < c->n; m++) {
         bool measured = false;
         at->of = &c->measured[m];
         for (size_t b = 0; !measured && b < c->topic->n_discrepancies; b++) {
             measured = measures_it(c->topic->discrepancies[b], at);
         }
-        if (!status && measured) {
-            status = visit(c, context, at);
+        if (measured && !c->report->status) {
+            visit(c, context, at);
         }
     }
-    return status;
 }
 
-koksma_status koksma__cases_visit(const koksma__cases *c, koksma__case_visitor visit, void *context)
+void koksma__cases_visit(const koksma__cases *c, koksma__case_visitor visit, void *context)
 {
-    koksma_status status = KOKSMA_OK;
     for (size_t b = 0; b < c->topic->n_images; b++) {
         const koksma__image_block *i = c->topic->images[b];
-        for (size_t k = 0; !status && k < i->scenes.n * i->variants.n * i->spp.n; k++) {
+        const size_t variants = i->variants.n, sizes = i->spp.n;
+        for (size_t k = 0; k < i->scenes.n * variants * sizes && koksma__report_goes_on(c->report); k++) {
             koksma__case at = {.image = i,
-                               .scene = i->scenes.at[k / (i->variants.n * i->spp.n)],
-                               .variant = i->variants.at[k / i->spp.n % i->variants.n],
-                               .spp = i->spp.at[k % i->spp.n]};
-            status = koksma__report_goes_on(c->study);
-            if (!status && !is_before(c, &at, NULL, b)) {
-                status = visit_measures(c, &at, visit, context);
+                               .scene = i->scenes.at[k / (variants * sizes)],
+                               .variant = i->variants.at[k / sizes % variants],
+                               .spp = i->spp.at[k % sizes]};
+            if (!is_before(c, &at, NULL, b)) {
+                visit_measures(c, &at, visit, context);
             }
         }
     }
-    return status;
 }
 
 /* Adds a pattern's means of the measure and of the image error. Block b is the first block that renders the pattern.
    A pattern that lacks results of points or of images, or comes after KOKSMA__CASE_PATTERNS others, is counted but
    not added. */
-static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b,
-                              koksma__pairs *out)
+static void add_pair(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b,
+                     koksma__pairs *out)
 {
     const koksma__discrepancy_block *d = measured_in(c->topic, at, pattern);
-    koksma__summary x, y;
     out->patterns_in_all++;
     if (!d || out->n == KOKSMA__CASE_PATTERNS) {
-        return KOKSMA_OK;
+        return;
     }
-    const koksma__image_block *i = rendered_in(c, at, pattern, b);
-    koksma_status status = koksma__discrepancy_mean(c->study, d, "", pattern, at->spp, at->of->measure, NULL, &x);
-    const koksma__image_mean of = {i, at->scene, at->variant, pattern, at->spp};
-    status = status ? status : koksma__image_mean_by(c->study, &of, c->topic->metric, NULL, &y);
-    if (!status && x.n && y.n) {
+    const koksma__subject points = koksma__subject_of_points(d, at->of->measure, ""),
+                          images = koksma__subject_of_images(rendered_in(c, at, pattern, b), at->scene, at->variant,
+                                                             c->topic->metric);
+    const koksma__summary x = koksma__read_mean(c->report, &points, pattern, at->spp, NULL),
+                          y = koksma__read_mean(c->report, &images, pattern, at->spp, NULL);
+    if (x.n && y.n) {
         out->x[out->n] = x.mean;
         out->y[out->n] = y.mean;
         out->x_error[out->n] = x.sd / sqrt((double)x.n);
@@ -206,24 +193,17 @@ static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, co
         out->high[out->n] = y.high;
         out->patterns[out->n++] = pattern;
     }
-    return status;
 }
 
-koksma_status koksma__case_pairs(const koksma__cases *c, const koksma__case *at, koksma__pairs *out)
+void koksma__case_pairs(const koksma__cases *c, const koksma__case *at, koksma__pairs *out)
 {
-    koksma_status status = KOKSMA_OK;
     out->n = out->patterns_in_all = 0;
     for (size_t b = 0; b < c->topic->n_images; b++) {
         const koksma__image_block *i = c->topic->images[b];
-        if (!renders_it(c->study, i, at)) {
-            continue;
-        }
-        for (size_t p = 0; !status && p < i->patterns.n; p++) {
-            status = koksma__report_goes_on(c->study);
-            if (!status && !is_before(c, at, i->patterns.at[p], b)) {
-                status = add_pair(c, at, i->patterns.at[p], b, out);
+        for (size_t p = 0; renders_it(c->report->study, i, at) && p < i->patterns.n; p++) {
+            if (koksma__report_goes_on(c->report) && !is_before(c, at, i->patterns.at[p], b)) {
+                add_pair(c, at, i->patterns.at[p], b, out);
             }
         }
     }
-    return status;
 }

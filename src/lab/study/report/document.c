@@ -14,11 +14,14 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/files.h"
 #include "core/status.h"
+#include "study/report/page_text.h"
 
 void koksma__doc_append(koksma__document *d, koksma__document *part)
 {
@@ -224,30 +227,36 @@ static void end_words(koksma__document *d)
     koksma__json_end(&d->json);
 }
 
-void koksma__doc_section_begin(koksma__document *d, const char *id, bool collapsed)
-{
-    begin_block(d, "section", id);
-    put_flag(d, "collapsed", collapsed);
-    koksma__json_begin_array(&d->json, "heading");
-}
-
-void koksma__doc_section_body(koksma__document *d)
-{
-    end_words(d);
-    koksma__json_begin_array(&d->json, "content");
-}
-
 void koksma__doc_end(koksma__document *d)
 {
     koksma__json_end(&d->json);
     koksma__json_end(&d->json);
 }
 
-void koksma__doc_section(koksma__document *d, const char *id, const char *heading)
+static void begin_section(koksma__document *d, const char *id, bool collapsed, const char *format, va_list *arguments)
 {
-    koksma__doc_section_begin(d, id, false);
-    koksma__doc_say(d, "%s", heading);
-    koksma__doc_section_body(d);
+    begin_block(d, "section", id);
+    put_flag(d, "collapsed", collapsed);
+    koksma__json_begin_array(&d->json, "heading");
+    say(d, format, arguments);
+    end_words(d);
+    koksma__json_begin_array(&d->json, "content");
+}
+
+void koksma__doc_section(koksma__document *d, const char *id, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    begin_section(d, id, false, format, &arguments);
+    va_end(arguments);
+}
+
+void koksma__doc_collapsed_section(koksma__document *d, const char *id, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    begin_section(d, id, true, format, &arguments);
+    va_end(arguments);
 }
 
 void koksma__doc_paragraph_begin(koksma__document *d)
@@ -395,19 +404,21 @@ void koksma__doc_column(koksma__document *d, const koksma__column *c)
     koksma__json_end(&d->json);
 }
 
-void koksma__doc_head(koksma__document *d, const char *name)
+void koksma__doc_columns(koksma__document *d, const char *columns)
 {
-    koksma__doc_column(d, &(koksma__column){.name = name, .type = KOKSMA__COLUMN_TEXT});
-}
-
-void koksma__doc_head_number(koksma__document *d, const char *name, int digits)
-{
-    koksma__doc_column(d, &(koksma__column){.name = name, .type = KOKSMA__COLUMN_NUMBER, .digits = digits});
-}
-
-void koksma__doc_head_interval(koksma__document *d, const char *name, int digits)
-{
-    koksma__doc_column(d, &(koksma__column){.name = name, .type = KOKSMA__COLUMN_INTERVAL, .digits = digits});
+    while (*columns) {
+        char name[128];
+        const char type = *columns++;
+        const int digits = *columns == ' ' ? 0 : *columns++ - '0';
+        const size_t length = strcspn(++columns, ";");
+        snprintf(name, sizeof name, "%.*s", (int)length, columns);
+        koksma__doc_column(d, &(koksma__column){.name = name,
+                                                .type = type == 't'   ? KOKSMA__COLUMN_TEXT
+                                                        : type == 'n' ? KOKSMA__COLUMN_NUMBER
+                                                                      : KOKSMA__COLUMN_INTERVAL,
+                                                .digits = digits});
+        columns += length + (columns[length] == ';');
+    }
 }
 
 void koksma__doc_row(koksma__document *d)
@@ -420,23 +431,38 @@ void koksma__doc_row(koksma__document *d)
     koksma__json_begin_array(&d->json, NULL);
 }
 
-void koksma__doc_text(koksma__document *d, const char *text)
-{
-    koksma__json_write_text(&d->json, NULL, text);
-}
-
-void koksma__doc_number(koksma__document *d, double value)
-{
-    put_number(d, NULL, value);
-}
-
-void koksma__doc_interval(koksma__document *d, koksma__estimate e)
+static void put_interval(koksma__document *d, koksma__estimate e)
 {
     koksma__json_begin_array(&d->json, NULL);
-    koksma__doc_number(d, e.value);
-    koksma__doc_number(d, e.low);
-    koksma__doc_number(d, e.high);
+    put_number(d, NULL, e.value);
+    put_number(d, NULL, e.low);
+    put_number(d, NULL, e.high);
     koksma__json_end(&d->json);
+}
+
+void koksma__doc_cells(koksma__document *d, const char *types, ...)
+{
+    va_list arguments;
+    va_start(arguments, types);
+    for (; *types; types++) {
+        switch (*types) {
+        case 't':
+            koksma__json_write_text(&d->json, NULL, va_arg(arguments, const char *));
+            break;
+        case 'n':
+            put_number(d, NULL, va_arg(arguments, double));
+            break;
+        case 'z':
+            put_number(d, NULL, (double)va_arg(arguments, size_t));
+            break;
+        case 'd':
+            put_number(d, NULL, (double)va_arg(arguments, long long));
+            break;
+        default:
+            put_interval(d, va_arg(arguments, koksma__estimate));
+        }
+    }
+    va_end(arguments);
 }
 
 koksma__cell_data koksma__cell_of(double value)
@@ -528,11 +554,11 @@ void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__se
 void koksma__doc_point(koksma__document *d, double x, double y, double low, double high)
 {
     koksma__json_begin_array(&d->json, NULL);
-    koksma__doc_number(d, x);
-    koksma__doc_number(d, y);
+    put_number(d, NULL, x);
+    put_number(d, NULL, y);
     if (low < high) {
-        koksma__doc_number(d, low);
-        koksma__doc_number(d, high);
+        put_number(d, NULL, low);
+        put_number(d, NULL, high);
     }
     koksma__json_end(&d->json);
 }
@@ -582,7 +608,7 @@ static void put_numbers(koksma__document *d, const char *key, const double *valu
 {
     koksma__json_begin_array(&d->json, key);
     for (size_t i = 0; i < n; i++) {
-        koksma__doc_number(d, values[i]);
+        put_number(d, NULL, values[i]);
     }
     koksma__json_end(&d->json);
 }
@@ -645,4 +671,89 @@ void koksma__doc_picture(koksma__document *d, const koksma_image *image, const c
     koksma__json_write_bytes(&d->json, "pixels", bytes, bytes ? 4 * n : 0);
     koksma__json_end(&d->json);
     free(bytes);
+}
+
+/* ---- The page ---------------------------------------------------------------------------------------------- */
+
+/* The build embeds page/page.html with its script, cut in two where the data are inserted. The first half has the
+   placeholders {{title}} and {{numbers}}, in this order, for texts that depend on the kind of the page. */
+static const char *const titles[] = {[KOKSMA__PAGE_STUDY] = "koksma: report of a study",
+                                     [KOKSMA__PAGE_IMAGES] = "koksma: errors of images",
+                                     [KOKSMA__PAGE_DATASHEET] = "koksma: datasheet of a sampler"};
+
+static const char beside[] = "All of its numbers are in <a href=\"report.json\">report.json</a> beside it.";
+static const char inside[] =
+    "All of its numbers are in this file, in the element with the id <code>data</code>, as JSON; "
+    "<code>koksma datasheet SAMPLER -o sheet.json</code> writes them.";
+
+/* A page is written as these parts. */
+enum { PARTS = 7 };
+typedef struct part {
+    const char *text;
+    size_t length;
+} part;
+
+static part part_of(const char *text)
+{
+    return (part){text, strlen(text)};
+}
+
+/* Cuts the text at a placeholder: the part before it is returned, and *text becomes the rest behind it. */
+static part cut(const char **text, const char *placeholder)
+{
+    const char *begin = *text, *at = strstr(begin, placeholder);
+    *text = at + strlen(placeholder);
+    return (part){begin, (size_t)(at - begin)};
+}
+
+static void make_parts(koksma__page_kind kind, const char *json, part parts[PARTS])
+{
+    const char *head = koksma__page_head;
+    parts[0] = cut(&head, "{{title}}");
+    parts[1] = part_of(titles[kind]);
+    parts[2] = cut(&head, "{{numbers}}");
+    parts[3] = part_of(kind == KOKSMA__PAGE_DATASHEET ? inside : beside);
+    parts[4] = part_of(head);
+    parts[5] = part_of(json);
+    parts[6] = part_of(koksma__page_foot);
+}
+
+char *koksma__page_text(koksma__page_kind kind, const char *json)
+{
+    part parts[PARTS];
+    size_t size = 1, used = 0;
+    make_parts(kind, json, parts);
+    for (int i = 0; i < PARTS; i++) {
+        size += parts[i].length;
+    }
+    char *text = malloc(size);
+    for (int i = 0; text && i < PARTS; i++) {
+        memcpy(text + used, parts[i].text, parts[i].length);
+        used += parts[i].length;
+    }
+    if (text) {
+        text[used] = '\0';
+    }
+    return text;
+}
+
+static koksma_status write_file(const char *folder, const char *name, const part *parts, int n)
+{
+    koksma__atomic_file file;
+    koksma_status status = koksma__atomic_open(folder, name, &file);
+    if (!status) {
+        for (int i = 0; i < n; i++) {
+            fwrite(parts[i].text, 1, parts[i].length, file.stream);
+        }
+        status = koksma__atomic_close(&file, true);
+    }
+    return status;
+}
+
+koksma_status koksma__page_write(const char *folder, koksma__page_kind kind, const char *json)
+{
+    part parts[PARTS];
+    make_parts(kind, json, parts);
+    const koksma_status status = write_file(folder, "report.json", (const part[]){part_of(json), part_of("\n")}, 2);
+    return status ? status : write_file(folder, "report.html", parts, PARTS);
 }

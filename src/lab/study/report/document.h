@@ -44,14 +44,10 @@ void koksma__doc_say(koksma__document *d, const char *format, ...) KOKSMA_PRINTF
 /* Ends the innermost section, series, chart, drawing or pictures. */
 void koksma__doc_end(koksma__document *d);
 
-/* Begins a section with a heading; sections nest. id = NULL: no id; if ids repeat, the page makes them unique.
-   collapsed: the section is hidden until its heading is clicked. Calls of koksma__doc_say write the heading until
-   koksma__doc_section_body begins the content. */
-void koksma__doc_section_begin(koksma__document *d, const char *id, bool collapsed);
-void koksma__doc_section_body(koksma__document *d);
-
-/* Begins a section with the given heading, and its content. */
-void koksma__doc_section(koksma__document *d, const char *id, const char *heading);
+/* Begins a section with a heading, and its content; sections nest. id = NULL: no id; if ids repeat, the page makes them
+   unique. A collapsed section is hidden until its heading is clicked. */
+void koksma__doc_section(koksma__document *d, const char *id, const char *format, ...) KOKSMA_PRINTF(3, 4);
+void koksma__doc_collapsed_section(koksma__document *d, const char *id, const char *format, ...) KOKSMA_PRINTF(3, 4);
 
 /* koksma__doc_paragraph writes a whole paragraph; between koksma__doc_paragraph_begin and koksma__doc_paragraph_end
    a paragraph is written by calls of koksma__doc_say. */
@@ -129,13 +125,13 @@ void koksma__doc_table_begin(koksma__document *d, const char *name);
 void koksma__doc_sorted_table_begin(koksma__document *d, const char *name, const char *column, bool by_width,
                                     bool descending);
 void koksma__doc_column(koksma__document *d, const koksma__column *column);
-void koksma__doc_head(koksma__document *d, const char *name); /* a column of texts */
-void koksma__doc_head_number(koksma__document *d, const char *name, int digits);
-void koksma__doc_head_interval(koksma__document *d, const char *name, int digits);
+/* Several columns, such as "t pattern;n7 cases;i3 slope": the type of each (t text, n number, i interval), its digits
+   and its name. */
+void koksma__doc_columns(koksma__document *d, const char *columns);
 void koksma__doc_row(koksma__document *d);
-void koksma__doc_text(koksma__document *d, const char *text);
-void koksma__doc_number(koksma__document *d, double value); /* NAN: a dash */
-void koksma__doc_interval(koksma__document *d, koksma__estimate estimate);
+/* Cells of the open row. types has a letter for each, which is the type of its argument: t a text, n a double, z a size_t,
+   d a long long, i a koksma__estimate. NAN: a dash. */
+void koksma__doc_cells(koksma__document *d, const char *types, ...);
 void koksma__doc_cell(koksma__document *d, const koksma__cell_data *cell);
 void koksma__doc_table_end(koksma__document *d);
 
@@ -184,5 +180,16 @@ void koksma__doc_figure_end(koksma__document *d);
    the reference; the page shows the others with their errors, and compares any two. */
 void koksma__doc_pictures_begin(koksma__document *d, const char *scene, int width, int height);
 void koksma__doc_picture(koksma__document *d, const koksma_image *image, const char *name);
+
+/* ---- The page ---------------------------------------------------------------------------------------------- */
+
+/* What a page is about: a browser without JavaScript shows only that and where the numbers are. */
+typedef enum koksma__page_kind { KOKSMA__PAGE_STUDY, KOKSMA__PAGE_IMAGES, KOKSMA__PAGE_DATASHEET } koksma__page_kind;
+
+/* Returns the page with the JSON text in it, which the caller frees; NULL: out of memory. */
+char *koksma__page_text(koksma__page_kind kind, const char *json);
+
+/* Writes the JSON text as report.json, and the page that shows it as report.html, into a folder. */
+koksma_status koksma__page_write(const char *folder, koksma__page_kind kind, const char *json);
 
 #endif

@@ -14,7 +14,7 @@
 #include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
-#include "study/report/export.h"
+#include "study/report/report.h"
 #include "study/run/study.h"
 #include "study/store/store.h"
 

@@ -1,38 +1,135 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads every number of a report that comes from the store: looks a series up by its key, reads its trials below the
- * plan's number of trials, and sums them up as a mean with an interval (koksma__summarize_sizes). Nothing is cached between
- * calls, because SQLite caches the pages of the store.
+ * plan's number of trials, and sums them up as a mean with an interval (koksma__summarize_sets). Nothing is cached between
+ * calls, because SQLite caches the pages of the store. The summaries are not SQL's: sums are compensated, in the order of
+ * the trials, so that equal rows give equal bits on all machines.
  */
-#include "study/report/means.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/status.h"
+#include "study/report/report.h"
 #include "study/run/references.h"
-#include "study/run/tasks.h"
 
-koksma_status koksma__report_goes_on(const koksma_study *study)
+/* ---- The report's status and memory ------------------------------------------------------------------------ */
+
+bool koksma__report_keep(koksma__report *r, koksma_status status)
 {
-    return koksma__ask(study->report);
+    r->status = r->status ? r->status : status;
+    return !r->status;
 }
 
-koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
-                                     koksma__result **results, size_t *n)
+bool koksma__report_goes_on(koksma__report *r)
+{
+    return !r->status && koksma__report_keep(r, koksma__ask(r->run));
+}
+
+void *koksma__report_memory(koksma__report *r, size_t n, size_t size)
+{
+    void **slot = r->status ? NULL : koksma__add_one(&r->memory, &r->n_memory, sizeof *slot);
+    if (!slot) {
+        koksma__report_keep(r, KOKSMA_MEMORY);
+        return NULL;
+    }
+    *slot = calloc(n + 1, size);
+    if (!*slot) {
+        koksma__report_keep(r, koksma__fail_memory(n * size));
+    }
+    return *slot;
+}
+
+void koksma__report_release(koksma__report *r)
+{
+    while (r->n_memory) {
+        free(r->memory[--r->n_memory]);
+    }
+    free(r->memory);
+    r->memory = NULL;
+}
+
+/* ---- Subjects ---------------------------------------------------------------------------------------------- */
+
+void koksma__case_name(const char *scene, const char *variant, char *text, size_t size)
+{
+    snprintf(text, size, "%s%s%s", scene, variant[0] ? ", " : "", variant);
+}
+
+koksma__subject koksma__subject_of_points(const koksma__discrepancy_block *block, const char *measure,
+                                          const char *warp)
+{
+    koksma__subject s = {
+        .points = block, .measure = measure, .warp = warp, .patterns = &block->patterns, .n = &block->n};
+    koksma_spec spec;
+    s.larger = !koksma_measure_spec(measure, &spec) && spec.measure->larger_is_better;
+    const int length = snprintf(s.name, sizeof s.name, "%s", measure);
+    if (block->dim != 2) {
+        snprintf(s.name + length, sizeof s.name - (size_t)length, ", %dD", block->dim);
+    } else if (warp[0]) {
+        snprintf(s.name + length, sizeof s.name - (size_t)length, " through %.40s", warp);
+    }
+    return s;
+}
+
+koksma__subject koksma__subject_of_images(const koksma__image_block *block, const char *scene, const char *variant,
+                                          const char *metric)
+{
+    koksma__subject s = {.images = block,
+                         .scene = scene,
+                         .variant = variant,
+                         .metric = metric,
+                         .patterns = &block->patterns,
+                         .n = &block->spp};
+    koksma__case_name(scene, variant, s.name, sizeof s.name);
+    return s;
+}
+
+bool koksma__topic_subject(const koksma__topic *t, size_t i, bool by_warp, koksma__subject *out)
+{
+    for (size_t b = 0; b < t->n_discrepancies; b++) {
+        const koksma__discrepancy_block *d = t->discrepancies[b];
+        const size_t warps = d->warps.n ? d->warps.n : 1, measures = d->measures.n;
+        if (i < warps * measures) {
+            const char *warp = !d->warps.n ? "" : d->warps.at[by_warp ? i % warps : i / measures];
+            *out = koksma__subject_of_points(d, d->measures.at[by_warp ? i / warps : i % measures], warp);
+            return true;
+        }
+        i -= warps * measures;
+    }
+    for (size_t b = 0; b < t->n_images; b++) {
+        const koksma__image_block *block = t->images[b];
+        const size_t variants = block->variants.n, n = block->scenes.n * variants;
+        if (i < n) {
+            *out = koksma__subject_of_images(block, block->scenes.at[i / variants], block->variants.at[i % variants],
+                                             t->metric);
+            return true;
+        }
+        i -= n;
+    }
+    return false;
+}
+
+/* ---- Means ------------------------------------------------------------------------------------------------- */
+
+koksma__result *koksma__read_results(koksma__report *r, const koksma__series *series, long long trials, size_t *n)
 {
     long long id;
-    koksma_status status = koksma__report_goes_on(study);
-    status = status ? status : koksma__store_series(study->store, series, false, &id);
-    status = status ? status : koksma__store_results(study->store, id, trials, results, n);
-    if (!status && !*results) {
-        *results = calloc(1, sizeof **results);
-        status = *results ? KOKSMA_OK : koksma__fail_memory(sizeof **results);
+    koksma__result *results = NULL;
+    *n = 0;
+    if (!koksma__report_goes_on(r) ||
+        !koksma__report_keep(r, koksma__store_series(r->study->store, series, false, &id)) ||
+        !koksma__report_keep(r, koksma__store_results(r->study->store, id, trials, &results, n))) {
+        return NULL;
     }
-    return status;
+    if (!results) {
+        results = calloc(1, sizeof *results); /* so that NULL is a failure */
+        koksma__report_keep(r, results ? KOKSMA_OK : koksma__fail_memory(sizeof *results));
+    }
+    return results;
 }
 
 koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n)
@@ -42,129 +139,95 @@ koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result
                : koksma__summarize_sizes(results->values, n, KOKSMA__RESULT_STRIDE);
 }
 
-/* sets: whether the results of the series are those of point sets. A deterministic pattern has one point set, whose
-   value is exact, but its images differ between trials. */
-static koksma_status mean_of(koksma_study *study, const koksma__series *series, bool sets, long long trials,
-                             koksma__result **results, koksma__summary *mean)
+/* Reads the results of a subject: of its measure, or the images' rows of a kind. */
+static koksma__result *read_subject(koksma__report *r, const koksma__subject *s, const char *pattern, long long n,
+                                    const char *kind, const char *metric, size_t *count)
 {
-    koksma__result *found;
-    size_t n;
-    KOKSMA__TRY(koksma__series_results(study, series, trials, &found, &n));
-    *mean = sets ? koksma__summarize_sets(series->pattern, found, n)
-                 : koksma__summarize_sizes(found->values, n, KOKSMA__RESULT_STRIDE);
+    char name[KOKSMA__REFERENCE_NAME];
+    koksma__series series = {
+        .kind = "discrepancy", .scene = "", .scene_hash = "", .options = s->warp, .pattern = pattern, .n = n};
+    if (s->points) {
+        series.what = s->measure;
+        series.dim = s->points->dim;
+        return koksma__read_results(r, &series, s->points->trials, count);
+    }
+    const koksma__study_scene *scene = koksma__study_scene_of(r->study, s->scene);
+    int width, height;
+    koksma__block_size(s->images, scene, &width, &height);
+    koksma__reference_name(&s->images->references[s->images->n_references - 1], name);
+    series.kind = kind;
+    series.metric = metric;
+    series.scene = scene->name;
+    series.scene_hash = scene->hash;
+    series.options = s->variant;
+    series.what = name;
+    series.width = width;
+    series.height = height;
+    return koksma__read_results(r, &series, s->images->trials, count);
+}
+
+static koksma__summary mean_by(koksma__report *r, const koksma__subject *s, const char *pattern, long long n,
+                               const char *metric, koksma__result **results)
+{
+    size_t count;
+    const bool in_image = metric && !strcmp(metric, KOKSMA__DEFAULT_METRIC); /* mae is the value of rows "image" */
+    koksma__result *found =
+        read_subject(r, s, pattern, n, in_image ? "image" : "metric", in_image ? "" : metric, &count);
+    koksma__summary mean = {.mean = NAN};
+    if (found) { /* a deterministic pattern has one point set, whose value is exact, but its images differ */
+        mean = s->points ? koksma__summarize_sets(pattern, found, count)
+                         : koksma__summarize_sizes(found->values, count, KOKSMA__RESULT_STRIDE);
+    }
     if (results) {
         *results = found;
     } else {
         free(found);
     }
-    return KOKSMA_OK;
+    return mean;
 }
 
-koksma_status koksma__discrepancy_mean(koksma_study *study, const koksma__discrepancy_block *block, const char *warp,
-                                       const char *pattern, long long n, const char *measure,
-                                       koksma__result **results, koksma__summary *mean)
+koksma__summary koksma__read_mean(koksma__report *r, const koksma__subject *s, const char *pattern, long long n,
+                                  koksma__result **results)
 {
-    const koksma__series series = {.kind = "discrepancy",
-                                   .scene = "",
-                                   .scene_hash = "",
-                                   .options = warp,
-                                   .pattern = pattern,
-                                   .what = measure,
-                                   .n = n,
-                                   .dim = block->dim};
-    return mean_of(study, &series, true, block->trials, results, mean);
+    return mean_by(r, s, pattern, n, s->metric, results);
 }
 
-/* The key of the images' rows of a kind; `name` holds a text that the key points to. */
-static koksma__series series_of(koksma_study *study, const koksma__image_mean *of, const char *kind,
-                                const char *metric, char name[KOKSMA__REFERENCE_NAME])
+koksma__summary *koksma__read_means(koksma__report *r, const koksma__subject *s)
 {
-    const koksma__study_scene *s = koksma__study_scene_of(study, of->scene);
-    int width, height;
-    koksma__block_size(of->block, s, &width, &height);
-    koksma__reference_name(&of->block->references[of->block->n_references - 1], name);
-    return (koksma__series){.kind = kind,
-                            .metric = metric,
-                            .scene = s->name,
-                            .scene_hash = s->hash,
-                            .options = of->variant,
-                            .pattern = of->pattern,
-                            .what = name,
-                            .n = of->spp,
-                            .width = width,
-                            .height = height};
+    const size_t sizes = s->n->n;
+    koksma__summary *means = koksma__report_memory(r, s->patterns->n * sizes, sizeof *means);
+    for (size_t i = 0; means && i < s->patterns->n * sizes; i++) {
+        means[i] = koksma__read_mean(r, s, s->patterns->at[i / sizes], s->n->at[i % sizes], NULL);
+    }
+    return means;
 }
 
-koksma_status koksma__image_mean_by(koksma_study *study, const koksma__image_mean *of, const char *metric,
-                                    koksma__result **results, koksma__summary *mean)
+koksma__metric_means koksma__read_metric(koksma__report *r, const koksma__subject *s, const char *pattern,
+                                         long long n, const char *metric)
 {
-    char name[KOKSMA__REFERENCE_NAME];
-    const bool in_image = !strcmp(metric, KOKSMA__DEFAULT_METRIC); /* mae is the value of rows of kind "image" */
-    const koksma__series series = series_of(study, of, in_image ? "image" : "metric", in_image ? "" : metric, name);
-    return mean_of(study, &series, false, of->block->trials, results, mean);
-}
-
-koksma_status koksma__image_metric(koksma_study *study, const koksma__image_mean *of, const char *metric,
-                                   koksma__metric_means *out)
-{
-    char name[KOKSMA__REFERENCE_NAME];
-    koksma__result *results;
-    size_t n;
-    const koksma__series series = series_of(study, of, "metric", metric, name);
-    KOKSMA__TRY(koksma__series_results(study, &series, of->block->trials, &results, &n));
-    out->robust = koksma__summarize_sizes(&results->values[1], n, KOKSMA__RESULT_STRIDE);
-    out->top_share = koksma__summarize_sizes(&results->values[2], n, KOKSMA__RESULT_STRIDE);
+    size_t count;
+    koksma__metric_means out = {.value = mean_by(r, s, pattern, n, metric, NULL)};
+    koksma__result *results = read_subject(r, s, pattern, n, "metric", metric, &count);
+    if (results) {
+        out.robust = koksma__summarize_sizes(&results->values[1], count, KOKSMA__RESULT_STRIDE);
+        out.top_share = koksma__summarize_sizes(&results->values[2], count, KOKSMA__RESULT_STRIDE);
+    }
     free(results);
-    return koksma__image_mean_by(study, of, metric, NULL, &out->value);
+    return out;
 }
 
-koksma_status koksma__reference_error(koksma_study *study, const koksma__image_block *block, const char *scene,
-                                      const char *variant, double *error)
+double koksma__reference_error(koksma__report *r, const koksma__subject *s)
 {
     size_t index;
     char name[KOKSMA__REFERENCE_NAME];
     koksma__reference_row row = {.standard_error = NAN};
-    koksma_status status = koksma__reference_index(study, block, koksma__study_scene_of(study, scene), variant,
-                                                   block->n_references - 1, &index);
-    if (!status) {
-        const koksma__series key = koksma__reference_key(&study->references[index], name);
-        status = koksma__store_reference(study->store, &key, &row);
+    const koksma__study_scene *scene = koksma__study_scene_of(r->study, s->scene);
+    if (koksma__report_keep(r, koksma__reference_index(r->study, s->images, scene, s->variant,
+                                                       s->images->n_references - 1, &index))) {
+        const koksma__series key = koksma__reference_key(&r->study->references[index], name);
+        koksma__report_keep(r, koksma__store_reference(r->study->store, &key, &row));
     }
-    *error = row.standard_error;
-    return status;
-}
-
-koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, const koksma__image_block *block,
-                                    const char *scene, const char *variant, const char *metric)
-{
-    double error;
-    const koksma__reference *r = &block->references[block->n_references - 1];
-    const koksma_status status = koksma__reference_error(study, block, scene, variant, &error);
-    koksma__doc_paragraph_begin(d);
-    koksma__doc_say(
-        d,
-        "Errors by `%s` against the reference _%s_, the mean of %lld render%s with %lld samples a pixel of "
-        "%s; ",
-        metric, r->name, r->replicates, koksma__plural((double)r->replicates), r->spp, r->pattern);
-    if (isfinite(error)) {
-        koksma__doc_say(d, "its own error is about %.2g", error);
-        if (strcmp(metric, KOKSMA__DEFAULT_METRIC) != 0) {
-            koksma__doc_say(d, " by `%s`", KOKSMA__DEFAULT_METRIC);
-        }
-    } else {
-        koksma__doc_say(d, "its own error is not known");
-    }
-    koksma__doc_say(d, ". Up to %lld trial%s.", block->trials, koksma__plural((double)block->trials));
-    if (block->n_references > 1) {
-        koksma__doc_say(d, " `koksma study export` also writes the errors against the plan's other references.");
-    }
-    koksma__doc_paragraph_end(d);
-    return status;
-}
-
-void koksma__case_name(const char *scene, const char *variant, char *text, size_t size)
-{
-    snprintf(text, size, "%s%s%s", scene, variant[0] ? ", " : "", variant);
+    return row.standard_error;
 }
 
 koksma__estimate koksma__estimate_of(const koksma__summary *s)

@@ -68,7 +68,6 @@ typedef struct koksma__reference_image {
 
 struct koksma__tasks;
 struct koksma__task;
-struct koksma__coherences;
 
 /* Receives the results of a run instead of the store; an audit uses it to compare results with the store. A run with
    a sink renders all references again. Every function may be called on any thread. */
@@ -94,8 +93,6 @@ struct koksma_study {
     koksma__reference_image *references;
     koksma__texts failed;     /* lines for readers on the jobs that failed alone (failed_jobs.c) */
     const koksma__sink *sink; /* NULL: results go into the store */
-    const koksma_run *report; /* of the report that is being written (koksma__report_goes_on); NULL: none is */
-    struct koksma__coherences *coherences; /* of the report that is being written (mean_coherence.h) */
 };
 
 /* Opens a scene unless it is open already. `name` must remain valid as long as the study. Errors: those of

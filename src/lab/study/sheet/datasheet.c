@@ -11,7 +11,6 @@
 
 #include "core/clock.h"
 #include "core/status.h"
-#include "study/report/page.h"
 #include "study/sheet/sheet_integrals.h"
 #include "study/sheet/sheet_measures.h"
 #include "study/sheet/sheet_points.h"

@@ -70,23 +70,19 @@ static void put_table(const koksma__sheet *sheet, const koksma_integration *resu
 {
     koksma__doc_table_begin(d, "integrals");
     koksma__doc_column(d, &(koksma__column){.name = "integrand", .merged = true});
-    koksma__doc_head(d, "sampler");
-    koksma__doc_head_interval(d, "RMSE", 3);
+    koksma__doc_columns(d, "t sampler;i3 RMSE");
     koksma__doc_column(
         d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 2, .fixed = true});
-    koksma__doc_head_number(d, "gain", 3);
-    koksma__doc_head_number(d, "sets", 9);
+    koksma__doc_columns(d, "n3 gain;n9 sets");
     size_t approximate = 0;
     for (size_t k = 0; k < N_INTEGRANDS * sheet->n_samplers; k++) {
         const koksma_integration *r = &results[k];
         const koksma_integration_row *last = &r->rows[sheet->n_sizes - 1];
         koksma__doc_row(d);
-        koksma__doc_text(d, integrands[k / sheet->n_samplers]);
-        koksma__doc_text(d, sheet->samplers[k % sheet->n_samplers]->text);
-        koksma__doc_interval(d, rmse_of(last));
-        koksma__doc_interval(d, (koksma__estimate){r->slope.value, r->slope.low, r->slope.high});
-        koksma__doc_number(d, last->gain);
-        koksma__doc_number(d, (double)last->trials);
+        koksma__doc_cells(d, "ttiinn", integrands[k / sheet->n_samplers],
+                          sheet->samplers[k % sheet->n_samplers]->text, rmse_of(last),
+                          (koksma__estimate){r->slope.value, r->slope.low, r->slope.high}, last->gain,
+                          (double)last->trials);
         approximate += last->approximate || r->slope.approximate;
     }
     koksma__doc_table_end(d);

@@ -230,12 +230,12 @@ static void put_summary(const koksma__sheet_values *v, koksma__document *d)
 {
     const size_t last = v->n_sizes - 1;
     koksma__doc_table_begin(d, "measures");
-    koksma__doc_head(d, "measure");
+    koksma__doc_columns(d, "t measure");
     koksma__doc_column(d, &(koksma__column){.name = "mean", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
     koksma__doc_column(
         d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 2, .fixed = true});
     if (v->n_samplers > 1) {
-        koksma__doc_head(d, "best of the others");
+        koksma__doc_columns(d, "t best of the others");
         koksma__doc_column(d, &(koksma__column){.name = "its mean", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
     }
     for (size_t m = 0; m < v->n_measures; m++) {
@@ -243,13 +243,11 @@ static void put_summary(const koksma__sheet_values *v, koksma__document *d)
             continue;
         }
         koksma__doc_row(d);
-        koksma__doc_text(d, v->measures[m].name);
-        koksma__doc_interval(d, mean_of(koksma__sheet_tally(v, 0, m, last)));
-        koksma__doc_interval(d, slope_of(v, 0, m));
+        koksma__doc_cells(d, "tii", v->measures[m].name, mean_of(koksma__sheet_tally(v, 0, m, last)),
+                          slope_of(v, 0, m));
         if (v->n_samplers > 1) {
             const size_t best = best_beside(v, m);
-            koksma__doc_text(d, v->samplers[best]->text);
-            koksma__doc_interval(d, mean_of(koksma__sheet_tally(v, best, m, last)));
+            koksma__doc_cells(d, "ti", v->samplers[best]->text, mean_of(koksma__sheet_tally(v, best, m, last)));
         }
     }
     koksma__doc_table_end(d);
@@ -284,21 +282,16 @@ static void put_values(const koksma__sheet_values *v, const char *name, koksma__
     koksma__doc_table_begin(d, name);
     koksma__doc_column(d, &(koksma__column){.name = "measure", .merged = true});
     koksma__doc_column(d, &(koksma__column){.name = "sampler", .merged = true});
-    koksma__doc_head_number(d, "n", 9);
-    koksma__doc_head_interval(d, "mean", 4);
+    koksma__doc_columns(d, "n9 n;i4 mean");
     koksma__doc_column(d, &(koksma__column){.name = "SD", .type = KOKSMA__COLUMN_NUMBER, .digits = 2});
-    koksma__doc_head_number(d, "sets", 9);
+    koksma__doc_columns(d, "n9 sets");
     for (size_t m = 0; m < v->n_measures; m++) {
         for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
             for (size_t i = 0; i < v->n_sizes; i++) {
                 const koksma_tally *t = koksma__sheet_tally(v, s, m, i);
                 koksma__doc_row(d);
-                koksma__doc_text(d, v->measures[m].name);
-                koksma__doc_text(d, v->samplers[s]->text);
-                koksma__doc_number(d, (double)v->sizes[i]);
-                koksma__doc_interval(d, mean_of(t));
-                koksma__doc_number(d, koksma_tally_sd(t));
-                koksma__doc_number(d, t->count);
+                koksma__doc_cells(d, "ttninn", v->measures[m].name, v->samplers[s]->text, (double)v->sizes[i],
+                                  mean_of(t), koksma_tally_sd(t), t->count);
             }
         }
     }
@@ -310,7 +303,7 @@ static void put_slopes(const koksma__sheet_values *v, koksma__document *d)
 {
     koksma__doc_table_begin(d, "slopes");
     koksma__doc_column(d, &(koksma__column){.name = "measure", .merged = true});
-    koksma__doc_head(d, "sampler");
+    koksma__doc_columns(d, "t sampler");
     koksma__doc_column(
         d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3, .fixed = true});
     koksma__doc_column(d, &(koksma__column){.name = "theory", .type = KOKSMA__COLUMN_NUMBER, .digits = 2});
@@ -318,11 +311,9 @@ static void put_slopes(const koksma__sheet_values *v, koksma__document *d)
     for (size_t m = 0; m < v->n_measures; m++) {
         for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
             koksma__doc_row(d);
-            koksma__doc_text(d, v->measures[m].name);
-            koksma__doc_text(d, v->samplers[s]->text);
-            koksma__doc_interval(d, slope_of(v, s, m));
-            koksma__doc_number(d, -koksma_rate(&v->samplers[s]->spec, v->measures[m].spec.measure, v->dim));
-            koksma__doc_number(d, -koksma_best_rate(v->measures[m].spec.measure, v->dim));
+            koksma__doc_cells(d, "ttinn", v->measures[m].name, v->samplers[s]->text, slope_of(v, s, m),
+                              -koksma_rate(&v->samplers[s]->spec, v->measures[m].spec.measure, v->dim),
+                              -koksma_best_rate(v->measures[m].spec.measure, v->dim));
         }
     }
     koksma__doc_table_end(d);
@@ -366,14 +357,10 @@ void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
             put_chart(v, m, d);
         }
     }
-    koksma__doc_section_begin(d, "slopes", true);
-    koksma__doc_say(d, "Slopes of all samplers");
-    koksma__doc_section_body(d);
+    koksma__doc_collapsed_section(d, "slopes", "Slopes of all samplers");
     put_slopes(v, d);
     koksma__doc_end(d);
-    koksma__doc_section_begin(d, "values", true);
-    koksma__doc_say(d, "All values, and the commands that give them");
-    koksma__doc_section_body(d);
+    koksma__doc_collapsed_section(d, "values", "All values, and the commands that give them");
     koksma__sheet_put_values(sheet, v, "values", d);
     koksma__doc_end(d);
     koksma__doc_end(d);

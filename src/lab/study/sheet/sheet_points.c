@@ -110,17 +110,17 @@ static void put_matrix(const koksma__sheet *sheet, const koksma_findings *findin
 {
     const koksma_property *property;
     koksma__doc_table_begin(d, "properties");
-    koksma__doc_head(d, "property");
+    koksma__doc_columns(d, "t property");
     for (size_t s = 0; s < sheet->n_samplers; s++) {
-        koksma__doc_head(d, sheet->samplers[s]->text);
+        koksma__doc_column(d, &(koksma__column){.name = sheet->samplers[s]->text});
     }
     for (size_t p = 0; (property = koksma_property_at(p)) && !property->of_sets; p++) { /* those of sets come last */
         char text[48];
         koksma__doc_row(d);
-        koksma__doc_text(d, property->name);
+        koksma__doc_cells(d, "t", property->name);
         for (size_t s = 0; s < sheet->n_samplers; s++) {
             count_findings(&findings[s], property->name, text, sizeof text);
-            koksma__doc_text(d, text);
+            koksma__doc_cells(d, "t", text);
         }
     }
     koksma__doc_table_end(d);
@@ -130,18 +130,11 @@ static void put_findings(const koksma_findings *findings, const char *name, koks
 {
     koksma__doc_table_begin(d, name);
     koksma__doc_column(d, &(koksma__column){.name = "property", .merged = true});
-    koksma__doc_head(d, "subject");
-    koksma__doc_head(d, "holds");
-    koksma__doc_head_number(d, "value", 6);
-    koksma__doc_head(d, "detail");
+    koksma__doc_columns(d, "t subject;t holds;n6 value;t detail");
     for (size_t i = 0; i < findings->count; i++) {
         const koksma_finding *f = &findings->items[i];
         koksma__doc_row(d);
-        koksma__doc_text(d, f->property);
-        koksma__doc_text(d, f->subject);
-        koksma__doc_text(d, f->holds ? "yes" : "no");
-        koksma__doc_number(d, f->value);
-        koksma__doc_text(d, f->detail);
+        koksma__doc_cells(d, "tttnt", f->property, f->subject, f->holds ? "yes" : "no", f->value, f->detail);
     }
     koksma__doc_table_end(d);
 }
@@ -172,9 +165,7 @@ koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d)
                               "sampler's claims were not used.",
                               n);
         put_matrix(sheet, findings, d);
-        koksma__doc_section_begin(d, "findings", true);
-        koksma__doc_say(d, "Every finding about %s", sheet->samplers[0]->text);
-        koksma__doc_section_body(d);
+        koksma__doc_collapsed_section(d, "findings", "Every finding about %s", sheet->samplers[0]->text);
         put_findings(&findings[0], "findings", d);
         koksma__doc_end(d);
         for (size_t s = 0; s < sheet->n_samplers; s++) {
@@ -261,9 +252,7 @@ koksma_status koksma__sheet_projections(koksma__sheet *sheet, koksma__document *
         status = draw_pairs(samplers[0], n, v.dim, d);
         koksma__doc_paragraph(d, "Discrepancies of the points in all %d dimensions:", v.dim);
         koksma__sheet_put_values(sheet, &v, "projections", d);
-        koksma__doc_section_begin(d, "projection-findings", true);
-        koksma__doc_say(d, "Properties of projections of %s", samplers[0]->text);
-        koksma__doc_section_body(d);
+        koksma__doc_collapsed_section(d, "projection-findings", "Properties of projections of %s", samplers[0]->text);
         put_findings(&findings, "projection-findings", d);
         put_verify_command(sheet, samplers[0], n, v.dim);
         koksma__sheet_put_commands(sheet, d);

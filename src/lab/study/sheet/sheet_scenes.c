@@ -86,8 +86,7 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
                                             .digits = 9,
                                             .merged = true,
                                             .type = KOKSMA__COLUMN_NUMBER});
-    koksma__doc_head(d, "sampler");
-    koksma__doc_head_interval(d, "error", 4);
+    koksma__doc_columns(d, "t sampler;i4 error");
     koksma__doc_column(d, &(koksma__column){.name = "behind the first",
                                             .title = "behind",
                                             .type = KOKSMA__COLUMN_INTERVAL,
@@ -110,17 +109,15 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
         for (size_t i = 0; i < sheet->n_samplers; i++) {
             const koksma_rank_row *row = &r->rows[i];
             koksma__doc_row(d);
-            koksma__doc_number(d, r->spp);
-            koksma__doc_text(d, sheet->samplers[row->pattern]->text);
-            koksma__doc_interval(d, (koksma__estimate){row->mean, row->low, row->high});
-            koksma__doc_interval(d, (koksma__estimate){row->behind, row->behind_low, row->behind_high});
-            koksma__doc_text(d, !row->coherence.images ? "–" : row->coherence.coherent ? "yes" : "no");
-            koksma__doc_number(d, row->position ? (double)row->position : (double)NAN);
-            koksma__doc_number(d, row->coherence.images ? row->coherence.coherence : (double)NAN);
-            koksma__doc_text(d, decision_of(row));
-            koksma__doc_number(d, (double)row->trials);
-            koksma__doc_number(d, row->robust);
-            koksma__doc_number(d, row->top_share);
+            koksma__doc_cells(d, "ntiitnntnnn", (double)r->spp, sheet->samplers[row->pattern]->text,
+                              (koksma__estimate){row->mean, row->low, row->high},
+                              (koksma__estimate){row->behind, row->behind_low, row->behind_high},
+                              !row->coherence.images    ? "–"
+                              : row->coherence.coherent ? "yes"
+                                                        : "no",
+                              row->position ? (double)row->position : (double)NAN,
+                              row->coherence.images ? row->coherence.coherence : (double)NAN, decision_of(row),
+                              (double)row->trials, row->robust, row->top_share);
         }
     }
     koksma__doc_table_end(d);
@@ -237,7 +234,7 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
             sheet->samplers[0]->sets);
     }
     for (size_t i = 0; i < sheet->n_scenes && sheet->n_spp; i++) {
-        koksma__doc_section(d, NULL, sheet->scenes[i]);
+        koksma__doc_section(d, NULL, "%s", sheet->scenes[i]);
         if (sheet->n_spp > 1) {
             put_chart(sheet, i, d);
         }

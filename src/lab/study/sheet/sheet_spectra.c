@@ -135,20 +135,13 @@ static void put_pairs(const spectra *all, size_t n, koksma__document *d)
 static void put_quality(const spectra *all, size_t n, koksma__document *d)
 {
     koksma__doc_table_begin(d, "spectra");
-    koksma__doc_head(d, "sampler");
-    koksma__doc_head_number(d, "effective Nyquist", 4);
-    koksma__doc_head_number(d, "over sqrt(n)/2", 3);
-    koksma__doc_head_number(d, "oscillation", 3);
-    koksma__doc_head_number(d, "sets", 9);
+    koksma__doc_columns(d, "t sampler;n4 effective Nyquist;n3 over sqrt(n)/2;n3 oscillation;n9 sets");
     for (size_t s = 0; s < n; s++) {
         koksma_spectrum_quality_values q;
         koksma_spectrum_quality(&all[s].wide, &q);
         koksma__doc_row(d);
-        koksma__doc_text(d, all[s].sampler->text);
-        koksma__doc_number(d, q.effective_nyquist);
-        koksma__doc_number(d, q.relative_nyquist);
-        koksma__doc_number(d, q.oscillation);
-        koksma__doc_number(d, (double)all[s].trials);
+        koksma__doc_cells(d, "tnnnn", all[s].sampler->text, q.effective_nyquist, q.relative_nyquist, q.oscillation,
+                          (double)all[s].trials);
     }
     koksma__doc_table_end(d);
 }

@@ -241,22 +241,20 @@ static void add_lines(koksma__document *d, const koksma__figure *f)
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
 
-static bool is_shown(const koksma__report_scope *scope)
+static bool has_figures(const koksma__report *r)
 {
-    return koksma__plan_of(scope)->figures[0] < koksma__plan_of(scope)->figures[1];
+    return koksma__plan_of(r)->figures[0] < koksma__plan_of(r)->figures[1];
 }
 
-static koksma_status add_figure(const koksma__report_scope *scope, koksma__document *d, const koksma__figure *f)
+static void add_figure(koksma__report *r, koksma__document *d, const koksma__figure *f)
 {
     char id[96], note[NOTE] = "";
-    koksma_status status = KOKSMA_OK;
     snprintf(id, sizeof id, "figure-%.80s", f->id);
     koksma__doc_figure_begin(d, id);
     if (f->lines) {
         add_lines(d, f);
     } else {
-        const koksma_run *run = scope->study->report;
-        status = f->scene ? add_scene(scope->study, d, f, run, note) : add_points(d, f, run, note);
+        koksma__report_keep(r, f->scene ? add_scene(r->study, d, f, r->run, note) : add_points(d, f, r->run, note));
     }
     koksma__doc_caption(d);
     koksma__doc_say(d, "Figure %s: %s%s", f->id, f->title, note);
@@ -267,16 +265,13 @@ static koksma_status add_figure(const koksma__report_scope *scope, koksma__docum
         koksma__doc_say(d, ". In the text: %s", f->printed);
     }
     koksma__doc_figure_end(d);
-    return status;
 }
 
-static koksma_status write(const koksma__report_scope *scope, koksma__document *d)
+static void write_figures(koksma__report *r, koksma__document *d)
 {
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = koksma__plan_of(scope)->figures[0]; !status && i < koksma__plan_of(scope)->figures[1]; i++) {
-        status = add_figure(scope, d, &scope->study->plan.figures[i]);
+    for (size_t i = koksma__plan_of(r)->figures[0]; !r->status && i < koksma__plan_of(r)->figures[1]; i++) {
+        add_figure(r, d, &r->study->plan.figures[i]);
     }
-    return status;
 }
 
-const koksma__section koksma__section_figures = {"Figures", true, is_shown, write};
+const koksma__section koksma__section_figures = {"Figures", true, has_figures, write_figures};

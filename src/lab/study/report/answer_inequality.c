@@ -13,7 +13,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "study/report/questions/topic.h"
+#include "study/report/report.h"
 
 enum { MAX_POINTS = 4096 };
 
@@ -50,21 +50,13 @@ static void add_row(koksma__document *d, verdict *all, const char *pattern, cons
 {
     const double error = fabs(mean - facts->value), bound = facts->variation * star;
     koksma__doc_row(d);
-    koksma__doc_text(d, f->title);
-    koksma__doc_text(d, pattern);
-    koksma__doc_number(d, (double)points->n);
-    koksma__doc_number(d, star);
-    koksma__doc_number(d, error);
+    koksma__doc_cells(d, "ttznn", f->title, pattern, points->n, star, error);
     if (isinf(facts->variation)) {
-        koksma__doc_text(d, "infinite");
-        koksma__doc_text(d, "infinite");
-        koksma__doc_text(d, "");
+        koksma__doc_cells(d, "ttt", "infinite", "infinite", "");
         all->infinite++;
         return;
     }
-    koksma__doc_number(d, facts->variation);
-    koksma__doc_number(d, bound);
-    koksma__doc_number(d, error / bound);
+    koksma__doc_cells(d, "nnn", facts->variation, bound, error / bound);
     all->cases++;
     all->beyond += error > bound * (1 + 1e-12) + 1e-15;
     all->no_use += bound >= facts->highest - facts->lowest;
@@ -117,18 +109,6 @@ static koksma_status add_set(koksma__document *d, verdict *all, const char *patt
                                       : status; /* patterns that run code are left out unless the user allowed that */
 }
 
-static void add_heads(koksma__document *d)
-{
-    koksma__doc_head(d, "f");
-    koksma__doc_head(d, "pattern");
-    koksma__doc_head_number(d, "N", 6);
-    koksma__doc_head_number(d, "D*", 3);
-    koksma__doc_head_number(d, "|error|", 3);
-    koksma__doc_head_number(d, "V(f)", 3);
-    koksma__doc_head_number(d, "V(f) D*", 3);
-    koksma__doc_head_number(d, "|error| / V(f) D*", 2);
-}
-
 static void say_verdict(koksma__document *d, const verdict *all)
 {
     koksma__doc_paragraph_begin(d);
@@ -164,36 +144,31 @@ static void say_verdict(koksma__document *d, const verdict *all)
     koksma__doc_paragraph_end(d);
 }
 
-koksma_status koksma__answer_inequality(koksma_study *study, koksma__document *d, const koksma__topic *topic)
+void koksma__answer_inequality(koksma__report *r, koksma__document *d, const koksma__topic *topic)
 {
     verdict all = {0};
     koksma__document rows = {0};
     char file[64];
-    koksma_status status = KOKSMA_OK;
     koksma__phases phases = {0};
-    const koksma_run run =
-        koksma__phase_run(&phases, study->report, 0); /* many short calls: their fractions say nothing */
+    const koksma_run run = koksma__phase_run(&phases, r->run, 0); /* many short calls: their fractions say nothing */
     snprintf(file, sizeof file, "inequality-%.32s", topic->id);
     koksma__doc_table_begin(&rows, file);
-    add_heads(&rows);
+    koksma__doc_columns(&rows, "t f;t pattern;n6 N;n3 D*;n3 |error|;n3 V(f);n3 V(f) D*;n2 |error| / V(f) D*");
     for (size_t b = 0; b < topic->n_discrepancies; b++) {
         const koksma__discrepancy_block *block = topic->discrepancies[b];
-        for (size_t i = 0; !status && block->dim <= 2 && i < block->n.n * block->patterns.n; i++) {
-            if (koksma__is_left_out(&block->left_out, i / block->n.n, block->n.n, i % block->n.n)) {
-                continue;
-            }
+        for (size_t i = 0; !r->status && block->dim <= 2 && i < block->n.n * block->patterns.n; i++) {
             const long long n = block->n.at[i % block->n.n];
-            if (n <= MAX_POINTS) {
-                status = add_set(&rows, &all, block->patterns.at[i / block->n.n], n, block->dim, &run);
+            if (n <= MAX_POINTS &&
+                !koksma__is_left_out(&block->left_out, i / block->n.n, block->n.n, i % block->n.n)) {
+                koksma__report_keep(r, add_set(&rows, &all, block->patterns.at[i / block->n.n], n, block->dim, &run));
             }
         }
     }
     koksma__doc_table_end(&rows);
-    if (!status && all.cases) {
+    if (!r->status && all.cases) {
         say_verdict(d, &all);
         koksma__doc_append(d, &rows);
     }
-    status = status ? status : rows.json.status;
+    koksma__report_keep(r, rows.json.status);
     koksma__json_writer_fini(&rows.json);
-    return status;
 }

@@ -1,0 +1,531 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Answers whether a measure orders the patterns as the error of images does. For every scene, variant and number of
+ * samples it computes the rank correlation, over patterns, of the mean of a measure of n points with the mean error
+ * of images of n samples per pixel. The interval of a correlation comes from a bootstrap over the patterns that also
+ * redraws the means. All cases and measures are resampled together, so that the mean correlations of two measures
+ * can be compared. The answer gives the means over all cases, then by group of scenes, by scene and by number of
+ * samples, and then combinations of measures.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/c_locale.h"
+#include "core/status.h"
+#include "study/plan/plan.h"
+#include "study/report/rho.h"
+
+/* ---- Combinations of measures ------------------------------------------------------------------------------ */
+
+/* A case, with the ranks of the measures that were visited so far. */
+typedef struct combined {
+    const char *scene, *variant;
+    long long spp;
+    size_t n, n_measures;  /* number of patterns; number of measures added so far */
+    const char **patterns; /* n names */
+    double *ranks;         /* ranks of the measures, in the layout of koksma__rank_case */
+} combined;
+
+/* What is collected over all cases. */
+typedef struct listing {
+    koksma__document list; /* the table of all cases */
+    koksma__rho_means means;
+    size_t most_patterns; /* largest number of patterns in a case */
+    size_t n_combined;
+    combined *combined; /* in the report's memory */
+} listing;
+
+static combined *open_case(const koksma__cases *c, listing *l, const koksma__case *at, const koksma__pairs *found)
+{
+    koksma__report *r = c->report;
+    combined of = {.scene = at->scene,
+                   .variant = at->variant,
+                   .spp = at->spp,
+                   .n = found->n,
+                   .patterns = koksma__report_memory(r, found->n, sizeof *of.patterns),
+                   .ranks = koksma__report_memory(r, (c->n + 1) * (found->n + 1), sizeof *of.ranks)};
+    if (r->status) {
+        return NULL;
+    }
+    memcpy(of.patterns, found->patterns, found->n * sizeof *of.patterns);
+    koksma__unit_ranks(found->y, found->n, of.ranks + c->n * found->n);
+    l->combined[l->n_combined] = of;
+    return &l->combined[l->n_combined++];
+}
+
+/* Adds a measure of a case. All measures of a case are visited one after another, in their order. */
+static void combine(const koksma__cases *c, listing *l, const koksma__case *at, const koksma__pairs *found)
+{
+    combined *of = l->n_combined ? &l->combined[l->n_combined - 1] : NULL;
+    if (!of || of->spp != at->spp || strcmp(of->scene, at->scene) != 0 || strcmp(of->variant, at->variant) != 0) {
+        of = open_case(c, l, at, found);
+    }
+    bool same = of && of->n == found->n;
+    for (size_t i = 0; same && i < of->n; i++) {
+        same = !strcmp(of->patterns[i], found->patterns[i]);
+    }
+    if (same) {
+        koksma__unit_ranks(found->x, found->n, of->ranks + (size_t)(at->of - c->measured) * of->n);
+        of->n_measures++;
+    }
+}
+
+/* Whether a case has ranks of all measures, and its errors are not all equal. */
+static bool is_complete(const koksma__cases *c, const combined *of)
+{
+    bool differ = false;
+    for (size_t i = 0; i < of->n; i++) {
+        differ |= of->ranks[c->n * of->n + i] != 0;
+    }
+    return differ && of->n_measures == c->n;
+}
+
+typedef struct findings {
+    size_t n_cases, n_scenes; /* number of complete cases, and number of scenes with such cases */
+    const char **scenes;
+    koksma__rank_case *cases;
+    koksma__held_out *held_out;
+} findings;
+
+static findings find(const koksma__cases *c, const listing *l)
+{
+    koksma__report *r = c->report;
+    findings f = {.scenes = koksma__report_memory(r, l->n_combined, sizeof *f.scenes),
+                  .cases = koksma__report_memory(r, l->n_combined, sizeof *f.cases),
+                  .held_out = koksma__report_memory(r, l->n_combined, sizeof *f.held_out)};
+    for (size_t i = 0; !r->status && i < l->n_combined; i++) {
+        const combined *of = &l->combined[i];
+        size_t scene = 0;
+        if (!is_complete(c, of)) {
+            continue;
+        }
+        while (scene < f.n_scenes && strcmp(f.scenes[scene], of->scene) != 0) {
+            scene++;
+        }
+        f.scenes[scene] = of->scene;
+        f.n_scenes += scene == f.n_scenes;
+        f.cases[f.n_cases++] = (koksma__rank_case){scene, of->n, of->ranks};
+    }
+    return f;
+}
+
+static void say_difference(koksma__document *d, const koksma__summary *s)
+{
+    koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, s->low, s->high);
+}
+
+/* Writes a mean correlation and its interval, which is clamped to -1 .. 1. */
+static void say_clamped(koksma__document *d, const koksma__summary *s)
+{
+    koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, fmax(s->low, -1), fmin(s->high, 1));
+}
+
+/* The number of scenes for which the same single measure (or pair) was chosen as for scene i. */
+static size_t times_chosen(const findings *f, size_t i, bool pair)
+{
+    size_t n = 0;
+    for (size_t s = 0; s < f->n_scenes; s++) {
+        const koksma__held_out *a = &f->held_out[i], *b = &f->held_out[s];
+        n += pair ? a->pair[0] == b->pair[0] && a->pair[1] == b->pair[1] : a->single == b->single;
+    }
+    return n;
+}
+
+static void say_chosen(koksma__document *d, const koksma__cases *cases, const findings *f, bool pair)
+{
+    size_t most = 0;
+    for (size_t i = 1; i < f->n_scenes; i++) {
+        most = times_chosen(f, i, pair) > times_chosen(f, most, pair) ? i : most;
+    }
+    const koksma__held_out *of = &f->held_out[most];
+    koksma__doc_say(d, " (`%s`", cases->measured[pair ? of->pair[0] : of->single].label);
+    if (pair) {
+        koksma__doc_say(d, " with `%s`", cases->measured[of->pair[1]].label);
+    }
+    koksma__doc_say(d, " in %zu of %zu scenes) ", times_chosen(f, most, pair), f->n_scenes);
+}
+
+static void say_findings(koksma__document *d, const koksma__cases *cases, const findings *f)
+{
+    enum { STRIDE = sizeof *f->held_out / sizeof(double) };
+    _Static_assert(sizeof *f->held_out % sizeof(double) == 0, "the stride must be a whole number of doubles");
+    const size_t n = f->n_scenes;
+    const koksma__held_out *of = f->held_out;
+    const koksma__summary single = koksma__summarize(&of->rho_single, n, STRIDE);
+    const koksma__summary pair = koksma__summarize(&of->rho_pair, n, STRIDE);
+    const koksma__summary all = koksma__summarize(&of->rho_all, n, STRIDE);
+    const koksma__summary gain = koksma__paired(&of->rho_pair, &of->rho_single, n, STRIDE);
+    const koksma__summary gain_of_all = koksma__paired(&of->rho_all, &of->rho_single, n, STRIDE);
+    const koksma__summary best = koksma__summarize(&of->rho_hindsight, n, STRIDE);
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(
+        d,
+        "The errors of each scene are predicted from the ranks of the measures; the measures are chosen, and the "
+        "regressions fitted, on the other %zu scenes (%zu cases). Mean Spearman correlation of the prediction "
+        "with the error in the scene left out: the best single measure",
+        n - 1, f->n_cases);
+    say_chosen(d, cases, f, false);
+    say_clamped(d, &single);
+    koksma__doc_say(d, ", the best pair");
+    say_chosen(d, cases, f, true);
+    say_clamped(d, &pair);
+    koksma__doc_say(d, ", ridge regression on all %zu measures ", cases->n);
+    say_clamped(d, &all);
+    koksma__doc_say(d, ". Compared with the single measure the pair changes the correlation by ");
+    say_difference(d, &gain);
+    koksma__doc_say(d, ", all measures by ");
+    say_difference(d, &gain_of_all);
+    koksma__doc_say(
+        d,
+        ". The measure that is best in the scene left out has %+.2f on average, but it is known only in hindsight. "
+        "Intervals are by Student's t over the scenes; they are approximate, because any two fits "
+        "have scenes in common, and all scenes have the same patterns.",
+        best.mean);
+    koksma__doc_paragraph_end(d);
+}
+
+/* Reports the results of koksma__rank_regression: for each scene it chooses the single measure, the pair of measures and
+   the combination of all measures that fit the errors of the other scenes best, and finds how well each of the three
+   orders the errors of the scene itself. Appends nothing unless there are two or more measures, and three or more scenes
+   with cases whose patterns have all measures. */
+static void add_combinations(koksma__document *d, const koksma__cases *cases, const listing *l)
+{
+    koksma__report *r = cases->report;
+    const findings f = find(cases, l);
+    char text[2 * KOKSMA_MAX_SPEC + 64];
+    if (r->status || f.n_scenes < 3 || cases->n < 2 ||
+        !koksma__report_keep(r,
+                             koksma__rank_regression(f.cases, f.n_cases, cases->n, f.n_scenes, r->run, f.held_out))) {
+        return;
+    }
+    koksma__doc_section(d, NULL, "Combinations of measures, tried on the scene left out");
+    say_findings(d, cases, &f);
+    snprintf(text, sizeof text, "combinations-%.40s", cases->topic->id);
+    koksma__doc_table_begin(d, text);
+    koksma__doc_columns(d, "t scene left out;n7 cases;t single measure;n3 its Spearman;t pair;n3 pair's Spearman;"
+                           "n2 penalty of all;n3 all's Spearman;t best in hindsight;n3 hindsight's Spearman");
+    for (size_t s = 0; s < f.n_scenes; s++) {
+        const koksma__held_out *of = &f.held_out[s];
+        snprintf(text, sizeof text, "%s + %s", cases->measured[of->pair[0]].label,
+                 cases->measured[of->pair[1]].label);
+        koksma__doc_row(d);
+        koksma__doc_cells(d, "tztntnnntn", f.scenes[s], of->cases, cases->measured[of->single].label, of->rho_single,
+                          text, of->rho_pair, of->penalty, of->rho_all, cases->measured[of->hindsight].label,
+                          of->rho_hindsight);
+    }
+    koksma__doc_table_end(d);
+    koksma__doc_end(d);
+}
+
+/* ---- Tables over parts of the cases ------------------------------------------------------------------------ */
+
+/* A part of the cases, which is a row of a table. */
+typedef struct part {
+    char name[160];
+    bool *scenes;  /* which scenes the part has; NULL: all */
+    long long spp; /* 0: all numbers of samples */
+} part;
+
+/* Appends `between` and `more` to a text of limited size, or nothing if they do not fit. */
+static void append(char *text, size_t size, const char *between, const char *more)
+{
+    const size_t used = strlen(text);
+    if (used + strlen(between) + strlen(more) + 1 < size) {
+        snprintf(text + used, size - used, "%s%s", used ? between : "", more);
+    }
+}
+
+/* Adds a row: the mean of every measure, the best measure, and those that are significantly worse than the best, by Holm's
+   method over the pairs of measures in that row. */
+static koksma_status add_part(koksma__document *d, const koksma__rho_means *s, const koksma_run *run, const part *of)
+{
+    koksma__rho_ranking r;
+    const koksma_status status = koksma__rho_rank(s, &(koksma__rho_subset){of->scenes, of->spp}, run, &r);
+    if (status || !r.n) {
+        koksma__rho_ranking_fini(&r);
+        return status;
+    }
+    char worse[512] = "";
+    for (size_t i = 1; i < r.n; i++) {
+        if (koksma__rho_is_better(&r, r.at[0].measure, r.at[i].measure)) {
+            append(worse, sizeof worse, ", ", s->of[r.at[i].measure].measure);
+        }
+    }
+    koksma__doc_row(d);
+    koksma__doc_cells(d, "tztt", of->name, r.at[0].cases, s->of[r.at[0].measure].measure, worse[0] ? worse : "none");
+    for (size_t m = 0; m < s->n; m++) {
+        koksma__estimate mean = {NAN, NAN, NAN};
+        for (size_t i = 0; i < r.n; i++) {
+            mean = r.at[i].measure == m ? r.at[i].mean : mean;
+        }
+        koksma__doc_cells(d, "i", mean);
+    }
+    koksma__rho_ranking_fini(&r);
+    return KOKSMA_OK;
+}
+
+/* Adds a table with n parts as rows. `name` is the head of its first column. */
+static void add_parts(koksma__report *r, koksma__document *d, const koksma__rho_means *s, const char *name,
+                      const char *id, const char *title, const part *parts, size_t n)
+{
+    char file[64];
+    snprintf(file, sizeof file, "correlation-%.10s-%.40s", name, id);
+    koksma__doc_section(d, NULL, "%s", title);
+    koksma__doc_table_begin(d, file);
+    koksma__doc_column(d, &(koksma__column){.name = name});
+    koksma__doc_columns(d, "n7 cases;t best;t significantly worse than the best");
+    for (size_t m = 0; m < s->n; m++) {
+        koksma__doc_column(d,
+                           &(koksma__column){.name = s->of[m].measure, .type = KOKSMA__COLUMN_INTERVAL, .digits = 2});
+    }
+    for (size_t i = 0; !r->status && i < n; i++) {
+        koksma__report_keep(r, add_part(d, s, r->run, &parts[i]));
+    }
+    koksma__doc_table_end(d);
+    koksma__doc_end(d);
+}
+
+/* Fills in the parts: one for each scene, each group of scenes and each number of samples. masks: storage for the
+   scenes of the parts. */
+static void set_parts(const koksma__topic *topic, const koksma__rho_means *s, part *parts, bool *masks)
+{
+    part *at = parts;
+    for (size_t i = 0; i < s->n_scenes; i++, at++, masks += s->n_scenes) {
+        snprintf(at->name, sizeof at->name, "%.150s", s->scenes[i]);
+        at->scenes = masks;
+        masks[i] = true;
+    }
+    for (size_t g = 0; g < topic->n_groups; g++, at++, masks += s->n_scenes) {
+        char names[256] = "";
+        at->scenes = masks;
+        for (size_t i = 0; i < s->n_scenes; i++) {
+            masks[i] = koksma__texts_have(&topic->groups[g].scenes, s->scenes[i]);
+            if (masks[i]) {
+                append(names, sizeof names, ", ", s->scenes[i]);
+            }
+        }
+        snprintf(at->name, sizeof at->name, "%.70s (%.80s)", topic->groups[g].title, names);
+    }
+    for (size_t k = 0; k < s->n_sizes; k++, at++) {
+        snprintf(at->name, sizeof at->name, "%lld", s->sizes[k]);
+        at->spp = s->sizes[k];
+    }
+}
+
+/* Writes a table of the means by group of scenes if the plan has groups, one by scene if there are two or more scenes, and
+   one by number of samples if there are two or more. */
+static void add_breakdowns(koksma__report *r, koksma__document *d, const koksma__topic *topic,
+                           const koksma__rho_means *s)
+{
+    const size_t n = s->n_scenes + topic->n_groups + s->n_sizes;
+    part *parts = koksma__report_memory(r, n, sizeof *parts);
+    bool *masks = koksma__report_memory(r, (s->n_scenes + topic->n_groups + 1) * (s->n_scenes + 1), sizeof *masks);
+    if (r->status) {
+        return;
+    }
+    set_parts(topic, s, parts, masks);
+    if (topic->n_groups) {
+        add_parts(r, d, s, "group", topic->id, "By what dominates the scenes' error", parts + s->n_scenes,
+                  topic->n_groups);
+    }
+    if (s->n_scenes > 1) {
+        add_parts(r, d, s, "scene", topic->id, "By scene", parts, s->n_scenes);
+    }
+    if (s->n_sizes > 1) {
+        add_parts(r, d, s, "samples", topic->id, "By number of samples", parts + s->n_scenes + topic->n_groups,
+                  s->n_sizes);
+    }
+}
+
+/* ---- Correlations ------------------------------------------------------------------------------------------ */
+
+/* Reverses the sign of a correlation and its interval, for a measure that is better when larger. */
+static koksma__estimate turned(const koksma__estimate *of)
+{
+    return (koksma__estimate){-of->value, -of->high, -of->low};
+}
+
+/* Computes Spearman's rho with its resamples, and Kendall's tau. For tau a quarter of the resamples suffices,
+   because its interval is only shown and enters no significance test. */
+static koksma_status correlate(const koksma_run *run, const koksma__case *p, const koksma__pairs *found,
+                               double draws[KOKSMA__RHO_SAMPLES], koksma__estimate *rho, koksma__estimate *tau)
+{
+    const koksma__means x = {found->x, found->x_error, koksma__job_seed("means|%s|%lld", p->of->label, p->spp)};
+    const koksma__means y = {found->y, found->y_error,
+                             koksma__job_seed("means|%s|%s|%lld", p->scene, p->variant, p->spp)};
+    const uint64_t seed = koksma__job_seed("correlation");
+    memset(draws, 0, KOKSMA__RHO_SAMPLES * sizeof *draws);
+    koksma_status status =
+        koksma__bootstrap_pairs(&x, &y, found->n, koksma__spearman, KOKSMA__RHO_SAMPLES, seed, run, draws, rho);
+    if (!status) {
+        status =
+            koksma__bootstrap_pairs(&x, &y, found->n, koksma__kendall, KOKSMA__RHO_SAMPLES / 4, seed, run, NULL, tau);
+    }
+    if (p->of->larger) {
+        *rho = turned(rho);
+        *tau = turned(tau);
+        for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
+            draws[i] = -draws[i];
+        }
+    }
+    return status;
+}
+
+/* Adds the row of a case to the table of all cases, and its correlation to the means. */
+static void list_case(const koksma__cases *cases, void *context, const koksma__case *p)
+{
+    listing *l = context;
+    koksma__document *d = &l->list;
+    koksma__report *r = cases->report;
+    koksma__pairs found;
+    double draws[KOKSMA__RHO_SAMPLES];
+    koksma__estimate rho, tau;
+    koksma__case_pairs(cases, p, &found);
+    l->most_patterns = found.patterns_in_all > l->most_patterns ? found.patterns_in_all : l->most_patterns;
+    if (r->status || found.n < 4) {
+        return;
+    }
+    combine(cases, l, p, &found);
+    if (r->status || !koksma__report_keep(r, correlate(r->run, p, &found, draws, &rho, &tau)) || isnan(rho.value)) {
+        return;
+    }
+    rho = koksma__rho_shown(&rho, found.n);
+    koksma__doc_row(d);
+    koksma__doc_cells(d, "ttdtzii", p->scene, p->variant[0] ? p->variant : "defaults", p->spp, p->of->label, found.n,
+                      rho, koksma__rho_shown(&tau, found.n));
+    const koksma__rho_source source = {p->of->label, p->scene, p->variant, p->spp, found.n};
+    koksma__report_keep(r, koksma__rho_add(&l->means, &source, &rho, draws));
+}
+
+/* Writes the table of all measures, with their means over all cases. */
+static void add_measures(koksma__document *d, const char *id, const koksma__rho_means *s,
+                         const koksma__rho_jackknife *j)
+{
+    const size_t n_variants = s->n_variants < KOKSMA__RHO_VARIANTS ? s->n_variants : KOKSMA__RHO_VARIANTS;
+    const koksma__rho_ranking *r = &j->of[0];
+    const koksma__estimate none = {NAN, NAN, NAN};
+    char text[KOKSMA__VARIANT_TEXT + 64];
+    snprintf(text, sizeof text, "correlation-%.40s", id);
+    koksma__doc_table_begin(d, text);
+    koksma__doc_columns(d, "t measure;i3 mean Spearman;n2 p of 0 (Holm);n3 lowest without a scene;"
+                           "n3 highest without a scene;i2 less the first;n2 p of that (Holm);n7 cases;"
+                           "n7 cases that exclude 0");
+    for (size_t v = 0; v < n_variants; v++) {
+        snprintf(text, sizeof text, "mean, %s", s->variants[v][0] ? s->variants[v] : "defaults");
+        koksma__doc_column(d, &(koksma__column){.name = text, .type = KOKSMA__COLUMN_NUMBER, .digits = 3});
+    }
+    for (size_t i = 0; i < r->n; i++) {
+        const koksma__rho_sums *m = &s->of[r->at[i].measure];
+        const koksma__estimate range = j->n > 1 ? koksma__rho_range(j, r->at[i].measure) : none;
+        koksma__doc_row(d);
+        koksma__doc_cells(d, "tinnninzz", m->measure, r->at[i].mean, r->at[i].p, range.low, range.high,
+                          i ? r->at[i].less : none, i ? r->p[i] : (double)NAN, m->all, m->sure);
+        for (size_t v = 0; v < n_variants; v++) {
+            koksma__doc_cells(d, "n", m->cases[v] ? m->rho[v] / (double)m->cases[v] : (double)NAN);
+        }
+    }
+    koksma__doc_table_end(d);
+}
+
+/* Writes what the answer leaves out. */
+static void say_limits(koksma__document *d, const listing *l)
+{
+    const koksma__rho_means *s = &l->means;
+    if (l->most_patterns > KOKSMA__CASE_PATTERNS) {
+        koksma__doc_paragraph(d,
+                              "A case has up to %zu patterns; correlations use only the first %d of them. "
+                              "`koksma study export` has the results of all.",
+                              l->most_patterns, KOKSMA__CASE_PATTERNS);
+    }
+    if (s->n_variants > KOKSMA__RHO_VARIANTS) {
+        koksma__doc_paragraph(d,
+                              "%zu more combinations of options have no column here; the means include them, and the "
+                              "list of cases has them all.",
+                              s->n_variants - KOKSMA__RHO_VARIANTS);
+    }
+}
+
+typedef struct plots {
+    koksma__document *document;
+    const char *measure;
+    size_t left;
+} plots;
+
+/* Adds a scatter plot of a case if its measure is the best one and its number of samples is the block's middle
+   one. */
+static void add_scatter(const koksma__cases *cases, void *context, const koksma__case *p)
+{
+    plots *to = context;
+    koksma__document *d = to->document;
+    koksma__pairs found;
+    if (!to->left || strcmp(p->of->label, to->measure) != 0 || p->spp != p->image->spp.at[p->image->spp.n / 2]) {
+        return;
+    }
+    koksma__case_pairs(cases, p, &found);
+    char title[256], name[KOKSMA__VARIANT_TEXT + 64];
+    koksma__case_name(p->scene, p->variant, name, sizeof name);
+    koksma__snprintf(title, sizeof title, "%.120s, %lld sample%s: error against %.60s, Spearman %.2f", name, p->spp,
+                     koksma__plural((double)p->spp), p->of->label, koksma__spearman(found.x, found.y, found.n));
+    koksma__doc_chart_begin(d, &(koksma__chart){title, p->of->label, cases->topic->metric, true, true, 0});
+    for (size_t i = 0; i < found.n; i++) {
+        koksma__doc_series_begin(d, found.patterns[i], KOKSMA__SERIES_MARKS);
+        koksma__doc_point(d, found.x[i], found.y[i], found.low[i], found.high[i]);
+        koksma__doc_end(d);
+    }
+    koksma__doc_end(d);
+    to->left--;
+}
+
+/* Writes the sentence, tables and charts of the correlations, of which there must be at least one. Empties
+   l->list. */
+static void add_answer(koksma__document *d, const koksma__cases *cases, listing *l)
+{
+    koksma__report *r = cases->report;
+    koksma__rho_jackknife jackknife;
+    koksma__rho_order(&l->means);
+    if (!koksma__report_keep(r, koksma__rho_leave_out(&l->means, r->run, &jackknife))) {
+        return;
+    }
+    koksma__rho_say(d, &l->means, &jackknife);
+    say_limits(d, l);
+    add_measures(d, cases->topic->id, &l->means, &jackknife);
+    koksma__rho_jackknife_fini(&jackknife);
+    add_breakdowns(r, d, cases->topic, &l->means);
+    add_combinations(d, cases, l);
+    koksma__doc_collapsed_section(d, NULL, "Every case, with intervals");
+    koksma__doc_append(d, &l->list);
+    koksma__doc_end(d);
+    koksma__cases_visit(cases, add_scatter, &(plots){d, l->means.of[0].measure, 6});
+}
+
+void koksma__answer_correlation(koksma__report *r, koksma__document *d, const koksma__topic *topic)
+{
+    const koksma__cases cases = koksma__cases_of(r, topic);
+    listing l = {.most_patterns = 0};
+    size_t most = 0; /* cases, if no two blocks have the same */
+    char name[64];
+    for (size_t b = 0; b < topic->n_images; b++) {
+        const koksma__image_block *i = topic->images[b];
+        most += i->scenes.n * i->variants.n * i->spp.n;
+    }
+    l.combined = koksma__report_memory(r, most, sizeof *l.combined);
+    snprintf(name, sizeof name, "correlations-%.40s", topic->id);
+    koksma__doc_table_begin(&l.list, name);
+    koksma__doc_columns(&l.list, "t scene;t options;n7 samples;t measure;n7 patterns");
+    for (size_t i = 0; i < 2; i++) {
+        koksma__doc_column(&l.list, &(koksma__column){.name = i ? "Kendall" : "Spearman",
+                                                      .group = topic->metric,
+                                                      .type = KOKSMA__COLUMN_INTERVAL,
+                                                      .digits = 3});
+    }
+    koksma__cases_visit(&cases, list_case, &l);
+    koksma__doc_table_end(&l.list);
+    if (!r->status && l.means.n) {
+        add_answer(d, &cases, &l);
+    }
+    koksma__report_keep(r, l.list.json.status);
+    koksma__json_writer_fini(&l.list.json);
+    koksma__rho_fini(&l.means);
+}

@@ -1,0 +1,420 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Answers how fast measures and errors fall with n: by average slopes in log-log over the larger half of the sizes,
+ * with intervals, and with the known lower bound of a measure for comparison. The page sorts the patterns by the
+ * widths of the intervals, the narrowest first. A bound that contains a logarithm is not a power law; its row has the
+ * average slope of the bound over the same sizes.
+ *
+ * The sentence names the pattern whose values fall fastest. A pattern surely falls faster than another if the interval
+ * of the difference of their slopes excludes 0. A pattern is a candidate if no other surely falls faster. If there are
+ * several candidates, the sentence names those whose slopes have the narrowest intervals, and how many trials would
+ * separate two of them, so that a pattern with a wide interval hides no order among patterns with narrow ones. It also
+ * gives the number of patterns that fall faster than random points (or the power of theory), the number that follow no
+ * power law, and the patterns with means of 0. For measures of quality or distance, for which a fast fall is not
+ * better, it does not compare the patterns.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "measures/shared/shared.h"
+#include "study/report/report.h"
+
+enum { NAMED = 4, NAMED_ZEROS = 12, MOST_TRIALS = 1000 };
+
+/* The means of one pattern over the sizes: x and y hold the n sizes whose mean is above 0. */
+typedef struct curve {
+    size_t n;
+    double *x;
+    koksma__summary *y;
+} curve;
+
+/* Whether a steeper slope means a better pattern. */
+typedef enum sense {
+    FALLS,  /* for errors and discrepancies: a faster fall is better */
+    LARGER, /* for distances: larger values are better */
+    NO_SIZE /* for a measure of quality, which is 0 for good points and rises with n for others */
+} sense;
+
+/* The slopes of a subject's patterns. */
+typedef struct slopes {
+    const koksma__subject *of;
+    sense sense;
+    const koksma__summary *means; /* [pattern * sizes + size] */
+    koksma__trend *trends;
+    size_t *zeros; /* for each pattern, the number of sizes at which its mean is 0, which has no logarithm */
+    double random; /* the slope of independent random points, for comparison if no pattern is one; NaN: unknown */
+    size_t counted, best, tied, faster, off_line; /* numbers of patterns; tied: those that may fall fastest */
+    size_t is_random;                             /* index of a pattern of random points; patterns->n: none */
+} slopes;
+
+static curve curve_of(koksma__report *r, size_t sizes)
+{
+    return (curve){0, koksma__report_memory(r, sizes, sizeof(double)),
+                   koksma__report_memory(r, sizes, sizeof(koksma__summary))};
+}
+
+/* Fills in the sizes at which a pattern's mean is above 0; returns the number of those at which it is 0. */
+static size_t collect(const slopes *s, size_t pattern, curve *out)
+{
+    const koksma__wholes *n = s->of->n;
+    size_t zeros = 0;
+    out->n = 0;
+    for (size_t k = 0; k < n->n; k++) {
+        const koksma__summary *mean = &s->means[pattern * n->n + k];
+        zeros += mean->n && mean->mean <= 0;
+        if (mean->n && mean->mean > 0) {
+            out->x[out->n] = (double)n->at[k];
+            out->y[out->n++] = *mean;
+        }
+    }
+    return zeros;
+}
+
+/* The trend over the larger half of the sizes, and over at least three sizes if there are that many. */
+static koksma__trend trend_of(const curve *c)
+{
+    const size_t half = c->n - c->n / 2, least = c->n < 3 ? c->n : 3, n = half < least ? least : half;
+    return koksma__trend_of(c->x + (c->n - n), c->y + (c->n - n), n);
+}
+
+static sense sense_of(const koksma__subject *s)
+{
+    koksma_spec spec;
+    if (s->images || koksma_measure_spec(s->measure, &spec)) {
+        return FALLS;
+    }
+    return spec.measure->larger_is_better ? LARGER : spec.measure->family == KOKSMA_FAMILY_NONE ? NO_SIZE : FALLS;
+}
+
+/* The slope of independent random points: standard deviations fall as N^-1/2, and a metric as a power of them. */
+static double random_slope(const koksma__subject *s)
+{
+    koksma_metric_spec spec;
+    if (!s->images) {
+        return -0.5;
+    }
+    return koksma_metric_parse(s->metric, &spec) || !spec.metric->order ? (double)NAN : -0.5 * spec.metric->order;
+}
+
+/* ---- Which pattern falls fastest --------------------------------------------------------------------------- */
+
+static double half(const koksma__estimate *e)
+{
+    return e->high - e->value;
+}
+
+/* Whether two slopes are tied: the interval of the difference of the slopes, taken as independent, contains 0, or
+   the slopes are equal, or one of them has no interval. */
+static bool are_tied(const koksma__estimate *a, const koksma__estimate *b)
+{
+    return !koksma__compare(a->value, b->value) || !(fabs(a->value - b->value) > hypot(half(a), half(b)));
+}
+
+/* Whether pattern i may be the one that falls fastest: it has a slope, and none surely falls faster. */
+static bool may_be_fastest(const slopes *s, size_t i)
+{
+    const koksma__estimate *e = &s->trends[i].slope;
+    bool may = !isnan(e->value);
+    for (size_t j = 0; may && j < s->of->patterns->n; j++) {
+        const koksma__estimate *other = &s->trends[j].slope;
+        may = isnan(other->value) || other->value >= e->value || are_tied(e, other);
+    }
+    return may;
+}
+
+/* Whether a pattern consists of independent points without strata. */
+static bool is_random(const char *pattern)
+{
+    koksma_spec spec;
+    const unsigned both = KOKSMA_CLAIM_INDEPENDENT | KOKSMA_CLAIM_STRATIFIED;
+    return !koksma_pattern_spec(pattern, &spec) && (spec.pattern->claims & both) == KOKSMA_CLAIM_INDEPENDENT;
+}
+
+static void count(slopes *s)
+{
+    const size_t n = s->is_random = s->of->patterns->n;
+    for (size_t i = 0; i < n; i++) {
+        const koksma__estimate *e = &s->trends[i].slope, *best = &s->trends[s->best].slope;
+        if (!isnan(e->value)) {
+            s->best = isnan(best->value) || e->value < best->value ? i : s->best;
+            s->is_random = s->is_random == n && is_random(s->of->patterns->at[i]) ? i : s->is_random;
+            s->counted++;
+            s->off_line += s->trends[i].off_line;
+        }
+    }
+    const koksma__estimate power = {s->random, s->random, s->random};
+    const koksma__estimate *random = s->is_random < n ? &s->trends[s->is_random].slope : &power;
+    for (size_t i = 0; i < n; i++) {
+        const koksma__estimate *e = &s->trends[i].slope;
+        s->tied += may_be_fastest(s, i);
+        s->faster += e->value < random->value && !are_tied(e, random);
+    }
+}
+
+static void say_power(koksma__document *d, const koksma__estimate *e)
+{
+    koksma__doc_say(d, "N^%.3f^", e->value);
+    if (!isnan(e->low) && e->low < e->high) {
+        koksma__doc_say(d, " (%.3f to %.3f)", e->low, e->high);
+    }
+}
+
+/* Whether pattern i is named before pattern j: those with narrower intervals first, those without an interval
+   last. */
+static bool is_known_better(const slopes *s, size_t i, size_t j)
+{
+    const double x = half(&s->trends[i].slope), y = half(&s->trends[j].slope);
+    return x < y || (isnan(y) && !isnan(x)) || (!(y < x) && isnan(x) == isnan(y) && i < j);
+}
+
+/* The next pattern to name after pattern `after`, among the patterns that may fall fastest; with after = n, the
+   first one. Returns n if there is none. */
+static size_t next_tied(const slopes *s, size_t after)
+{
+    const size_t n = s->of->patterns->n;
+    size_t next = n;
+    for (size_t i = 0; i < n; i++) {
+        if (may_be_fastest(s, i) && (after == n || is_known_better(s, after, i)) &&
+            (next == n || is_known_better(s, i, next))) {
+            next = i;
+        }
+    }
+    return next;
+}
+
+/* Writes what would separate two slopes: more trials, or more sizes if a pattern is deterministic and so has a
+   single set of each size. */
+static void say_trials(koksma__document *d, const slopes *s, size_t a, size_t b)
+{
+    const koksma__estimate *x = &s->trends[a].slope, *y = &s->trends[b].slope;
+    const char *first = s->of->patterns->at[a], *second = s->of->patterns->at[b];
+    const double factor = koksma__trials_factor(x->value - y->value, hypot(half(x), half(y)));
+    if (!koksma__compare(x->value, y->value)) {
+        koksma__doc_say(d, "; the slopes of %s and %s are equal", first, second);
+    } else if (koksma__has_one_set(first) || koksma__has_one_set(second)) {
+        koksma__doc_say(d, "; more sizes might tell %s from %s, more trials would not", first, second);
+    } else if (factor > MOST_TRIALS) {
+        koksma__doc_say(d, "; more than %d times as many trials would be needed to tell %s from %s", MOST_TRIALS,
+                        first, second);
+    } else if (isfinite(factor)) {
+        koksma__doc_say(d, "; about %.0f times as many trials would tell %s from %s", ceil(factor), first, second);
+    }
+}
+
+/* Writes the patterns that may fall fastest, narrow intervals first; names at most NAMED of them. */
+static void say_tied(koksma__document *d, const slopes *s)
+{
+    const size_t n = s->of->patterns->n;
+    size_t named = 0, at = n, first = n, second = n;
+    koksma__doc_say(d, "undecided between %zu of %zu patterns: ", s->tied, s->counted);
+    while (named < NAMED && named < s->tied && (at = next_tied(s, at)) < n) {
+        koksma__doc_say(d, "%s%s%s as ", named ? ", " : "", s->of->patterns->at[at], named ? "" : " falls");
+        say_power(d, &s->trends[at].slope);
+        first = named == 0 ? at : first;
+        second = named == 1 ? at : second;
+        named++;
+    }
+    if (s->tied > named) {
+        koksma__doc_say(d, ", and %zu more", s->tied - named);
+    }
+    say_trials(d, s, first, first == s->best ? second : s->best);
+}
+
+static void say_fastest(koksma__document *d, const slopes *s)
+{
+    if (s->tied > 1) {
+        say_tied(d, s);
+    } else {
+        koksma__doc_say(d, "%s falls %sas ", s->of->patterns->at[s->best], s->counted > 1 ? "fastest, " : "");
+        say_power(d, &s->trends[s->best].slope);
+    }
+    if (s->is_random == s->of->patterns->n && !isnan(s->random)) {
+        koksma__doc_say(d, "; %zu of %zu patterns surely fall faster than N^%.1f^", s->faster, s->counted, s->random);
+    } else if (s->is_random < s->of->patterns->n && s->counted > 1) {
+        koksma__doc_say(d, "; %zu of %zu other patterns surely fall faster than %s, which falls as ", s->faster,
+                        s->counted - 1, s->of->patterns->at[s->is_random]);
+        say_power(d, &s->trends[s->is_random].slope);
+    }
+}
+
+/* Writes the patterns that have means of 0; names at most NAMED_ZEROS of them. */
+static void say_zeros(koksma__document *d, const slopes *s)
+{
+    size_t with = 0;
+    for (size_t i = 0; i < s->of->patterns->n; i++) {
+        if (s->zeros[i] && with++ < NAMED_ZEROS) {
+            koksma__doc_say(d, with == 1 ? "; means of 0 have no logarithm and are left out: " : ", ");
+            koksma__doc_say(d, s->zeros[i] == s->of->n->n ? "all %zu of %s" : "%zu of %s", s->zeros[i],
+                            s->of->patterns->at[i]);
+        }
+    }
+    if (with > NAMED_ZEROS) {
+        koksma__doc_say(d, ", and those of %zu more patterns", with - NAMED_ZEROS);
+    }
+}
+
+/* Writes the sentence, unless no pattern has a slope and no mean is left out. */
+static void say_slopes(koksma__document *d, slopes *s)
+{
+    bool zeros = false;
+    count(s);
+    for (size_t i = 0; i < s->of->patterns->n; i++) {
+        zeros |= s->zeros[i] > 0;
+    }
+    if (!s->counted && !zeros) {
+        return;
+    }
+    if (s->sense == FALLS) {
+        koksma__doc_answer_begin(d, s->tied == 1);
+    } else {
+        koksma__doc_paragraph_begin(d);
+    }
+    koksma__doc_say(d, "*%s:* ", s->of->name);
+    if (s->sense != FALLS) {
+        koksma__doc_say(d, s->sense == LARGER
+                               ? "larger values are better, so patterns are not compared by how fast values fall"
+                               : "values follow no power law in N, so patterns are not compared by their slopes");
+    } else if (s->counted) {
+        say_fastest(d, s);
+    } else {
+        koksma__doc_say(d, "no pattern has a slope");
+    }
+    if (s->off_line) {
+        koksma__doc_say(d, "; %zu of %zu patterns %s", s->off_line, s->counted,
+                        s->off_line == 1 ? "does not follow a power law; its slope is an average"
+                                         : "do not follow a power law; their slope is an average");
+    }
+    say_zeros(d, s);
+    koksma__doc_say(d, ".");
+    koksma__doc_paragraph_end(d);
+}
+
+/* ---- The table and the chart ------------------------------------------------------------------------------- */
+
+/* Computes the lower bound of a measure over the sizes of a curve. Returns the bound's source; NULL if no bound is
+   known. */
+static const char *bound_of(const koksma__subject *s, const curve *like, curve *out)
+{
+    koksma_spec spec;
+    koksma__bound bound;
+    if (s->images || s->warp[0] || !like->n || koksma_measure_spec(s->measure, &spec) ||
+        !koksma__lower_bound(spec.measure, s->points->dim, &bound)) {
+        return NULL;
+    }
+    out->n = like->n;
+    for (size_t i = 0; i < like->n; i++) {
+        const double n = out->x[i] = like->x[i];
+        out->y[i] = koksma__exactly(pow(n, -bound.power) * pow(log(n), bound.logs));
+    }
+    return bound.source;
+}
+
+static void add_columns(koksma__document *d, const koksma__subject *s)
+{
+    char text[64];
+    koksma__doc_columns(d, "t pattern");
+    koksma__doc_column(
+        d, &(koksma__column){.name = "slope", .group = s->metric, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
+    koksma__doc_columns(d, "t power law?");
+    for (size_t i = 0; i < s->n->n; i++) {
+        snprintf(text, sizeof text, "N = %lld", s->n->at[i]);
+        koksma__doc_column(
+            d, &(koksma__column){.name = text, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3, .hidden = true});
+    }
+}
+
+/* Adds the row and the line of a pattern. */
+static void add_pattern(koksma__document *d, koksma__document *chart, const slopes *s, size_t p, const curve *c)
+{
+    const koksma__subject *of = s->of;
+    koksma__doc_series_begin(chart, of->patterns->at[p], KOKSMA__SERIES_LINE);
+    for (size_t i = 0; i < c->n; i++) {
+        koksma__doc_point(chart, c->x[i], c->y[i].mean, c->y[i].low, c->y[i].high);
+    }
+    koksma__doc_end(chart);
+    koksma__doc_row(d);
+    koksma__doc_cells(d, "tit", of->patterns->at[p], s->trends[p].slope, s->trends[p].off_line ? "no" : "");
+    for (size_t k = 0; k < of->n->n; k++) {
+        const koksma__summary *mean = &s->means[p * of->n->n + k];
+        const koksma__estimate none = {NAN, NAN, NAN};
+        koksma__doc_cells(d, "i", mean->n ? koksma__estimate_of(mean) : none);
+    }
+}
+
+/* Adds the row and the line of a bound. `scale` makes the line begin at a quarter of the first value of the first
+   pattern's curve. */
+static void add_bound(koksma__document *d, koksma__document *chart, const char *who, const curve *bound, double scale)
+{
+    char text[96];
+    koksma__estimate slope = trend_of(bound).slope;
+    slope.low = slope.high = slope.value;
+    snprintf(text, sizeof text, "lower bound (%s), scaled", who);
+    koksma__doc_series_begin(chart, text, KOKSMA__SERIES_THEORY);
+    for (size_t i = 0; i < bound->n; i++) {
+        koksma__doc_point(chart, bound->x[i], bound->y[i].mean * scale, NAN, NAN);
+    }
+    koksma__doc_end(chart);
+    snprintf(text, sizeof text, "slope of the bound itself over these sizes (%s)", who);
+    koksma__doc_row(d);
+    koksma__doc_cells(d, "ti", text, slope);
+}
+
+/* Adds the rows and curves of all patterns, and finds their slopes and their numbers of means that are 0. */
+static void add_rows(koksma__report *r, koksma__document *d, koksma__document *chart, slopes *s)
+{
+    curve c = curve_of(r, s->of->n->n), bound = curve_of(r, s->of->n->n);
+    const char *who = NULL;
+    double scale = 1;
+    for (size_t p = 0; !r->status && p < s->of->patterns->n; p++) {
+        s->zeros[p] = collect(s, p, &c);
+        s->trends[p] = trend_of(&c);
+        if (p == 0 && (who = bound_of(s->of, &c, &bound))) {
+            scale = c.y[0].mean / bound.y[0].mean / 4;
+        }
+        add_pattern(d, chart, s, p, &c);
+    }
+    if (!r->status && who) {
+        add_bound(d, chart, who, &bound, scale);
+    }
+}
+
+static void add_subject(koksma__report *r, koksma__document *d, const char *id, size_t number,
+                        const koksma__subject *of)
+{
+    char file[64], title[256];
+    const size_t n = of->patterns->n;
+    slopes s = {.of = of,
+                .sense = sense_of(of),
+                .means = koksma__read_means(r, of),
+                .trends = koksma__report_memory(r, n, sizeof *s.trends),
+                .zeros = koksma__report_memory(r, n, sizeof *s.zeros),
+                .random = random_slope(of)};
+    koksma__document rows = {0}, chart = {0};
+    if (r->status) {
+        return;
+    }
+    snprintf(file, sizeof file, "slopes-%.32s-%zu", id, number);
+    snprintf(title, sizeof title, "%.200s against N", of->name);
+    koksma__doc_chart_begin(&chart, &(koksma__chart){title, of->images ? "samples a pixel" : "points",
+                                                     of->images ? of->metric : of->measure, true, true,
+                                                     s.sense == LARGER ? 1 : -1});
+    koksma__doc_sorted_table_begin(&rows, file, "slope", true, false);
+    add_columns(&rows, of);
+    add_rows(r, &rows, &chart, &s);
+    koksma__doc_table_end(&rows);
+    koksma__doc_end(&chart);
+    say_slopes(d, &s);
+    koksma__doc_append(d, &rows);
+    koksma__doc_append(d, &chart);
+}
+
+void koksma__answer_slopes(koksma__report *r, koksma__document *d, const koksma__topic *topic)
+{
+    koksma__subject s;
+    for (size_t i = 0; !r->status && koksma__topic_subject(topic, i, true, &s); i++) {
+        if (s.n->n > 1) {
+            add_subject(r, d, topic->id, i + 1, &s);
+        }
+    }
+}

@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Tables of the means of every pattern, with their intervals: one for each measure (and warp) of a block of points,
+ * and one for each scene and options of a block of images. The patterns are sorted by the last column, the best
+ * first. A sentence reports whether the best pattern differs from all others in that column, by the intervals of the
+ * differences, which hold together at 95 % (Bonferroni). If the best pattern does not differ from some other, the
+ * sentence says how many trials might separate the two. A table of images has the numbers of samples at which a
+ * pattern's error is in visible bands (koksma__mean_coherence), and the sentence names the best pattern without bands.
+ * Below it a second table compares the images with the largest number of samples by all metrics of the block.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/report/report.h"
+
+enum { NAMED = 4 };
+
+/* The means of a subject, and its patterns by their means in the last column, the best first. */
+typedef struct standing {
+    const koksma__subject *of;
+    const koksma__summary *means; /* [pattern * sizes + size] */
+    /* by: indices of the patterns in order; known: number of patterns with a mean, which come first */
+    size_t *by, known;
+    char last[64]; /* head of the last column */
+} standing;
+
+static const koksma__summary *last_of(const standing *s, size_t pattern)
+{
+    return &s->means[(pattern + 1) * s->of->n->n - 1];
+}
+
+/* The name and the last mean of pattern i of the order. */
+static const char *name_at(const standing *s, size_t i)
+{
+    return s->of->patterns->at[s->by[i]];
+}
+
+static const koksma__summary *mean_at(const standing *s, size_t i)
+{
+    return last_of(s, s->by[i]);
+}
+
+static void name_column(const koksma__subject *s, size_t k, char text[64])
+{
+    if (s->images) {
+        snprintf(text, 64, "%lld sample%s", s->n->at[k], koksma__plural((double)s->n->at[k]));
+    } else {
+        snprintf(text, 64, "N = %lld", s->n->at[k]);
+    }
+}
+
+static void order(standing *s)
+{
+    for (size_t p = 0; p < s->of->patterns->n; p++) {
+        const double mean = last_of(s, p)->mean;
+        size_t at = p;
+        for (; at > 0 && !isnan(mean); at--) {
+            const double before = last_of(s, s->by[at - 1])->mean;
+            if (at <= s->known && !(s->of->larger ? mean > before : mean < before)) {
+                break;
+            }
+            s->by[at] = s->by[at - 1];
+        }
+        s->by[at] = p;
+        s->known += !isnan(mean);
+    }
+}
+
+/* ---- Which is the best, and how sure that is --------------------------------------------------------------- */
+
+/* Half the width of the interval of the difference of two means, at 95 % for all comparisons together; NaN:
+   unknown. */
+static double half_of(const koksma__summary *a, const koksma__summary *b, size_t comparisons)
+{
+    const double half = hypot(a->high - a->mean, b->high - b->mean);
+    const size_t fewer = a->n > 1 && (a->n < b->n || b->n < 2) ? a->n : b->n;
+    return half > 0 ? half * koksma__student_quantile(1 - 0.025 / (double)comparisons, (double)(fewer - 1)) /
+                          koksma_student_975(fewer - 1)
+                    : half;
+}
+
+/* Whether the interval of the difference between pattern i of the order and the first contains 0. */
+static bool is_tied(const standing *s, size_t i)
+{
+    const koksma__summary *first = mean_at(s, 0), *other = mean_at(s, i);
+    return !koksma__compare(first->mean, other->mean) ||
+           !(fabs(first->mean - other->mean) > half_of(first, other, s->known - 1));
+}
+
+/* Writes how many trials would separate the best pattern from pattern i of the order, the first one that is tied
+   with it. */
+static void say_trials(koksma__document *d, const standing *s, size_t i)
+{
+    const koksma__summary *a = mean_at(s, 0), *b = mean_at(s, i);
+    const double half = half_of(a, b, s->known - 1), trials = (double)(a->n > b->n ? a->n : b->n);
+    if (!koksma__compare(a->mean, b->mean)) {
+        koksma__doc_say(d, " %s and %s have equal means", name_at(s, 0), name_at(s, i));
+    } else if (isnan(half)) {
+        koksma__doc_say(d, " A mean of one trial has no interval: 2 or more trials are needed");
+    } else {
+        const double needed = trials * koksma__trials_factor(a->mean - b->mean, half);
+        const double unit = pow(10, floor(log10(needed)) - 1);
+        koksma__doc_say(d, " About %.0f trials instead of %.0f would tell %s from %s",
+                        fmax(ceil(needed / unit) * unit, trials + 1), trials, name_at(s, 0), name_at(s, i));
+    }
+}
+
+static void say_standing(koksma__document *d, const standing *s)
+{
+    const koksma__summary *mean = mean_at(s, 0);
+    size_t tied = 0, next = 0, named = 0;
+    for (size_t i = s->known; i-- > 1;) {
+        next = is_tied(s, i) ? i : next;
+        tied += is_tied(s, i);
+    }
+    koksma__doc_answer_begin(d, !tied);
+    koksma__doc_say(d, "*%s, %s:* ", s->of->name, s->last);
+    if (tied) {
+        koksma__doc_say(d, "undecided between %zu of %zu patterns: %s %.4g", tied + 1, s->known, name_at(s, 0),
+                        mean->mean);
+        for (size_t i = 1; i < s->known && named + 1 < NAMED; i++) {
+            if (is_tied(s, i)) {
+                koksma__doc_say(d, ", %s %.4g", name_at(s, i), mean_at(s, i)->mean);
+                named++;
+            }
+        }
+        if (tied > named) {
+            koksma__doc_say(d, " and %zu more", tied - named);
+        }
+        koksma__doc_say(d, ".");
+        say_trials(d, s, next);
+    } else {
+        koksma__doc_say(d, "%s has the %s mean, %.4g", name_at(s, 0), s->of->larger ? "largest" : "least",
+                        mean->mean);
+        if (mean->low < mean->high) {
+            koksma__doc_say(d, " (%.4g to %.4g)", mean->low, mean->high);
+        }
+        koksma__doc_say(d, ", told apart from %s at 95 %%; %s follows with %.4g",
+                        s->known > 2 ? "all others" : "the other", name_at(s, 1), mean_at(s, 1)->mean);
+    }
+    koksma__doc_say(d, ".");
+}
+
+/* Writes the cell with the numbers of samples at which a pattern's error is in bands, such as "4, 16 samples". */
+static void add_bands(koksma__report *r, koksma__document *d, const koksma__subject *s, const char *pattern)
+{
+    char text[512] = "";
+    size_t length = 0, known = 0;
+    for (size_t k = 0; k < s->n->n; k++) {
+        const koksma_coherence_values v = koksma__mean_coherence(r, s, pattern, s->n->at[k]);
+        known += v.images > 0;
+        if (v.coherent && length < sizeof text) {
+            length +=
+                (size_t)snprintf(text + length, sizeof text - length, "%s%lld", length ? ", " : "", s->n->at[k]);
+        }
+    }
+    if (length && length < sizeof text) {
+        snprintf(text + length, sizeof text - length, " samples");
+    }
+    koksma__doc_cells(d, "t", length ? text : known ? "none" : "not known");
+}
+
+/* Writes whether the error of the best pattern, at the largest number of samples, is in visible bands. If it is, names
+   the best pattern without bands. */
+static void say_bands(koksma__report *r, koksma__document *d, const standing *s)
+{
+    size_t i = 0, known = 0;
+    for (; i < s->known; i++) {
+        const koksma_coherence_values v =
+            koksma__mean_coherence(r, s->of, name_at(s, i), s->of->n->at[s->of->n->n - 1]);
+        known += v.images > 0;
+        if (!v.coherent) {
+            break;
+        }
+    }
+    if (!known) {
+        return;
+    }
+    if (i == 0) {
+        koksma__doc_say(d, " The error of %s has no visible bands.", name_at(s, 0));
+    } else if (i < s->known) {
+        koksma__doc_say(
+            d,
+            " The error of %s is in visible bands; of the patterns without bands, %s has the least error, "
+            "%.1f %% more.",
+            name_at(s, 0), name_at(s, i), 100 * (mean_at(s, i)->mean / mean_at(s, 0)->mean - 1));
+    } else {
+        koksma__doc_say(d, " The errors of all patterns are in visible bands.");
+    }
+}
+
+/* Writes a paragraph that names the metric of the errors and describes their reference, the block's last one. */
+static void say_reference(koksma__report *r, koksma__document *d, const koksma__subject *s)
+{
+    const koksma__image_block *block = s->images;
+    const koksma__reference *last = &block->references[block->n_references - 1];
+    const double error = koksma__reference_error(r, s);
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(
+        d,
+        "Errors by `%s` against the reference _%s_, the mean of %lld render%s with %lld samples a pixel of "
+        "%s; ",
+        s->metric, last->name, last->replicates, koksma__plural((double)last->replicates), last->spp, last->pattern);
+    if (isfinite(error)) {
+        koksma__doc_say(d, "its own error is about %.2g", error);
+        if (strcmp(s->metric, KOKSMA__DEFAULT_METRIC) != 0) {
+            koksma__doc_say(d, " by `%s`", KOKSMA__DEFAULT_METRIC);
+        }
+    } else {
+        koksma__doc_say(d, "its own error is not known");
+    }
+    koksma__doc_say(d, ". Up to %lld trial%s.", block->trials, koksma__plural((double)block->trials));
+    if (block->n_references > 1) {
+        koksma__doc_say(d, " `koksma study export` also writes the errors against the plan's other references.");
+    }
+    koksma__doc_paragraph_end(d);
+}
+
+/* ---- The other metrics ------------------------------------------------------------------------------------- */
+
+/* The position of a pattern by one of n metrics: 1 + the number of patterns with a smaller mean; NaN: no mean. means:
+   [pattern * n + metric]. */
+static double position_of(const koksma__metric_means *means, size_t patterns, size_t n, size_t pattern, size_t metric)
+{
+    const koksma__summary *mean = &means[pattern * n + metric].value;
+    double position = mean->n ? 1 : (double)NAN;
+    for (size_t p = 0; p < patterns; p++) {
+        const koksma__summary *other = &means[p * n + metric].value;
+        position += other->n && other->mean < mean->mean;
+    }
+    return position;
+}
+
+static void add_metric_columns(koksma__document *d, const char *metric)
+{
+    char name[KOKSMA_MAX_SPEC + 32];
+    koksma__doc_column(
+        d, &(koksma__column){
+               .name = metric, .title = "mean 95 %", .group = metric, .type = KOKSMA__COLUMN_INTERVAL, .digits = 4});
+    snprintf(name, sizeof name, "%s, position", metric);
+    koksma__doc_column(
+        d, &(koksma__column){
+               .name = name, .title = "position", .group = metric, .type = KOKSMA__COLUMN_NUMBER, .digits = 3});
+    snprintf(name, sizeof name, "%s, robust", metric);
+    koksma__doc_column(d, &(koksma__column){.name = name,
+                                            .title = "without 0.1 %",
+                                            .group = metric,
+                                            .type = KOKSMA__COLUMN_NUMBER,
+                                            .digits = 4,
+                                            .hidden = true});
+    snprintf(name, sizeof name, "%s, top share", metric);
+    koksma__doc_column(
+        d,
+        &(koksma__column){.name = name, .group = metric, .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
+}
+
+/* Adds the table of the means by all metrics of the block, of the images with the largest number of samples, in the order
+   of the table above it, and names the pattern with the least mean by each metric. */
+static void add_metrics(koksma__report *r, koksma__document *d, const char *id, size_t number, const standing *s)
+{
+    const koksma__texts *metrics = &s->of->images->metrics, *patterns = s->of->patterns;
+    const size_t n = metrics->n;
+    koksma__metric_means *means = koksma__report_memory(r, patterns->n * n, sizeof *means);
+    char file[64];
+    if (!means) {
+        return;
+    }
+    for (size_t i = 0; i < patterns->n * n; i++) {
+        means[i] =
+            koksma__read_metric(r, s->of, patterns->at[i / n], s->of->n->at[s->of->n->n - 1], metrics->at[i % n]);
+    }
+    snprintf(file, sizeof file, "metrics-%.32s-%zu", id, number);
+    koksma__doc_section(d, NULL, "By all metrics");
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(d, "The least error with %s, by each metric:", s->last);
+    for (size_t m = 0; m < n; m++) {
+        const char *best = NULL;
+        for (size_t p = patterns->n; p-- > 0;) {
+            best = position_of(means, patterns->n, n, p, m) < 1.5 ? patterns->at[p] : best; /* NaN: no mean */
+        }
+        koksma__doc_say(d, "%s `%s` %s", m ? "," : "", metrics->at[m], best ? best : "not measured");
+    }
+    koksma__doc_say(d, ".");
+    koksma__doc_paragraph_end(d);
+    koksma__doc_table_begin(d, file);
+    koksma__doc_columns(d, "t pattern");
+    for (size_t m = 0; m < n; m++) {
+        add_metric_columns(d, metrics->at[m]);
+    }
+    for (size_t i = 0; i < patterns->n; i++) {
+        koksma__doc_row(d);
+        koksma__doc_cells(d, "t", name_at(s, i));
+        for (size_t m = 0; m < n; m++) {
+            const koksma__metric_means *of = &means[s->by[i] * n + m];
+            koksma__doc_cells(d, "innn", koksma__estimate_of(&of->value),
+                              position_of(means, patterns->n, n, s->by[i], m), of->robust.mean, of->top_share.mean);
+        }
+    }
+    koksma__doc_table_end(d);
+    koksma__doc_end(d);
+}
+
+/* ---- Tables ------------------------------------------------------------------------------------------------ */
+
+/* Adds the table of means. Returns whether some cell has no mean. */
+static bool add_means(koksma__report *r, koksma__document *d, const standing *s)
+{
+    const koksma__subject *of = s->of;
+    bool gaps = false;
+    char text[64];
+    koksma__doc_columns(d, "t pattern");
+    for (size_t k = 0; k < of->n->n; k++) {
+        name_column(of, k, text);
+        koksma__doc_column(
+            d, &(koksma__column){.name = text, .group = of->metric, .type = KOKSMA__COLUMN_INTERVAL, .digits = 4});
+    }
+    if (of->images) {
+        koksma__doc_columns(d, "t in bands with");
+    }
+    for (size_t i = 0; i < of->patterns->n; i++) {
+        koksma__doc_row(d);
+        koksma__doc_cells(d, "t", name_at(s, i));
+        for (size_t k = 0; k < of->n->n; k++) {
+            const koksma__summary *mean = &s->means[s->by[i] * of->n->n + k];
+            gaps |= !mean->n;
+            koksma__doc_cells(d, "i", koksma__estimate_of(mean));
+        }
+        if (of->images) {
+            add_bands(r, d, of, name_at(s, i));
+        }
+    }
+    koksma__doc_table_end(d);
+    return gaps;
+}
+
+static void add_table(koksma__report *r, koksma__document *d, const char *id, size_t number,
+                      const koksma__subject *of)
+{
+    char file[64];
+    standing s = {
+        .of = of, .means = koksma__read_means(r, of), .by = koksma__report_memory(r, of->patterns->n, sizeof *s.by)};
+    if (r->status) {
+        return;
+    }
+    order(&s);
+    snprintf(file, sizeof file, "means-%.32s-%zu", id, number);
+    name_column(of, of->n->n - 1, s.last);
+    koksma__doc_section(d, NULL, "%s", of->name);
+    if (s.known > 1) {
+        say_standing(d, &s);
+        if (of->images) {
+            say_bands(r, d, &s);
+        }
+        koksma__doc_paragraph_end(d);
+    }
+    if (of->images) {
+        say_reference(r, d, of);
+    }
+    koksma__doc_sorted_table_begin(d, file, s.last, false, of->larger);
+    if (add_means(r, d, &s) && koksma_study_left_out_at(r->study, 0)) {
+        koksma__doc_paragraph(d, "A cell without a number has no results: the section *Left out* gives the reasons.");
+    }
+    if (of->images) {
+        add_metrics(r, d, id, number, &s);
+    }
+    koksma__doc_end(d);
+}
+
+void koksma__answer_table(koksma__report *r, koksma__document *d, const koksma__topic *topic)
+{
+    koksma__subject s;
+    for (size_t i = 0; !r->status && koksma__topic_subject(topic, i, false, &s); i++) {
+        add_table(r, d, topic->id, i + 1, &s);
+    }
+}

@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Pictures of a study, their errors' spectra and coherence. The store has no pictures: each is rendered again from the key
+ * of its row. Only trials that have a row are rendered, because the time that other trials would take is unknown.
+ * Coherences are kept until the report is written, because several sections ask for them. The power of an error is computed
+ * at every Fourier frequency (image/fourier.c) and averaged over rings of frequencies, in O(n log n) for n pixels.
+ *
+ * The section has, for every scene of the image blocks, the reference and the first trial of each pattern, from which the
+ * page makes maps of the error and compares any two pictures; then the spectrum of the error and its coherence, averaged
+ * over some trials.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+#include "core/parallel.h"
+#include "core/status.h"
+#include "image/coherence.h"
+#include "image/formats.h"
+#include "image/image.h"
+#include "study/report/report.h"
+#include "study/run/references.h"
+
+/* The largest size in bytes of all floats in a report, before base64, and the largest number of patterns that are
+   shown for a scene. */
+enum { MOST_BYTES = 24 << 20, MAX_SHOWN = 24 };
+
+/* The largest number of samples that a report renders for coherences. */
+#define MOST_SAMPLES 268435456.0
+
+/* ---- The spectrum of an image's error ---------------------------------------------------------------------- */
+
+/* Averages the powers over rings. The errors are real, so the columns above W/2 mirror those below W/2, which
+   therefore count twice. */
+static void add_rings(const double *powers, size_t width, size_t height, size_t n_rings, double *power)
+{
+    const size_t half = width / 2 + 1;
+    double sums[KOKSMA__SPECTRUM_RINGS] = {0}, counts[KOKSMA__SPECTRUM_RINGS] = {0};
+    for (size_t u = 0; u < half; u++) {
+        const double times = u == 0 || 2 * u == width ? 1 : 2, fx = (double)u / (double)width;
+        for (size_t v = 0; v < height; v++) {
+            const double fy = (double)(2 * v <= height ? v : height - v) / (double)height;
+            const size_t ring = (size_t)(2 * (double)n_rings * sqrt(fx * fx + fy * fy));
+            if (ring >= n_rings || (u == 0 && v == 0)) {
+                continue;
+            }
+            sums[ring] += times * powers[v * half + u] / ((double)width * (double)height);
+            counts[ring] += times;
+        }
+    }
+    for (size_t r = 0; r < n_rings; r++) {
+        power[r] = counts[r] > 0 ? sums[r] / counts[r] : (double)NAN;
+    }
+}
+
+/* The number of rings for images of this size. */
+static size_t rings_of(int width, int height)
+{
+    const int side = width < height ? width : height;
+    return side < 4 ? 1 : side / 2 < KOKSMA__SPECTRUM_RINGS ? (size_t)side / 2 : (size_t)KOKSMA__SPECTRUM_RINGS;
+}
+
+koksma_status koksma__spectrum_add(koksma__error_spectrum *spectrum, const koksma_image *image,
+                                   const koksma_image *reference)
+{
+    KOKSMA__FAIL_IF(image->width != reference->width || image->height != reference->height, KOKSMA_ARGUMENT,
+                    "an image of %d x %d pixels cannot be compared with a reference of %d x %d", image->width,
+                    image->height, reference->width, reference->height);
+    const size_t width = (size_t)image->width, height = (size_t)image->height;
+    const size_t pixels = width * height, doubles = pixels + koksma__fourier_columns(image->width) * height;
+    double *errors = malloc(doubles * sizeof *errors), *powers = errors + pixels;
+    KOKSMA__REQUIRE_MEMORY(errors, doubles * sizeof *errors);
+    for (size_t i = 0; i < pixels; i++) {
+        errors[i] = koksma__luminance(image, i) - koksma__luminance(reference, i);
+    }
+    const koksma_status status = koksma__fourier_power(image->width, image->height, errors, powers);
+    if (!status) {
+        double power[KOKSMA__SPECTRUM_RINGS];
+        spectrum->n = rings_of(image->width, image->height);
+        add_rings(powers, width, height, spectrum->n, power);
+        const double before = (double)spectrum->images++;
+        for (size_t r = 0; r < spectrum->n; r++) {
+            spectrum->power[r] = (spectrum->power[r] * before + power[r]) / (before + 1);
+        }
+    }
+    free(errors);
+    return status;
+}
+
+/* ---- Trials of a task -------------------------------------------------------------------------------------- */
+
+/* Renders the picture of a trial of a task. */
+static koksma_status render(const koksma__task *t, long long trial, const koksma_run *run, koksma_image *out)
+{
+    const koksma__picture picture = {.pattern = t->pattern,
+                                     .variant = t->variant,
+                                     .spp = t->n,
+                                     .width = t->width,
+                                     .height = t->height,
+                                     .seed = koksma__task_seed(t, trial)};
+    return koksma__study_render(t->scene, &picture, run, out);
+}
+
+/* The number of trials whose errors are averaged. */
+static long long averaged(const koksma__task *t)
+{
+    return t->trials < KOKSMA__SPECTRUM_TRIALS ? t->trials : KOKSMA__SPECTRUM_TRIALS;
+}
+
+static koksma__reference_image *reference_of(const koksma__report *r, const koksma__task *t)
+{
+    return &r->study->references[t->references[t->n_series - 1]];
+}
+
+/* Whether the store has the coherence rows of a task's first `trials` trials. */
+static bool has_trials(koksma__report *r, const koksma__task *t, long long trials)
+{
+    char name[KOKSMA__REFERENCE_NAME];
+    size_t n = 0;
+    const koksma__series series = koksma__task_series(t, t->image->n_references, name);
+    free(koksma__read_results(r, &series, trials, &n));
+    return (long long)n == trials;
+}
+
+/* Whether the pixels of a task's last reference can be read. */
+static bool has_reference(koksma__report *r, const koksma__task *t)
+{
+    bool exists = false;
+    return koksma__report_keep(r, koksma__reference_find(r->study, reference_of(r, t), &exists)) && exists;
+}
+
+/* Finds the coherence of the errors of a task's first trials together and, unless `spectrum` is NULL, their mean
+   spectrum. */
+static koksma_coherence_values average(koksma__report *r, const koksma__task *t, const koksma_run *run,
+                                       koksma__error_spectrum *spectrum)
+{
+    koksma_coherence_values values = {.coherence = NAN, .noise_high = NAN};
+    koksma__reference_image *reference = reference_of(r, t);
+    koksma_coherence coherence = {0};
+    if (!koksma__report_keep(r, koksma__reference_read(r->study, reference)) ||
+        !koksma__report_keep(r, koksma_coherence_init(&coherence, t->width, t->height))) {
+        return values;
+    }
+    for (long long trial = 0; trial < averaged(t); trial++) {
+        koksma_image image;
+        if (!koksma__report_keep(r, r->status ? r->status : render(t, trial, run, &image))) {
+            break;
+        }
+        koksma_status status = spectrum ? koksma__spectrum_add(spectrum, &image, &reference->image) : KOKSMA_OK;
+        status = status ? status : koksma_coherence_add(&coherence, &image, &reference->image);
+        koksma__report_keep(r, status);
+        koksma_image_fini(&image);
+    }
+    if (!r->status) {
+        koksma_coherence_find(&coherence, &values);
+    }
+    koksma_coherence_fini(&coherence);
+    return values;
+}
+
+/* ---- The coherence that the whole report uses -------------------------------------------------------------- */
+
+struct koksma__coherences {
+    koksma__tasks tasks;
+    koksma_coherence_values *of; /* of each task */
+    bool *known;
+    double samples; /* rendered so far */
+};
+
+static bool open_all(koksma__report *r)
+{
+    struct koksma__coherences *c = r->status ? NULL : calloc(1, sizeof *c);
+    if (!c) {
+        return koksma__report_keep(r, r->status ? r->status : koksma__fail_memory(sizeof *c));
+    }
+    r->coherences = c;
+    if (koksma__report_keep(r, koksma__tasks_open(r->study, true, &c->tasks))) {
+        c->of = calloc(c->tasks.n + 1, sizeof *c->of);
+        c->known = calloc(c->tasks.n + 1, sizeof *c->known);
+        koksma__report_keep(r, c->of && c->known ? KOKSMA_OK : koksma__fail_memory(c->tasks.n * sizeof *c->of));
+    }
+    return !r->status;
+}
+
+void koksma__mean_coherence_forget(koksma__report *r)
+{
+    if (r->coherences) {
+        koksma__tasks_close(&r->coherences->tasks);
+        KOKSMA__FREE(r->coherences->of, r->coherences->known, r->coherences);
+        r->coherences = NULL;
+    }
+}
+
+koksma_coherence_values koksma__mean_coherence(koksma__report *r, const koksma__subject *s, const char *pattern,
+                                               long long n)
+{
+    const koksma_coherence_values none = {.coherence = NAN, .noise_high = NAN};
+    if (!(r->coherences || open_all(r)) || r->status) {
+        return none;
+    }
+    struct koksma__coherences *c = r->coherences;
+    size_t i = 0;
+    for (; i < c->tasks.n; i++) {
+        const koksma__task *t = &c->tasks.at[i];
+        if (t->image == s->images && t->n == n && !strcmp(t->scene->name, s->scene) &&
+            !strcmp(t->variant, s->variant) && !strcmp(t->pattern, pattern)) {
+            break;
+        }
+    }
+    if (i < c->tasks.n && !c->known[i]) {
+        const koksma__task *t = &c->tasks.at[i];
+        const double samples = (double)t->width * t->height * (double)t->n * (double)averaged(t);
+        koksma__phases phases = {0};
+        const koksma_run run = koksma__phase_run(&phases, r->run, 0); /* the fractions of short calls say nothing */
+        c->known[i] = true;
+        c->of[i] = none;
+        if (has_trials(r, t, averaged(t)) && has_reference(r, t) && c->samples + samples <= MOST_SAMPLES) {
+            c->samples += samples;
+            c->of[i] = average(r, t, &run, NULL);
+        }
+    }
+    return i < c->tasks.n ? c->of[i] : none;
+}
+
+/* ---- The section ------------------------------------------------------------------------------------------- */
+
+static bool has_images(const koksma__report *r)
+{
+    return r->study->plan.n_images > 0;
+}
+
+/* Whether pattern p of a block can make the block's middle number of samples, with which the pictures are rendered. */
+static bool is_served(const koksma__image_block *block, size_t p)
+{
+    return !koksma__is_left_out(&block->left_out, p, block->spp.n, block->spp.n / 2);
+}
+
+/* The first pattern of a block that can make the block's middle number of samples. */
+static size_t first_served(const koksma__image_block *block)
+{
+    size_t p = 0;
+    while (p + 1 < block->patterns.n && !is_served(block, p)) {
+        p++;
+    }
+    return p;
+}
+
+/* Adds the table of coherences, with a row for each of the block's first n patterns. */
+static void add_coherence(koksma__document *d, const koksma__task *first, const koksma_coherence_values *values,
+                          size_t n)
+{
+    char name[64];
+    snprintf(name, sizeof name, "coherence-%.30s-%lld", first->scene->name, first->n);
+    koksma__doc_paragraph(
+        d, "Coherence of the error: the peak of its power spectrum over the mean power (of frequencies as high "
+           "if that is larger, so that blue noise counts as noise), from the same trials. Part of an error may be "
+           "common to all trials (column _in common_). For white noise with an "
+           "equally large common part, 95 %% of the coherences lie between the columns _noise from_ and _to_. An "
+           "error whose coherence exceeds that of 99.5 %% of such noise is coherent: it has bands or another "
+           "pattern, which the eye sees sooner than noise of the same size.");
+    koksma__doc_table_begin(d, name);
+    koksma__doc_columns(d, "t pattern;i3 coherence;n3 noise from;n3 to;n2 in common;n2 cycles a pixel;t error");
+    for (size_t p = 0; p < n; p++) {
+        const koksma_coherence_values *v = &values[p];
+        if (is_served(first->image, p)) {
+            koksma__doc_row(d);
+            koksma__doc_cells(d, "tinnnnt", first->image->patterns.at[p],
+                              (koksma__estimate){v->coherence, v->low, v->high}, v->noise_low, v->noise_high,
+                              v->common, hypot(v->frequency_x, v->frequency_y),
+                              v->images == 0 ? "none"
+                              : v->coherent  ? "coherent"
+                                             : "noise");
+        }
+    }
+    koksma__doc_table_end(d);
+}
+
+/* Adds the mean spectra of the errors of the block's first n patterns as a chart, and their coherences. */
+static void add_spectra(koksma__report *r, koksma__document *d, const koksma__task *first, size_t n)
+{
+    koksma_coherence_values values[MAX_SHOWN];
+    char title[512], name[256];
+    koksma__case_name(first->scene->name, first->variant, name, sizeof name);
+    snprintf(title, sizeof title,
+             "Spectrum of the image error: %.200s, %lld sample%s a pixel, mean over rings and %d trial%s", name,
+             first->n, koksma__plural((double)first->n), (int)averaged(first), koksma__plural((double)first->trials));
+    koksma__doc_chart_begin(d, &(koksma__chart){title, "cycles a pixel", "power", false, true, 0});
+    for (size_t p = 0; !r->status && p < n; p++) {
+        const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
+        koksma__error_spectrum spectrum = {0};
+        if (!is_served(first->image, p)) {
+            continue;
+        }
+        values[p] = average(r, &task, r->run, &spectrum);
+        koksma__doc_series_begin(d, task.pattern, KOKSMA__SERIES_LINE);
+        for (size_t k = 0; k < spectrum.n; k++) {
+            koksma__doc_point(d, ((double)k + 0.5) / (2 * (double)spectrum.n), spectrum.power[k], NAN, NAN);
+        }
+        koksma__doc_end(d);
+    }
+    koksma__doc_end(d);
+    if (!r->status) {
+        add_coherence(d, first, values, n);
+    }
+}
+
+/* Whether the store has the first `trials` trials of the task for each of the first n patterns of its block. */
+static bool are_done(koksma__report *r, const koksma__task *first, size_t n, long long trials)
+{
+    bool done = true;
+    for (size_t p = 0; done && p < n; p++) {
+        const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
+        done = !is_served(first->image, p) || has_trials(r, &task, trials);
+    }
+    return done;
+}
+
+/* Adds the pictures of the reference and of the first trial of each of the block's first n patterns. */
+static void add_pictures(koksma__report *r, koksma__document *d, const koksma__task *first, size_t n, size_t *used)
+{
+    koksma__doc_pictures_begin(d, first->scene->name, first->width, first->height);
+    koksma__doc_picture(d, &reference_of(r, first)->image, "reference");
+    for (size_t p = 0; !r->status && p < n; p++) {
+        const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
+        koksma_image image;
+        if (is_served(first->image, p) && koksma__report_keep(r, render(&task, 0, r->run, &image))) {
+            koksma__doc_picture(d, &image, task.pattern);
+            *used += 4 * (size_t)image.width * (size_t)image.height * (size_t)image.channels;
+            koksma_image_fini(&image);
+        }
+    }
+    koksma__doc_end(d);
+}
+
+static void add_scene(koksma__report *r, koksma__document *d, const koksma__task *first, size_t *used,
+                      size_t *left_out)
+{
+    const koksma__texts *patterns = &first->image->patterns;
+    const size_t shown = patterns->n < MAX_SHOWN ? patterns->n : MAX_SHOWN;
+    if (!has_reference(r, first) || !are_done(r, first, shown, 1)) {
+        return;
+    }
+    if (*used + 4 * (size_t)first->width * (size_t)first->height * (shown + 1) > MOST_BYTES) {
+        (*left_out)++;
+        return;
+    }
+    if (!koksma__report_keep(r, koksma__reference_read(r->study, reference_of(r, first)))) {
+        return;
+    }
+    char name[512];
+    koksma__case_name(first->scene->name, first->variant, name, sizeof name);
+    koksma__doc_section(d, NULL, "%s, %lld sample%s a pixel, %d x %d pixels", name, first->n,
+                        koksma__plural((double)first->n), first->width, first->height);
+    add_pictures(r, d, first, shown, used);
+    if (shown < patterns->n) {
+        koksma__doc_paragraph(
+            d, shown + 1 == patterns->n ? "%zu more pattern is not shown." : "%zu more patterns are not shown.",
+            patterns->n - shown);
+    }
+    if (!r->status && are_done(r, first, shown, averaged(first))) {
+        add_spectra(r, d, first, shown);
+    }
+    koksma__doc_end(d);
+}
+
+static void write_pictures(koksma__report *r, koksma__document *d)
+{
+    koksma__tasks tasks;
+    koksma__document scenes = {0};
+    size_t used = 0, left_out = 0;
+    koksma__report_keep(r, koksma__tasks_open(r->study, true, &tasks));
+    for (size_t i = 0; !r->status && i < tasks.n; i++) {
+        const koksma__task *t = &tasks.at[i];
+        const koksma__image_block *block = t->image;
+        if (t->pattern == block->patterns.at[first_served(block)] && t->variant == block->variants.at[0] &&
+            t->n == block->spp.at[block->spp.n / 2]) {
+            add_scene(r, &scenes, t, &used, &left_out);
+        }
+    }
+    koksma__tasks_close(&tasks);
+    if (used) {
+        koksma__doc_paragraph(d,
+                              "The first trial of every pattern, its absolute error in luminance 8 times as bright, "
+                              "and the reference.");
+    }
+    koksma__doc_append(d, &scenes);
+    if (left_out) {
+        koksma__doc_paragraph(d, "The pictures of %zu scene%s are left out: this file would be too large.", left_out,
+                              koksma__plural((double)left_out));
+    }
+}
+
+const koksma__section koksma__section_pictures = {"Pictures", false, has_images, write_pictures};

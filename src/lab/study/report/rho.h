@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Rank correlations of measures with image errors. Sums by measure, scene and number of samples give means over any set of
+ * scenes; all cases are resampled together, so that the means of two measures can be compared resample by resample.
+ * Rankings of the measures by these means say which differ significantly, and which statements hold whichever one scene is
+ * left out.
+ */
+#ifndef KOKSMA_STUDY_REPORT_RHO_H
+#define KOKSMA_STUDY_REPORT_RHO_H
+
+#include "study/report/report.h"
+
+/* KOKSMA__RHO_VARIANTS: the number of combinations of options that have a column in a table. KOKSMA__RHO_SAMPLES:
+   the number of bootstrap resamples. With ten measures, Holm's correction compares the smallest p-value of the 45
+   pairs with 0.05 / 45 = .0011. With 4,000 resamples, two or three resamples decide whether p is below this limit,
+   and which differences were significant changed with the seed; with 20,000 resamples, eleven decide. */
+enum { KOKSMA__RHO_VARIANTS = 24, KOKSMA__RHO_SAMPLES = 20000 };
+
+/* Sums over the cases of a measure in one scene with one number of samples. */
+typedef struct koksma__rho_cell {
+    size_t scene;
+    long long spp;
+    size_t all, few; /* number of cases, and of those with too few patterns for an interval */
+    double total;    /* sum of rho over the cases */
+    double *draws;   /* sum of rho over the cases, for each resample */
+} koksma__rho_cell;
+
+/* Sums of rho of one measure. */
+typedef struct koksma__rho_sums {
+    const char *measure;
+    double total, rho[KOKSMA__RHO_VARIANTS];
+    size_t all, cases[KOKSMA__RHO_VARIANTS];
+    size_t sure; /* number of cases whose interval excludes 0 */
+    /* numbers of cases without an interval: those with too few patterns, and those in perfect order */
+    size_t few, perfect;
+    size_t n_cells;
+    koksma__rho_cell *cells;
+} koksma__rho_sums;
+
+typedef struct koksma__rho_means {
+    size_t n, n_variants, n_scenes, n_sizes;
+    koksma__rho_sums *of;
+    const char **variants, **scenes;
+    long long *sizes; /* numbers of samples per pixel */
+} koksma__rho_means;
+
+/* The case that a correlation belongs to; the strings must outlive the means. */
+typedef struct koksma__rho_source {
+    const char *measure, *scene, *variant;
+    long long spp;
+    size_t n_patterns;
+} koksma__rho_source;
+
+/* Returns a correlation over n_patterns patterns as tables show it: its interval becomes NaN if it has no meaning,
+   because there are fewer than KOKSMA__LEAST_PAIRS patterns or its width is 0. */
+koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns);
+
+/* Adds a case: rho from koksma__rho_shown, and its resamples. For a measure that is better when larger, the caller
+   reverses the sign of rho and of its resamples. Errors: MEMORY. */
+koksma_status koksma__rho_add(koksma__rho_means *s, const koksma__rho_source *source, const koksma__estimate *rho,
+                              const double draws[KOKSMA__RHO_SAMPLES]);
+
+/* Sorts the measures by their mean over all cases, the largest first and equal means in the plan's order, and sorts
+   the numbers of samples. */
+void koksma__rho_order(koksma__rho_means *s);
+
+void koksma__rho_fini(koksma__rho_means *s);
+
+/* A subset of the cases. scenes: whether each scene is in it; NULL: all scenes. spp: the number of samples; 0:
+   all. */
+typedef struct koksma__rho_subset {
+    const bool *scenes;
+    long long spp;
+} koksma__rho_subset;
+
+typedef struct koksma__rho_standing {
+    size_t measure; /* index of the measure in koksma__rho_means */
+    size_t cases;
+    koksma__estimate mean; /* the mean with its interval, which is NaN if a case has too few patterns */
+    koksma__estimate less; /* the mean minus that of the first measure */
+    double p;              /* p-value of "the mean is 0", adjusted by Holm over the measures */
+} koksma__rho_standing;
+
+typedef struct koksma__rho_ranking {
+    size_t n;                 /* number of measures that have cases in the subset */
+    size_t n_pairs;           /* number of compared pairs: both measures have intervals and equally many cases */
+    koksma__rho_standing *at; /* sorted by mean, the largest first */
+    size_t *place;            /* for each measure, its index in `at`; n: it has no cases in the subset */
+    double *p;                /* n x n p-values of "the means are equal", by Holm over the pairs; NaN: not compared */
+} koksma__rho_ranking;
+
+/* Ranks the measures over a subset of the cases. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__rho_rank(const koksma__rho_means *s, const koksma__rho_subset *of, const koksma_run *run,
+                               koksma__rho_ranking *ranking);
+void koksma__rho_ranking_fini(koksma__rho_ranking *ranking);
+
+/* koksma__rho_is_better: whether measure a has a significantly larger mean than measure b (at 5 % for all pairs
+   together). koksma__rho_predicts: whether a measure's mean is significantly above 0 (at 5 % for all measures
+   together). Measures are indices in koksma__rho_means. */
+bool koksma__rho_is_better(const koksma__rho_ranking *ranking, size_t a, size_t b);
+bool koksma__rho_predicts(const koksma__rho_ranking *ranking, size_t measure);
+
+/* Rankings over all scenes, and over all scenes but one: of[0] includes all scenes, of[1 + s] all but scene s. If
+   there is only one scene, there is only of[0]. */
+typedef struct koksma__rho_jackknife {
+    size_t n;
+    koksma__rho_ranking *of;
+} koksma__rho_jackknife;
+
+/* Computes the rankings over all scenes and without each of them. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__rho_leave_out(const koksma__rho_means *s, const koksma_run *run,
+                                    koksma__rho_jackknife *jackknife);
+void koksma__rho_jackknife_fini(koksma__rho_jackknife *jackknife);
+
+/* Statements on measures. */
+typedef enum koksma__rho_statement {
+    KOKSMA__RHO_BETTER,   /* measure a is significantly better than b */
+    KOKSMA__RHO_PREDICTS, /* the mean of a is significantly above 0 */
+    KOKSMA__RHO_FIRST,    /* a is the first by its mean */
+    KOKSMA__RHO_LAST      /* a is the last */
+} koksma__rho_statement;
+
+/* Whether a statement holds over all scenes and whichever one scene is left out. */
+bool koksma__rho_always(const koksma__rho_jackknife *jackknife, koksma__rho_statement statement, size_t a, size_t b);
+
+/* The mean over all scenes, and the range of a measure's mean over the rankings of a jackknife. */
+koksma__estimate koksma__rho_range(const koksma__rho_jackknife *jackknife, size_t measure);
+
+/* The sentences on what predicts the error, which state only results that hold over all scenes and whichever one scene is
+   left out, and count those that hold over all scenes but not if some scene is left out. */
+void koksma__rho_say(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *jackknife);
+
+#endif

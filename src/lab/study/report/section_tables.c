@@ -1,0 +1,605 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The published tables beside our numbers. A row has its label, the published numbers, each with the number of its note,
+ * and then our numbers with the verdict on the published mean; below a table are its notes.
+ *
+ * Discrepancies at one number of points (Shirley 1991): our mean, SD and largest of 100, and the means of a second measure.
+ * Discrepancies over several numbers of points (Mitchell 1992): two or three rows per pattern with the published means, our
+ * means with their verdicts, and our means of a second measure. Each of these rows ends with its log-log slope, computed by
+ * least squares over all columns (koksma__trend_of) of published means and of ours alike, and with what theory predicts: the
+ * exponent, and the multiple of random points' mean. A chart of the means follows.
+ *
+ * Errors of images: our means against the block's first reference (the paper's), the coherence of the error and, if the
+ * block has several references, our means against the last one (the converged image). The text below a table reports the
+ * effect of the choice of the reference, that below all tables the order of the patterns by their mean rank, and the
+ * overall order that the paper gives.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/plan/plan.h"
+#include "study/report/report.h"
+
+/* The next table of the report's plan, of images or of points, from table *i on; *i becomes the index after it. NULL: there
+   is no further one. */
+static const koksma__table *next_table(const koksma__report *r, bool images, size_t *i)
+{
+    const koksma__plan *plan = &r->study->plan;
+    while (*i < plan->n_tables) {
+        const koksma__table *t = &plan->tables[(*i)++];
+        if (t->part == r->part && (t->scene != NULL) == images) {
+            return t;
+        }
+    }
+    return NULL;
+}
+
+/* ---- Parts of all tables ----------------------------------------------------------------------------------- */
+
+/* Begins the section of a table, with the heading "Table 1: title", and the table itself. */
+static void begin_table(koksma__document *d, const koksma__table *t)
+{
+    char id[96];
+    snprintf(id, sizeof id, "table-%.80s", t->id);
+    koksma__doc_section(d, id, "Table %s: %s", t->id, t->title);
+    koksma__doc_table_begin(d, id);
+}
+
+/* Ends the table and writes its notes. The section stays open for further paragraphs. */
+static void end_table(koksma__document *d, const koksma__table *t)
+{
+    koksma__doc_table_end(d);
+    if (t->n_notes) {
+        koksma__doc_list_begin(d, NULL, true);
+        for (size_t i = 0; i < t->n_notes; i++) {
+            koksma__doc_item(d);
+            koksma__doc_say(d, "%s", t->notes[i].reason);
+        }
+        koksma__doc_list_end(d);
+    }
+}
+
+/* Writes the columns for the label, the pattern, and the published mean, SD and maximum. */
+static void add_published_columns(koksma__document *d, const char *group)
+{
+    static const char *const names[3][2] = {
+        {"published mean", "ave"}, {"published SD", "SD"}, {"published max", "max"}};
+    koksma__doc_column(d, &(koksma__column){.name = "row", .title = "pattern"});
+    koksma__doc_column(d, &(koksma__column){.name = "pattern", .hidden = true});
+    for (int i = 0; i < 3; i++) {
+        koksma__doc_column(d, &(koksma__column){names[i][0], names[i][1], group, KOKSMA__COLUMN_NUMBER, .digits = 4});
+    }
+}
+
+/* Writes a cell with a number as published, and its note; a dash if the paper has no number there. */
+static void add_published(koksma__document *d, const koksma__printed *printed, size_t note)
+{
+    koksma__cell_data cell = koksma__cell_of(printed->value);
+    cell.text = printed->text;
+    cell.note = note;
+    if (isnan(printed->value)) {
+        koksma__doc_cells(d, "n", (double)NAN);
+    } else {
+        koksma__doc_cell(d, &cell);
+    }
+}
+
+static void begin_row(koksma__document *d, const koksma__table *t, const koksma__table_row *row)
+{
+    koksma__doc_row(d);
+    koksma__doc_cells(d, "tt", row->label, row->pattern);
+    for (int s = 0; s < 3; s++) {
+        add_published(d, &row->published[s], koksma__table_note(t, row->pattern, 0, s));
+    }
+}
+
+/* Writes a cell with our mean, the number of sets over which it is taken (0: not shown), and the verdict on the
+   published mean (NULL: no verdict). */
+static void add_mean(koksma__document *d, const koksma__summary *mean, size_t sets, const koksma__verdict *v)
+{
+    koksma__cell_data cell = koksma__cell_of(mean->mean);
+    cell.low = mean->low;
+    cell.high = mean->high;
+    cell.sets = sets;
+    if (v) {
+        cell.note = v->kind == KOKSMA_VERDICT_EXPLAINED ? v->note : 0;
+        cell.verdict = koksma_study_verdict_name(v->kind);
+        cell.z = v->z;
+        cell.change = v->ratio;
+    }
+    koksma__doc_cell(d, &cell);
+}
+
+static void add_verdict(koksma__document *d, const koksma__verdict *v)
+{
+    add_mean(d, &(koksma__summary){.mean = NAN, .low = NAN, .high = NAN}, 0, v);
+}
+
+/* Writes a paragraph on the z-values of a table together, if there are two or more. */
+static void say_z(koksma__document *d, const koksma__z_sums *z)
+{
+    if (z->count > 1) {
+        const double k = (double)z->count, limit = koksma__chi_squared_quantile(0.95, k);
+        const bool one_side = koksma__z_deviates(z), spread = z->squares > limit;
+        koksma__doc_paragraph(
+            d,
+            "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by "
+            "chance between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one "
+            "side), and the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
+            z->count, one_side || spread ? "fail" : "pass", z->count, z->sum / sqrt(k), one_side ? "fails" : "passes",
+            z->squares, spread ? "fails" : "passes", limit);
+    }
+}
+
+/* ---- Discrepancies at one number of points ----------------------------------------------------------------- */
+
+/* *most: the largest number of sets that a pattern of the table has; *differ: whether the patterns that are not
+   deterministic have different numbers of sets. */
+static void count_sets(koksma__report *r, const koksma__table *t, size_t *most, bool *differ)
+{
+    const char *const measures[] = {t->measure, t->also};
+    size_t least = SIZE_MAX, most_of_all = 0;
+    *most = 0;
+    for (size_t i = 0; i < 2 * t->n_rows * t->n.n; i++) {
+        const char *pattern = t->rows[i / 2 / t->n.n].pattern;
+        if (!measures[i % 2]) {
+            continue;
+        }
+        const size_t sets = koksma__points_cell(r, t, measures[i % 2], pattern, t->n.at[i / 2 % t->n.n]).mean.n;
+        *most = i % 2 == 0 && sets > *most ? sets : *most;
+        if (!koksma__has_one_set(pattern)) {
+            least = sets < least ? sets : least;
+            most_of_all = sets > most_of_all ? sets : most_of_all;
+        }
+    }
+    *differ = least < most_of_all;
+}
+
+/* Adds the columns for the mean, SD and largest value of a measure. beside: whether the measure is the table's second
+   one, of which the page shows only the mean. */
+static void add_measure_columns(koksma__document *d, const char *measure, const char *group, size_t sets, bool beside)
+{
+    char name[KOKSMA_MAX_SPEC + 64], largest[64];
+    snprintf(name, sizeof name, "%s, mean", measure);
+    koksma__doc_column(
+        d, &(koksma__column){name, beside ? measure : "mean 95 %", group, KOKSMA__COLUMN_INTERVAL, .digits = 4});
+    snprintf(name, sizeof name, "%s, SD", measure);
+    koksma__doc_column(d, &(koksma__column){name, "SD", group, KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = beside});
+    snprintf(name, sizeof name, "%s, max", measure);
+    snprintf(largest, sizeof largest, "largest of %zu", sets < 100 ? sets : (size_t)100);
+    koksma__doc_column(d,
+                       &(koksma__column){name, largest, group, KOKSMA__COLUMN_SPREAD, .digits = 3, .hidden = beside});
+}
+
+static void add_measure_cells(koksma__document *d, const koksma__cell *cell, bool differ)
+{
+    koksma__cell_data largest = koksma__cell_of(cell->max);
+    largest.sd = cell->max_sd;
+    add_mean(d, &cell->mean, differ ? cell->mean.n : 0, NULL);
+    koksma__doc_cells(d, "n", cell->sd);
+    koksma__doc_cell(d, &largest);
+}
+
+static void add_table(koksma__report *r, koksma__document *d, const koksma__table *t)
+{
+    char group[KOKSMA_MAX_SPEC + 64];
+    size_t sets;
+    bool differ;
+    koksma__z_sums together = {0};
+    count_sets(r, t, &sets, &differ);
+    snprintf(group, sizeof group, "%s, %s%zu set%s", t->measure, differ ? "up to " : "", sets,
+             koksma__plural((double)sets));
+    begin_table(d, t);
+    add_published_columns(d, "published (100 sets)");
+    add_measure_columns(d, t->measure, group, sets, false);
+    koksma__doc_column(d,
+                       &(koksma__column){.name = "verdict", .title = "mean agrees", .type = KOKSMA__COLUMN_VERDICT});
+    if (t->also) {
+        add_measure_columns(d, t->also, "beside it", sets, true);
+    }
+    for (size_t i = 0; i < t->n_rows; i++) {
+        const koksma__table_row *row = &t->rows[i];
+        const koksma__cell cell = koksma__table_cell(r, t, row->pattern, 0);
+        const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
+        begin_row(d, t, row);
+        add_measure_cells(d, &cell, differ);
+        add_verdict(d, &verdict);
+        koksma__z_add(&together, &verdict, &cell);
+        if (t->also) {
+            const koksma__cell also = koksma__points_cell(r, t, t->also, row->pattern, t->n.at[0]);
+            add_measure_cells(d, &also, differ);
+        }
+    }
+    end_table(d, t);
+    say_z(d, &together);
+    koksma__doc_end(d);
+}
+
+/* ---- Discrepancies over several numbers of points ---------------------------------------------------------- */
+
+/* The table that is being written, and the chart that follows it. */
+typedef struct sizes_table {
+    koksma__report *report;
+    koksma__document *document, chart;
+    const koksma__table *table;
+    koksma__z_sums together;
+} sizes_table;
+
+static void add_size_columns(koksma__document *d, const koksma__table *t)
+{
+    char name[40];
+    koksma__doc_column(d, &(koksma__column){.name = "row", .title = "pattern", .merged = true});
+    koksma__doc_column(d, &(koksma__column){.name = "pattern", .hidden = true});
+    koksma__doc_column(d, &(koksma__column){.name = "values", .title = "mean"});
+    for (size_t i = 0; i < t->n.n; i++) {
+        snprintf(name, sizeof name, "%lld point%s", t->n.at[i], koksma__plural((double)t->n.at[i]));
+        koksma__doc_column(d, &(koksma__column){.name = name, .type = KOKSMA__COLUMN_INTERVAL, .digits = 4});
+    }
+    koksma__doc_column(
+        d, &(koksma__column){
+               .name = "slope", .title = "slope 95 %", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3, .fixed = true});
+    koksma__doc_columns(d, "n3 theory;n2 × random");
+}
+
+/* Adds the row with the printed means and, as hollow marks in the style of our curve, a series of the chart `marks`. */
+static void add_printed_line(sizes_table *s, const koksma__table_row *row)
+{
+    const koksma__wholes *n = &s->table->n;
+    const double slope = koksma__table_printed_slope(s->table, row);
+    koksma__doc_row(s->document);
+    koksma__doc_cells(s->document, "ttt", row->label, row->pattern, "printed");
+    for (size_t i = 0; i < n->n; i++) {
+        add_published(s->document, &row->published[i], koksma__table_note(s->table, row->pattern, n->at[i], 0));
+    }
+    koksma__doc_cells(s->document, "inn", (koksma__estimate){slope, slope, slope}, row->rate, row->of_random);
+}
+
+/* Adds a row with our means of a measure. own: whether it is the table's first measure, whose means get verdicts and
+   a curve. */
+static void add_our_line(sizes_table *s, const koksma__table_row *row, const char *measure, bool own)
+{
+    const koksma__wholes *n = &s->table->n;
+    koksma__summary means[KOKSMA__TABLE_PRINTED];
+    double x[KOKSMA__TABLE_PRINTED];
+    size_t known = 0;
+    koksma__doc_row(s->document);
+    koksma__doc_cells(s->document, "ttt", row->label, row->pattern, measure);
+    if (own) {
+        koksma__doc_series_begin(&s->chart, row->label, KOKSMA__SERIES_LINE);
+    }
+    for (size_t i = 0; i < n->n; i++) {
+        const koksma__cell cell = koksma__points_cell(s->report, s->table, measure, row->pattern, n->at[i]);
+        const koksma__verdict verdict = koksma__table_judge(s->table, row, i, &cell);
+        add_mean(s->document, &cell.mean, 0, own ? &verdict : NULL);
+        if (own) {
+            koksma__z_add(&s->together, &verdict, &cell);
+            koksma__doc_point(&s->chart, (double)n->at[i], cell.mean.mean, cell.mean.low, cell.mean.high);
+        }
+        if (cell.mean.n && cell.mean.mean > 0) {
+            x[known] = (double)n->at[i];
+            means[known++] = cell.mean;
+        }
+    }
+    if (own) {
+        koksma__doc_end(&s->chart);
+    }
+    koksma__doc_cells(s->document, "i", koksma__trend_of(x, means, known).slope);
+}
+
+/* Adds the published means of a row to the chart, as hollow marks in the style of our curve. */
+static void add_printed_marks(sizes_table *s, const koksma__table_row *row)
+{
+    koksma__doc_series_begin(&s->chart, row->label, KOKSMA__SERIES_HOLLOW);
+    for (size_t i = 0; i < s->table->n.n; i++) {
+        koksma__doc_point(&s->chart, (double)s->table->n.at[i], row->published[i].value, NAN, NAN);
+    }
+    koksma__doc_end(&s->chart);
+}
+
+/* Says over how many sets the means are, and how slopes are computed: of published means, too, if the table has some. */
+static void say_means(koksma__document *d, bool published, size_t sets, bool differ)
+{
+    koksma__doc_paragraph(
+        d,
+        published
+            ? "Published means are over 100 sets, ours over %s%zu. Slopes are least squares over all columns; "
+              "_theory_ "
+              "is the exponent of the pattern for large N, which a slope over these columns need not have reached, "
+              "and "
+              "_× random_ the known factor of its mean there to that of random points."
+            : "Means are over %s%zu sets. Slopes are least squares over all columns; _theory_ is the exponent of the "
+              "pattern for large N, which a slope over these columns need not have reached, and _× random_ the known "
+              "factor of its mean there to that of random points.",
+        differ ? "up to " : "", sets);
+}
+
+static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma__table *t)
+{
+    char title[200];
+    size_t sets;
+    bool differ, published = false;
+    sizes_table s = {.report = r, .document = d, .table = t};
+    snprintf(title, sizeof title, "Table %.60s: %.110s%s", t->id, t->title,
+             t->rows[0].n_published ? ". Hollow: printed" : "");
+    koksma__doc_chart_begin(&s.chart, &(koksma__chart){title, "points", t->measure, true, true, 0});
+    begin_table(d, t);
+    add_size_columns(d, t);
+    for (size_t i = 0; i < t->n_rows; i++) {
+        add_printed_line(&s, &t->rows[i]);
+        add_our_line(&s, &t->rows[i], t->measure, true);
+        if (t->also) {
+            add_our_line(&s, &t->rows[i], t->also, false);
+        }
+        published |= t->rows[i].n_published > 0;
+    }
+    for (size_t i = 0; i < t->n_rows; i++) {
+        if (t->rows[i].n_published) {
+            add_printed_marks(&s, &t->rows[i]);
+        }
+    }
+    end_table(d, t);
+    say_z(d, &s.together);
+    count_sets(r, t, &sets, &differ);
+    say_means(d, published, sets, differ);
+    koksma__doc_end(&s.chart);
+    koksma__doc_append(d, &s.chart);
+    koksma__doc_end(d);
+}
+
+static bool has_point_tables(const koksma__report *r)
+{
+    return next_table(r, false, &(size_t){0}) != NULL;
+}
+
+static void write_point_tables(koksma__report *r, koksma__document *d)
+{
+    size_t i = 0;
+    koksma__doc_paragraph(
+        d,
+        "The numbers are means, over point sets, of exact values. z is the published mean minus ours, divided by "
+        "the sum of SD √(1/100 + 1/T) and half of the last published digit, where SD and T are the standard "
+        "deviation and the number of our sets: it accounts for the errors of both means and for the rounding. A "
+        "single |z| below %.1f is attributed to chance; in tables over several numbers of points, z is the "
+        "tooltip of each mark. The text below each table tests its values of z together: by chance the largest "
+        "|z| of k independent values exceeds 2 with probability 1 - 0.954^k^ (25 %% for six), and six values of "
+        "-0.8 are as rare as one of -2. _Largest of 100_ is the mean of the largest values in blocks of 100 sets; "
+        "its ± is the SD of these largest values, whereas the other intervals are " KOKSMA__MEAN_INTERVALS
+        ". With fewer than 100 sets it is the largest value of all.",
+        KOKSMA__AGREEMENT_Z);
+    for (const koksma__table *t; !r->status && (t = next_table(r, false, &i));) {
+        (koksma__table_is_over_n(t) ? add_sizes_table : add_table)(r, d, t);
+    }
+}
+
+const koksma__section koksma__section_point_tables = {"Irregularity of the patterns", true, has_point_tables,
+                                                      write_point_tables};
+
+/* ---- Errors of images -------------------------------------------------------------------------------------- */
+
+/* Adds the columns for the mean, SD and maximum of the error against a reference. */
+static void add_error_columns(koksma__document *d, const char *of, const char *group)
+{
+    static const koksma__column columns[] = {{"mean", "mean 95 %", .type = KOKSMA__COLUMN_INTERVAL, .digits = 5},
+                                             {"SD", "SD", .type = KOKSMA__COLUMN_NUMBER, .digits = 4},
+                                             {"max", "max", .type = KOKSMA__COLUMN_NUMBER, .digits = 3}};
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
+        char name[KOKSMA_MAX_SPEC + 64];
+        koksma__column column = columns[i];
+        snprintf(name, sizeof name, "%s, %s", of, column.name);
+        column.name = name;
+        column.group = group;
+        column.fixed = true;
+        koksma__doc_column(d, &column);
+    }
+}
+
+static void add_image_columns(koksma__document *d, const koksma__image_block *block)
+{
+    const koksma__reference *first = &block->references[0], *last = &block->references[block->n_references - 1];
+    char group[2 * KOKSMA_MAX_SPEC + 160];
+    add_published_columns(d, "published");
+    snprintf(group, sizeof group, "against %lld %s samples (%s), %lld trial%s", first->spp * first->replicates,
+             first->pattern, first->name, block->trials, koksma__plural((double)block->trials));
+    add_error_columns(d, first->name, group);
+    koksma__doc_column(
+        d, &(koksma__column){
+               .name = "verdict", .title = "mean within 25 %", .group = group, .type = KOKSMA__COLUMN_VERDICT});
+    koksma__doc_columns(d, "n3 coherence;n3 noise below;t in bands");
+    if (block->n_references > 1) {
+        snprintf(group, sizeof group, "against %lld × %lld %s samples (%s)", last->replicates, last->spp,
+                 last->pattern, last->name);
+        add_error_columns(d, last->name, group);
+    }
+}
+
+static void add_error_cells(koksma__document *d, const koksma__cell *cell)
+{
+    koksma__doc_cells(d, "inn", koksma__estimate_of(&cell->mean), cell->sd, cell->max);
+}
+
+/* Adds a row; the means against the first [0] and the last [1] reference go to `means`. */
+static void add_image_row(koksma__report *r, koksma__document *d, const koksma__table *t,
+                          const koksma__table_row *row, double means[2])
+{
+    const koksma__subject s = koksma__table_images(r->study, t);
+    const koksma__cell cell = koksma__table_cell(r, t, row->pattern, 0),
+                       last =
+                           koksma__image_cell(r, t, &s.images->references[s.images->n_references - 1], row->pattern);
+    const koksma_coherence_values v = koksma__mean_coherence(r, &s, row->pattern, t->n.at[0]);
+    const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
+    means[0] = cell.mean.mean;
+    means[1] = last.mean.mean;
+    begin_row(d, t, row);
+    add_error_cells(d, &cell);
+    add_verdict(d, &verdict);
+    koksma__doc_cells(d, "nnt", v.images ? v.coherence : (double)NAN, v.images ? v.noise_high : (double)NAN,
+                      !v.images    ? "not known"
+                      : v.coherent ? "yes"
+                                   : "no");
+    if (s.images->n_references > 1) {
+        add_error_cells(d, &last);
+    }
+}
+
+/* Sorts the indices of n rows by values[stride * row], by insertion; rows with equal values keep their order. */
+static void order_rows(const double *values, size_t stride, size_t n, size_t *order)
+{
+    for (size_t i = 0; i < n; i++) {
+        size_t at = i;
+        for (; at > 0 && values[stride * order[at - 1]] > values[stride * i]; at--) {
+            order[at] = order[at - 1];
+        }
+        order[at] = i;
+    }
+}
+
+/* Writes how much the choice of the reference changes the means, and whether it changes the order. */
+static void say_changes(koksma__document *d, const koksma__table *t, const double *means, size_t *const order[2])
+{
+    double low = INFINITY, high = -INFINITY;
+    koksma__doc_say(d, "Best to worst against the converged reference: ");
+    for (size_t i = 0; i < t->n_rows; i++) {
+        const double change = means[2 * i + 1] / means[2 * i] - 1;
+        low = fmin(low, change);
+        high = fmax(high, change);
+        koksma__doc_say(d, "%s%s", t->rows[order[1][i]].label, i + 1 < t->n_rows ? "; " : ". ");
+    }
+    if (isfinite(low) && isfinite(high)) {
+        const bool differ = memcmp(order[0], order[1], t->n_rows * sizeof *order[0]) != 0;
+        koksma__doc_say(
+            d,
+            "Taking the converged reference instead of the paper's changes the means by %+.1f to %+.1f %% "
+            "and %s the order of the patterns. ",
+            100 * low, 100 * high, differ ? "changes" : "does not change");
+    }
+}
+
+/* Writes the effect of the choice of the reference if every row has a mean. */
+static void say_reference(koksma__report *r, koksma__document *d, const koksma__table *t, const double *means)
+{
+    const size_t n = t->n_rows;
+    const koksma__subject s = koksma__table_images(r->study, t);
+    size_t *positions = koksma__report_memory(r, 2 * n, sizeof *positions);
+    size_t *const order[2] = {positions, positions + n};
+    double smallest = INFINITY;
+    if (!positions) {
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (isnan(means[2 * i]) || isnan(means[2 * i + 1])) {
+            koksma__doc_paragraph(d, "Some rows have no trials yet.");
+            return;
+        }
+        smallest = fmin(smallest, means[2 * i + 1]);
+    }
+    for (size_t k = 0; k < 2; k++) {
+        order_rows(means + k, 2, n, order[k]);
+    }
+    const double error = koksma__reference_error(r, &s);
+    koksma__doc_paragraph_begin(d);
+    say_changes(d, t, means, order);
+    if (isfinite(error)) {
+        koksma__doc_say(d,
+                        "The mean error of the converged reference itself is %.2g, which is %.2g times the smallest "
+                        "error in the table.",
+                        error, error / smallest);
+    }
+    koksma__doc_paragraph_end(d);
+}
+
+static void add_image_table(koksma__report *r, koksma__document *d, const koksma__table *t)
+{
+    double *means = koksma__report_memory(r, 2 * t->n_rows, sizeof *means);
+    if (!means) {
+        return;
+    }
+    begin_table(d, t);
+    add_image_columns(d, &r->study->plan.images[t->images]);
+    for (size_t i = 0; i < t->n_rows; i++) {
+        add_image_row(r, d, t, &t->rows[i], means + 2 * i);
+    }
+    end_table(d, t);
+    say_reference(r, d, t, means);
+    koksma__doc_end(d);
+}
+
+/* Adds the rank of every row of table t, by its mean against the first reference, to ranks[k], where row k of the table
+   `first` is the row with the same pattern. Returns whether all rows have trials, and a row there. */
+static bool add_ranks(koksma__report *r, const koksma__table *t, const koksma__table *first, double *ranks)
+{
+    bool whole = t->n_rows == first->n_rows;
+    double *means = koksma__report_memory(r, t->n_rows, sizeof *means);
+    for (size_t i = 0; means && i < t->n_rows; i++) {
+        const koksma__cell cell = koksma__table_cell(r, t, t->rows[i].pattern, 0);
+        means[i] = cell.mean.mean;
+        whole &= cell.mean.n > 0;
+    }
+    for (size_t i = 0; means && i < t->n_rows; i++) {
+        const koksma__table_row *row = koksma__plan_row_of(first, t->rows[i].pattern);
+        size_t below = 0;
+        for (size_t k = 0; k < t->n_rows; k++) {
+            below += means[k] < means[i];
+        }
+        whole &= row != NULL;
+        if (row) {
+            ranks[row - first->rows] += (double)below + 1;
+        }
+    }
+    return means && whole;
+}
+
+/* Writes the order of the patterns by their mean rank over the tables, if there are several tables of the same
+   patterns. */
+static void add_order(koksma__report *r, koksma__document *d)
+{
+    size_t i = 0, tables = 0;
+    bool whole = true;
+    const koksma__table *first = next_table(r, true, &i);
+    double *ranks = koksma__report_memory(r, first->n_rows, sizeof *ranks);
+    size_t *order = koksma__report_memory(r, first->n_rows, sizeof *order);
+    for (const koksma__table *t = first; !r->status && t; t = next_table(r, true, &i)) {
+        whole &= add_ranks(r, t, first, ranks);
+        tables++;
+    }
+    if (r->status || !whole || tables < 2) {
+        return;
+    }
+    order_rows(ranks, 1, first->n_rows, order);
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(d, "Best to worst over the %zu tables, by mean rank against the paper's reference: ", tables);
+    for (size_t k = 0; k < first->n_rows; k++) {
+        koksma__doc_say(d, "%s (%.4g)%s", first->rows[order[k]].label, ranks[order[k]] / (double)tables,
+                        k + 1 < first->n_rows ? "; " : ".");
+    }
+    if (koksma__plan_of(r)->order) {
+        koksma__doc_say(d, " The overall order that the paper's text gives: %s.", koksma__plan_of(r)->order);
+    }
+    koksma__doc_paragraph_end(d);
+}
+
+static bool has_image_tables(const koksma__report *r)
+{
+    return next_table(r, true, &(size_t){0}) != NULL;
+}
+
+static void write_image_tables(koksma__report *r, koksma__document *d)
+{
+    size_t i = 0;
+    koksma__doc_paragraph(d,
+                          "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
+                          "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get "
+                          "no verdict. Coherence is the peak of the mean power spectrum of the errors of the first "
+                          "%d trials over its mean: white noise stays below the next column in 97.5 %% of cases, and "
+                          "an error above 99.5 %% of noise is in bands or another pattern that the eye sees "
+                          "(section _Pictures_).",
+                          KOKSMA__SPECTRUM_TRIALS);
+    for (const koksma__table *t; !r->status && (t = next_table(r, true, &i));) {
+        add_image_table(r, d, t);
+    }
+    add_order(r, d);
+}
+
+const koksma__section koksma__section_image_tables = {"Errors of images", true, has_image_tables, write_image_tables};
