@@ -6,8 +6,8 @@
  * Discrepancies at one number of points (Shirley 1991): our mean, SD and largest of 100, and the means of a second measure.
  * Discrepancies over several numbers of points (Mitchell 1992): two or three rows per pattern with the published means, our
  * means with their verdicts, and our means of a second measure. Each of these rows ends with its log-log slope, computed by
- * least squares over all columns (koksma__trend_of) of published means and of ours alike, and with what theory predicts: the
- * exponent, and the multiple of random points' mean. A chart of the means follows.
+ * least squares over all columns (koksma__trend_of) of published means and of ours alike, and with what theory predicts:
+ * the exponent, and the multiple of random points' mean. A chart of the means follows.
  *
  * Errors of images: our means against the block's first reference (the paper's), the coherence of the error and, if the
  * block has several references, our means against the last one (the converged image). The text below a table reports the
