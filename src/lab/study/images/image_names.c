@@ -3,7 +3,7 @@
    braces, such as {spp} and {trial}, stand for digits or text. {spp} and {trial} are numbers; all other names
    together identify the image's group. The matching backtracks, and remembers failures so that its time is
    bounded. */
-#include "study/images/image_names.h"
+#include "study/images/images.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
  * which group has the least error at each number of samples and how certain that is, how errors fall with the number
  * of samples, the first image of each group beside the reference, and the command.
  */
-#include "study/images/images_report.h"
+#include "study/images/images.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,13 +11,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
-#include "study/sheet/sheet_integrals.h"
-#include "study/sheet/sheet_measures.h"
-#include "study/sheet/sheet_points.h"
-#include "study/sheet/sheet_samplers.h"
-#include "study/sheet/sheet_scenes.h"
-#include "study/sheet/sheet_spectra.h"
-#include "study/sheet/sheet_verdict.h"
+#include "study/sheet/sheet.h"
 
 static void put_head(const koksma__sheet *sheet, koksma__document *d)
 {

@@ -2,7 +2,7 @@
 /*
  * The state of a datasheet while it is made: samplers, measures, results, progress, notes and commands.
  * datasheet.c runs the parts in their order, sheet_samplers.c chooses samplers, sizes and seeds; each other file
- * makes one part of the sheet.
+ * makes one part of the sheet, whose functions are below.
  */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_H
 #define KOKSMA_STUDY_SHEET_SHEET_H
@@ -113,5 +113,56 @@ void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int di
 void koksma__sheet_command(koksma__sheet *sheet, const char *format, ...) KOKSMA_PRINTF(2, 3);
 void koksma__sheet_put_commands(koksma__sheet *sheet, koksma__document *d);
 void koksma__sheet_drop_commands(koksma__sheet *sheet);
+
+/* ---- Samplers, sizes and points -------------------------------------------------------------------------------- */
+
+/* Chooses samplers, sizes, trials and samples per pixel. Errors: those of koksma_datasheet about samplers. */
+koksma_status koksma__sheet_choose(koksma__sheet *sheet);
+
+/* Generates the points of a trial; run: of one thread. */
+koksma_status koksma__sheet_points(const koksma__sheet_sampler *sampler, size_t n, int dim, size_t trial,
+                                   const koksma_run *run, koksma_points *out);
+
+/* The number of sets to measure: `wanted`, or fewer if the sampler has fewer. */
+size_t koksma__sheet_trials(const koksma__sheet_sampler *sampler, size_t wanted);
+
+/* The largest of the sheet's sizes up to `most`, or the smallest if all are larger. */
+size_t koksma__sheet_size(const koksma__sheet *sheet, size_t most);
+
+/* ---- Measures of samplers at several sizes over several trials ------------------------------------------------- */
+
+/* Evaluates values->measures at all sizes and trials; leaves out measures without a value, with a note. */
+koksma_status koksma__sheet_evaluate(koksma__sheet *sheet, koksma__sheet_values *values, const koksma_run *run);
+void koksma__sheet_values_fini(koksma__sheet_values *values);
+const koksma_tally *koksma__sheet_tally(const koksma__sheet_values *values, size_t s, size_t m, size_t i);
+
+/* Writes a table of all values and the commands that compute them. */
+void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *values, const char *name,
+                              koksma__document *d);
+
+/* Whether samplers a and b have equal values of measure m at size number i that do not vary between sets. Means of values
+   that vary are never called equal. */
+bool koksma__sheet_equal(const koksma__sheet_values *values, size_t a, size_t b, size_t m, size_t i);
+
+/* Compares samplers a and b by measure m at size number i. Returns 1 if a is better, -1 if b is better, and 0 if the
+   test, whose level is 5 % divided by `tests`, does not decide. */
+int koksma__sheet_compare(const koksma__sheet_values *values, size_t a, size_t b, size_t m, size_t i, size_t tests);
+
+/* The first function evaluates the measures in the plane, the second writes their section. */
+koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet);
+void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d);
+
+/* ---- The other sections ---------------------------------------------------------------------------------------- */
+
+/* Drawings, verified properties and projections of the points; spectra and pair correlations; errors of integration; the
+   rankings of samplers in scenes; the verdict. */
+koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_projections(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_spectra(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_rank(koksma__sheet *sheet);
+void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d);
+void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d);
 
 #endif

@@ -4,7 +4,7 @@
  * sampling use as well: the RMSE against n with intervals, slopes, and the factor by which more random points are
  * needed for the same error. The numbers are those of `koksma integrate`.
  */
-#include "study/sheet/sheet_integrals.h"
+#include "study/sheet/sheet.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,6 @@
 #include <koksma/integrate.h>
 
 #include "core/status.h"
-#include "study/sheet/sheet_samplers.h"
 
 enum { N_INTEGRANDS = 5 };
 

@@ -10,7 +10,7 @@
  * of tests (Bonferroni), so that all decisions of a sheet hold together with 95 %. An exact value has no error: beside it
  * the test is that of Student for the other sampler's mean. Means of sets that never vary are compared exactly.
  */
-#include "study/sheet/sheet_measures.h"
+#include "study/sheet/sheet.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +21,6 @@
 #include "core/status.h"
 #include "stats/stats.h"
 #include "study/run/run_control.h"
-#include "study/sheet/sheet_samplers.h"
 
 /* ---- Evaluation -------------------------------------------------------------------------------------------- */
 

@@ -4,7 +4,7 @@
  * finds in it and, in more dimensions, projections on pairs of coordinates with the discrepancies in all
  * dimensions.
  */
-#include "study/sheet/sheet_points.h"
+#include "study/sheet/sheet.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -12,8 +12,6 @@
 #include <koksma/verify.h>
 
 #include "core/status.h"
-#include "study/sheet/sheet_measures.h"
-#include "study/sheet/sheet_samplers.h"
 
 enum { DRAWN = 1024, WIDTH = 168, PROJECTION_WIDTH = 140, VERIFIED = 1024, MOST_DIM = 8, DEEP_POINTS = 1024 };
 

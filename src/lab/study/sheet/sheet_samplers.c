@@ -5,7 +5,7 @@
  * files determine the sizes: a family of files is measured at its sizes and seeds, a single file at its size, and all
  * other samplers at the same sizes.
  */
-#include "study/sheet/sheet_samplers.h"
+#include "study/sheet/sheet.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
  * Errors of the samplers in scenes, computed by koksma_rank_patterns without a time limit and for one image size, so
  * that the numbers do not depend on the speed of the machine.
  */
-#include "study/sheet/sheet_scenes.h"
+#include "study/sheet/sheet.h"
 
 #include <math.h>
 #include <stdio.h>

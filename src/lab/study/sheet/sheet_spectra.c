@@ -4,7 +4,7 @@
  * noise, and the pair correlation. `koksma curve` with its default numbers of frequencies and rings prints the
  * same numbers.
  */
-#include "study/sheet/sheet_spectra.h"
+#include "study/sheet/sheet.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,6 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "study/run/run_control.h"
-#include "study/sheet/sheet_samplers.h"
 
 enum { POINTS = 1024, QUALITY_PER_ROOT = 7, RADIAL_PER_ROOT = 2, BINS = 100, WHITE = 2, SIDE = 200 };
 

@@ -5,13 +5,11 @@
  * it is better than or equal to every other one, and otherwise undecided. The ranking of a scene at the largest
  * number of samples per pixel decides whether the scene is won or lost.
  */
-#include "study/sheet/sheet_verdict.h"
+#include "study/sheet/sheet.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "study/sheet/sheet_measures.h"
 
 /* The outcome of comparing the sampler with all others by one measure or in one scene. */
 typedef enum outcome { OPEN, WON, LOST, EQUAL } outcome;

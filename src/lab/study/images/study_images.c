@@ -17,8 +17,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "stats/stats.h"
-#include "study/images/image_names.h"
-#include "study/images/images_report.h"
+#include "study/images/images.h"
 #include "study/run/study.h"
 
 /* One image file. */
