@@ -18,22 +18,21 @@
 #include "study/run/study.h"
 #include "study/store/store.h"
 
-/* The first N_FIRST text columns come before the numbers, the other text columns after them. */
-enum { N_FIRST = 6, N_TEXTS = 9, N_WHOLES = 4, N_VALUES = 9 };
+/* The columns: texts of the series, whole numbers of the series, trial and seed, values, and texts of the series again. */
+enum { N_COLUMNS = 24, TRIAL = 10, SEED, FIRST_VALUE, N_VALUES = 9, FIRST_LAST = FIRST_VALUE + N_VALUES };
 
 enum { BETWEEN_CALLS = 4096 }; /* rows that are hashed between two calls of keep_going */
 
-static const char *const text_names[N_TEXTS] = {"kind", "scene",  "scene_hash", "options",    "pattern",
-                                                "what", "metric", "made_by",    "measured_by"};
-static const char *const whole_names[N_WHOLES] = {"n", "dim", "width", "height"};
-static const char *const value_names[N_VALUES] = {"value",       "sd",          "max",    "rmse",     "p",
-                                                  "frequency_x", "frequency_y", "robust", "top_share"};
+static const char *const names[N_COLUMNS] = {
+    "kind",  "scene",       "scene_hash",  "options", "pattern",   "what",   "n",       "dim",
+    "width", "height",      "trial",       "seed",    "value",     "sd",     "max",     "rmse",
+    "p",     "frequency_x", "frequency_y", "robust",  "top_share", "metric", "made_by", "measured_by"};
 
-/* The numeric columns that a kind of rows fills: `value`, and then the n columns from value_names[first] on. */
+/* The values that a kind of rows fills: `value`, and then the n columns from column number `first` of the values on. */
 static const struct {
     const char *kind;
     int first, n;
-} columns[] = {{"image", 1, 3}, {"coherence", 4, 3}, {"metric", 7, 2}};
+} filled[] = {{"image", 1, 3}, {"coherence", 4, 3}, {"metric", 7, 2}};
 
 typedef struct writer {
     FILE *stream;
@@ -41,22 +40,35 @@ typedef struct writer {
     long long series;     /* the id of the series to which `before` and `after` belong; 0: no series */
     char *before, *after; /* the text of a CSV row before its trial, and the text after its values */
     koksma__json_writer json;
-    size_t rows;            /* NPY, SHA-256: number of rows */
-    size_t widths[N_TEXTS]; /* NPY: lengths of the byte strings */
-    const koksma_run *run;  /* SHA-256: asked whether to go on */
+    size_t rows;              /* NPY, SHA-256: number of rows */
+    size_t widths[N_COLUMNS]; /* NPY: lengths of the byte strings */
+    const koksma_run *run;    /* SHA-256: asked whether to go on */
 } writer;
 
+/* The text of a column; NULL for a column of numbers. */
 static const char *text_of(const koksma__series *s, int k)
 {
-    const char *const texts[N_TEXTS] = {s->kind, s->scene,  s->scene_hash, s->options,    s->pattern,
-                                        s->what, s->metric, s->made_by,    s->measured_by};
+    const char *const texts[N_COLUMNS] = {
+        s->kind,    s->scene,      s->scene_hash, s->options, s->pattern, s->what, [FIRST_LAST] = s->metric,
+        s->made_by, s->measured_by};
     return texts[k];
 }
 
-static long long whole_of(const koksma__series *s, int k)
+static bool is_text(int k)
 {
-    const long long wholes[N_WHOLES] = {s->n, s->dim, s->width, s->height};
-    return wholes[k];
+    return k < 6 || k >= FIRST_LAST;
+}
+
+static bool is_value(int k)
+{
+    return k >= FIRST_VALUE && k < FIRST_LAST;
+}
+
+/* The whole number of a column, other than the seed. */
+static long long whole_of(const koksma__series *s, const koksma__result *result, int k)
+{
+    const long long wholes[] = {s->n, s->dim, s->width, s->height, result ? result->trial : 0};
+    return wholes[k - 6];
 }
 
 /* Puts the values of a result into the columns that its kind fills, and NaN into the other columns. */
@@ -66,9 +78,9 @@ static void values_of(const koksma__series *s, const koksma__result *result, dou
         values[k] = NAN;
     }
     values[0] = result->values[0];
-    for (size_t k = 0; k < sizeof columns / sizeof *columns; k++) {
-        if (!strcmp(s->kind, columns[k].kind)) {
-            memcpy(&values[columns[k].first], &result->values[1], (size_t)columns[k].n * sizeof *values);
+    for (size_t k = 0; k < sizeof filled / sizeof *filled; k++) {
+        if (!strcmp(s->kind, filled[k].kind)) {
+            memcpy(&values[filled[k].first], &result->values[1], (size_t)filled[k].n * sizeof *values);
         }
     }
 }
@@ -91,14 +103,15 @@ static koksma_status begin_series(writer *w, const koksma__series *series)
     KOKSMA__FREE(w->before, w->after);
     w->before = w->after = NULL;
     FILE *before = open_memstream(&w->before, &size[0]), *after = open_memstream(&w->after, &size[1]);
-    for (int k = 0; before && k < N_FIRST; k++) {
-        koksma__csv_put(before, text_of(series, k));
+    for (int k = 0; before && k < TRIAL; k++) {
+        if (is_text(k)) {
+            koksma__csv_put(before, text_of(series, k));
+        } else {
+            fprintf(before, "%llu", (unsigned long long)whole_of(series, NULL, k));
+        }
         putc(',', before);
     }
-    for (int k = 0; before && k < N_WHOLES; k++) {
-        fprintf(before, "%llu,", (unsigned long long)whole_of(series, k));
-    }
-    for (int k = N_FIRST; after && k < N_TEXTS; k++) {
+    for (int k = FIRST_LAST; after && k < N_COLUMNS; k++) {
         putc(',', after);
         koksma__csv_put(after, text_of(series, k));
     }
@@ -132,20 +145,9 @@ static koksma_status put_csv(void *context, const koksma__series *series, const 
 
 static void put_csv_header(FILE *f)
 {
-    for (int k = 0; k < N_FIRST; k++) {
-        fprintf(f, "%s,", text_names[k]);
+    for (int k = 0; k < N_COLUMNS; k++) {
+        fprintf(f, "%s%c", names[k], k + 1 < N_COLUMNS ? ',' : '\n');
     }
-    for (int k = 0; k < N_WHOLES; k++) {
-        fprintf(f, "%s,", whole_names[k]);
-    }
-    fputs("trial,seed", f);
-    for (int k = 0; k < N_VALUES; k++) {
-        fprintf(f, ",%s", value_names[k]);
-    }
-    for (int k = N_FIRST; k < N_TEXTS; k++) {
-        fprintf(f, ",%s", text_names[k]);
-    }
-    putc('\n', f);
 }
 
 /* ---- JSON lines ---------------------------------------------------------------------------------------- */
@@ -159,19 +161,14 @@ static koksma_status put_json(void *context, const koksma__series *series, const
     values_of(series, result, values);
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)result->seed);
     koksma__json_begin_object(&w->json, NULL);
-    for (int k = 0; k < N_FIRST; k++) {
-        koksma__json_write_text(&w->json, text_names[k], text_of(series, k));
-    }
-    for (int k = 0; k < N_WHOLES; k++) {
-        koksma__json_write_whole(&w->json, whole_names[k], whole_of(series, k));
-    }
-    koksma__json_write_whole(&w->json, "trial", result->trial);
-    koksma__json_write_text(&w->json, "seed", seed);
-    for (int k = 0; k < N_VALUES; k++) {
-        koksma__json_write_number(&w->json, value_names[k], values[k]);
-    }
-    for (int k = N_FIRST; k < N_TEXTS; k++) {
-        koksma__json_write_text(&w->json, text_names[k], text_of(series, k));
+    for (int k = 0; k < N_COLUMNS; k++) {
+        if (is_value(k)) {
+            koksma__json_write_number(&w->json, names[k], values[k - FIRST_VALUE]);
+        } else if (is_text(k) || k == SEED) {
+            koksma__json_write_text(&w->json, names[k], k == SEED ? seed : text_of(series, k));
+        } else {
+            koksma__json_write_whole(&w->json, names[k], whole_of(series, result, k));
+        }
     }
     koksma__json_end(&w->json);
     return koksma__json_line(&w->json, w->stream);
@@ -184,8 +181,8 @@ static koksma_status measure_npy(void *context, const koksma__series *series, co
     writer *w = context;
     (void)result;
     w->rows++;
-    for (int k = 0; k < N_TEXTS; k++) {
-        const size_t width = strlen(text_of(series, k));
+    for (int k = 0; k < N_COLUMNS; k++) {
+        const size_t width = is_text(k) ? strlen(text_of(series, k)) : 0;
         w->widths[k] = width > w->widths[k] ? width : w->widths[k];
     }
     return KOKSMA_OK;
@@ -200,42 +197,26 @@ static void put_npy_header(const writer *w)
 {
     char descr[KOKSMA__NPY_HEADER - 64] = "[", shape[32];
     size_t size = 1;
-    for (int k = 0; k < N_FIRST; k++) {
-        size +=
-            (size_t)snprintf(descr + size, sizeof descr - size, "('%s', '|S%zu'), ", text_names[k], width_of(w, k));
-    }
-    for (int k = 0; k < N_WHOLES; k++) {
-        size += (size_t)snprintf(descr + size, sizeof descr - size, "('%s', '<i8'), ", whole_names[k]);
-    }
-    size += (size_t)snprintf(descr + size, sizeof descr - size, "('trial', '<i8'), ('seed', '<u8')");
-    for (int k = 0; k < N_VALUES; k++) {
-        size += (size_t)snprintf(descr + size, sizeof descr - size, ", ('%s', '<f8')", value_names[k]);
-    }
-    for (int k = N_FIRST; k < N_TEXTS; k++) {
-        size +=
-            (size_t)snprintf(descr + size, sizeof descr - size, ", ('%s', '|S%zu')", text_names[k], width_of(w, k));
+    for (int k = 0; k < N_COLUMNS; k++) {
+        char type[32];
+        snprintf(type, sizeof type, "|S%zu", width_of(w, k));
+        size += (size_t)snprintf(descr + size, sizeof descr - size, "%s('%s', '%s')", k ? ", " : "", names[k],
+                                 is_text(k)    ? type
+                                 : is_value(k) ? "<f8"
+                                 : k == SEED   ? "<u8"
+                                               : "<i8");
     }
     snprintf(descr + size, sizeof descr - size, "]");
     snprintf(shape, sizeof shape, "(%zu,)", w->rows);
     koksma__npy_put_header(w->stream, descr, shape);
 }
 
-static void put_word(FILE *f, uint64_t word)
+static void put_npy_text(const writer *w, const char *text, size_t width)
 {
-    unsigned char bytes[8];
-    koksma__npy_set_word(bytes, word);
-    fwrite(bytes, 1, sizeof bytes, f);
-}
-
-static void put_npy_texts(const writer *w, const koksma__series *series, int first, int end)
-{
-    for (int k = first; k < end; k++) {
-        const char *text = text_of(series, k);
-        const size_t length = strlen(text);
-        fwrite(text, 1, length, w->stream);
-        for (size_t i = length; i < width_of(w, k); i++) {
-            putc(0, w->stream);
-        }
+    const size_t length = strlen(text);
+    fwrite(text, 1, length, w->stream);
+    for (size_t i = length; i < width; i++) {
+        putc(0, w->stream);
     }
 }
 
@@ -244,18 +225,23 @@ static koksma_status put_npy(void *context, const koksma__series *series, const 
     const writer *w = context;
     double values[N_VALUES];
     values_of(series, result, values);
-    put_npy_texts(w, series, 0, N_FIRST);
-    for (int k = 0; k < N_WHOLES; k++) {
-        put_word(w->stream, (uint64_t)whole_of(series, k));
+    for (int k = 0; k < N_COLUMNS; k++) {
+        unsigned char bytes[8];
+        uint64_t word = result->seed;
+        if (is_text(k)) {
+            put_npy_text(w, text_of(series, k), width_of(w, k));
+            continue;
+        }
+        if (is_value(k)) {
+            const double value = values[k - FIRST_VALUE];
+            memcpy(&word, &value, sizeof word);
+            word = isnan(value) ? UINT64_C(0x7ff8000000000000) : word;
+        } else if (k != SEED) {
+            word = (uint64_t)whole_of(series, result, k);
+        }
+        koksma__npy_set_word(bytes, word);
+        fwrite(bytes, 1, sizeof bytes, w->stream);
     }
-    put_word(w->stream, (uint64_t)result->trial);
-    put_word(w->stream, result->seed);
-    for (int k = 0; k < N_VALUES; k++) {
-        uint64_t word;
-        memcpy(&word, &values[k], sizeof word);
-        put_word(w->stream, isnan(values[k]) ? UINT64_C(0x7ff8000000000000) : word);
-    }
-    put_npy_texts(w, series, N_FIRST, N_TEXTS);
     return KOKSMA_OK;
 }
 
