@@ -83,24 +83,6 @@ static void p_of_resamples(void **state)
     assert_near(koksma__resampled_p(values + 4, 1, NULL, 0, 1), 1, 0); /* there is none */
 }
 
-/* The sum of products of unit ranks is Spearman's rho: ranks 1.5 1.5 3.5 3.5 5 and 2 1 4 3 5 less 3. */
-static void unit_ranks_by_hand(void **state)
-{
-    (void)state;
-    const double x[] = {1, 1, 2, 2, 3}, y[] = {20, 10, 40, 30, 50}, flat[] = {2, 2, 2};
-    double a[5], b[5], sum = 0;
-    koksma__unit_ranks(x, 5, a);
-    koksma__unit_ranks(y, 5, b);
-    for (size_t i = 0; i < 5; i++) {
-        sum += a[i] * b[i];
-    }
-    assert_near(a[0], -1.5 / 3, 1e-15);
-    assert_near(a[4], 2 / 3.0, 1e-15);
-    assert_near(sum, (1.5 + 3 + 0.5 + 0 + 4) / sqrt(9 * 10.0), 1e-15);
-    koksma__unit_ranks(flat, 3, a);
-    assert_true(a[0] == 0 && a[1] == 0 && a[2] == 0);
-}
-
 /* ---- Rankings ------------------------------------------------------------------------------------------ */
 
 enum { SCENES = 4, MEASURES = 5 };
@@ -161,7 +143,8 @@ static void headline_without_one_scene(void **state)
     assert_true(koksma__rho_is_better(&j.of[0], a, c) && koksma__rho_is_better(&j.of[0], c, b));
     assert_true(better(&s, &j, "A", "B") && better(&s, &j, "B", "D") && better(&s, &j, "A", "D"));
     assert_true(!better(&s, &j, "A", "C") && !better(&s, &j, "C", "B") && !better(&s, &j, "B", "A"));
-    assert_true(koksma__rho_always(&j, KOKSMA__RHO_PREDICTS, b, 0) && !koksma__rho_always(&j, KOKSMA__RHO_PREDICTS, d, 0));
+    assert_true(koksma__rho_always(&j, KOKSMA__RHO_PREDICTS, b, 0) &&
+                !koksma__rho_always(&j, KOKSMA__RHO_PREDICTS, d, 0));
     assert_near(koksma__rho_range(&j, c).low, (0.9 + 0.9 - 0.4) / 3, 1e-15);
     assert_near(koksma__rho_range(&j, c).high, 0.9, 1e-15);
     koksma__rho_say(&words, &s, &j);
@@ -273,65 +256,20 @@ typedef struct data {
     double ranks[MOST_CASES][(MOST_MEASURES + 1) * PATTERNS];
 } data;
 
-/* Noise everywhere; with `signal` the first two measures share most of it, and the error is their difference. */
-static void set_data(data *d, uint64_t seed, size_t n_cases, size_t n_scenes, size_t k, bool signal)
+/* Noise everywhere; tests/study/predictors.py computes regressions of data with signal again. */
+static void set_data(data *d, uint64_t seed, size_t n_cases, size_t n_scenes, size_t k)
 {
     for (size_t c = 0; c < n_cases; c++) {
         double x[MOST_MEASURES + 1][PATTERNS];
         for (uint64_t i = 0; i < (k + 1) * PATTERNS; i++) {
             x[i / PATTERNS][i % PATTERNS] = uniform(100 * seed + c, i);
         }
-        for (size_t i = 0; signal && i < PATTERNS; i++) {
-            x[1][i] = x[0][i] + 0.4 * (x[1][i] - 0.5);
-        }
         for (size_t m = 0; m < k; m++) {
             koksma__unit_ranks(x[m], PATTERNS, d->ranks[c] + m * PATTERNS);
-        }
-        for (size_t i = 0; signal && i < PATTERNS; i++) {
-            x[k][i] = d->ranks[c][i] - d->ranks[c][PATTERNS + i];
         }
         koksma__unit_ranks(x[k], PATTERNS, d->ranks[c] + k * PATTERNS);
         d->cases[c] = (koksma__rank_case){c % n_scenes, PATTERNS, d->ranks[c]};
     }
-}
-
-static void a_pair_that_predicts(void **state)
-{
-    (void)state;
-    data d;
-    koksma__held_out out[8];
-    set_data(&d, 7, 24, 8, 6, true);
-    assert_ok(koksma__rank_regression(d.cases, 24, 6, 8, NULL, out));
-    for (size_t s = 0; s < 8; s++) {
-        assert_int_equal(out[s].cases, 3);
-        assert_true(out[s].pair[0] == 0 && out[s].pair[1] == 1);
-        assert_true(out[s].rho_pair > 0.95 && out[s].rho_all > 0.85);
-        assert_true(out[s].rho_single < 0.6 && out[s].rho_hindsight < 0.6);
-    }
-}
-
-/* Noise must not look predictive: the mean over 30 sets of 8 scenes of 2 cases has the standard error
-   (1 / sqrt(15)) / sqrt(480) = 0.012; what is best in hindsight looks so. */
-static void noise_predicts_nothing(void **state)
-{
-    (void)state;
-    static data d;
-    double sums[4] = {0};
-    for (uint64_t t = 0; t < 30; t++) {
-        koksma__held_out out[8];
-        set_data(&d, t, 16, 8, MOST_MEASURES, false);
-        assert_ok(koksma__rank_regression(d.cases, 16, MOST_MEASURES, 8, NULL, out));
-        for (size_t s = 0; s < 8; s++) {
-            sums[0] += out[s].rho_single / 240;
-            sums[1] += out[s].rho_pair / 240;
-            sums[2] += out[s].rho_all / 240;
-            sums[3] += out[s].rho_hindsight / 240;
-        }
-    }
-    for (int i = 0; i < 3; i++) {
-        assert_true(fabs(sums[i]) < 4.5 * 0.012);
-    }
-    assert_true(sums[3] > 0.25);
 }
 
 /* One measure that is the error's order, or its reverse, in all scenes but s: s is predicted with the others' sign.
@@ -341,7 +279,7 @@ static void single_with_its_sign(void **state)
     (void)state;
     data d;
     koksma__held_out out[5];
-    set_data(&d, 3, 4, 4, 3, false);
+    set_data(&d, 3, 4, 4, 3);
     for (size_t c = 0; c < 4; c++) {
         for (size_t i = 0; i < PATTERNS; i++) {
             d.ranks[c][2 * PATTERNS + i] = (c == 1 ? 1 : -1) * d.ranks[c][3 * PATTERNS + i];
@@ -363,13 +301,10 @@ int main(void)
         cmocka_unit_test(holm_by_hand),
         cmocka_unit_test(holm_is_the_closed_test),
         cmocka_unit_test(p_of_resamples),
-        cmocka_unit_test(unit_ranks_by_hand),
         cmocka_unit_test(headline_without_one_scene),
         cmocka_unit_test(headline_that_depends_on_a_scene),
         cmocka_unit_test(statements_survive_any_scene),
         cmocka_unit_test(means_of_parts),
-        cmocka_unit_test(a_pair_that_predicts),
-        cmocka_unit_test(noise_predicts_nothing),
         cmocka_unit_test(single_with_its_sign),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -259,10 +259,19 @@ void koksma__doc_collapsed_section(koksma__document *d, const char *id, const ch
     va_end(arguments);
 }
 
-void koksma__doc_paragraph_begin(koksma__document *d)
+/* Begins a paragraph, after a member that marks it unless `key` is NULL. */
+static void begin_paragraph(koksma__document *d, const char *key, const char *value)
 {
     begin_block(d, "paragraph", NULL);
+    if (key) {
+        koksma__json_write_text(&d->json, key, value);
+    }
     koksma__json_begin_array(&d->json, "text");
+}
+
+void koksma__doc_paragraph_begin(koksma__document *d)
+{
+    begin_paragraph(d, NULL, NULL);
 }
 
 void koksma__doc_verdict_begin(koksma__document *d, koksma__answer_kind kind)
@@ -272,14 +281,24 @@ void koksma__doc_verdict_begin(koksma__document *d, koksma__answer_kind kind)
                                         [KOKSMA__ANSWER_HOLDS] = "holds",
                                         [KOKSMA__ANSWER_PARTLY] = "partly",
                                         [KOKSMA__ANSWER_FAILS] = "fails"};
-    begin_block(d, "paragraph", NULL);
-    koksma__json_write_text(&d->json, "answer", names[kind]);
-    koksma__json_begin_array(&d->json, "text");
+    begin_paragraph(d, "answer", names[kind]);
 }
 
 void koksma__doc_answer_begin(koksma__document *d, bool decided)
 {
     koksma__doc_verdict_begin(d, decided ? KOKSMA__ANSWER_DECIDED : KOKSMA__ANSWER_UNDECIDED);
+}
+
+void koksma__doc_metric_begin(koksma__document *d, const char *metric)
+{
+    begin_paragraph(d, "metric", metric);
+}
+
+void koksma__doc_warning_begin(koksma__document *d)
+{
+    begin_block(d, "paragraph", NULL);
+    koksma__json_write_flag(&d->json, "warning", true);
+    koksma__json_begin_array(&d->json, "text");
 }
 
 void koksma__doc_words_begin(koksma__document *words)
@@ -292,20 +311,6 @@ void koksma__doc_words_append(koksma__document *d, koksma__document *words)
     end_run(words);
     end_run(d);
     koksma__doc_append(d, words);
-}
-
-void koksma__doc_metric_begin(koksma__document *d, const char *metric)
-{
-    begin_block(d, "paragraph", NULL);
-    koksma__json_write_text(&d->json, "metric", metric);
-    koksma__json_begin_array(&d->json, "text");
-}
-
-void koksma__doc_warning_begin(koksma__document *d)
-{
-    begin_block(d, "paragraph", NULL);
-    koksma__json_write_flag(&d->json, "warning", true);
-    koksma__json_begin_array(&d->json, "text");
 }
 
 void koksma__doc_paragraph_end(koksma__document *d)
@@ -686,74 +691,43 @@ static const char inside[] =
     "All of its numbers are in this file, in the element with the id <code>data</code>, as JSON; "
     "<code>koksma datasheet SAMPLER -o sheet.json</code> writes them.";
 
-/* A page is written as these parts. */
-enum { PARTS = 7 };
-typedef struct part {
-    const char *text;
-    size_t length;
-} part;
-
-static part part_of(const char *text)
+static void put_page(FILE *f, koksma__page_kind kind, const char *json)
 {
-    return (part){text, strlen(text)};
-}
-
-/* Cuts the text at a placeholder: the part before it is returned, and *text becomes the rest behind it. */
-static part cut(const char **text, const char *placeholder)
-{
-    const char *begin = *text, *at = strstr(begin, placeholder);
-    *text = at + strlen(placeholder);
-    return (part){begin, (size_t)(at - begin)};
-}
-
-static void make_parts(koksma__page_kind kind, const char *json, part parts[PARTS])
-{
-    const char *head = koksma__page_head;
-    parts[0] = cut(&head, "{{title}}");
-    parts[1] = part_of(titles[kind]);
-    parts[2] = cut(&head, "{{numbers}}");
-    parts[3] = part_of(kind == KOKSMA__PAGE_DATASHEET ? inside : beside);
-    parts[4] = part_of(head);
-    parts[5] = part_of(json);
-    parts[6] = part_of(koksma__page_foot);
+    static const char title[] = "{{title}}", numbers[] = "{{numbers}}";
+    const char *head = koksma__page_head, *at = strstr(head, title), *after = at + sizeof title - 1,
+               *then = strstr(after, numbers);
+    fwrite(head, 1, (size_t)(at - head), f);
+    fputs(titles[kind], f);
+    fwrite(after, 1, (size_t)(then - after), f);
+    fputs(kind == KOKSMA__PAGE_DATASHEET ? inside : beside, f);
+    fputs(then + sizeof numbers - 1, f);
+    fputs(json, f);
+    fputs(koksma__page_foot, f);
 }
 
 char *koksma__page_text(koksma__page_kind kind, const char *json)
 {
-    part parts[PARTS];
-    size_t size = 1, used = 0;
-    make_parts(kind, json, parts);
-    for (int i = 0; i < PARTS; i++) {
-        size += parts[i].length;
+    char *text = NULL;
+    size_t size;
+    FILE *f = open_memstream(&text, &size);
+    if (f) {
+        put_page(f, kind, json);
     }
-    char *text = malloc(size);
-    for (int i = 0; text && i < PARTS; i++) {
-        memcpy(text + used, parts[i].text, parts[i].length);
-        used += parts[i].length;
-    }
-    if (text) {
-        text[used] = '\0';
+    if (!f || fclose(f)) {
+        free(text);
+        text = NULL;
     }
     return text;
 }
 
-static koksma_status write_file(const char *folder, const char *name, const part *parts, int n)
-{
-    koksma__atomic_file file;
-    koksma_status status = koksma__atomic_open(folder, name, &file);
-    if (!status) {
-        for (int i = 0; i < n; i++) {
-            fwrite(parts[i].text, 1, parts[i].length, file.stream);
-        }
-        status = koksma__atomic_close(&file, true);
-    }
-    return status;
-}
-
 koksma_status koksma__page_write(const char *folder, koksma__page_kind kind, const char *json)
 {
-    part parts[PARTS];
-    make_parts(kind, json, parts);
-    const koksma_status status = write_file(folder, "report.json", (const part[]){part_of(json), part_of("\n")}, 2);
-    return status ? status : write_file(folder, "report.html", parts, PARTS);
+    koksma__atomic_file file;
+    KOKSMA__TRY(koksma__atomic_open(folder, "report.json", &file));
+    fputs(json, file.stream);
+    putc('\n', file.stream);
+    KOKSMA__TRY(koksma__atomic_close(&file, true));
+    KOKSMA__TRY(koksma__atomic_open(folder, "report.html", &file));
+    put_page(file.stream, kind, json);
+    return koksma__atomic_close(&file, true);
 }
