@@ -244,7 +244,7 @@ static void add_size_columns(koksma__document *d, const koksma__table *t)
     koksma__doc_columns(d, "n3 theory;n2 × random");
 }
 
-/* Adds the row with the printed means and, as hollow marks in the style of our curve, a series of the chart `marks`. */
+/* Adds the row with the printed means. */
 static void add_printed_line(sizes_table *s, const koksma__table_row *row)
 {
     const koksma__wholes *n = &s->table->n;
@@ -302,18 +302,15 @@ static void add_printed_marks(sizes_table *s, const koksma__table_row *row)
 /* Says over how many sets the means are, and how slopes are computed: of published means, too, if the table has some. */
 static void say_means(koksma__document *d, bool published, size_t sets, bool differ)
 {
-    koksma__doc_paragraph(
-        d,
-        published
-            ? "Published means are over 100 sets, ours over %s%zu. Slopes are least squares over all columns; "
-              "_theory_ "
-              "is the exponent of the pattern for large N, which a slope over these columns need not have reached, "
-              "and "
-              "_× random_ the known factor of its mean there to that of random points."
-            : "Means are over %s%zu sets. Slopes are least squares over all columns; _theory_ is the exponent of the "
-              "pattern for large N, which a slope over these columns need not have reached, and _× random_ the known "
-              "factor of its mean there to that of random points.",
-        differ ? "up to " : "", sets);
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(d, published ? "Published means are over 100 sets, ours over %s%zu" : "Means are over %s%zu sets",
+                    differ ? "up to " : "", sets);
+    koksma__doc_say(d, ". Slopes are least squares over all columns; _theory_ is the exponent of the pattern for "
+                       "large N, which a slope "
+                       "over these columns need not have reached, and _× random_ the known factor of its mean there "
+                       "to that of random "
+                       "points.");
+    koksma__doc_paragraph_end(d);
 }
 
 static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma__table *t)
@@ -415,11 +412,6 @@ static void add_image_columns(koksma__document *d, const koksma__image_block *bl
     }
 }
 
-static void add_error_cells(koksma__document *d, const koksma__cell *cell)
-{
-    koksma__doc_cells(d, "inn", koksma__estimate_of(&cell->mean), cell->sd, cell->max);
-}
-
 /* Adds a row; the means against the first [0] and the last [1] reference go to `means`. */
 static void add_image_row(koksma__report *r, koksma__document *d, const koksma__table *t,
                           const koksma__table_row *row, double means[2])
@@ -433,14 +425,14 @@ static void add_image_row(koksma__report *r, koksma__document *d, const koksma__
     means[0] = cell.mean.mean;
     means[1] = last.mean.mean;
     begin_row(d, t, row);
-    add_error_cells(d, &cell);
+    koksma__doc_cells(d, "inn", koksma__estimate_of(&cell.mean), cell.sd, cell.max);
     add_verdict(d, &verdict);
     koksma__doc_cells(d, "nnt", v.images ? v.coherence : (double)NAN, v.images ? v.noise_high : (double)NAN,
                       !v.images    ? "not known"
                       : v.coherent ? "yes"
                                    : "no");
     if (s.images->n_references > 1) {
-        add_error_cells(d, &last);
+        koksma__doc_cells(d, "inn", koksma__estimate_of(&last.mean), last.sd, last.max);
     }
 }
 
