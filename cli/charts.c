@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Charts and panels of `koksma plot`: stores the rows of a curve as arrays of numbers, which the functions of
    koksma/plot.h draw. */
-#include "charts.h"
+#include "curves.h"
 
 #include "source.h"
 

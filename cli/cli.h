@@ -7,6 +7,10 @@
 #ifndef KOKSMA_CLI_CLI_H
 #define KOKSMA_CLI_CLI_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
 #include <koksma/koksma.h>
 #include <koksma/series.h>
 #include <koksma/study.h>
@@ -29,7 +33,7 @@ typedef struct cli_arguments cli_arguments;
 typedef struct cli_command {
     const char *name, *summary;
     const char *synopsis; /* operands and options after "koksma NAME", one line per usage */
-    const char *details;  /* text for --help; its lines are joined into paragraphs (cli/paragraphs.h); may be NULL */
+    const char *details;  /* text for --help; its lines are joined into paragraphs (cli/paragraphs.c); may be NULL */
     const char *examples; /* command lines for --help, one per line; tests run them (tests/docs/readme.sh) */
     const cli_option *options;
     int (*run)(const cli_arguments *arguments); /* returns the exit code */
@@ -207,5 +211,86 @@ void cli_row_end(cli_rows *rows);
 /* Prints the remaining rows and frees them. Returns the exit code: 0, or 4 after a message on stderr when memory for
    the rows ran out. */
 int cli_rows_close(cli_rows *rows);
+
+/* Returns the width of the terminal that the file descriptor `stream` is connected to, in columns (the environment
+   variable COLUMNS overrides it), or 0 if the descriptor is no terminal. */
+int cli_terminal_width(int stream);
+
+/* ---- The help, and the run of a command (options.c, command_help.c) ----------------------------------- */
+
+/* cli_print_overview prints a line for each command, as `koksma --help` does. cli_print_help prints the help of one
+   command on stdout. */
+void cli_print_overview(FILE *stream);
+extern const char cli_overview_examples[]; /* command lines, one per line: the five examples of README.md */
+void cli_print_help(const cli_command *command);
+
+/* Parses argv (argv[0] is the command's name) by the command's option table and runs the command. --help and -h print
+   its help instead. Returns the exit code. */
+int cli_run(const cli_command *command, int argc, char **argv);
+
+/* ---- Names of table members in help texts (texts.c) --------------------------------------------------- */
+
+/* Returns `command`, which is command i of the table, with the placeholders in its texts replaced; texts.c lists the
+   placeholders. Later calls for the same i return the same pointer. */
+const cli_command *cli_expand(const cli_command *command, size_t i);
+
+/* Writes the endings of image files to `text` and returns it, such as ".exr, .png, .pfm or .jpg". `comma` is put
+   between the endings, and `last` before the last one. */
+const char *cli_image_formats(const char *comma, const char *last, char *text, size_t size);
+
+/* Writes the names of the tables that `koksma list` prints (command_list.c) to `text`, with `comma` between them, and
+   returns `text`. */
+const char *cli_list_names(const char *comma, char *text, size_t size);
+
+/* ---- Help texts in lines of at most 80 columns (paragraphs.c) ----------------------------------------- */
+
+enum { CLI_PARAGRAPH = 2048 };
+
+/* Prints the words of `text` on stdout and ends the line. column: where the cursor is; indent: the column where
+   further lines begin. */
+void cli_fill(const char *text, size_t column, size_t indent);
+
+/* Prints one usage of a synopsis like cli_fill, but keeps text in brackets, and an option with its argument, on one
+   line. */
+void cli_fill_use(const char *use, size_t column, size_t indent);
+
+/* Returns whether a line begins with a word that ends in a colon. */
+bool cli_is_heading(const char *line);
+
+/* Copies the next paragraph of a text, as one line. A paragraph ends at an empty line, or before a line whose first
+   word is a heading, "word:". *apart: whether an empty line precedes the paragraph. Returns the text that follows,
+   or NULL past the end. */
+const char *cli_next_paragraph(const char *text, char paragraph[CLI_PARAGRAPH], bool *apart);
+
+/* ---- Standard output, whose errors are reported with the reason of the system, and files to write (output.c) ---- */
+
+/* Called once, before anything is printed. */
+void cli_begin_output(void);
+
+/* Flushes stdout, because a full disk causes an error only when the buffer is written. Returns the final exit code:
+   `code`, or 4 after a message on stderr if `code` is 0 or 1 but stdout could not be written. */
+int cli_end_output(int code);
+
+/* Returns whether the file `path` is a stream: "-" or another name of an open descriptor, a pipe or a device. A second
+   write follows the first one there, whereas it replaces a plain file. */
+bool cli_is_stream(const char *path);
+
+/* Returns whether `path` is standard output: "-", /dev/stdout, or another name of the stream behind it. */
+bool cli_is_stdout(const char *path);
+
+/* Returns whether two paths lead to the same file, which is there. */
+bool cli_is_same_file(const char *a, const char *b);
+
+/* Tries, before work that takes long, whether the file `path` can be written: its folder is there and allows new files.
+   Makes nothing; NULL and streams are not tried. Returns the exit code, which is not 0 after an error. */
+int cli_try_output(const cli_arguments *arguments, const char *path);
+
+/* Returns whether the paths name one file that is written, also by another spelling or a link. Streams are none: what is
+   written to them follows what was written before. */
+bool cli_is_same_output(const char *a, const char *b);
+
+/* Returns false, after an error, if --json is given and the result is written to standard output, which has no place for
+   rows then. */
+bool cli_check_output(const cli_arguments *arguments, const char *path);
 
 #endif

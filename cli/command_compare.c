@@ -8,7 +8,7 @@
 #include <koksma/image.h>
 
 #include "cli.h"
-#include "metric_option.h"
+#include "rendering.h"
 
 /* Sums over the images that have been compared so far. */
 typedef struct comparison {

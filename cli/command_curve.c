@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma curve`: prints the rows of a curve of the table curves.def, for each source. */
+#include "cli.h"
 #include "curves.h"
-#include "output.h"
 #include "source.h"
 
 /* A sink that prints the rows of a curve. */

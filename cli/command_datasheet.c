@@ -13,7 +13,6 @@
 #include <koksma/render.h>
 
 #include "cli.h"
-#include "output.h"
 #include "source.h"
 
 /* The items of an option that is a list: `texts` has copies of the items, and `at` has pointers to these. The list

@@ -14,9 +14,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "output.h"
+#include "cli.h"
+#include "measuring.h"
 #include "source.h"
-#include "warps.h"
 
 /* Ends the progress line if the points follow it on the terminal. */
 static void make_way(const cli_arguments *arguments, cli_work *work)

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "options.h"
+#include "cli.h"
 
 const char cli_overview_examples[] = "koksma rank ball --spp 16 -p random,n-rooks,sobol:scramble=owen\n"
                                      "koksma measure points.txt -m star,l2-star,extreme\n"

@@ -11,8 +11,8 @@
 #include <koksma/verify.h>
 #include <koksma/warp.h>
 
+#include "cli.h"
 #include "curves.h"
-#include "texts.h"
 
 typedef struct claim_line {
     unsigned claim;

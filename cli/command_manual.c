@@ -5,8 +5,6 @@
 #include <string.h>
 
 #include "cli.h"
-#include "options.h"
-#include "paragraphs.h"
 
 /* Prints a text for roff: escapes backslashes, hyphens, and a dot or quote at the beginning of a line. A line may
    break between alternatives. */

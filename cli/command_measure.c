@@ -10,11 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bounds.h"
-#include "local.h"
 #include "measuring.h"
 #include "source.h"
-#include "warps.h"
 
 static void put_corner(char *text, size_t size, const double *xs, int dim)
 {

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "optimise_scene.h"
-#include "output.h"
+#include "cli.h"
+#include "rendering.h"
 #include "source.h"
 
 enum { MOST_PROJECTIONS = 4096 };

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "charts.h"
-#include "output.h"
+#include "cli.h"
+#include "curves.h"
+#include "measuring.h"
 #include "source.h"
-#include "warps.h"
 
 /* Returns the number of sets that every source must provide. The number is 1 if the picture may show a file, which is
    one set, beside means over several sets of a pattern. */

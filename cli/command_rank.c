@@ -14,10 +14,9 @@
 #include <koksma/study.h>
 
 #include "cli.h"
-#include "metric_option.h"
-#include "rank_advice.h"
-#include "render_options.h"
+#include "rendering.h"
 #include "source.h"
+#include "studying.h"
 
 enum { MAX_PATTERNS = 64 };
 

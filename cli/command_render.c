@@ -9,11 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "adaptive_options.h"
 #include "cli.h"
-#include "id_colours.h"
-#include "output.h"
-#include "render_options.h"
+#include "rendering.h"
 
 static int put_row(const cli_arguments *arguments, const koksma_render_options *options, const cli_adaptive *adaptive,
                    uint64_t rays, double seconds)

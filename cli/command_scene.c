@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "cli.h"
-#include "render_options.h"
+#include "rendering.h"
 
 enum { MOST_PARTS = 40 };
 

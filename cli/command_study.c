@@ -17,9 +17,8 @@
 #include <koksma/study.h>
 
 #include "cli.h"
-#include "metric_option.h"
-#include "study_audit.h"
-#include "study_quick.h"
+#include "rendering.h"
+#include "studying.h"
 
 /* The plan that `koksma study new` writes. Every object of a plan may have a `comment`, which is ignored. */
 static const char example[] =

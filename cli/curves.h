@@ -2,7 +2,7 @@
 /*
  * The table of curves: measures whose values are functions, such as spectra, and pictures. A curve computes its rows
  * and passes them one by one to a sink: `koksma curve` prints the rows, `koksma plot` draws two of their columns in a
- * chart (charts.h). A curve that is not a chart, such as the points themselves, has its own drawing function.
+ * chart (charts.c). A curve that is not a chart, such as the points themselves, has its own drawing function.
  */
 #ifndef KOKSMA_CLI_CURVES_H
 #define KOKSMA_CLI_CURVES_H
@@ -119,5 +119,61 @@ int cli_curves_spectrum(cli_curves *c, const char *source, double per_root, koks
 int cli_curves_each_set(cli_curves *c, const char *source,
                         koksma_status (*add)(cli_curves *c, const koksma_points *points, void *context),
                         void *context);
+
+/* ---- Charts and panels of `koksma plot` (charts.c) ---------------------------------------------------- */
+
+enum { CLI_CHART_LABEL = 160 };
+
+/* Memory for the curves of a chart: for each curve three arrays of `per` numbers (xs, ys, errors) and a label. */
+typedef struct cli_chart_store {
+    koksma_curve *curves;
+    double *numbers;
+    char (*labels)[CLI_CHART_LABEL];
+    size_t n, per;
+} cli_chart_store;
+
+/* Allocates a store for n curves. Returns false when memory runs out. */
+bool cli_open_store(cli_chart_store *s, size_t n, size_t per);
+void cli_close_store(cli_chart_store *s);
+
+/* Returns the arrays of the next curve: xs begin at [0], ys at [per], errors at [2 per]. */
+double *cli_next_numbers(const cli_chart_store *s);
+
+/* Adds the next curve to the store, with the first n numbers of each of its arrays. */
+void cli_push_curve(cli_chart_store *s, size_t n, size_t colour, const char *label);
+
+/* Computes the rows of all operands and makes a chart of them, with the axes of `curve`. The caller must close the
+   store, even after a failure. Returns the exit code. */
+int cli_chart_open(cli_curves *c, const cli_curve *curve, cli_chart_store *s, koksma_chart *chart);
+
+/* Draws the rows of all operands in one chart, with the axes of the curve c->curve. Returns the exit code. */
+int cli_draw_chart(cli_curves *c);
+
+/* The three functions below write a picture to the file --output, headed by --title or else by `title`, which may be
+   NULL, and return the exit code. */
+int cli_write_figure(const cli_curves *c, const char *title, const koksma_cell *cells, size_t n);
+int cli_write_chart(const cli_curves *c, const char *title, const koksma_chart *chart);
+int cli_draw_panels(const cli_curves *c, const char *title, const koksma_panel *panels, size_t n);
+
+/* Returns a source's text without "pattern:" at its beginning. */
+const char *cli_label(const char *source);
+
+/* Writes the title of a source to `text` and returns it: "SPEC, n = N" for a pattern, followed by ", d = DIM" above 2
+   dimensions; the path for a file. */
+const char *cli_title(const char *source, char text[CLI_CHART_LABEL]);
+
+/* Chooses the colours of all operands: numbers[i] is the colour of operand i. */
+void cli_colours(const cli_curves *c, size_t numbers[CLI_MAX_PANELS]);
+
+/* ---- What the curves convergence and compare share (curves/curve_convergence.c) ----------------------- */
+
+typedef struct cli_convergence {
+    cli_chart_store store; /* the caller closes it, also after a failure */
+    char title[160], y_label[160];
+    koksma_chart chart;
+} cli_convergence;
+
+/* Evaluates --measure for all operands at --sizes and makes the chart. Returns the exit code. */
+int cli_convergence_open(cli_curves *c, cli_convergence *v);
 
 #endif

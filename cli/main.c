@@ -5,9 +5,6 @@
 #include <string.h>
 
 #include "cli.h"
-#include "options.h"
-#include "output.h"
-#include "texts.h"
 
 static const cli_command *const commands[] = {
 #define COMMAND(name) &cli_command_##name,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The state of `koksma measure`, and its evaluation of measures over many sets or several sizes (measuring.c). */
+/* What commands that measure points share: warps, bounds, and the state of `koksma measure`. */
 #ifndef KOKSMA_CLI_MEASURING_H
 #define KOKSMA_CLI_MEASURING_H
 
@@ -7,6 +7,31 @@
 #include <koksma/warp.h>
 
 #include "cli.h"
+
+/* ---- The option --warp: a map of the unit square by its name ------------------------------------------ */
+
+/* Returns the warp of that name, or NULL after an error that lists all names. */
+const koksma_warp *cli_find_warp(const cli_arguments *arguments, const char *name);
+
+/* Maps 2-dimensional points by the warp. *points becomes the set of mapped points, of the warp's dimension. */
+koksma_status cli_map_points(const koksma_warp *warp, koksma_points *points);
+
+/* ---- Values that are only bounds, because the search for the exact value was cut short ---------------- */
+
+/* Returns whether a value is only a bound although its measure gives exact values, because the search was cut
+   short. */
+bool cli_is_cut_short(const koksma_spec *measure, const koksma_value *value);
+
+/* Prints a line on stderr with the number of values of `what` that are only bounds because a search was cut short.
+   Prints nothing if there are none, or with --quiet. */
+void cli_tell_cuts(const cli_arguments *arguments, const char *what, size_t n_cut);
+
+/* ---- `koksma measure --at`: the local discrepancy of points at a corner of a box ---------------------- */
+
+/* Prints a row for each source. Returns the exit code. */
+int measure_local(const cli_arguments *arguments);
+
+/* ---- The state of `koksma measure`, and measures over many sets or several sizes ---------------------- */
 
 enum { MAX_MEASURES = 64, MAX_PREFIXES = KOKSMA_MAX_SIZES, MAX_WARPS = 16, MAX_PAIRED_TRIALS = 1000000 };
 

@@ -3,7 +3,7 @@
  * `koksma optimise --scene SCENE -n SPP`: reads the options, calls koksma_optimise_scene, writes the set to the file
  * as soon as there is one (to a stream at the end), and prints a row for each scene in which the set was tested.
  */
-#include "optimise_scene.h"
+#include "rendering.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,8 +12,7 @@
 
 #include <koksma/study.h>
 
-#include "output.h"
-#include "render_options.h"
+#include "cli.h"
 #include "source.h"
 
 typedef struct scene_job {

@@ -3,7 +3,7 @@
  * Parses a command line by the command's table of options (getopt_long), prints the table as --help, and reports
  * errors of the command line.
  */
-#include "options.h"
+#include "cli.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -18,8 +18,6 @@
 #include <koksma/render.h>
 #include <koksma/study.h>
 
-#include "output.h"
-#include "paragraphs.h"
 #include "source.h"
 
 /* The letter of --help, which no option table may use. */

@@ -4,7 +4,7 @@
  * by any printf, so that errno is lost by the time the command ends. Therefore stdout becomes a stream whose bytes go
  * through put(), which keeps errno. glibc lets a program assign stdout.
  */
-#include "output.h"
+#include "cli.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -15,8 +15,6 @@
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
-
-#include "cli.h"
 
 static int reason; /* errno of the first write that failed */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Prints help texts in lines of at most 80 columns, with as many words on a line as fit. A non-breaking blank is
    stored as TIED until it is printed. */
-#include "paragraphs.h"
+#include "cli.h"
 
 #include <stdio.h>
 #include <string.h>

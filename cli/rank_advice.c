@@ -3,7 +3,7 @@
  * Explains a ranking in sentences on stderr. The advice is to use the best pattern whose error is not coherent. The
  * text also names a pattern that leaves less error, but in visible bands.
  */
-#include "rank_advice.h"
+#include "studying.h"
 
 #include "cli.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma study audit`: draws the seed, calls koksma_study_audit, and prints its differences as they are found and its
    result at the end, as text or as JSON lines. Under mpirun rank 0 prints. */
-#include "study_audit.h"
+#include "studying.h"
 
 #include <errno.h>
 #include <math.h>

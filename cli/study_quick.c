@@ -10,10 +10,9 @@
  * Under mpirun only rank 0 uses DIR, which may be on its machine alone. Every rank makes the same text from the same
  * options, and the other ranks open it as a text.
  */
-#include "study_quick.h"
+#include "studying.h"
 
-#include "metric_option.h"
-#include "study_quick_check.h"
+#include "rendering.h"
 
 #include <limits.h>
 #include <stdint.h>

@@ -6,7 +6,7 @@
  * with the numbers of points: the plan leaves out sizes that a pattern does not have, but not all of them. A measure must
  * accept a size of which there are sets, and a program or library of a new plan must be allowed to run and make a set.
  */
-#include "study_quick_check.h"
+#include "studying.h"
 
 #include <limits.h>
 #include <stdio.h>

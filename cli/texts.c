@@ -14,7 +14,7 @@
  * Braces with any other text are kept. The texts are kept until the program ends, in one block of fixed size. The
  * program aborts if a text does not fit, which is a bug.
  */
-#include "texts.h"
+#include "cli.h"
 
 #include <stdio.h>
 #include <stdlib.h>

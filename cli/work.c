@@ -10,7 +10,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "aligned.h"
 #include "cli.h"
 
 static volatile sig_atomic_t interrupted, asked; /* asked: the work knows that it is interrupted */

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "../curves.h"
 #include "../source.h"
-#include "curve_convergence.h"
 
 enum { TRIALS = 10 };
 

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../bounds.h"
+#include "../curves.h"
+#include "../measuring.h"
 #include "../source.h"
-#include "curve_convergence.h"
 
 enum { MAX_SIZES = KOKSMA_MAX_SIZES, PER_SOURCE = 3 };
 

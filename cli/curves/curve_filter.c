@@ -10,7 +10,7 @@
 
 #include <koksma/render.h>
 
-#include "../charts.h"
+#include "../curves.h"
 
 enum { POSITIONS = 401, LABEL = 96 };
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../charts.h"
+#include "../curves.h"
 
 typedef struct pairs_sum {
     koksma_tally *tallies;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../charts.h"
+#include "../curves.h"
 #include "../source.h"
 
 enum { MAX_CELLS = 4096 };

@@ -8,7 +8,7 @@
 
 #include <koksma/image.h>
 
-#include "../charts.h"
+#include "../curves.h"
 
 static int compute(cli_curves *c, const char *source, cli_sink *sink)
 {

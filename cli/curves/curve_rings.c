@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../charts.h"
+#include "../curves.h"
 
 static int compute(cli_curves *c, const char *source, cli_sink *sink)
 {
