@@ -334,7 +334,10 @@ static int run(const cli_arguments *arguments)
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        if (!which || !strcmp(which, lists[i].name)) {
+        if (!which) {
+            cli_row_text(rows, "list", lists[i].name);
+            cli_row_end(rows);
+        } else if (!strcmp(which, lists[i].name)) {
             lists[i].list(rows);
         }
     }
@@ -345,9 +348,10 @@ static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
 
 const cli_command cli_command_list = {
     .name = "list",
-    .summary = "list the members of a table",
+    .summary = "list the members of a table, or the tables",
     .synopsis = "[{lists}] [--json]",
-    .details = "uses: a use is a purpose for which a sample needs one or two dimensions, such as the position on the "
+    .details = "Without a name: the names of the tables.\n"
+               "uses: a use is a purpose for which a sample needs one or two dimensions, such as the position on the "
                "lens. 'koksma render -p USE=PATTERN' gives one use its own pattern; '-p USE+USE=PATTERN' gives "
                "several uses one pattern with the dimensions of all of them.",
     .examples = "koksma list patterns\n"

@@ -70,7 +70,8 @@ const cli_command cli_command_version = {
     .details =
         "kernels: the instruction set of the inner loops, the first of avx512, avx2 and baseline that the processor\n"
         "has. The environment variable KOKSMA_KERNELS selects another instruction set, or ref (plain C, for "
-        "tests).\n",
+        "tests).\n"
+        "koksma --version and koksma -V print the same.\n",
     .examples = "koksma version --json\n",
     .options = options,
     .run = run,

@@ -58,9 +58,9 @@ int main(int argc, char **argv)
         return CLI_USAGE;
     }
     const char *first = argv[1];
-    const cli_command *command = cli_command_find(!strcmp(first, "--help") || !strcmp(first, "-h") ? "help"
-                                                  : !strcmp(first, "--version")                    ? "version"
-                                                                                                   : first);
+    const cli_command *command = cli_command_find(!strcmp(first, "--help") || !strcmp(first, "-h")      ? "help"
+                                                  : !strcmp(first, "--version") || !strcmp(first, "-V") ? "version"
+                                                                                                        : first);
     if (!command) {
         char meant[96];
         cli_say("", "no command '%s'; %s'koksma --help' names them", first,
