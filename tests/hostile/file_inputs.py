@@ -215,13 +215,15 @@ class Things:
 
 
 def check_named_by_files(checks, program, folder, kinds):
+    """All places open files by one function: each kind of thing stands at the first place of each kind of file, and at one
+    place in five of the others, in turn. Long files, of which a reader must see the beginning, are made once for each reader."""
     things = Things(folder)
-    seen = set()
-    for kind, ending, what, arguments in named_by_files(folder):
+    seen, read = set(), set()
+    makers = (things.device, things.null, things.fifo, things.socket, things.directory)
+    for i, (kind, ending, what, arguments) in enumerate(named_by_files(folder)):
         most, words = kinds[kind]
         code = 1 if what in LEFT_OUT else 3
-        seen.add(kind)
-        for make in (things.device, things.null, things.fifo, things.socket, things.directory):
+        for make in [makers[i % len(makers)]] if kind in seen else makers:
             name, reason = make(ending)
             if "include" in what and reason == "it is a device":
                 reason = "not below the scene's own folder"  # where the link leads
@@ -231,9 +233,11 @@ def check_named_by_files(checks, program, folder, kinds):
         checks.refused(f"{what} of 10 GiB", files.run(program, *arguments(name), cwd=folder), 3, name,
                        f"longer than {most >> 20} MiB, the limit of {words}")
         if kind != "BUFFER":  # whose bytes are numbers, that the rest of the model needs
-            name, _ = things.sparse(ending, most)
+            name, _ = things.sparse(ending, files.MIB if (kind, ending) in read else most)
             checks.refused(f"{what} of zeros up to the limit", files.run(program, *arguments(name), cwd=folder), code,
                            name)
+        seen.add(kind)
+        read.add((kind, ending))
         if kind == "TEXTURE":
             name = put(os.path.join(folder, "wide" + ending), "Pf\n8193 8193\n-1\n")
             checks.refused(f"{what} of 8193 x 8193", files.run(program, *arguments(os.path.basename(name)), cwd=folder), 3,
