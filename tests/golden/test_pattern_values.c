@@ -32,37 +32,6 @@ static void first_points(void **state)
     koksma_points_fini(&p);
 }
 
-/* Mean squares of L2 star over 400 sets against the exact expectations. */
-static void mean_squares_are_known(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *pattern;
-        size_t n;
-        int dim;
-        double mean_square;
-    } known[] = {
-        {"random", 16, 2, (0.25 - 1.0 / 9) / 16},
-        {"jittered", 16, 2, (3.0 / 6 + 5.0 / 36) / 256},
-        {"n-rooks", 16, 2, (16 + 5 - 1.0 / 16) / (36.0 * 256)},
-        {"poisson-time", 16, 3, (9.0 / 24 + 15.0 / 36 + 19.0 / 216) / 256},
-        {"latin-hypercube", 25, 2, (25 + 5 - 1.0 / 25) / (36.0 * 625)},
-    };
-    enum { SETS = 400 };
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        double sum = 0, squares = 0;
-        for (uint64_t seed = 0; seed < SETS; seed++) {
-            koksma_points points = test_points(known[i].pattern, known[i].n, known[i].dim, seed);
-            const double s = test_measure("l2-star", &points).value, square = s * s;
-            sum += square;
-            squares += square * square;
-            koksma_points_fini(&points);
-        }
-        const double mean = sum / SETS, error = sqrt((squares / SETS - mean * mean) / SETS);
-        assert_near(mean, known[i].mean_square, 4 * error);
-    }
-}
-
 /* The points of Kollig & Keller's function, and n D* = m / 5 + O(1) for n = 2^m: 1.30 to 1.45 more up to m = 13. */
 static void larcher_pillichshammers_net(void **state)
 {
@@ -163,7 +132,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(first_points),
-        cmocka_unit_test(mean_squares_are_known),
         cmocka_unit_test(larcher_pillichshammers_net),
         cmocka_unit_test(the_furthest_candidate_is_taken),
         cmocka_unit_test(mapped_radicals_stay_below_one),

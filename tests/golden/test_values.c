@@ -96,18 +96,20 @@ static koksma_points listed_points(const char *text)
 }
 
 /* SPEC@N or SPEC@N@DIM */
-static koksma_points generated_points(char *text)
+static koksma_points generated_points(const char *spec, uint64_t seed)
 {
+    char text[256];
+    snprintf(text, sizeof text, "%s", spec);
     char *at = strchr(text, '@'), *dim = at ? strchr(at + 1, '@') : NULL;
     if (!at) {
         fail_msg("%s: neither SPEC@N nor a file", text);
         return (koksma_points){0};
     }
     *at = 0;
-    return test_points(text, strtoul(at + 1, NULL, 10), dim ? atoi(dim + 1) : 2, 0);
+    return test_points(text, strtoul(at + 1, NULL, 10), dim ? atoi(dim + 1) : 2, seed);
 }
 
-static koksma_points points_of(char *text)
+static koksma_points points_of(const char *text)
 {
     koksma_points points;
     char path[1024];
@@ -115,7 +117,7 @@ static koksma_points points_of(char *text)
         return listed_points(text);
     }
     if (!strstr(text, ".txt")) {
-        return generated_points(text);
+        return generated_points(text, 0);
     }
     snprintf(path, sizeof path, "%s/golden/%s", KOKSMA_TESTS, text);
     assert_ok(koksma_points_read(path, &points));
@@ -123,6 +125,44 @@ static koksma_points points_of(char *text)
 }
 
 /* ---- Cases ---------------------------------------------------------------------------------------------------- */
+
+/* The mean of a measure over the seeds 0 .. sets - 1, or with "^2" at its end of the square; and its standard error. */
+static double mean_of(const char *spec, uint64_t sets, char *measure, double *error)
+{
+    char *power = strstr(measure, "^2");
+    double sum = 0, squares = 0;
+    if (power) {
+        *power = 0;
+    }
+    for (uint64_t seed = 0; seed < sets; seed++) {
+        koksma_points points = generated_points(spec, seed);
+        const double value = test_measure(measure, &points).value, x = power ? value * value : value;
+        sum += x / (double)sets;
+        squares += x * x / (double)sets;
+        koksma_points_fini(&points);
+    }
+    *error = sqrt(fmax(squares - sum * sum, 0) / (double)(sets - 1));
+    return sum;
+}
+
+/* "SPEC@N@DIM x SETS; FACTOR; MEASURE = MEAN +- ERROR; .." Returns the number of means. */
+static size_t check_means(char *spec, uint64_t sets, double factor, char *rest)
+{
+    size_t count = 0;
+    for (char *item; (item = strtok_r(NULL, ";", &rest)); count++) {
+        item += strspn(item, " ");
+        char *equals = strstr(item, " = "), *give = strstr(item, " +- ");
+        assert_non_null(equals);
+        *equals = 0;
+        const char *at = equals + 3, *margin = give ? give + 4 : "0";
+        double error;
+        const double expected = sum_of(&at), known = sum_of(&margin), mean = mean_of(spec, sets, item, &error);
+        if (!(fabs(mean - expected) <= factor * hypot(error, known) + 1e-8)) {
+            fail_msg("%s: the mean of %s is %.7g +- %.2g, and should be %.7g", spec, item, mean, error, expected);
+        }
+    }
+    return count;
+}
 
 /* "POINTS; TOLERANCE; MEASURE = VALUE; MEASURE = VALUE .." Returns the number of values. */
 static size_t check_case(char *text)
@@ -132,9 +172,14 @@ static size_t check_case(char *text)
     char *set = strtok_r(text, ";", &rest), *bound = strtok_r(NULL, ";", &rest);
     assert_non_null(bound);
     snprintf(name, sizeof name, "%s", set);
-    koksma_points points = points_of(set);
     const char *at = bound;
     const double tolerance = sum_of(&at);
+    char *sets = strstr(set, " x ");
+    if (sets) {
+        *sets = 0;
+        return check_means(set, strtoul(sets + 3, NULL, 10), tolerance, rest);
+    }
+    koksma_points points = points_of(set);
     for (char *item; (item = strtok_r(NULL, ";", &rest)); count++) {
         item += strspn(item, " ");
         char *equals = strstr(item, " = ");
