@@ -189,16 +189,6 @@ static void points_too_near_to_0(void **state)
     assert_near(v.value, 0.75, 1e-15);
 }
 
-static void lattices(void **state)
-{
-    (void)state;
-    koksma_points p = test_points("regular", 64, 2, 0);
-    assert_near(test_measure("disk:r=0.06", &p).value, 1.0 / 64, 1e-14);
-    /* Four points on a circle about a corner of the cells; r^2 = 1/128. */
-    assert_near(test_measure("disk:r=0.0884", &p).value, 4.0 / 64 - M_PI / 128, 1e-14);
-    koksma_points_fini(&p);
-}
-
 /* Points that are there several times do not change the value, but the method: branch and bound against all pairs. */
 static void branch_and_bound_agrees_with_all_pairs(void **state)
 {
@@ -251,7 +241,6 @@ int main(void)
         cmocka_unit_test(agrees_with_a_dense_search),
         cmocka_unit_test(witness_shows_the_value),
         cmocka_unit_test(points_too_near_to_0),
-        cmocka_unit_test(lattices),
         cmocka_unit_test(branch_and_bound_agrees_with_all_pairs),
         cmocka_unit_test(bounds_when_cut_short),
     };

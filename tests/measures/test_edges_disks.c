@@ -148,24 +148,6 @@ static void edge_obeys_its_time_limit(void **state)
     koksma_points_fini(&p);
 }
 
-static void known_edges(void **state)
-{
-    (void)state;
-    static const double points[3][3] = {{0.5, 0.5, 0.5}, {0.25, 0.25, 0.875}, {0, 0, 1}};
-    koksma_points p;
-    assert_ok(koksma_points_init(&p, 1, 2));
-    for (int i = 0; i < 3; i++) {
-        memcpy(p.xs, points[i], 2 * sizeof(double));
-        assert_near(test_measure("edge", &p).value, points[i][2], 1e-15);
-    }
-    koksma_points_fini(&p);
-    for (size_t m = 1; m <= 8; m++) {
-        p = test_points("regular", m * m, 2, 0);
-        assert_near(test_measure("edge", &p).value, m == 1 ? 0.5 : 0.5 / (double)m, 1e-15);
-        koksma_points_fini(&p);
-    }
-}
-
 static void signs_are_exact(void **state)
 {
     (void)state;
@@ -323,11 +305,11 @@ static void angles_of_random_lines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edge_equals_brute_force),   cmocka_unit_test(known_edges),
-        cmocka_unit_test(signs_are_exact),           cmocka_unit_test(potentials_are_integrals),
-        cmocka_unit_test(exact_agrees_with_sampled), cmocka_unit_test(disk_equals_fine_search),
-        cmocka_unit_test(kernels_equal_reference),   cmocka_unit_test(angles_of_random_lines),
-        cmocka_unit_test(bounds_of_edge_hold),       cmocka_unit_test(edge_obeys_its_time_limit),
+        cmocka_unit_test(edge_equals_brute_force),   cmocka_unit_test(signs_are_exact),
+        cmocka_unit_test(potentials_are_integrals),  cmocka_unit_test(exact_agrees_with_sampled),
+        cmocka_unit_test(disk_equals_fine_search),   cmocka_unit_test(kernels_equal_reference),
+        cmocka_unit_test(angles_of_random_lines),    cmocka_unit_test(bounds_of_edge_hold),
+        cmocka_unit_test(edge_obeys_its_time_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,21 +66,6 @@ static void sweep_equals_bounding(void **state)
     }
 }
 
-static void hammersley_has_its_value(void **state)
-{
-    (void)state;
-    koksma_points p;
-    assert_ok(koksma_points_init(&p, 1024, 2));
-    for (size_t i = 0; i < p.n; i++) {
-        p.xs[2 * i] = ((double)i + 0.5) / 1024;
-        for (int bit = 0; bit < 10; bit++) {
-            p.xs[2 * i + 1] += (double)(i >> bit & 1) * exp2(-1 - bit);
-        }
-    }
-    assert_near(test_measure("extreme", &p).value, 0.006079674, 5e-10);
-    koksma_points_fini(&p);
-}
-
 static void strips_equal_reference(void **state)
 {
     (void)state;
@@ -314,11 +299,11 @@ static void large_sets_obey_the_time_limit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plane_equals_plain_search),      cmocka_unit_test(hammersley_has_its_value),
-        cmocka_unit_test(sweep_equals_plain_search),      cmocka_unit_test(sweep_equals_bounding),
-        cmocka_unit_test(strips_equal_reference),         cmocka_unit_test(short_time_gives_bounds),
-        cmocka_unit_test(large_sets_obey_the_time_limit), cmocka_unit_test(witness_of_a_grid),
-        cmocka_unit_test(runs_equal_plain_search),        cmocka_unit_test(runs_bound_their_strips),
+        cmocka_unit_test(plane_equals_plain_search), cmocka_unit_test(sweep_equals_plain_search),
+        cmocka_unit_test(sweep_equals_bounding),     cmocka_unit_test(strips_equal_reference),
+        cmocka_unit_test(short_time_gives_bounds),   cmocka_unit_test(large_sets_obey_the_time_limit),
+        cmocka_unit_test(witness_of_a_grid),         cmocka_unit_test(runs_equal_plain_search),
+        cmocka_unit_test(runs_bound_their_strips),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

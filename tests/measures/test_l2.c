@@ -269,25 +269,6 @@ static void pairs_and_merging_equal_the_formula(void **state)
     }
 }
 
-static void centre_has_known_values(void **state)
-{
-    (void)state;
-    koksma_points p;
-    assert_ok(koksma_points_init(&p, 1, 2));
-    p.xs[0] = p.xs[1] = 0.5;
-    assert_near(test_measure("l2-star", &p).square, 23.0 / 288, 1e-16);
-    assert_near(test_measure("l2-extreme", &p).square, 11.0 / 288, 1e-16);
-    assert_near(test_measure("l2-periodic", &p).square, 5.0 / 36, 1e-16);
-    assert_near(test_measure("l2-centered", &p).square, 25.0 / 144, 1e-15);
-    assert_near(test_measure("l2-wraparound", &p).square, 17.0 / 36, 1e-15);
-    assert_near(test_measure("l2-symmetric", &p).square, 23.0 / 18, 2e-15);
-    p.dim = 1;
-    assert_near(test_measure("l2-modified", &p).square, 1.0 / 12, 1e-15);
-    assert_near(test_measure("l2-mixture", &p).square, 1.0 / 8, 1e-15);
-    p.dim = 2;
-    koksma_points_fini(&p);
-}
-
 static double radical_inverse(unsigned base, unsigned long i)
 {
     double numerator = 0, denominator = 1;
@@ -296,26 +277,6 @@ static double radical_inverse(unsigned base, unsigned long i)
         denominator *= base;
     }
     return numerator / denominator;
-}
-
-/* n^2 S^2 of Hammersley's 2^m points: Halton and Zaremba 1969 (Kritzer and Pillichshammer 2006, without a shift). */
-static void hammersley_keeps_its_digits(void **state)
-{
-    (void)state;
-    for (int m = 4; m <= 18; m += 2) {
-        const double n = exp2(m);
-        koksma_points p;
-        assert_ok(koksma_points_init(&p, (size_t)n, 2));
-        for (size_t i = 0; i < p.n; i++) {
-            p.xs[2 * i] = (double)i / n;
-            p.xs[2 * i + 1] = radical_inverse(2, i);
-        }
-        const double square = (m * m / 64.0 - 19 * m / 192.0 - m * m / 16.0 + m * m / 16.0 + m / 4.0 + 3.0 / 8 +
-                               m / (16 * n) - m / (8 * n) + 1 / (4 * n) - 1 / (72 * n * n)) /
-                              n / n;
-        assert_near(test_measure("l2-star", &p).value / sqrt(square), 1, 1e-13 + (n < 300 ? 1e-11 : 0));
-        koksma_points_fini(&p);
-    }
 }
 
 /* Warnock's formula in 128 bits, pair by pair. */
@@ -502,8 +463,6 @@ int main(void)
         cmocka_unit_test(a_product_out_of_range),
         cmocka_unit_test(values_are_the_integrals),
         cmocka_unit_test(pairs_and_merging_equal_the_formula),
-        cmocka_unit_test(centre_has_known_values),
-        cmocka_unit_test(hammersley_keeps_its_digits),
         cmocka_unit_test(halton_keeps_its_digits),
 
         cmocka_unit_test(dividing_equals_pairs),
