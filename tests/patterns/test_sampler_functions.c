@@ -35,31 +35,9 @@ static koksma_domain domain_of(const place *p)
     return koksma_domain_of_use(koksma_domain_of_pixel(image_of(p), p->x, p->y), p->use);
 }
 
-static void to_doubles(const float *from, int count, double *xs)
-{
-    for (int k = 0; k < count; k++) {
-        xs[k] = (double)from[k];
-    }
-}
-
 static double of_word(uint32_t word)
 {
     return koksma_fraction(word);
-}
-
-static void sobol_1d(const place *p, uint32_t i, double *xs)
-{
-    xs[0] = koksma_sobol_1d(domain_of(p), i);
-}
-
-static void sobol_2d(const place *p, uint32_t i, double *xs)
-{
-    koksma_sobol_2d(domain_of(p), i, xs);
-}
-
-static void sobol_3d(const place *p, uint32_t i, double *xs)
-{
-    koksma_sobol_3d(domain_of(p), i, xs);
 }
 
 static void sobol_4d(const place *p, uint32_t i, double *xs)
@@ -67,98 +45,9 @@ static void sobol_4d(const place *p, uint32_t i, double *xs)
     koksma_sobol_4d(domain_of(p), i, xs);
 }
 
-static void sobol_1f(const place *p, uint32_t i, double *xs)
-{
-    xs[0] = (double)koksma_sobol_1f(domain_of(p), i);
-}
-
-static void sobol_2f(const place *p, uint32_t i, double *xs)
-{
-    float few[2];
-    koksma_sobol_2f(domain_of(p), i, few);
-    to_doubles(few, 2, xs);
-}
-
-static void sobol_3f(const place *p, uint32_t i, double *xs)
-{
-    float few[3];
-    koksma_sobol_3f(domain_of(p), i, few);
-    to_doubles(few, 3, xs);
-}
-
-static void sobol_4f(const place *p, uint32_t i, double *xs)
-{
-    float few[4];
-    koksma_sobol_4f(domain_of(p), i, few);
-    to_doubles(few, 4, xs);
-}
-
-static void sobol_at_2d(const place *p, uint32_t i, double *xs)
-{
-    const koksma_sobol sequence = koksma_sobol_of(domain_of(p));
-    koksma_sobol_at_2d(&sequence, i, xs);
-}
-
-static void sobol_at_4d(const place *p, uint32_t i, double *xs)
-{
-    const koksma_sobol sequence = koksma_sobol_of(domain_of(p));
-    koksma_sobol_at_4d(&sequence, i, xs);
-}
-
-/* The last of three samples. */
-static void sobol_range(const place *p, uint32_t i, double *xs)
-{
-    double three[3 * 4];
-    koksma_sobol_range(domain_of(p), i, 3, 4, three);
-    memcpy(xs, three + 8, 4 * sizeof *xs);
-}
-
-static void sobol_range_float(const place *p, uint32_t i, double *xs)
-{
-    float three[3 * 4];
-    koksma_sobol_range_float(domain_of(p), i, 3, 4, three);
-    to_doubles(three + 8, 4, xs);
-}
-
-/* The second of two lanes. */
-static void sobol_lanes(const place *p, uint32_t i, double *xs)
-{
-    const koksma_domain domains[2] = {{1}, domain_of(p)};
-    const uint32_t indices[2] = {7, i};
-    double both[2 * 4];
-    koksma_sobol_lanes(2, domains, indices, 4, both);
-    memcpy(xs, both + 4, 4 * sizeof *xs);
-}
-
-static void sobol_lanes_float(const place *p, uint32_t i, double *xs)
-{
-    const koksma_domain domains[2] = {{1}, domain_of(p)};
-    const uint32_t indices[2] = {7, i};
-    float both[2 * 4];
-    koksma_sobol_lanes_float(2, domains, indices, 4, both);
-    to_doubles(both + 4, 4, xs);
-}
-
-static void white_1d(const place *p, uint32_t i, double *xs)
-{
-    xs[0] = koksma_white_1d(domain_of(p), i);
-}
-
 static void white_4d(const place *p, uint32_t i, double *xs)
 {
     koksma_white_4d(domain_of(p), i, xs);
-}
-
-static void white_1f(const place *p, uint32_t i, double *xs)
-{
-    xs[0] = (double)koksma_white_1f(domain_of(p), i);
-}
-
-static void white_4f(const place *p, uint32_t i, double *xs)
-{
-    float few[4];
-    koksma_white_4f(domain_of(p), i, few);
-    to_doubles(few, 4, xs);
 }
 
 static void pmj02_2d(const place *p, uint32_t i, double *xs)
@@ -227,14 +116,6 @@ static void keys_2d(const place *p, uint32_t i, double *xs)
     koksma_keys_2d(&pixel, i, xs);
 }
 
-static void keys_2f(const place *p, uint32_t i, double *xs)
-{
-    const koksma_keys pixel = koksma_keys_of(image_of(p), p->x, p->y, p->use, SPP);
-    float few[2];
-    koksma_keys_2f(&pixel, i, few);
-    to_doubles(few, 2, xs);
-}
-
 /* A pixel of masks of 64 x 64 that are the same in all images; its sequence is that of a use of the image. */
 static void mask_2d(const place *p, uint32_t i, double *xs)
 {
@@ -256,46 +137,52 @@ static const struct {
     void (*draw)(const place *p, uint32_t i, double *xs);
     bool image;
 } functions[] = {
-    {"koksma_sobol_1d", 1, sobol_1d, false},
-    {"koksma_sobol_2d", 2, sobol_2d, false},
-    {"koksma_sobol_3d", 3, sobol_3d, false},
-    {"koksma_sobol_4d", 4, sobol_4d, false},
-    {"koksma_sobol_1f", 1, sobol_1f, false},
-    {"koksma_sobol_2f", 2, sobol_2f, false},
-    {"koksma_sobol_3f", 3, sobol_3f, false},
-    {"koksma_sobol_4f", 4, sobol_4f, false},
-    {"koksma_sobol_at_2d", 2, sobol_at_2d, false},
-    {"koksma_sobol_at_4d", 4, sobol_at_4d, false},
-    {"koksma_sobol_range", 4, sobol_range, false},
-    {"koksma_sobol_range_float", 4, sobol_range_float, false},
-    {"koksma_sobol_lanes", 4, sobol_lanes, false},
-    {"koksma_sobol_lanes_float", 4, sobol_lanes_float, false},
-    {"koksma_white_1d", 1, white_1d, false},
-    {"koksma_white_4d", 4, white_4d, false},
-    {"koksma_white_1f", 1, white_1f, false},
-    {"koksma_white_4f", 4, white_4f, false},
-    {"koksma_pmj02_2d", 2, pmj02_2d, false},
-    {"koksma_cmj_2d", 2, cmj_2d, false},
-    {"koksma_r_2d", 2, r_2d, false},
-    {"koksma_domain_of_sample", 2, domain_of_sample, false},
-    {"koksma_permute", 1, permute, false},
-    {"koksma_words", 4, words, false},
-    {"koksma_seed_of", 4, seed_of, false},
-    {"koksma_seed_of_order", 1, seed_of_order, false},
-    {"koksma_order", 2, order, false},
-    {"koksma_z_rank", 1, z_rank, true},
-    {"koksma_keys_2d", 2, keys_2d, true},
-    {"koksma_keys_2f", 2, keys_2f, true},
-    {"koksma_mask_2d", 2, mask_2d, true},
+    {"koksma_sobol_4d", 4, sobol_4d, false}, {"koksma_white_4d", 4, white_4d, false},
+    {"koksma_pmj02_2d", 2, pmj02_2d, false}, {"koksma_cmj_2d", 2, cmj_2d, false},
+    {"koksma_r_2d", 2, r_2d, false},         {"koksma_domain_of_sample", 2, domain_of_sample, false},
+    {"koksma_permute", 1, permute, false},   {"koksma_words", 4, words, false},
+    {"koksma_seed_of", 4, seed_of, false},   {"koksma_seed_of_order", 1, seed_of_order, false},
+    {"koksma_order", 2, order, false},       {"koksma_z_rank", 1, z_rank, true},
+    {"koksma_keys_2d", 2, keys_2d, true},    {"koksma_mask_2d", 2, mask_2d, true},
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
-/* Functions without a domain, and those that make domains, which all of the above go through. */
-static const char *const parts[] = {
-    "koksma_mix",        "koksma_domain_of_use", "koksma_domain_of_pixel", "koksma_part_of_sample", "koksma_to_float",
-    "koksma_to_unit",    "koksma_mirror",        "koksma_owen_hash",       "koksma_fraction",       "koksma_shuffled",
-    "koksma_pascal",     "koksma_sobol_of",      "koksma_place",           "koksma_permute4",       "koksma_keys_of",
-    "koksma_mask_value", "koksma_seed_of_frame"};
+/* Functions without a domain, and those that make domains, which all of the above go through; and, from koksma_sobol_1d
+   on, forms that have the numbers of koksma_sobol_4d, koksma_white_4d or koksma_keys_2d (test_sampler_blocks.c). */
+static const char *const parts[] = {"koksma_mix",
+                                    "koksma_domain_of_use",
+                                    "koksma_domain_of_pixel",
+                                    "koksma_part_of_sample",
+                                    "koksma_to_float",
+                                    "koksma_to_unit",
+                                    "koksma_mirror",
+                                    "koksma_owen_hash",
+                                    "koksma_fraction",
+                                    "koksma_shuffled",
+                                    "koksma_pascal",
+                                    "koksma_sobol_of",
+                                    "koksma_place",
+                                    "koksma_permute4",
+                                    "koksma_keys_of",
+                                    "koksma_mask_value",
+                                    "koksma_seed_of_frame",
+                                    "koksma_sobol_1d",
+                                    "koksma_sobol_2d",
+                                    "koksma_sobol_3d",
+                                    "koksma_sobol_1f",
+                                    "koksma_sobol_2f",
+                                    "koksma_sobol_3f",
+                                    "koksma_sobol_4f",
+                                    "koksma_sobol_at_2d",
+                                    "koksma_sobol_at_4d",
+                                    "koksma_sobol_range",
+                                    "koksma_sobol_range_float",
+                                    "koksma_sobol_lanes",
+                                    "koksma_sobol_lanes_float",
+                                    "koksma_white_1d",
+                                    "koksma_white_1f",
+                                    "koksma_white_4f",
+                                    "koksma_keys_2f"};
 enum { PARTS = sizeof parts / sizeof *parts };
 
 typedef struct relation {
