@@ -193,10 +193,11 @@ static int put_sets(const cli_arguments *arguments, cli_rows *rows, const char *
     const bool of_files = cli_is_family(source);
     const size_t n_sets = of_files ? cli_family_files(source, &files) : seeds;
     koksma_points *sets = calloc(n_sets + 1, sizeof *sets);
-    int code = !sets ? cli_no_memory()
-               : !n_sets
-                   ? cli_usage_error(arguments, "%s: no file has such a name, with digits for {n} and {seed}", source)
-                   : CLI_YES;
+    int code = sets ? CLI_YES : cli_no_memory();
+    if (!code && !n_sets) {
+        cli_usage_error(arguments, "%s: no file has such a name, with digits for {n} and {seed}", source);
+        code = koksma_status_exit_code(KOKSMA_MISSING);
+    }
     for (size_t i = 0; i < n_sets && !code; i++) {
         code = cli_source_points(arguments, of_files ? files.gl_pathv[i] : source, seed + i, &work->run, &sets[i]);
     }
