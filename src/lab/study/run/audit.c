@@ -27,6 +27,8 @@
 
 static const double CHANCE = 0.05;
 
+enum { NAME = 1400 }; /* capacity for the name of a row */
+
 typedef struct audit {
     const koksma_audit_options *options;
     koksma_audit *out;
@@ -182,7 +184,7 @@ static koksma_status check_seed(audit *a, const koksma__task *t, const koksma__a
 {
     koksma__result row = {.trial = trial};
     bool found;
-    char name[KOKSMA__REFERENCE_NAME];
+    char name[NAME];
     const koksma_status status = stored(a, s, t->image != NULL, &row, &found);
     *right = row.seed == koksma__task_seed(t, trial) && trial < t->trials;
     if (!status && !*right) {
@@ -236,7 +238,7 @@ static bool is_same(double a, double b)
 static koksma_status compare_row(audit *a, const koksma__task *t, const koksma__audit_series *s,
                                  const koksma__result *made)
 {
-    char name[KOKSMA__REFERENCE_NAME], before[32], now[32];
+    char name[NAME], before[32], now[32];
     koksma__result row = {.trial = made->trial};
     bool found = false;
     int v = 0;
@@ -372,7 +374,7 @@ static koksma_status check(audit *a, koksma__audit_series *s)
         return status;
     }
     if (status) {
-        char name[KOKSMA__REFERENCE_NAME], count[32] = "row";
+        char name[NAME], count[32] = "row";
         if (s->is_reference) {
             name_reference(&s->key, name, sizeof name);
             differ(a, "%s can't be rendered again: %s", name, koksma_error_text());
