@@ -57,8 +57,8 @@ koksma_status koksma__reference_replicate(const koksma__reference_image *referen
    32 bits. */
 void koksma__reference_pixels(const koksma_image *image, char text[KOKSMA__SHA256_TEXT]);
 
-/* Sets the reference's pixels to the mean of all replicates, and frees the sums; then writes the reference's file and its row of the store, or passes both to the
-   study's sink. */
+/* Sets the reference's pixels to the mean of all replicates, and frees the sums; then writes the reference's file and its
+   row of the store, or passes both to the study's sink. */
 koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *study,
                                         koksma__reference_image *reference);
 
