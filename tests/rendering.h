@@ -64,6 +64,18 @@ static inline koksma_scene *scene_of(const char *text)
     return scene;
 }
 
+static inline koksma_scene *shipped(const char *name)
+{
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open(name, &scene));
+    return scene;
+}
+
+/* The text of a scene that shows nothing but an even background. */
+#define SKY_ALONE(radiance)                                                                                          \
+    "{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 40}, 'background': " radiance                     \
+    ", 'materials': [], 'shapes': []}"
+
 static inline koksma_render_options options_of(const koksma_scene *scene, const char *pattern, const char *integrator,
                                                int spp, int side)
 {

@@ -70,8 +70,7 @@ static void every_method_is_tried(void **state)
 static void same_bits_for_any_number_of_threads(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("all", &scene));
+    koksma_scene *scene = shipped("all");
     for (size_t m = 0; m < 2 * N_METHODS; m++) {
         const double budget = m % 2 ? 0 : 21.5;
         koksma_adaptive_report first, other;
@@ -95,8 +94,7 @@ static void same_bits_for_any_number_of_threads(void **state)
 static void constant_pictures_cost_the_first_samples(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 40},'background': "
-                                   "0.3, 'materials': [], 'shapes': []}");
+    koksma_scene *scene = scene_of(SKY_ALONE("0.3"));
     for (size_t m = 0; m < 2 * N_METHODS; m++) {
         const char *method = methods[m / 2];
         koksma_adaptive_report report;
@@ -128,8 +126,7 @@ static double limit_of(const koksma_adaptive_options *a)
 static void limits_and_budgets_are_kept(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("all", &scene));
+    koksma_scene *scene = shipped("all");
     for (size_t m = 0; m < 2 * N_METHODS; m++) {
         const double budget = m % 2 ? 0 : 16.25;
         const koksma_adaptive_options adaptive = adaptive_of(methods[m / 2], budget);
@@ -206,8 +203,7 @@ static double needless(const koksma_scene *scene, const char *method)
 static void shuffled_strata_are_split_needlessly(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_scene *scene = shipped("ball");
     const double aligned = needless(scene, "hierarchical:levels=1");
     const double shuffled = needless(scene, "hierarchical:levels=1,pairing=shuffled");
     const double selective = needless(scene, "selective:levels=1");
@@ -243,8 +239,7 @@ static void shown_strata_are_a_partition(void **state)
     static const char *const forms[] = {"hierarchical:levels=3,threshold=0",
                                         "hierarchical:levels=3,threshold=0,pairing=shuffled,reuse=fresh",
                                         "selective:levels=2,below=2,threshold=0"};
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("all", &scene));
+    koksma_scene *scene = shipped("all");
     for (size_t f = 0; f < 3; f++) {
         const koksma_render_options options = options_for(scene, 16);
         koksma_adaptive_options adaptive = adaptive_of(forms[f], 0);
@@ -307,8 +302,7 @@ static bool stop_later(void *context, double fraction)
 static void a_pixel_that_had_samples_is_never_black(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 40},'background': "
-                                   "0.3, 'materials': [], 'shapes': []}");
+    koksma_scene *scene = scene_of(SKY_ALONE("0.3"));
     for (size_t m = 0; m < N_METHODS; m++) {
         int stopped = 0;
         for (int asked = 2; asked < 12; asked++) {
@@ -341,13 +335,12 @@ static bool stop_within_a_task(void *context, double fraction)
 static void an_interruption_ends_a_task(void **state)
 {
     (void)state;
-    koksma_scene *scene;
     koksma_layers layers;
     int looks = 0;
     const koksma_run run = {.threads = 1, .keep_going = stop_within_a_task, .context = &looks};
     const koksma_adaptive_options adaptive = adaptive_of("two-stage:threshold=0.05,most=6,first=2", 0);
     koksma_adaptive_report report;
-    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_scene *scene = shipped("ball");
     koksma_render_options options = options_for(scene, 1 << 12);
     options.width = 16;
     options.height = 8;
@@ -361,13 +354,12 @@ static void an_interruption_ends_a_task(void **state)
 static void errors_are_said(void **state)
 {
     (void)state;
-    koksma_scene *scene;
     koksma_adaptive_options adaptive;
     koksma_layers layers;
     const koksma_run run = {.keep_going = stop_at_once};
     assert_int_equal(koksma_adaptive_parse("adapt", &adaptive), KOKSMA_UNKNOWN);
     assert_int_equal(koksma_adaptive_parse("blocks:size=3", &adaptive), KOKSMA_ARGUMENT);
-    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_scene *scene = shipped("ball");
     assert_int_equal(try(scene, "hierarchical", "random", 17, 0), KOKSMA_N);
     assert_int_equal(try(scene, "hierarchical:levels=8", "random", 64, 0), KOKSMA_ARGUMENT);
     assert_int_equal(try(scene, "blocks", "random", 4, 0), KOKSMA_ARGUMENT);

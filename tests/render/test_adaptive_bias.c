@@ -55,9 +55,8 @@ static void bias_is_where_it_must_be(void **state)
         {"selective:levels=1", 0, true},
         {"relative-error:threshold=0.05", 0, true},
     };
-    koksma_scene *scene;
     static moments reference, few;
-    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_scene *scene = shipped("ball");
     measure(scene, few_pixels(scene, "sobol:scramble=owen", test_repeats(512, 64)), NULL, 0, 12, 100000, &reference);
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         const bool sets = strstr(cases[c].method, "two-stage") || strstr(cases[c].method, "relative");

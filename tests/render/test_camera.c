@@ -7,19 +7,31 @@
 
 enum { LENS_SAMPLES = test_repeats(4096, 1024) };
 
-/* A lamp that is small and out of focus is a disk of radius lens (d - f) / d on the plane of focus, evenly lit. */
-static void lens_blurs_to_a_disk(void **state)
+/* A lamp that is small and out of focus shows the lens, a disk or a polygon whose corner 0 is at the angle from the right,
+   of radius lens (d - f) / d on the plane of focus: evenly lit, its light over the lens's area. */
+static void lenses_blur_to_their_shapes(void **state)
 {
     (void)state;
-    static const char *const maps[] = {"concentric", "polar"};
-    for (size_t m = 0; m < 2; m++) {
+    static const struct {
+        const char *lens;
+        int blades, angle_deg;
+    } cases[] = {{"'lens_map': 'concentric'", 0, 0},
+                 {"'lens_map': 'polar'", 0, 0},
+                 {"'lens_blades': 3, 'lens_angle_deg': 0", 3, 0},
+                 {"'lens_blades': 6, 'lens_angle_deg': 75", 6, 75},
+                 {"'lens_blades': 4, 'lens_angle_deg': 25", 4, 25},
+                 {"'lens_blades': 5, 'lens_angle_deg': 50", 5, 50}};
+    for (size_t c = 0; c < test_repeats(6, 4); c++) {
+        const int blades = cases[c].blades;
+        const double angle = cases[c].angle_deg * M_PI / 180,
+                     area = 0.25 * 0.25 * (blades ? blades / 2.0 * sin(2 * M_PI / blades) : M_PI);
         char text[1024];
         snprintf(
             text, sizeof text,
-            "{'camera': {'eye': [0, 0, 0], 'target': [0, 0, -1], 'fov_deg': 53.13010235415598,'lens_radius': 0.5, "
-            "'focus_distance': 2, 'lens_map': '%s'}, 'materials': [], 'shapes': [],'lights': [{'kind': 'disk', "
-            "'centre': [0, 0, -4], 'normal': [0, 0, 1], 'radius': 0.05,'radiance': 100, 'visible': true}]}",
-            maps[m]);
+            "{'camera': {'eye': [0, 0, 0], 'target': [0, 0, -1], 'fov_deg': 53.13010235415598, 'lens_radius': 0.5, "
+            "'focus_distance': 2, %s}, 'materials': [], 'shapes': [], 'lights': [{'kind': 'disk', 'centre': [0, 0, "
+            "-4], 'normal': [0, 0, 1], 'radius': 0.05, 'radiance': 100, 'visible': true}]}",
+            cases[c].lens);
         koksma_scene *scene = scene_of(text);
         koksma_render_options options = options_of(scene, "n-rooks", "distribution", LENS_SAMPLES, 32);
         koksma_image image;
@@ -27,23 +39,27 @@ static void lens_blurs_to_a_disk(void **state)
         /* The film shows the plane of focus from -1 to 1: a disk of radius 0.25 is 4 pixels of 16. The lamp covers
            there, seen from a place of the lens, a disk of radius 0.025: it adds that much to the edge. */
         double inside = 0, total = 0;
-        for (int y = 0; y < 32; y++) {
-            for (int x = 0; x < 32; x++) {
-                const double r = hypot(x + 0.5 - 16, y + 0.5 - 16), value = (double)image.pixels[y * 32 + x];
-                total += value;
-                if (r > 4 + 0.4 + 0.75) {
-                    assert_true(value == 0);
-                } else if (r < 4 - 0.4 - 0.75) {
-                    inside += value;
-                    /* The lamp's disk over the blur's, (0.025 / 0.25)^2, by one sample in 100: 5 deviations. */
-                    assert_near(value, 100 * 0.01, 5 / sqrt(LENS_SAMPLES / 100.0));
-                }
+        for (int i = 0; i < 32 * 32; i++) {
+            const double at[2] = {(i % 32 + 0.5 - 16) / 16, (16 - i / 32 - 0.5) / 16},
+                         value = (double)image.pixels[i];
+            double beyond = blades ? -1 : hypot(at[0], at[1]) - 0.25;
+            for (int k = 0; k < blades; k++) {
+                const double normal = angle + (2 * k + 1) * M_PI / blades;
+                beyond = fmax(beyond, at[0] * cos(normal) + at[1] * sin(normal) - 0.25 * cos(M_PI / blades));
+            }
+            total += value;
+            if (beyond > 0.025 + 0.75 / 16) {
+                assert_true(value == 0);
+            } else if (beyond < -0.025 - 0.75 / 16) {
+                /* The lamp's disk over the blur's, by one sample in 100 at least: 5 deviations. */
+                assert_near(value / (100 * M_PI * 0.025 * 0.025 / area), 1, 5 / sqrt(LENS_SAMPLES / 100.0));
+                inside += value;
             }
         }
         /* All of its light, as through a pinhole: the lamp is 0.05 x 8 pixels in radius. 24 seeds of 4096
            samples have a deviation of 0.02, that of 2059 hits. */
         assert_near(total / (100 * M_PI * pow(0.05 * 8, 2)), 1, 5 * 0.022 * sqrt(4096.0 / LENS_SAMPLES));
-        assert_true(inside > 0.2 * total);
+        assert_true(inside > (blades ? 0 : 0.2 * total));
         koksma_image_fini(&image);
         koksma_scene_close(scene);
     }
@@ -100,52 +116,6 @@ static void blades_keep_ratios_of_areas(void **state)
     }
 }
 
-/* The lamp of lens_blurs_to_a_disk shows the polygon itself, corner 0 at the angle from the right: evenly lit, its
-   light over the polygon's area. */
-static void blades_blur_to_a_polygon(void **state)
-{
-    (void)state;
-    for (int blades = 3; blades <= 6; blades += test_repeats(1, 3)) {
-        const double angle = 25 * (blades - 3) * M_PI / 180,
-                     area = blades / 2.0 * sin(2 * M_PI / blades) * 0.25 * 0.25;
-        char text[1024];
-        snprintf(text, sizeof text,
-                 "{'camera': {'eye': [0, 0, 0], 'target': [0, 0, -1], 'fov_deg': 53.13010235415598,'lens_radius': "
-                 "0.5, 'focus_distance': 2, 'lens_blades': %d, 'lens_angle_deg': %d}, 'materials': [], 'shapes': "
-                 "[],'lights': [{'kind': 'disk', 'centre': [0, 0, -4], 'normal': [0, 0, 1], 'radius': "
-                 "0.05,'radiance': 100, 'visible': true}]}",
-                 blades, 25 * (blades - 3));
-        koksma_scene *scene = scene_of(text);
-        koksma_render_options options = options_of(scene, "n-rooks", "distribution", LENS_SAMPLES, 32);
-        koksma_image image;
-        assert_ok(koksma_render(scene, &options, NULL, &image));
-        double total = 0, inside = 0;
-        for (int y = 0; y < 32; y++) {
-            for (int x = 0; x < 32; x++) {
-                const double at[2] = {(x + 0.5 - 16) / 16, (16 - y - 0.5) / 16},
-                             value = (double)image.pixels[y * 32 + x];
-                double beyond = -1;
-                for (int k = 0; k < blades; k++) {
-                    const double normal = angle + (2 * k + 1) * M_PI / blades;
-                    beyond = fmax(beyond, at[0] * cos(normal) + at[1] * sin(normal) - 0.25 * cos(M_PI / blades));
-                }
-                total += value;
-                if (beyond > 0.025 + 0.75 / 16) {
-                    assert_true(value == 0);
-                } else if (beyond < -0.025 - 0.75 / 16) {
-                    const double expected = 100 * M_PI * 0.025 * 0.025 / area; /* of 100 samples at least one hits */
-                    assert_near(value / expected, 1, 5 / sqrt(LENS_SAMPLES / 100.0));
-                    inside += value;
-                }
-            }
-        }
-        assert_near(total / (100 * M_PI * pow(0.05 * 8, 2)), 1, 5 * 0.022 * sqrt(4096.0 / LENS_SAMPLES));
-        assert_true(inside > 0);
-        koksma_image_fini(&image);
-        koksma_scene_close(scene);
-    }
-}
-
 /* Parallel rays: a black ball of radius 1/2 before a white sky covers pi / 4 of the 4 x 4 that the image shows, wherever it
    is, by every integrator (to ambient occlusion it is white and sees the whole sky). */
 static void orthographic_images_have_their_scale(void **state)
@@ -199,8 +169,7 @@ static void shutter_sees_the_time(void **state)
 static void every_way_of_sampling_has_the_same_mean(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("all", &scene));
+    koksma_scene *scene = shipped("all");
     scene->clamp = INFINITY;
     const double base_error = 0.0015; /* of 147,456 random samples of standard deviation about 0.3, twice */
     double error;
@@ -228,8 +197,7 @@ static void filters_keep_a_constant(void **state)
     (void)state;
     static const char *const patterns[] = {"random", "n-rooks", "sobol", "hammersley", "regular"};
     static const int spps[] = {1, 2, 4, 16, 64};
-    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 0], 'target': [0, 0, -1], 'fov_deg': 40},'background': "
-                                   "0.75, 'materials': [], 'shapes': []}");
+    koksma_scene *scene = scene_of(SKY_ALONE("0.75"));
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
         for (size_t k = 0; k < 100; k++) {
@@ -258,8 +226,7 @@ static void filters_keep_a_constant(void **state)
 static void many_splats_are_summed(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 0], 'target': [0, 0, -1], 'fov_deg': 40},'background': "
-                                   "0.7, 'materials': [], 'shapes': []}");
+    koksma_scene *scene = scene_of(SKY_ALONE("0.7"));
     koksma_render_options options = options_of(scene, "regular", "distribution", 1 << 20, 1);
     options.splat = true;
     assert_near(mean_of(scene, &options, NULL), 0.7, 1e-6);
@@ -339,11 +306,15 @@ static void layers_show_what_is_seen(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lens_blurs_to_a_disk),      cmocka_unit_test(blades_keep_ratios_of_areas),
-        cmocka_unit_test(blades_blur_to_a_polygon),  cmocka_unit_test(orthographic_images_have_their_scale),
-        cmocka_unit_test(shutter_sees_the_time),     cmocka_unit_test(every_way_of_sampling_has_the_same_mean),
-        cmocka_unit_test(filters_keep_a_constant),   cmocka_unit_test(many_splats_are_summed),
-        cmocka_unit_test(filters_are_what_they_say), cmocka_unit_test(filters_weigh_an_edge),
+        cmocka_unit_test(lenses_blur_to_their_shapes),
+        cmocka_unit_test(blades_keep_ratios_of_areas),
+        cmocka_unit_test(orthographic_images_have_their_scale),
+        cmocka_unit_test(shutter_sees_the_time),
+        cmocka_unit_test(every_way_of_sampling_has_the_same_mean),
+        cmocka_unit_test(filters_keep_a_constant),
+        cmocka_unit_test(many_splats_are_summed),
+        cmocka_unit_test(filters_are_what_they_say),
+        cmocka_unit_test(filters_weigh_an_edge),
         cmocka_unit_test(layers_show_what_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -110,8 +110,7 @@ static void render_half(const koksma_scene *scene, koksma_render_options *option
 static void what_is_not_rendered_stays_black(void **state)
 {
     (void)state;
-    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 40},'background': "
-                                   "0.75, 'materials': [], 'shapes': []}");
+    koksma_scene *scene = scene_of(SKY_ALONE("0.75"));
     static const struct {
         bool image, splat;
         int threads;

@@ -52,8 +52,7 @@ static void filters_keep_a_ramp(void **state)
     enum { SEEDS = 8 };
     static const char *const patterns[] = {"regular", "random", "n-rooks", "sobol:scramble=owen"};
     static const int spps[] = {4, 16, 64};
-    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 0], 'target': [0, 0, -1], 'fov_deg': 40},'background': "
-                                   "1, 'materials': [], 'shapes': []}");
+    koksma_scene *scene = scene_of(SKY_ALONE("1"));
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
         for (size_t c = 0; c < 24; c++) {
@@ -149,8 +148,7 @@ static double rms(const koksma_image *a, const koksma_image *b)
 static void drawing_is_near_splatting(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_scene *scene = shipped("ball");
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
         koksma_render_options options = options_of(scene, "sobol:scramble=owen", "distribution", 256, 64);
@@ -183,8 +181,7 @@ static void drawing_is_near_splatting(void **state)
 static void rounds_weigh_as_one_picture(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("balls", &scene));
+    koksma_scene *scene = shipped("balls");
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
         koksma_render_options options = options_of(scene, "jittered", "distribution", 9, 24);

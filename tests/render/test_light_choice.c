@@ -5,6 +5,8 @@
  * chosen, so that the mean of contribution / probability is the sum over all lights. `auto` is `one` for paths among
  * more than 8 lights, and `all` elsewhere; its mean is that of all lights.
  */
+#include "render/lights/lights.h"
+#include "render/pipelines/batch.h"
 #include "render/pipelines/pipelines.h"
 #include "rendering.h"
 
@@ -45,8 +47,7 @@ static double contribution(const koksma__shading_light *l, const float p[3], con
 static void probabilities_add_to_one(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("many-lights", &scene));
+    koksma_scene *scene = shipped("many-lights");
     for (int selection = KOKSMA_LIGHTS_ONE; selection <= KOKSMA_LIGHTS_AUTO; selection++) {
         const koksma_render_options options = options_by(scene, (koksma_light_selection)selection);
         koksma__frame frame;
@@ -79,8 +80,7 @@ static void choices_have_their_probabilities(void **state)
 {
     static _Alignas(64) float estimates[KOKSMA__MAX_BATCH_LIGHTS][KOKSMA__BLOCK];
     (void)state;
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("many-lights", &scene));
+    koksma_scene *scene = shipped("many-lights");
     const koksma_render_options options = options_by(scene, KOKSMA_LIGHTS_ONE);
     koksma__frame frame;
     assert_ok(koksma__frame_open(scene, &options, NULL, &frame));
@@ -149,9 +149,8 @@ static void choices_have_their_probabilities(void **state)
 static void one_of_many_has_the_mean_of_all(void **state)
 {
     (void)state;
-    koksma_scene *scene;
     double errors[2], means[2];
-    assert_ok(koksma_scene_open("many-lights", &scene));
+    koksma_scene *scene = shipped("many-lights");
     for (int i = 0; i < 2; i++) {
         koksma_render_options options = options_by(scene, i ? KOKSMA_LIGHTS_AUTO : KOKSMA_LIGHTS_ALL);
         options.width = 32;
@@ -176,9 +175,8 @@ static void automatic_selection(void **state)
                 {"balls", "path", KOKSMA_LIGHTS_ALL}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        koksma_scene *scene;
         koksma_image images[2];
-        assert_ok(koksma_scene_open(rows[i].scene, &scene));
+        koksma_scene *scene = shipped(rows[i].scene);
         for (int k = 0; k < 2; k++) {
             koksma_render_options options = options_by(scene, k ? rows[i].expected : KOKSMA_LIGHTS_AUTO);
             options.integrator = koksma_integrator_find(rows[i].integrator);
@@ -193,13 +191,58 @@ static void automatic_selection(void **state)
     }
 }
 
+/* A small disk overhead and another light, which reflect the same: pi 10^-4 L / pi is intensity / pi, irradiance
+   / pi, or the radiance of the sky. By power the disk's is pi A L, a point's 4 pi I and a sphere's 4 pi times that of
+   the disk that it shows, which are four times as much; one that is far away has the power of what it reflects. */
+static void choices_are_in_proportion(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *light;
+        double by_power;
+    } cases[] = {
+        {"'kind': 'disk', 'centre': [0, 1, 0], 'normal': [0, -1, 0], 'radius': 0.02, 'radiance': 250", 0.5},
+        {"'kind': 'rectangle', 'centre': [0, 1, 0], 'normal': [0, -1, 0], 'half': [0.01, 0.01], 'radiance': "
+         "785.398163",
+         0.5},
+        {"'kind': 'point', 'centre': [0, 1, 0], 'intensity': 0.314159265", 0.2},
+        {"'kind': 'sphere', 'centre': [0, 1, 0], 'radius': 0.01, 'radiance': 1000", 0.2},
+        {"'kind': 'directional', 'direction': [0, -1, 0], 'irradiance': 0.314159265", 0.5},
+        {"'kind': 'environment', 'radiance': 0.1", 0.5},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "{'camera': {'eye': [0.3, 0.5, 0.3], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': "
+                 "'m', 'kind': 'lambert', 'albedo': 1}],'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': "
+                 "[0, 1, 0], 'material': 'm'}],'lights': [{'kind': 'disk', 'centre': [0, 1, 0], 'normal': [0, -1, "
+                 "0], 'radius': 0.01, 'radiance': 1000}, {%s}]}",
+                 cases[i].light);
+        koksma_scene *scene = scene_of(text);
+        koksma__lights lights;
+        assert_ok(koksma__lights_init(scene, &lights));
+        const float p[3] = {0, 0, 0}, n[3] = {0, 1, 0};
+        float estimates[KOKSMA__MAX_BATCH_LIGHTS];
+        koksma__batch()->estimate(lights.estimates, p, n, estimates);
+        assert_near((double)estimates[0], 0.1, 1e-5); /* the reflected luminance itself */
+        assert_near((double)estimates[1], 0.1, 1e-5);
+        assert_near((double)lights.cdf[1], cases[i].by_power, 1e-5);
+        koksma__lights_fini(&lights);
+        /* and it is what the pictures show */
+        koksma_render_options options = options_of(scene, "random", "distribution", 64, 8);
+        double error;
+        const double mean = mean_of(scene, &options, &error);
+        assert_near(mean, 0.2, 4 * error + 1e-3);
+        koksma_scene_close(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(probabilities_add_to_one),
-        cmocka_unit_test(choices_have_their_probabilities),
-        cmocka_unit_test(one_of_many_has_the_mean_of_all),
-        cmocka_unit_test(automatic_selection),
+        cmocka_unit_test(probabilities_add_to_one),        cmocka_unit_test(choices_have_their_probabilities),
+        cmocka_unit_test(one_of_many_has_the_mean_of_all), cmocka_unit_test(automatic_selection),
+        cmocka_unit_test(choices_are_in_proportion),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -95,11 +95,10 @@ static void films_take_what_is_told(void **state)
     (void)state;
     static const char *const scenes[] = {"ball", "balls"};
     for (int c = 0; c < 8; c++) {
-        koksma_scene *scene;
         koksma_layers layers;
         char what[64];
         const bool all = c & 1, splat = c & 2;
-        assert_ok(koksma_scene_open(scenes[c / 4], &scene));
+        koksma_scene *scene = shipped(scenes[c / 4]);
         koksma_render_options options = options_of(scene, "random", "utah", 1, SIDE);
         options.splat = splat;
         options.filter = koksma_filter_find("mitchell");
@@ -122,8 +121,7 @@ static void samples_take_what_is_told(void **state)
 {
     (void)state;
     static const koksma_pairing pairings[] = {KOKSMA_PAIRING_SHUFFLED, KOKSMA_PAIRING_ALIGNED, KOKSMA_PAIRING_NATIVE};
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("all", &scene));
+    koksma_scene *scene = shipped("all");
     for (int p = 0; p < 3; p++) {
         koksma__sampler sampler;
         koksma_render_options options = options_of(scene, "random", "distribution", 2, SIDE / 2);
@@ -144,8 +142,7 @@ static void samples_take_what_is_told(void **state)
 static void methods_take_what_is_told(void **state)
 {
     (void)state;
-    koksma_scene *scene;
-    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_scene *scene = shipped("ball");
     const koksma_adaptive *method;
     for (size_t i = 0; (method = koksma_adaptive_at(i)); i++) {
         koksma_render_options options = options_of(scene, "jittered", "utah", 4, SIDE / 2);

@@ -19,10 +19,9 @@ static void same_bits_for_any_number_of_threads(void **state)
         {"cornell", "irradiance-cache", "n-rooks", 1, false},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-        koksma_scene *scene;
         koksma_layers one, other;
         koksma_run run = {.threads = 1};
-        assert_ok(koksma_scene_open(cases[c].scene, &scene));
+        koksma_scene *scene = shipped(cases[c].scene);
         koksma_render_options options = options_of(scene, cases[c].pattern, cases[c].integrator, cases[c].spp, 45);
         options.height = 34; /* no multiple of anything */
         options.splat = cases[c].splat;
@@ -139,12 +138,11 @@ static bool stop_the_other(void *context, double fraction)
 static void an_interruption_stops_every_thread(void **state)
 {
     (void)state;
-    koksma_scene *scene;
     koksma_render_options options;
     koksma_layers layers;
     double before = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - cpu_s(CLOCK_THREAD_CPUTIME_ID);
     const koksma_run run = {.threads = 2, .keep_going = stop_the_other, .context = &before};
-    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_scene *scene = shipped("ball");
     koksma_render_options_init(&options, scene);
     options.width = 64;
     options.height = 2;
@@ -167,12 +165,11 @@ static bool count_looks(void *context, double fraction)
 static void keep_going_is_asked_between_sets(void **state)
 {
     (void)state;
-    koksma_scene *scene;
     koksma_render_options options;
     koksma_image image;
     size_t looks = 0;
     const koksma_run run = {.threads = 1, .keep_going = count_looks, .context = &looks};
-    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_scene *scene = shipped("ball");
     koksma_render_options_init(&options, scene);
     options.width = 64;
     options.height = 2;
@@ -187,10 +184,9 @@ static void keep_going_is_asked_between_sets(void **state)
 static void errors_are_said(void **state)
 {
     (void)state;
-    koksma_scene *scene;
     koksma_render_options options;
     koksma_image image;
-    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_scene *scene = shipped("ball");
     koksma_render_options_init(&options, scene);
     options.spp = 0;
     assert_int_equal(koksma_render(scene, &options, NULL, &image), KOKSMA_ARGUMENT);

@@ -41,9 +41,8 @@ static void few_samples_are_right_in_the_mean(void **state)
         int spp;
     } cases[] = {{"random", 2}, {"jittered", 4}, {"n-rooks", 3}, {"jittered", 16}};
     for (size_t s = 0; s < 2; s++) {
-        koksma_scene *scene;
         static moments reference, few;
-        assert_ok(koksma_scene_open(scenes[s], &scene));
+        koksma_scene *scene = shipped(scenes[s]);
         koksma_render_options options = options_of(scene, "jittered", "distribution", 400, WIDTH);
         options.height = HEIGHT;
         measure(scene, options, NULL, 0, 12, 1000, &reference);
@@ -61,12 +60,11 @@ static void few_samples_are_right_in_the_mean(void **state)
    random most. Aligned pairing ties lights to places in the pixel and costs accuracy. */
 static double mean_error(const char *name, const char *pattern, koksma_pairing pairing)
 {
-    koksma_scene *scene;
     koksma_render_options options;
     koksma_image reference, image;
     koksma_image_error error;
     double sum = 0;
-    assert_ok(koksma_scene_open(name, &scene));
+    koksma_scene *scene = shipped(name);
     koksma_render_options_init(&options, scene);
     options.width = 64;
     options.height = 48;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Path tracing by each weight of the strategies that find light: sampling lights, sampling lobes, and their mixtures by
- * Veach's heuristics. All estimate one integral (Veach 1997, section 9.2), so that each has on surfaces of every material under every kind of light the mean of the others; what they
- * differ in is variance: on a smooth plate a large light is found by lobes, on a rough one a small light by sampling it.
+ * Veach's heuristics. All estimate one integral (Veach 1997, section 9.2), so that on surfaces of every material under
+ * every kind of light each has the mean of the others; what they differ in is variance: on a smooth plate a large light
+ * is found by lobes, on a rough one a small light by sampling it.
  */
 #include "kinds.h"
 #include "render/integrators/integrators.h"

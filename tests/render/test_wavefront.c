@@ -243,9 +243,8 @@ static void cache_leaves_out_what_mirrors_throw(void **state)
 static void cache_has_the_depth_of_paths(void **state)
 {
     (void)state;
-    koksma_scene *scene;
     koksma_image images[2];
-    assert_ok(koksma_scene_open("cornell", &scene));
+    koksma_scene *scene = shipped("cornell");
     for (int i = 0; i < 2; i++) {
         koksma_render_options options = options_of(scene, "n-rooks", i ? "irradiance-cache" : "path", 4, 16);
         options.depth = 0;
