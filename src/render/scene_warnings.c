@@ -8,6 +8,7 @@
 
 #include <stdio.h>
 
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "render/materials/materials.h"
 
@@ -18,10 +19,17 @@ typedef struct asked {
     size_t size;
 } asked;
 
-/* Counts a warning; returns true if it is the requested one. */
-static bool here(asked *a)
+/* Counts a warning; if it is the requested one, writes it and returns true. */
+KOKSMA_PRINTF(2, 3) static bool tell(asked *a, const char *format, ...)
 {
-    return !a->left--;
+    va_list arguments;
+    if (a->left--) {
+        return false;
+    }
+    va_start(arguments, format);
+    koksma__vsnprintf(a->text, a->size, format, arguments);
+    va_end(arguments);
+    return true;
 }
 
 static bool is_used(const koksma_scene *scene, int material)
@@ -51,16 +59,13 @@ static bool of_meshes(const koksma_scene *scene, asked *a)
         first = scene->meshes[i].n_degenerate && !n ? i : first;
         n += scene->meshes[i].n_degenerate > 0;
     }
-    if (!n || !here(a)) {
-        return false;
+    char more[64] = "";
+    if (n > 1) {
+        snprintf(more, sizeof more, " (and some of %zu more meshes)", n - 1);
     }
-    const koksma__mesh *m = &scene->meshes[first];
-    const int used = snprintf(a->text, a->size, "mesh %zu%s%s: %zu of %zu triangles have no area", first,
-                              *m->name ? " " : "", m->name, m->n_degenerate, m->n_triangles);
-    if (n > 1 && used > 0 && (size_t)used < a->size) {
-        snprintf(a->text + used, a->size - (size_t)used, " (and some of %zu more meshes)", n - 1);
-    }
-    return true;
+    const koksma__mesh *m = n ? &scene->meshes[first] : NULL;
+    return m && tell(a, "mesh %zu%s%s: %zu of %zu triangles have no area%s", first, *m->name ? " " : "", m->name,
+                     m->n_degenerate, m->n_triangles, more);
 }
 
 static bool of_placements(const koksma_scene *scene, asked *a)
@@ -72,34 +77,24 @@ static bool of_placements(const koksma_scene *scene, asked *a)
             n++;
         }
     }
-    if (!n || !here(a)) {
-        return false;
-    }
-    const int mesh = scene->placements[first].mesh;
-    snprintf(a->text, a->size, "mesh %d%s%s is flattened, because the matrix of its placement has no inverse%s", mesh,
-             *scene->meshes[mesh].name ? " " : "", scene->meshes[mesh].name,
-             n > 1 ? ", and other meshes are, too" : "");
-    return true;
+    const int mesh = n ? scene->placements[first].mesh : 0;
+    return n && tell(a, "mesh %d%s%s is flattened, because the matrix of its placement has no inverse%s", mesh,
+                     *scene->meshes[mesh].name ? " " : "", scene->meshes[mesh].name,
+                     n > 1 ? ", and other meshes are, too" : "");
 }
 
 static bool of_lights(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_lights; i++) {
-        if (is_dark(scene->lights[i].radiance) && here(a)) {
-            snprintf(a->text, a->size, "light %zu emits no light", i);
+        if (is_dark(scene->lights[i].radiance) && tell(a, "light %zu emits no light", i)) {
             return true;
         }
     }
-    if (scene->unread.too_bright && here(a)) {
-        snprintf(a->text, a->size, "lights or emissive materials brighter than 1e6 (%zu) are dimmed to 1e6",
-                 scene->unread.too_bright);
-        return true;
-    }
-    if (!scene->n_lights && is_dark(scene->ambient) && is_dark(scene->background) && here(a)) {
-        snprintf(a->text, a->size, "no light, no ambient light, no background: the picture will be black");
-        return true;
-    }
-    return false;
+    return (scene->unread.too_bright &&
+            tell(a, "lights or emissive materials brighter than 1e6 (%zu) are dimmed to 1e6",
+                 scene->unread.too_bright)) ||
+           (!scene->n_lights && is_dark(scene->ambient) && is_dark(scene->background) &&
+            tell(a, "no light, no ambient light, no background: the picture will be black"));
 }
 
 /* Warns about lights that rays cannot hit in a scene with mirrors or glass, because light that a mirror or glass
@@ -114,14 +109,11 @@ static bool of_hidden_lights(const koksma_scene *scene, asked *a)
     for (size_t i = 0; i < scene->n_materials && !thrown; i++) {
         thrown = scene->materials[i].bsdf->lobes & KOKSMA__LOBE_SPECULAR && is_used(scene, (int)i);
     }
-    if (!hidden || !thrown || !here(a)) {
-        return false;
-    }
-    snprintf(a->text, a->size,
-             "rays cannot hit some lights (%zu): with the integrator path, mirrors and glass cast none of their "
-             "light on other surfaces",
-             hidden);
-    return true;
+    return hidden && thrown &&
+           tell(a,
+                "rays cannot hit some lights (%zu): with the integrator path, mirrors and glass cast none of their "
+                "light on other surfaces",
+                hidden);
 }
 
 /* Warns about an environment whose image is black or has negative numbers. This check is the last one, because it reads
@@ -138,14 +130,10 @@ static bool of_environment(const koksma_scene *scene, asked *a)
             negative += rgb[0] < 0 || (colour && (rgb[1] < 0 || rgb[2] < 0));
             lit += rgb[0] > 0 || (colour && (rgb[1] > 0 || rgb[2] > 0));
         }
-        if (pixels && (negative || !lit) && !is_dark(scene->lights[i].radiance) && here(a)) {
-            if (lit) {
-                snprintf(a->text, a->size,
-                         "the image of light %zu has negative numbers in %zu of %zu pixels; they count as 0", i,
-                         negative, pixels);
-            } else {
-                snprintf(a->text, a->size, "light %zu emits no light: no number in its image is above 0", i);
-            }
+        if (pixels && (negative || !lit) && !is_dark(scene->lights[i].radiance) &&
+            (lit ? tell(a, "the image of light %zu has negative numbers in %zu of %zu pixels; they count as 0", i,
+                        negative, pixels)
+                 : tell(a, "light %zu emits no light: no number in its image is above 0", i))) {
             return true;
         }
     }
@@ -156,23 +144,15 @@ static bool of_materials(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_materials; i++) {
         const koksma__material *m = &scene->materials[i];
-        if (!scene->is_model && !is_used(scene, (int)i) && here(a)) {
-            snprintf(a->text, a->size, "material '%s' is not used", m->name);
-            return true;
-        }
-        if (*m->lost && here(a)) {
-            snprintf(a->text, a->size, "the texture of material %zu is ignored: %s", i, m->lost);
-            return true;
-        }
-        if (*m->dark && here(a)) {
-            snprintf(a->text, a->size, "material %zu emits no light, because its emissive texture is missing: %s", i,
-                     m->dark);
+        if ((!scene->is_model && !is_used(scene, (int)i) && tell(a, "material '%s' is not used", m->name)) ||
+            (*m->lost && tell(a, "the texture of material %zu is ignored: %s", i, m->lost)) ||
+            (*m->dark &&
+             tell(a, "material %zu emits no light, because its emissive texture is missing: %s", i, m->dark))) {
             return true;
         }
     }
     for (size_t i = 0; i < scene->n_notes; i++) {
-        if (here(a)) {
-            snprintf(a->text, a->size, "%s", scene->notes[i]);
+        if (tell(a, "%s", scene->notes[i])) {
             return true;
         }
     }
@@ -195,16 +175,11 @@ static bool of_unread(const koksma__unread *u, asked *a)
         {u->see_through, "materials' transparencies", "these materials are opaque"},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        if (all[i].n && here(a)) {
-            snprintf(a->text, a->size, "%s (%zu) are not read: %s", all[i].what, all[i].n, all[i].so);
+        if (all[i].n && tell(a, "%s (%zu) are not read: %s", all[i].what, all[i].n, all[i].so)) {
             return true;
         }
     }
-    if (u->extensions && here(a)) {
-        snprintf(a->text, a->size, "extensions (%zu) are not read: %s", u->extensions, u->extension);
-        return true;
-    }
-    return false;
+    return u->extensions && tell(a, "extensions (%zu) are not read: %s", u->extensions, u->extension);
 }
 
 static void say_unknown(const koksma__unknown *u, char *text, size_t size)
@@ -222,7 +197,7 @@ static void say_unknown(const koksma__unknown *u, char *text, size_t size)
 static bool of_unknown(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_unknown; i++) {
-        if (here(a)) {
+        if (tell(a, "%s", "")) {
             say_unknown(&scene->unknown[i], a->text, a->size);
             return true;
         }
@@ -239,12 +214,11 @@ static bool of_names(const koksma__unread *u, asked *a)
     } all[] = {{u->libraries, u->library, "there is no such material file"},
                {u->materials, u->material, "no material file defines this material: it is grey"}};
     for (size_t i = 0; i < 2; i++) {
-        if (all[i].n && here(a)) {
-            char more[48] = "";
-            if (all[i].n > 1) {
-                snprintf(more, sizeof more, " (and so with %zu more)", all[i].n - 1);
-            }
-            snprintf(a->text, a->size, "%s: %s%s", all[i].name, all[i].what, more);
+        char more[48] = "";
+        if (all[i].n > 1) {
+            snprintf(more, sizeof more, " (and so with %zu more)", all[i].n - 1);
+        }
+        if (all[i].n && tell(a, "%s: %s%s", all[i].name, all[i].what, more)) {
             return true;
         }
     }
@@ -253,11 +227,8 @@ static bool of_names(const koksma__unread *u, asked *a)
 
 static bool of_all(const koksma_scene *scene, asked *a)
 {
-    if (!scene->n_shapes && !scene->n_placements && here(a)) {
-        snprintf(a->text, a->size, "no shapes");
-        return true;
-    }
-    return of_unknown(scene, a) || of_unread(&scene->unread, a) || of_names(&scene->unread, a);
+    return (!scene->n_shapes && !scene->n_placements && tell(a, "no shapes")) || of_unknown(scene, a) ||
+           of_unread(&scene->unread, a) || of_names(&scene->unread, a);
 }
 
 bool koksma__scene_warning(const koksma_scene *scene, const koksma__integrator_flags *flags, size_t i, char *text,
