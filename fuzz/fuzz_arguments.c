@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "cli.h"
-#include "options.h"
 #include "target.h"
 
 enum { MAX_ARGUMENTS = 64 };
