@@ -16,20 +16,20 @@
 #include "cli.h"
 
 /* Defines a function that returns the name of member i of one of the library's tables, or NULL past the end. */
-#define NAME_AT(table)                                                                                               \
+#define NAME_AT(table, at)                                                                                           \
     static const char *table##_name(size_t i)                                                                        \
     {                                                                                                                \
-        return koksma_##table##_at(i) ? koksma_##table##_at(i)->name : NULL;                                         \
+        return at(i) ? at(i)->name : NULL;                                                                           \
     }
-NAME_AT(pattern)
-NAME_AT(measure)
-NAME_AT(integrand)
-NAME_AT(integrator)
-NAME_AT(filter)
-NAME_AT(adaptive)
-NAME_AT(metric)
-NAME_AT(warp)
-NAME_AT(property)
+NAME_AT(pattern, koksma_pattern_at)
+NAME_AT(measure, koksma_measure_at)
+NAME_AT(integrand, koksma_integrand_at)
+NAME_AT(integrator, koksma_integrator_at)
+NAME_AT(filter, koksma_filter_at)
+NAME_AT(adaptive, koksma_adaptive_at)
+NAME_AT(metric, koksma_metric_at)
+NAME_AT(warp, koksma_warp_at)
+NAME_AT(property, koksma_property_at)
 #undef NAME_AT
 
 static const char *command_name(size_t i)

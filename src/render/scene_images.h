@@ -11,9 +11,9 @@
 #define KOKSMA_RENDER_SCENE_IMAGES_H
 
 #include "image/formats.h"
+#include "render/description.h"
 #include <math.h>
 #include <stddef.h>
-#include "render/description.h"
 
 /* What becomes of the channels of an image. */
 typedef enum koksma__image_average { KOKSMA__NO_AVERAGE, KOKSMA__MEAN, KOKSMA__LUMINANCE } koksma__image_average;

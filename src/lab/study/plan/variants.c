@@ -12,7 +12,6 @@
 
 #include "core/lookup.h"
 #include "core/status.h"
-#include "domains/domain.h"
 #include "render/samples/samples.h"
 #include "render/samples/uses.h"
 #include "study/plan/plan.h"

@@ -8,9 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/c_locale.h"
 #include <koksma/integrate.h>
 #include <koksma/warp.h>
+
+#include "core/c_locale.h"
 #include "core/capacity.h"
 #include "core/hash.h"
 #include "core/parallel.h"
