@@ -57,21 +57,23 @@ def small_tables(site):
         lambda: [(n, r["what"], r["source"], integrator_source(n),
           render(f"integrator-{n}", "cornell", "--integrator", n)) for r, n in of("integrators", "integrator")])
     add("filters", "Pixel filters", "<code>koksma render --filter</code>",
-        lambda: [(n, f"{r['what']}; radius {r['radius']}", r["source"], f"src/render/filters/filter_{n.replace('-', '_')}.c",
+        lambda: [(n, f"{r['what']}; radius {r['radius']}", r["source"], "src/render/filters",
           render(f"filter-{n}", "checker", "--filter", n)) for r, n in of("filters", "filter")])
     add("adaptive", "Adaptive sampling", "where more samples go: <code>koksma render --adaptive</code>",
-        lambda: [(n, r["what"], r["source"], f"src/render/samples/adaptive/adapt_{n.replace('-', '_')}.c",
+        lambda: [(n, r["what"], r["source"], f"src/render/samples/adaptive/adapt_{method_of[n.replace('-', '_')]}.c",
           counts(program, n, size)) for r, n in of("adaptive", "method")])
     add("warps", "Warps", "from the square to a lens, a triangle, a hemisphere, a sphere: <code>koksma measure --warp</code>",
         lambda: [(n, r["what"], r["source"], "src/engine/warps", "") for r, n in of("warps", "warp")])
-    table = (ROOT / "src/engine/integrands/integrands.def").read_text(encoding="utf-8")
-    file_of = {n: f or n for n, f in re.findall(r"^INTEGRAND(?:_OF)?\((\w+)(?:, (\w+))?\)", table, re.M)}
+    def files_of(table, macro):
+        """{member: the name of its file} of a table whose rows name their files."""
+        rows = re.findall(rf"^{macro}(?:_OF)?\((\w+)(?:, (\w+))?\)", (ROOT / "src" / table).read_text(encoding="utf-8"), re.M)
+        return {name: file or name for name, file in rows}
+    file_of, method_of = files_of("engine/integrands/integrands.def", "INTEGRAND"), files_of("render/samples/adaptive/adaptive.def", "ADAPTIVE")
     add("integrands", "Integrands", "functions with known integrals: <code>koksma integrate</code>",
         lambda: [(n, f"{r['what']}; integral: {r['integral']}", r["source"], f"src/engine/integrands/{file_of[n.replace('-', '_')]}.c", "")
                  for r, n in of("integrands", "integrand")])
     for kind, macro, prefix in (("materials", "MATERIAL", "bsdf_"), ("lights", "LIGHT", "light_")):
-        table = (ROOT / f"src/render/{kind}/{kind}.def").read_text(encoding="utf-8")
-        members = [(n, "", "", f"src/render/{kind}/{prefix}{n}.c", "") for n in re.findall(rf"^{macro}\((\w+)\)", table, re.M)]
+        members = [(n.replace("_", "-"), "", "", f"src/render/{kind}/{prefix}{f}.c", "") for n, f in files_of(f"render/{kind}/{kind}.def", macro).items()]
         add(kind, kind.capitalize(), "of scene files", lambda members=members: members)
     add("uses", "Uses of a sample", "each may have a pattern of its own: <code>koksma render -p USE=PATTERN</code>",
         lambda: [(r["use"], f"{r['what']}; dimensions: {r['dim']}", "", "", "") for r in site.lists["uses"]])

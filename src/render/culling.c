@@ -297,7 +297,7 @@ static double least(const double (*at)[3], int n, const double a[3], const doubl
     return low;
 }
 
-bool koksma__shadow_cull_clear(const koksma__footprint *part, const koksma__batch_light *light,
+bool koksma__shadow_cull_clear(const koksma__footprint *from, const koksma__batch_light *light,
                                const koksma__batch_shape *shape)
 {
     const double c[3] = {(double)shape->centre[0], (double)shape->centre[1], (double)shape->centre[2]};
@@ -305,14 +305,14 @@ bool koksma__shadow_cull_clear(const koksma__footprint *part, const koksma__batc
         shape->is_flat ? hypot((double)shape->half_u, (double)shape->half_v) : sqrt((double)shape->radius2);
     double corners[4][3], g[3], f[3] = {0, 0, 0}, a[3], size = fabs(c[0]) + fabs(c[1]) + fabs(c[2]) + radius;
     corners_of(light, corners, g);
-    for (int i = 0; i < part->n; i++) {
+    for (int i = 0; i < from->n; i++) {
         for (int k = 0; k < 3; k++) {
-            f[k] += part->at[i][k] / part->n;
+            f[k] += from->at[i][k] / from->n;
         }
     }
     nearest(f, g, c, a);
     const double lit = least((const double(*)[3])corners, 4, a, c, &size);
-    const double seen = least(part->at, part->n, a, c, &size), length = sqrt(koksma__dot(a, a));
-    const double reach = radius + MARGIN * (size + part->radius);
-    return !shape->moves && !shape->turns && lit > reach * length && seen > (reach + part->radius) * length;
+    const double seen = least(from->at, from->n, a, c, &size), length = sqrt(koksma__dot(a, a));
+    const double reach = radius + MARGIN * (size + from->radius);
+    return !shape->moves && !shape->turns && lit > reach * length && seen > (reach + from->radius) * length;
 }

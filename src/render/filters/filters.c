@@ -15,33 +15,35 @@
 
 /* ---- The filters ------------------------------------------------------------------------------------------------ */
 
+/* box: 1 within half a pixel. */
 static double box(double x)
 {
     return fabs(x) <= 0.5 ? 1 : 0;
 }
 
-/* A box convolved with a box. */
+/* tent: a box convolved with a box. */
 static double tent(double x)
 {
     return fmax(1 - fabs(x), 0);
 }
 
-/* The cubic of Mitchell & Netravali (1988) with B = C = 0, which interpolates like Hermite's cubic with slopes of 0. It
-   is separable, symmetric, of width 2, never negative and a partition of unity, as Shirley (1991, section 5.2) requires
-   of a pixel filter; the formula of Shirley's own filter is not known. */
+/* hermite: the cubic of Mitchell & Netravali (1988) with B = C = 0, which interpolates like Hermite's cubic with slopes
+   of 0. It is separable, symmetric, of width 2, never negative and a partition of unity, as Shirley (1991, section 5.2)
+   requires of a pixel filter; the formula of Shirley's own filter is not known. */
 static double hermite(double x)
 {
     const double a = fabs(x);
     return a < 1 ? 1 - a * a * (3 - 2 * a) : 0;
 }
 
-/* exp(-x^2 / (2 s^2)) - exp(-r^2 / (2 s^2)) with s = 1/2 and r = 1.5 pixels: lowered so that it is 0 at the radius r. */
+/* gaussian: exp(-x^2 / (2 s^2)) - exp(-r^2 / (2 s^2)) with s = 1/2 and r = 1.5 pixels: lowered so that it is 0 at the
+   radius r. */
 static double gaussian(double x)
 {
     return fmax(exp(-2 * x * x) - exp(-4.5), 0);
 }
 
-/* The cubic of Mitchell & Netravali (1988) with B = C = 1/3, negative from 8/7 to 2. */
+/* mitchell: the cubic of Mitchell & Netravali (1988) with B = C = 1/3, negative from 8/7 to 2. */
 static double mitchell(double x)
 {
     const double a = fabs(x);
@@ -50,14 +52,14 @@ static double mitchell(double x)
                    : 0;
 }
 
-/* The box convolved three times with a box. */
+/* b-spline: the box convolved three times with a box. */
 static double b_spline(double x)
 {
     const double a = fabs(x);
     return a < 1 ? 2.0 / 3 - a * a * (1 - a / 2) : a < 2 ? (2 - a) * (2 - a) * (2 - a) / 6 : 0;
 }
 
-/* The four-term window of Harris (1978), stretched to a radius of 1.5 pixels. */
+/* blackman-harris: the four-term window of Harris (1978), stretched to a radius of 1.5 pixels. */
 static double blackman_harris(double x)
 {
     const double turn = M_PI * x / 1.5;
