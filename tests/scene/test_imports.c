@@ -1410,7 +1410,7 @@ static void files_without_uv_have_their_peers(void **state)
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
                "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 "
                "0\n3 0 1 2\n");
-    for (size_t i = 0; i < 2 - !can_read("probe.xml"); i++) {
+    for (int i = 0; i < 2 - !can_read("probe.xml"); i++) {
         koksma_scene *scene = opened(names[i], texts[i]);
         const koksma__mesh *mesh = &scene->meshes[scene->placements[0].mesh];
         assert_int_equal(scene->n_unknown, 0);
