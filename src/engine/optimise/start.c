@@ -16,7 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/points.h"
 #include "core/status.h"
 
 koksma_status koksma__search_default(const koksma_optimise_options *o, const koksma_run *run, koksma_points *points)

@@ -28,7 +28,6 @@
 #include <string.h>
 
 #include "core/parallel.h"
-#include "core/points.h"
 #include "core/status.h"
 #include "verify/verify.h"
 

@@ -330,8 +330,6 @@ const koksma__image_format koksma__format_png = {
 
 #include <string.h>
 
-#include "image/formats.h"
-
 static bool recognises(const unsigned char *bytes, size_t size)
 {
     static const unsigned char magic[4] = {0x89, 'P', 'N', 'G'};

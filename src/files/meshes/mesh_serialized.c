@@ -26,7 +26,6 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "meshes/readers.h"
 
 enum { FORMAT = 0x041C, HEADER = 4, NORMALS = 1, UVS = 2, COLOURS = 8, SINGLE = 0x1000, DOUBLE = 0x2000 };
 enum { MOST_NAME = 4096, PIECE = 4096 };

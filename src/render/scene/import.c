@@ -129,7 +129,8 @@ koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place
 
 /* ---- Colours ---------------------------------------------------------------------------------------------- */
 
-void koksma__import_albedo(double rgb[3])
+/* Clamps an albedo to [0, 1]. */
+static void clamp_albedo(double rgb[3])
 {
     for (int k = 0; k < 3; k++) {
         rgb[k] = rgb[k] > 0 ? fmin(rgb[k], 1) : 0;
@@ -264,8 +265,8 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
 {
     memcpy(m->albedo[0], from->rgb, sizeof from->rgb);
     memcpy(m->albedo[1], from->is_checker ? from->second : from->rgb, sizeof from->rgb);
-    koksma__import_albedo(m->albedo[0]);
-    koksma__import_albedo(m->albedo[1]);
+    clamp_albedo(m->albedo[0]);
+    clamp_albedo(m->albedo[1]);
     m->checker = from->is_checker;
     m->period = from->period;
     m->mapping = from->is_checker ? from->mapping : m->mapping;
@@ -323,8 +324,10 @@ static bool same_material(const koksma__material *a, const koksma__material *b)
            a->see_through == b->see_through && !memcmp(&a->alpha, &b->alpha, sizeof a->alpha);
 }
 
-koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_place place,
-                                           const koksma__material *material, int *out)
+/* Sets *out to the material of the scene that is equal to `material`, but for its name, which is added if there is none
+   yet: files repeat materials for each shape. Error: MALFORMED (too many). */
+static koksma_status keep_material(koksma__import *im, koksma__text_place place, const koksma__material *material,
+                                   int *out)
 {
     koksma_scene *scene = im->scene;
     KOKSMA__TRY(koksma__import_spend(im, place, scene->n_materials / 8));
@@ -352,7 +355,7 @@ static void set_conductor(const koksma__import_material *from, koksma__material 
         koksma__material_value(m, "k")[i] = fmin(fmax(from->k[i], 0), FAR);
     }
     memcpy(koksma__material_value(m, "tint"), from->colour.rgb, sizeof from->colour.rgb);
-    koksma__import_albedo(koksma__material_value(m, "tint"));
+    clamp_albedo(koksma__material_value(m, "tint"));
     if (m->bsdf == &koksma__bsdf_rough_conductor) {
         *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 1e-3), 1);
     }
@@ -376,7 +379,7 @@ static koksma_status set_material(koksma__import *im, koksma__text_place place, 
     switch (from->kind) {
     case KOKSMA__METAL:
         memcpy(koksma__material_value(m, "reflectance"), from->colour.rgb, sizeof from->colour.rgb);
-        koksma__import_albedo(koksma__material_value(m, "reflectance"));
+        clamp_albedo(koksma__material_value(m, "reflectance"));
         if (m->bsdf == &koksma__bsdf_ggx) {
             *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 1e-3), 1);
         }
@@ -402,7 +405,7 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
 {
     koksma__material m = {0};
     KOKSMA__TRY(set_material(im, place, from, &m));
-    return koksma__import_keep_material(im, place, &m, out);
+    return keep_material(im, place, &m, out);
 }
 
 /* ---- Mixtures ---------------------------------------------------------------------------------------------- */
@@ -484,7 +487,7 @@ static koksma_status mix_albedos(koksma__import *im, koksma__text_place place, c
     use_as_number(im, &c);
     koksma__import_between(&c, first->albedo[0], second->albedo[0]);
     KOKSMA__TRY(set_colour(im, place, &c, &mixed));
-    return koksma__import_keep_material(im, place, &mixed, out);
+    return keep_material(im, place, &mixed, out);
 }
 
 koksma_status koksma__import_mix(koksma__import *im, koksma__text_place place, int first, int second,
@@ -508,7 +511,7 @@ koksma_status koksma__import_mix(koksma__import *im, koksma__text_place place, i
     if (both) {
         koksma__material mixed = all[first];
         if (blend_materials(&mixed, &all[second], share)) {
-            return koksma__import_keep_material(im, place, &mixed, out);
+            return keep_material(im, place, &mixed, out);
         }
     }
     *out = share < 0.5 ? first : second;
@@ -539,7 +542,7 @@ koksma_status koksma__import_mask(koksma__import *im, koksma__text_place place, 
         *material = -1;
         return KOKSMA_OK;
     }
-    return koksma__import_keep_material(im, place, &m, material);
+    return keep_material(im, place, &m, material);
 }
 
 koksma_status koksma__import_glow(koksma__import *im, koksma__text_place place, const koksma__import_colour *radiance,
@@ -558,7 +561,7 @@ koksma_status koksma__import_glow(koksma__import *im, koksma__text_place place, 
     for (int k = 0; k < 3; k++) {
         surface->radiance[k] = map->image ? radiance->image_scale : radiance->rgb[k];
     }
-    return map->image ? koksma__import_keep_material(im, place, &m, &surface->material) : KOKSMA_OK;
+    return map->image ? keep_material(im, place, &m, &surface->material) : KOKSMA_OK;
 }
 
 /* ---- Lights ------------------------------------------------------------------------------------------------ */

@@ -163,9 +163,6 @@ int koksma__entry_choice(const koksma__entry *e, const char *value);
 /* Whether a list of words, separated by a character, has this word. */
 bool koksma__lists(const char *list, size_t size, char separator, const char *word);
 
-/* Whether a row is for this kind of a class. */
-bool koksma__plugin_is(const koksma__plugin *row, const char *of, const char *kind);
-
 /* The row of a kind, or that of unknown kinds ("?"), or NULL. */
 const koksma__plugin *koksma__plugin_find(const koksma__plugins *all, const char *of, const char *kind);
 
@@ -206,8 +203,7 @@ koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place
 koksma_status koksma__import_path(koksma__import *im, koksma__text_place place, const char *name,
                                   char out[KOKSMA__MAX_PATH]);
 
-/* Clamp a colour to what a scene allows: albedos to [0, 1], radiance to at most 1e6. */
-void koksma__import_albedo(double rgb[3]);
+/* Clamps radiance to what a scene allows, at most 1e6. */
 void koksma__import_radiance(koksma__import *im, double rgb[3]);
 
 /* The colour of a black body at a temperature in kelvins, with luminance 1, from its chromaticity (Kim et al.
@@ -240,11 +236,6 @@ void koksma__import_blend(koksma__import_colour *c, const double amount[3], cons
 
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
                                           const koksma__import_material *from, int *out);
-
-/* Sets *out to the material of the scene that is equal to `material`, but for its name, which is added if there is none
-   yet: files repeat materials for each shape. Error: MALFORMED (too many). */
-koksma_status koksma__import_keep_material(koksma__import *im, koksma__text_place place,
-                                           const koksma__material *material, int *out);
 
 /* Turns an amount into the colour, image or checkerboard that goes from `first` to `second` as it goes from 0 to 1. */
 void koksma__import_between(koksma__import_colour *amount, const double first[3], const double second[3]);

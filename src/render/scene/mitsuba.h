@@ -90,10 +90,6 @@ koksma_status koksma__mitsuba_number(const koksma__xml_node *n, const char *attr
 /* One number, perhaps with this unit behind it; returns false for another text. */
 bool koksma__mitsuba_measure(const char *text, const char *unit, double *out);
 
-/* From 0 to `most` numbers, separated by blanks or commas; *count is 0 if the attribute is missing. */
-koksma_status koksma__mitsuba_numbers(const koksma__xml_node *n, const char *attribute, size_t most, double *out,
-                                      size_t *count);
-
 /* "true" or "false", in upper or lower case. */
 koksma_status koksma__mitsuba_flag(const koksma__xml_node *n, bool *out);
 

@@ -76,7 +76,8 @@ koksma_status koksma__mitsuba_number(const node *n, const char *attribute, doubl
                                         : "a finite number");
 }
 
-koksma_status koksma__mitsuba_numbers(const node *n, const char *attribute, size_t most, double *out, size_t *count)
+/* From 0 to `most` numbers, separated by blanks or commas; *count is 0 if the attribute is missing. */
+static koksma_status numbers_of(const node *n, const char *attribute, size_t most, double *out, size_t *count)
 {
     const char *at = koksma__xml_attribute(n, attribute);
     *count = 0;
@@ -105,7 +106,7 @@ koksma_status koksma__mitsuba_triple(const node *n, double otherwise, double out
 {
     static const char *const names[] = {"x", "y", "z"};
     size_t count;
-    KOKSMA__TRY(koksma__mitsuba_numbers(n, "value", 3, out, &count));
+    KOKSMA__TRY(numbers_of(n, "value", 3, out, &count));
     if (koksma__xml_attribute(n, "value")) {
         for (size_t k = count; k < 3; k++) {
             out[k] = out[0];
@@ -190,7 +191,7 @@ koksma_status koksma__mitsuba_colour_read(const node *n, koksma__mitsuba_colour 
         count = 1;
         KOKSMA__TRY(koksma__mitsuba_number(n, "value", out->rgb));
     } else {
-        KOKSMA__TRY(koksma__mitsuba_numbers(n, "value", 3, out->rgb, &count));
+        KOKSMA__TRY(numbers_of(n, "value", 3, out->rgb, &count));
     }
     if (count != 1 && count != 3) {
         return wrong(n, "value", "one number or three");
@@ -263,7 +264,7 @@ bool koksma__mitsuba_is_colour(const node *n)
 static koksma_status read_vector(const node *n, const char *attribute, const double *otherwise, double out[3])
 {
     size_t count;
-    KOKSMA__TRY(koksma__mitsuba_numbers(n, attribute, 3, out, &count));
+    KOKSMA__TRY(numbers_of(n, attribute, 3, out, &count));
     if (otherwise && !koksma__xml_attribute(n, attribute)) {
         memcpy(out, otherwise, 3 * sizeof *out);
         return KOKSMA_OK;
@@ -284,7 +285,7 @@ static koksma_status matrix(const node *n, double m[12])
 {
     double v[16];
     size_t given;
-    KOKSMA__TRY(koksma__mitsuba_numbers(n, "value", 16, v, &given));
+    KOKSMA__TRY(numbers_of(n, "value", 16, v, &given));
     if (given != 16 && given != 9) {
         return koksma__import_fail(n->place, "matrix: %zu numbers; it has 16 or 9", given);
     }

@@ -30,7 +30,8 @@ bool koksma__lists(const char *list, size_t size, char separator, const char *wo
     return false;
 }
 
-bool koksma__plugin_is(const koksma__plugin *row, const char *of, const char *kind)
+/* Whether a row is for this kind of a class. */
+static bool is_for(const koksma__plugin *row, const char *of, const char *kind)
 {
     return !strcmp(row->of, of) && koksma__lists(row->kinds, strlen(row->kinds), ' ', kind);
 }
@@ -74,10 +75,10 @@ const koksma__plugin *koksma__plugin_find(const koksma__plugins *all, const char
 {
     const koksma__plugin *other = NULL;
     for (size_t i = 0; i < all->n; i++) {
-        if (koksma__plugin_is(&all->rows[i], of, kind)) {
+        if (is_for(&all->rows[i], of, kind)) {
             return &all->rows[i];
         }
-        other = koksma__plugin_is(&all->rows[i], of, "?") ? &all->rows[i] : other;
+        other = is_for(&all->rows[i], of, "?") ? &all->rows[i] : other;
     }
     return other;
 }
@@ -100,7 +101,7 @@ bool koksma__plugin_entry(const koksma__plugins *all, const char *of, const char
     const koksma__plugin *own = koksma__plugin_find(all, of, kind);
     for (size_t i = 0; i < all->n; i++) {
         const koksma__plugin *row = &all->rows[i];
-        if ((row == own || koksma__plugin_is(row, of, own ? "*" : row->kinds)) && koksma__row_entry(row, name, out)) {
+        if ((row == own || is_for(row, of, own ? "*" : row->kinds)) && koksma__row_entry(row, name, out)) {
             return true;
         }
     }

@@ -21,8 +21,6 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "core/points.h"
-
 enum { MOST = 64 };
 
 static const size_t MOST_BYTES = (size_t)64 << 20;

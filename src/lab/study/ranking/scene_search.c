@@ -32,7 +32,6 @@
 
 #include "core/capacity.h"
 #include "core/parallel.h"
-#include "core/points.h"
 #include "core/status.h"
 #include "image/image.h"
 #include "study/plan/variants.h"

@@ -186,10 +186,8 @@ typedef struct koksma__z_sums {
 /* Adds the z-value of a cell to the sums, unless the cell differs for a known reason. */
 void koksma__z_add(koksma__z_sums *sums, const koksma__verdict *verdict, const koksma__cell *cell);
 
-/* Whether the means deviate to one side, or the values of z fail any of the two tests, each at 5 %: the sum over the
-   root of their number, and the sum of squares. */
+/* Whether the means deviate to one side: the sum of z over the root of their number, at 5 %. */
 bool koksma__z_deviates(const koksma__z_sums *sums);
-bool koksma__z_fails(const koksma__z_sums *sums);
 
 /* ---- Sections, questions and conclusions ------------------------------------------------------------------- */
 

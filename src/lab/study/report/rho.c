@@ -324,7 +324,8 @@ bool koksma__rho_is_better(const koksma__rho_ranking *r, size_t a, size_t b)
     return i < j && j < r->n && r->p[i * r->n + j] <= LEVEL && r->at[i].mean.value > r->at[j].mean.value;
 }
 
-bool koksma__rho_predicts(const koksma__rho_ranking *r, size_t measure)
+/* Whether a measure's mean is significantly above 0 (at 5 % for all measures together). */
+static bool predicts(const koksma__rho_ranking *r, size_t measure)
 {
     const size_t i = r->place[measure];
     return i < r->n && r->at[i].p <= LEVEL && r->at[i].mean.value > 0;
@@ -367,7 +368,7 @@ bool koksma__rho_always(const koksma__rho_jackknife *j, koksma__rho_statement st
     for (size_t i = 0; always && i < j->n; i++) {
         const koksma__rho_ranking *r = &j->of[i];
         always = statement == KOKSMA__RHO_BETTER     ? koksma__rho_is_better(r, a, b)
-                 : statement == KOKSMA__RHO_PREDICTS ? koksma__rho_predicts(r, a)
+                 : statement == KOKSMA__RHO_PREDICTS ? predicts(r, a)
                  : statement == KOKSMA__RHO_FIRST    ? r->place[a] == 0
                                                      : r->place[a] + 1 == r->n;
     }
@@ -468,7 +469,7 @@ static void say_predictors(koksma__document *d, const koksma__rho_means *s, cons
     size_t always = 0, sure = 0, named = 0;
     for (size_t m = 0; m < s->n; m++) {
         always += koksma__rho_always(j, KOKSMA__RHO_PREDICTS, m, 0);
-        sure += koksma__rho_predicts(&j->of[0], m);
+        sure += predicts(&j->of[0], m);
     }
     koksma__doc_say(d, always ? " Surely above 0%s: " : " No measure's mean is surely above 0%s.", whichever(j));
     for (size_t m = 0; m < s->n; m++) {

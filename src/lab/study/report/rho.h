@@ -94,11 +94,9 @@ koksma_status koksma__rho_rank(const koksma__rho_means *s, const koksma__rho_sub
                                koksma__rho_ranking *ranking);
 void koksma__rho_ranking_fini(koksma__rho_ranking *ranking);
 
-/* koksma__rho_is_better: whether measure a has a significantly larger mean than measure b (at 5 % for all pairs
-   together). koksma__rho_predicts: whether a measure's mean is significantly above 0 (at 5 % for all measures
+/* Whether measure a has a significantly larger mean than measure b (at 5 % for all pairs
    together). Measures are indices in koksma__rho_means. */
 bool koksma__rho_is_better(const koksma__rho_ranking *ranking, size_t a, size_t b);
-bool koksma__rho_predicts(const koksma__rho_ranking *ranking, size_t measure);
 
 /* Rankings over all scenes, and over all scenes but one: of[0] includes all scenes, of[1 + s] all but scene s. If
    there is only one scene, there is only of[0]. */

@@ -181,7 +181,9 @@ bool koksma__z_deviates(const koksma__z_sums *z)
     return z->count > 1 && fabs(z->sum) > 1.96 * sqrt((double)z->count);
 }
 
-bool koksma__z_fails(const koksma__z_sums *z)
+/* Whether the values of z fail any of the two tests, each at 5 %: the sum over the root of their number, and the sum of
+   squares. */
+static bool z_fails(const koksma__z_sums *z)
 {
     return koksma__z_deviates(z) ||
            (z->count > 1 && z->squares > koksma__chi_squared_quantile(0.95, (double)z->count));
@@ -217,7 +219,7 @@ static void count_table(koksma__report *r, const koksma__table *t, counts *all)
         koksma__z_add(&z, &verdict, &cell);
     }
     all->tested += z.count > 1;
-    if (koksma__z_fails(&z)) {
+    if (z_fails(&z)) {
         const size_t used = strlen(all->ids);
         snprintf(all->ids + used, sizeof all->ids - used, "%s%.40s", used ? "; " : "", t->id);
         all->failed++;

@@ -12,7 +12,6 @@
 #include "image/coherence.h"
 #include "image/metrics/metrics.h"
 #include "patterns/files/files.h"
-#include "study/plan/variants.h"
 #include "study/run/tasks.h"
 
 /* Bounds of a value that are at most this far apart count as exact; the limit is larger than the rounding error. */

@@ -21,7 +21,6 @@
 #include "study/plan/plan.h"
 #include "study/plan/plan_read.h"
 #include "study/run/mpi.h"
-#include "study/run/study.h"
 #include "study/store/store.h"
 
 /* Other paths in the folder add up to 30 bytes, so that all fit into KOKSMA__PATH and nearly all systems accept them. */
