@@ -304,7 +304,7 @@ static int run(const cli_arguments *arguments)
         parse_aovs(arguments, &options, &adaptive, &aovs, &code) && check_files(arguments, &adaptive, &aovs)) {
         if (!cli_flag(arguments, "quiet")) {
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
-            cli_idle_uses(arguments, arguments->operands[0], scene, &options);
+            cli_warn_unused(arguments, arguments->operands[0], scene, &options);
         }
         code = try_files(arguments, &adaptive, &aovs);
         code = code ? code

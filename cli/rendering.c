@@ -140,8 +140,8 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
     return valid && (!n || n == spp);
 }
 
-void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
-                   const koksma_render_options *options)
+void cli_warn_unused(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
+                     const koksma_render_options *options)
 {
     for (size_t i = 0; koksma_use_at(i); i++) {
         if (options->patterns[i].pattern && !koksma_use_is_spent(scene, options, i)) {
@@ -191,12 +191,12 @@ size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, cons
 
 /* Returns false, after a usage error, if an option is given that has no effect with a method that places its own
    samples. */
-static bool check_idle(const cli_arguments *arguments, const koksma_adaptive *method)
+static bool check_unused(const cli_arguments *arguments, const koksma_adaptive *method)
 {
-    static const char *const idle[] = {"pattern", "pairing"};
-    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++) {
-        if (method->own_samples && cli_flag(arguments, idle[i])) {
-            cli_usage_error(arguments, "--%s has no effect: the adaptive method %s places its own samples", idle[i],
+    static const char *const unused[] = {"pattern", "pairing"};
+    for (size_t i = 0; i < sizeof unused / sizeof *unused; i++) {
+        if (method->own_samples && cli_flag(arguments, unused[i])) {
+            cli_usage_error(arguments, "--%s has no effect: the adaptive method %s places its own samples", unused[i],
                             method->name);
             return false;
         }
@@ -245,7 +245,7 @@ bool cli_adaptive_options(const cli_arguments *arguments, cli_adaptive *adaptive
             return false;
         }
     }
-    if ((text && !check_idle(arguments, adaptive->options.method)) || !parse_strata(arguments, adaptive) ||
+    if ((text && !check_unused(arguments, adaptive->options.method)) || !parse_strata(arguments, adaptive) ||
         !cli_real(arguments, "budget", 0, 1, KOKSMA_MAX_SPP, &budget) ||
         !cli_whole(arguments, "probe", 0, 0, KOKSMA_MAX_PROBES, &probes)) {
         return false;

@@ -43,8 +43,8 @@ bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options 
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code);
 
 /* Warns on stderr about each use that was given a pattern although rendering this scene needs no samples for it. */
-void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
-                   const koksma_render_options *options);
+void cli_warn_unused(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
+                     const koksma_render_options *options);
 
 /* Prints at most `most` of the scene's warnings on stderr, and a line with the number of the others. options: print
    only warnings that matter with these options, or NULL for all. Returns the number of warnings. */
