@@ -37,6 +37,8 @@ def sentences():
                         yield name, sentence
 
 
+if not 2 <= len(sys.argv) <= 3 or not all(word.isdigit() for word in sys.argv[1:]):
+    sys.exit(__doc__)
 found = sorted(set(sentences()))
 for where, what in random.Random(int(sys.argv[1])).sample(found, int(sys.argv[2]) if len(sys.argv) > 2 else 30):
     print("%s: %s" % (where, what))

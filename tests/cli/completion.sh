@@ -148,7 +148,7 @@ for command in "" $(koksma --help | sed -n 's/^  \([a-z]*\)   *[a-z].*/\1/p'); d
     sed 's/\\-/-/g' "$work/page" | grep -qe "--$option" || complain "the page of $command lacks --$option"
   done
 done
-# A wrong command line is told all that completion takes.
+# A wrong command line gets one line that names all that completion takes.
 said=$(koksma completion bsh 2>&1)
 [ "$? $said" = "2 koksma completion: did you mean 'bash'? it takes one of bash, zsh, fish, or words -- WORD.." ] || complain "completion bsh: $said"
 [ $failed -eq 0 ]

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "kernels/kernels.h"
-#include "measures/disk/disk.h"
 #include "measures/edge/edge.h"
 #include "measures/shared/shared.h"
 #include "sets.h"

@@ -7,7 +7,7 @@
 
 enum { LENS_SAMPLES = test_repeats(4096, 1024) };
 
-/* A lamp that is small and out of focus shows the lens, a disk or a polygon whose corner 0 is at the angle from the right,
+/* A light that is small and out of focus shows the lens, a disk or a polygon whose corner 0 is at the angle from the right,
    of radius lens (d - f) / d on the plane of focus: evenly lit, its light over the lens's area. */
 static void lenses_blur_to_their_shapes(void **state)
 {
@@ -36,7 +36,7 @@ static void lenses_blur_to_their_shapes(void **state)
         koksma_render_options options = options_of(scene, "n-rooks", "distribution", LENS_SAMPLES, 32);
         koksma_image image;
         assert_ok(koksma_render(scene, &options, NULL, &image));
-        /* The film shows the plane of focus from -1 to 1: a disk of radius 0.25 is 4 pixels of 16. The lamp covers
+        /* The film shows the plane of focus from -1 to 1: a disk of radius 0.25 is 4 pixels of 16. The light covers
            there, seen from a place of the lens, a disk of radius 0.025: it adds that much to the edge. */
         double inside = 0, total = 0;
         for (int i = 0; i < 32 * 32; i++) {
@@ -51,12 +51,12 @@ static void lenses_blur_to_their_shapes(void **state)
             if (beyond > 0.025 + 0.75 / 16) {
                 assert_true(value == 0);
             } else if (beyond < -0.025 - 0.75 / 16) {
-                /* The lamp's disk over the blur's, by one sample in 100 at least: 5 deviations. */
+                /* The light's disk over the blur's, by one sample in 100 at least: 5 deviations. */
                 assert_near(value / (100 * M_PI * 0.025 * 0.025 / area), 1, 5 / sqrt(LENS_SAMPLES / 100.0));
                 inside += value;
             }
         }
-        /* All of its light, as through a pinhole: the lamp is 0.05 x 8 pixels in radius. 24 seeds of 4096
+        /* All of its light, as through a pinhole: the light is 0.05 x 8 pixels in radius. 24 seeds of 4096
            samples have a deviation of 0.02, that of 2059 hits. */
         assert_near(total / (100 * M_PI * pow(0.05 * 8, 2)), 1, 5 * 0.022 * sqrt(4096.0 / LENS_SAMPLES));
         assert_true(inside > (blades ? 0 : 0.2 * total));
