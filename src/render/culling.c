@@ -37,6 +37,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "core/vector.h"
 
@@ -302,7 +303,7 @@ bool koksma__shadow_cull_clear(const koksma__footprint *from, const koksma__batc
 {
     const double c[3] = {(double)shape->centre[0], (double)shape->centre[1], (double)shape->centre[2]};
     const double radius =
-        shape->is_flat ? hypot((double)shape->half_u, (double)shape->half_v) : sqrt((double)shape->radius2);
+        shape->is_flat ? koksma__hypot((double)shape->half_u, (double)shape->half_v) : sqrt((double)shape->radius2);
     double corners[4][3], g[3], f[3] = {0, 0, 0}, a[3], size = fabs(c[0]) + fabs(c[1]) + fabs(c[2]) + radius;
     corners_of(light, corners, g);
     for (int i = 0; i < from->n; i++) {

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/status.h"
 #include "render/accel/accel.h"
 #include "render/render.h"
@@ -19,7 +20,7 @@
 
 double koksma__pixel_size(const koksma__camera *camera, int height)
 {
-    return (camera->height > 0 ? camera->height : 2 * tan(camera->fov_rad / 2)) / height;
+    return (camera->height > 0 ? camera->height : 2 * koksma__tan(camera->fov_rad / 2)) / height;
 }
 
 static koksma__batch_camera make_camera(const koksma__camera *from, int width, int height, float origins[3][3])
@@ -59,7 +60,7 @@ static koksma__batch_material make_material(const koksma__material *from)
     koksma__batch_material m = {.checker = from->checker,
                                 .albedo = {(float)from->albedo[0][0], (float)from->albedo[1][0]}};
     if (from->checker) {
-        const double c = cos(from->angle_rad) / from->period, s = sin(from->angle_rad) / from->period;
+        const double c = koksma__cos(from->angle_rad) / from->period, s = koksma__sin(from->angle_rad) / from->period;
         m.su = (float)c;
         m.sv = (float)s;
         m.tu = (float)-s;

@@ -13,6 +13,7 @@
  * would cut the square into pieces. The concentric map takes the corners of the square to the angles pi / 4, 3 pi /
  * 4, ...; for four blades both maps together are a similarity, so that strata remain squares.
  */
+#include "core/elementary.h"
 #include "render/render.h"
 
 #include <math.h>
@@ -22,12 +23,12 @@ static void disk_to_polygon(const koksma__camera *camera, int n, float *x, float
 {
     const double corner = 2 * M_PI / camera->blades;
     for (int i = 0; i < n; i++) {
-        const double r = hypot((double)x[i], (double)y[i]);
-        const double turn = (atan2((double)y[i], (double)x[i]) - M_PI / 4) / (2 * M_PI);
+        const double r = koksma__hypot((double)x[i], (double)y[i]);
+        const double turn = (koksma__atan2((double)y[i], (double)x[i]) - M_PI / 4) / (2 * M_PI);
         const double at = (turn - floor(turn)) * camera->blades, k = floor(at), t = at - k;
         const double a = k * corner + camera->blade_angle_rad, b = a + corner;
-        x[i] = (float)(r * ((1 - t) * cos(a) + t * cos(b)));
-        y[i] = (float)(-r * ((1 - t) * sin(a) + t * sin(b)));
+        x[i] = (float)(r * ((1 - t) * koksma__cos(a) + t * koksma__cos(b)));
+        y[i] = (float)(-r * ((1 - t) * koksma__sin(a) + t * koksma__sin(b)));
     }
 }
 

@@ -17,6 +17,7 @@
 #include <sys/stat.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/hash.h"
 #include "core/status.h"
 #include "image/image.h"
@@ -198,7 +199,7 @@ static void change_levels(koksma_image *image, const koksma__image_use *use)
 {
     const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
     for (size_t i = 0; use->gamma > 0 && i < n * channels; i++) {
-        image->pixels[i] = (float)pow(fmax((double)image->pixels[i], 0), use->gamma);
+        image->pixels[i] = (float)koksma__pow(fmax((double)image->pixels[i], 0), use->gamma);
     }
     for (size_t i = 0; use->average && channels == 3 && i < n; i++) {
         const float *from = image->pixels + 3 * i;

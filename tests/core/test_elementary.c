@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Our own exp, log, cos, sin and erf, beside libm's, and bits that every machine must give. */
+/* Our own elementary functions beside true values, and bits that every machine must give. */
 #include "test.h"
 
 #include "core/elementary.h"
@@ -10,21 +10,119 @@ static double ulp(double x)
     return nextafter(fabs(x), (double)INFINITY) - fabs(x);
 }
 
-static void test_near_libm(void **state)
+#define ROW(name, arity, ulps)                                                                                       \
+    {                                                                                                                \
+#name, {.f##arity = koksma__##name }, arity, ulps                                                            \
+    }
+
+static double exp_of(double x)
+{
+    return koksma__exp(x);
+}
+
+/* The largest errors that the functions are allowed, in units in the last place of the true value. */
+static const struct function {
+    const char *name;
+    union {
+        double (*f1)(double);
+        double (*f2)(double, double);
+    } f;
+    int arity;
+    double ulps;
+} functions[] = {{"exp", {.f1 = exp_of}, 1, 1},
+                 {"log", {.f1 = koksma__log}, 1, 2},
+                 {"erf", {.f1 = koksma__erf}, 1, 18},
+                 ROW(sin, 1, 1),
+                 ROW(cos, 1, 1),
+                 ROW(tan, 1, 2),
+                 ROW(asin, 1, 2),
+                 ROW(acos, 1, 2),
+                 ROW(atan, 1, 1),
+                 ROW(atan2, 2, 2),
+                 ROW(exp2, 1, 2),
+                 ROW(expm1, 1, 2),
+                 ROW(log1p, 1, 4),
+                 ROW(log2, 1, 3),
+                 ROW(log10, 1, 3),
+                 ROW(pow, 2, 2),
+                 ROW(cbrt, 1, 1),
+                 ROW(hypot, 2, 1),
+                 ROW(sinh, 1, 3),
+                 ROW(cosh, 1, 2),
+                 ROW(tanh, 1, 4),
+                 ROW(asinh, 1, 5),
+                 ROW(erfc, 1, 20),
+                 ROW(log_gamma, 1, 4)};
+
+/* True values of every function, from the table beside this file. */
+static void test_true_values(void **state)
 {
     (void)state;
-    for (int i = -400000; i <= 100000; i++) {
-        const double x = i * 0.0017;
-        assert_near(koksma__exp(x), exp(x), ulp(exp(x)));
+    FILE *file = fopen(KOKSMA_TESTS "/core/elementary.txt", "r");
+    assert_non_null(file);
+    char line[200];
+    size_t rows[sizeof functions / sizeof *functions] = {0};
+    while (fgets(line, sizeof line, file)) {
+        char name[20], *end = line + strcspn(line, " ");
+        double x[3];
+        if (*line == '#') {
+            continue;
+        }
+        snprintf(name, sizeof name, "%.*s", (int)(end - line), line);
+        size_t i = 0;
+        while (strcmp(functions[i].name, name) != 0) {
+            assert_true(++i < sizeof functions / sizeof *functions);
+        }
+        const struct function *f = &functions[i];
+        for (int k = 0; k <= f->arity; k++) {
+            x[k] = strtod(end, &end);
+        }
+        const double truth = x[f->arity], value = f->arity == 1 ? f->f.f1(x[0]) : f->f.f2(x[0], x[1]);
+        const double error = fabs(value - truth) / fmax(ulp(truth), f->f.f1 == koksma__log_gamma ? 1e-15 : 0);
+        if (!(error <= f->ulps)) {
+            fail_msg("%s is %a for %a: off by %g ulp", strtok(line, "\n"), value, truth, error);
+        }
+        rows[i]++;
     }
-    for (int i = -70000; i <= 70000; i++) {
-        const double x = i * 0.0001;
-        assert_near(koksma__erf(x), erf(x), 2e-15 * fabs(erf(x)));
+    fclose(file);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_true(rows[i] >= 8);
     }
-    for (int i = 1; i < 400000; i++) {
-        const double x = ldexp(i * 0x1p-18, i % 80 - 60);
-        assert_near(koksma__log(x), log(x), 2 * ulp(log(x)));
+}
+
+/* What a libm's functions give exactly. */
+static void test_exact_values(void **state)
+{
+    (void)state;
+    for (int k = -300; k <= 300; k++) {
+        assert_true(koksma__exp2(k) == ldexp(1, k) && koksma__log2(ldexp(1, k)) == k &&
+                    koksma__pow(2, k) == ldexp(1, k));
     }
+    for (int k = 0; k <= 22; k++) {
+        double power = 1;
+        for (int i = 0; i < k; i++) {
+            power *= 10;
+        }
+        assert_true(koksma__pow(10, k) == power && koksma__pow(10, -k) == 1 / power && koksma__log10(power) == k);
+        assert_true(k == 0 || koksma__log10(1 / power) == -k);
+    }
+    const double inf = (double)INFINITY, nan_value = (double)NAN;
+    assert_true(koksma__pow(-3, 3) == -27 && koksma__pow(0, 0) == 1 && koksma__pow(0, 2) == 0 &&
+                koksma__pow(0, -1) == inf);
+    assert_true(isnan(koksma__pow(-2, 0.5)) && isnan(koksma__pow(nan_value, 2)) && koksma__pow(9, 1000) == inf &&
+                koksma__pow(9, -1000) == 0 && koksma__pow(-9, -1001) == 0 && koksma__pow(0.5, inf) == 0);
+    assert_true(koksma__log(0) == -inf && isnan(koksma__log(-1)) && koksma__log(inf) == inf &&
+                koksma__log1p(-1) == -inf);
+    assert_true(koksma__atan(inf) == M_PI_2 && koksma__atan2(0, -1) == M_PI && koksma__atan2(-0.0, -1) == -M_PI &&
+                koksma__atan2(1, 0) == M_PI_2 && koksma__atan2(1, -0.0) == M_PI_2 && koksma__atan2(0, 0) == 0 &&
+                koksma__atan2(-1, -1) == -3 * M_PI_4);
+    assert_true(koksma__acos(1) == 0 && koksma__asin(-1) == -M_PI_2 && isnan(koksma__acos(1.5)) &&
+                isnan(koksma__asin(nan_value)));
+    assert_true(koksma__hypot(3, 4) == 5 && koksma__hypot(0, 0) == 0 && isnan(koksma__hypot(0, nan_value)) &&
+                koksma__hypot(-inf, nan_value) == inf && koksma__cbrt(27) == 3 && koksma__cbrt(-8) == -2 &&
+                koksma__tanh(50) == 1 && koksma__sinh(0) == 0 && koksma__cosh(0) == 1 &&
+                isinf(koksma__log_gamma(inf)) && isinf(koksma__log_gamma(0)) && koksma__erfc(30) == 0 &&
+                koksma__erfc(-30) == 2 && koksma__expm1(-80) == -1);
 }
 
 /* Beside long doubles, near multiples of pi / 2 too, where a sine is as small as 6e-17. */
@@ -119,9 +217,13 @@ static void test_gaussian_jittered(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_near_libm),   cmocka_unit_test(test_cos_and_sin),
-        cmocka_unit_test(test_inverse_erf), cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_limits),      cmocka_unit_test(test_gaussian_jittered),
+        cmocka_unit_test(test_true_values),
+        cmocka_unit_test(test_exact_values),
+        cmocka_unit_test(test_cos_and_sin),
+        cmocka_unit_test(test_inverse_erf),
+        cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_gaussian_jittered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

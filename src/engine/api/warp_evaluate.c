@@ -10,6 +10,7 @@
 #include <koksma/warp.h>
 
 #include "api/api.h"
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/random.h"
@@ -70,8 +71,8 @@ static double sample_disk(const job *j, koksma__disk_law law, double r_max, uint
     koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 4, u);
     koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 5, v);
     const double r = r_max * (law == KOKSMA__DISKS_FIXED ? 1 : law == KOKSMA__DISKS_AREA ? sqrt(v[0]) : v[0]);
-    const double distance = (1 + r) * sqrt(u[0]), x = distance * cos(2 * M_PI * u[1]),
-                 y = distance * sin(2 * M_PI * u[1]);
+    const double distance = (1 + r) * sqrt(u[0]), x = distance * koksma__cos(2 * M_PI * u[1]),
+                 y = distance * koksma__sin(2 * M_PI * u[1]);
     double inside = 0;
     for (size_t i = 0; i < j->n; i++) {
         const double dx = j->xs[2 * i] - x, dy = j->xs[2 * i + 1] - y;

@@ -9,6 +9,7 @@
  */
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "integrands/closed_forms.h"
 
@@ -51,7 +52,7 @@ static double mean_square(int r)
 
 static double factor(const koksma_integral *f, int axis, double x)
 {
-    return 1 + f->params[1] * pow(axis + 1, -f->params[2]) * polynomial((int)f->params[0], x);
+    return 1 + f->params[1] * koksma__pow(axis + 1, -f->params[2]) * polynomial((int)f->params[0], x);
 }
 
 static koksma_status prepare(koksma_integral *f)
@@ -63,7 +64,7 @@ static koksma_status prepare(koksma_integral *f)
     const double other = r % 2 ? -top : polynomial(r, 0);
     const double variation = r == 1 ? 1 : r % 2 ? 4 * fabs(top) : 2 * fabs(top - other);
     for (int j = 0; j < f->axes; j++) {
-        const double w = f->params[1] * pow(j + 1, -f->params[2]);
+        const double w = f->params[1] * koksma__pow(j + 1, -f->params[2]);
         f->factors[j] = (koksma__factor){.mean = 1,
                                          .square = 1 + w * w * mean_square(r),
                                          .variation = w * variation,
@@ -95,6 +96,7 @@ const koksma_integrand koksma__integrand_bernoulli = {
     .name = "bernoulli",
     .title = "prod (1 + w j^-decay B_r(x_j))",
     .cite = "dick2010",
+    .revision = 1, /* own elementary functions */
     .known = "closed form",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

@@ -30,6 +30,7 @@ koksma_status koksma__integral_of_plane(koksma_integral *f);
         .name = text,                                                                                                \
         .title = says,                                                                                               \
         .cite = source,                                                                                              \
+        .revision = 1, /* own elementary functions */                                                                \
         .known = "closed form",                                                                                      \
         .min_dim = n_axes,                                                                                           \
         .max_dim = KOKSMA_MAX_DIM,                                                                                   \

@@ -29,6 +29,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "core/sum.h"
@@ -89,43 +90,45 @@ static koksma__factor peak(double mean, double square, double top, double at_0, 
 /* Returns the integral of 1 / (1 + s^2)^2 from 0 to t. */
 static double square_of_peak(double t)
 {
-    return (t / (1 + t * t) + atan(t)) / 2;
+    return (t / (1 + t * t) + koksma__atan(t)) / 2;
 }
 
 static koksma__factor product_peak(double a, double u, bool cut)
 {
     (void)cut;
     const double right = a * (1 - u), left = a * u, top = a * a;
-    return peak(a * (atan(right) + atan(left)), a * a * a * (square_of_peak(right) + square_of_peak(left)), top,
-                top / (1 + left * left), top / (1 + right * right));
+    return peak(a * (koksma__atan(right) + koksma__atan(left)),
+                a * a * a * (square_of_peak(right) + square_of_peak(left)), top, top / (1 + left * left),
+                top / (1 + right * right));
 }
 
 static koksma__factor gaussian(double a, double u, bool cut)
 {
     (void)cut;
     const double right = a * (1 - u), left = a * u;
-    return peak(sqrt(M_PI) / 2 / a * (erf(right) + erf(left)),
-                sqrt(M_PI / 8) / a * (erf(M_SQRT2 * right) + erf(M_SQRT2 * left)), 1, exp(-left * left),
-                exp(-right * right));
+    return peak(sqrt(M_PI) / 2 / a * (koksma__erf(right) + koksma__erf(left)),
+                sqrt(M_PI / 8) / a * (koksma__erf(M_SQRT2 * right) + koksma__erf(M_SQRT2 * left)), 1,
+                koksma__exp(-left * left), koksma__exp(-right * right));
 }
 
 static koksma__factor continuous(double a, double u, bool cut)
 {
     (void)cut;
     const double right = -a * (1 - u), left = -a * u;
-    return peak(-(expm1(right) + expm1(left)) / a, -(expm1(2 * right) + expm1(2 * left)) / (2 * a), 1, exp(left),
-                exp(right));
+    return peak(-(koksma__expm1(right) + koksma__expm1(left)) / a,
+                -(koksma__expm1(2 * right) + koksma__expm1(2 * left)) / (2 * a), 1, koksma__exp(left),
+                koksma__exp(right));
 }
 
 static koksma__factor discontinuous(double a, double u, bool cut)
 {
-    const double to = cut ? a * u : a, rise = expm1(to);
+    const double to = cut ? a * u : a, rise = koksma__expm1(to);
     return (koksma__factor){.mean = rise / a,
-                            .square = expm1(2 * to) / (2 * a),
-                            .variation = cut ? rise + exp(to) : rise,
-                            .end = cut ? 0 : exp(to),
+                            .square = koksma__expm1(2 * to) / (2 * a),
+                            .variation = cut ? rise + koksma__exp(to) : rise,
+                            .end = cut ? 0 : koksma__exp(to),
                             .lowest = cut ? 0 : 1,
-                            .highest = exp(to)};
+                            .highest = koksma__exp(to)};
 }
 
 static double product_peak_factor(const koksma_integral *f, int axis, double x)
@@ -137,17 +140,17 @@ static double product_peak_factor(const koksma_integral *f, int axis, double x)
 static double gaussian_factor(const koksma_integral *f, int axis, double x)
 {
     const double t = f->a[axis] * (x - f->b[axis]);
-    return exp(-t * t);
+    return koksma__exp(-t * t);
 }
 
 static double continuous_factor(const koksma_integral *f, int axis, double x)
 {
-    return exp(-f->a[axis] * fabs(x - f->b[axis]));
+    return koksma__exp(-f->a[axis] * fabs(x - f->b[axis]));
 }
 
 static double discontinuous_factor(const koksma_integral *f, int axis, double x)
 {
-    return axis < 2 && x > f->b[axis] ? 0 : exp(f->a[axis] * x);
+    return axis < 2 && x > f->b[axis] ? 0 : koksma__exp(f->a[axis] * x);
 }
 
 static koksma_status prepare_product_peak(koksma_integral *f)
@@ -186,7 +189,7 @@ static double gaussian_at(const koksma_integral *f, const double *x)
         const double t = f->a[i] * (x[i] - f->b[i]);
         sum += t * t;
     }
-    return exp(-sum);
+    return koksma__exp(-sum);
 }
 
 static double continuous_at(const koksma_integral *f, const double *x)
@@ -195,7 +198,7 @@ static double continuous_at(const koksma_integral *f, const double *x)
     for (int i = 0; i < f->dim; i++) {
         sum += f->a[i] * fabs(x[i] - f->b[i]);
     }
-    return exp(-sum);
+    return koksma__exp(-sum);
 }
 
 static double sum_at(const koksma_integral *f, const double *x)
@@ -209,14 +212,14 @@ static double sum_at(const koksma_integral *f, const double *x)
 
 static double discontinuous_at(const koksma_integral *f, const double *x)
 {
-    return x[0] > f->b[0] || (f->dim > 1 && x[1] > f->b[1]) ? 0 : exp(sum_at(f, x));
+    return x[0] > f->b[0] || (f->dim > 1 && x[1] > f->b[1]) ? 0 : koksma__exp(sum_at(f, x));
 }
 
 /* ---- The oscillatory family -------------------------------------------------------------------------------- */
 
 static double sine_ratio(double t)
 {
-    return t == 0 ? 1 : sin(t) / t;
+    return t == 0 ? 1 : koksma__sin(t) / t;
 }
 
 static double oscillatory_mean(const koksma_integral *f)
@@ -226,7 +229,7 @@ static double oscillatory_mean(const koksma_integral *f)
         angle += f->a[i] / 2;
         r *= sine_ratio(f->a[i] / 2);
     }
-    return r * cos(angle);
+    return r * koksma__cos(angle);
 }
 
 static double oscillatory_explained(const koksma_integral *f, const bool *held)
@@ -238,12 +241,12 @@ static double oscillatory_explained(const koksma_integral *f, const bool *held)
         square *= held[i] ? 1 : s * s;
         product *= held[i] ? sine_ratio(f->a[i]) : 1;
     }
-    return square / 2 * (1 + cos(angle) * product) - f->value * f->value;
+    return square / 2 * (1 + koksma__cos(angle) * product) - f->value * f->value;
 }
 
 static double oscillatory_at(const koksma_integral *f, const double *x)
 {
-    return cos(2 * M_PI * f->b[0] + sum_at(f, x));
+    return koksma__cos(2 * M_PI * f->b[0] + sum_at(f, x));
 }
 
 static koksma_status prepare_oscillatory(koksma_integral *f)
@@ -255,7 +258,7 @@ static koksma_status prepare_oscillatory(koksma_integral *f)
         product *= sine_ratio(f->a[i]);
     }
     f->value = oscillatory_mean(f);
-    f->variance = (1 + cos(angle) * product) / 2 - f->value * f->value;
+    f->variance = (1 + koksma__cos(angle) * product) / 2 - f->value * f->value;
     f->lowest = -1;
     f->highest = 1;
     f->explained = oscillatory_explained;
@@ -268,23 +271,32 @@ static koksma_status prepare_oscillatory(koksma_integral *f)
    exp(-t) prod (1 - exp(-a t)) / (a t). The peak of t^(k+1) exp(-t) at t = k + 1 has width 1 / sqrt(k + 1) in y. */
 static double peak_integral(const koksma_integral *f, double k)
 {
-    const double step = 0.2 / sqrt(k + 1), middle = log(k + 1);
+    const double step = 0.2 / sqrt(k + 1), middle = koksma__log(k + 1);
     const int below = (int)ceil((40 / (k + 1) + 4) / step), above = (int)ceil(5 / step);
     koksma__sum sum = {0};
     for (int j = -below; j <= above; j++) {
-        const double y = middle + j * step, t = exp(y);
-        double weight = exp((k + 1) * y - t - lgamma(k + 1));
+        const double y = middle + j * step, t = koksma__exp(y);
+        double weight = koksma__exp((k + 1) * y - t - koksma__log_gamma(k + 1));
         for (int i = 0; i < f->dim && weight > 0; i++) {
-            weight *= -expm1(-f->a[i] * t) / (f->a[i] * t);
+            weight *= -koksma__expm1(-f->a[i] * t) / (f->a[i] * t);
         }
         koksma__sum_add(&sum, step * weight);
     }
     return koksma__sum_value(&sum);
 }
 
+static double corner_peak(int dim, double sum)
+{
+    double power = 1;
+    for (int i = 0; i <= dim; i++) {
+        power *= 1 + sum;
+    }
+    return 1 / power;
+}
+
 static double corner_peak_at(const koksma_integral *f, const double *x)
 {
-    return pow(1 + sum_at(f, x), -(double)(f->dim + 1));
+    return corner_peak(f->dim, sum_at(f, x));
 }
 
 static koksma_status prepare_corner_peak(koksma_integral *f)
@@ -293,7 +305,7 @@ static koksma_status prepare_corner_peak(koksma_integral *f)
     f->value = peak_integral(f, f->dim);
     f->variance = peak_integral(f, 2 * f->dim + 1) - f->value * f->value;
     f->highest = 1;
-    f->lowest = pow(1 + f->params[0], -(double)(f->dim + 1));
+    f->lowest = corner_peak(f->dim, f->params[0]);
     f->variation = 1 - f->lowest;
     return KOKSMA_OK;
 }
@@ -303,6 +315,7 @@ static koksma_status prepare_corner_peak(koksma_integral *f)
         .name = "genz-" text,                                                                                        \
         .title = says,                                                                                               \
         .cite = "genz1984 barthelmann2000",                                                                          \
+        .revision = 1, /* own elementary functions */                                                                \
         .known = how,                                                                                                \
         .min_dim = 1,                                                                                                \
         .max_dim = KOKSMA_MAX_DIM,                                                                                   \

@@ -12,6 +12,7 @@
  */
 #include <math.h>
 
+#include "core/elementary.h"
 #include "integrands/closed_forms.h"
 
 #define MEMBER(id, text, says, n_axes, function, ...)                                                                \
@@ -32,7 +33,7 @@ static double square(const koksma_integral *f, const double *x)
 static double wave(const koksma_integral *f, const double *x)
 {
     (void)f;
-    return sin(2 * M_PI * x[0]);
+    return koksma__sin(2 * M_PI * x[0]);
 }
 
 static double below_third(const koksma_integral *f, const double *x)
@@ -50,7 +51,7 @@ static double saddle(const koksma_integral *f, const double *x)
 static double exponential(const koksma_integral *f, const double *x)
 {
     (void)f;
-    return exp(x[0] + x[1]);
+    return koksma__exp(x[0] + x[1]);
 }
 
 static double corner_box(const koksma_integral *f, const double *x)
@@ -119,7 +120,7 @@ static double squared(double x)
 
 static double sine(double x)
 {
-    return sin(2 * M_PI * x);
+    return koksma__sin(2 * M_PI * x);
 }
 
 static double third(double x)
@@ -165,7 +166,7 @@ MEMBER(saddle, "saddle", "(x - 1/2)(y - 1/2)", 2, saddle,
        KOKSMA__ROWS({0, 1.0 / 12, 1, 0.5, -0.5, 0.5, less_half}, {0, 1.0 / 12, 1, 0.5, -0.5, 0.5, less_half}));
 #define EXP                                                                                                          \
     {                                                                                                                \
-        M_E - 1, (M_E * M_E - 1) / 2, M_E - 1, M_E, 1, M_E, exp                                                      \
+        M_E - 1, (M_E * M_E - 1) / 2, M_E - 1, M_E, 1, M_E, koksma__exp                                              \
     }
 MEMBER(exp, "exp", "exp(x + y)", 2, exponential, KOKSMA__ROWS(EXP, EXP));
 MEMBER(corner, "corner", "1 in the box [0, .6) x [0, .7)", 2, corner_box,

@@ -8,6 +8,7 @@
  */
 #include <math.h>
 
+#include "core/elementary.h"
 #include "integrands/closed_forms.h"
 
 #define R_CUBED 0.50794908747392775808 /* (2 / pi)^(3/2) */
@@ -33,12 +34,12 @@ static double step_pi(const koksma_integral *f, const double *x)
 static double quarter_gaussian(const koksma_integral *f, const double *x)
 {
     (void)f;
-    return exp(-(x[0] * x[0] + x[1] * x[1]));
+    return koksma__exp(-(x[0] * x[0] + x[1] * x[1]));
 }
 
 static double gaussian(double x)
 {
-    return exp(-x * x);
+    return koksma__exp(-x * x);
 }
 
 static double identity(double x)
@@ -56,8 +57,8 @@ static koksma_status prepare_gaussian(koksma_integral *f)
 {
     const koksma_status status = koksma__integral_factors(f);
     for (int i = 0; !status && i < 2; i++) {
-        f->factors[i] = (koksma__factor){.mean = sqrt(M_PI) * erf(1) / 2,
-                                         .square = sqrt(M_PI / 2) * erf(M_SQRT2) / 2,
+        f->factors[i] = (koksma__factor){.mean = sqrt(M_PI) * koksma__erf(1) / 2,
+                                         .square = sqrt(M_PI / 2) * koksma__erf(M_SQRT2) / 2,
                                          .variation = 1 - 1 / M_E,
                                          .end = 1 / M_E,
                                          .lowest = 1 / M_E,

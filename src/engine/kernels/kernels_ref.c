@@ -6,6 +6,7 @@
 
 #include <koksma/sampler.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
@@ -248,12 +249,13 @@ static double overlap(int law, double r, double distance)
         return 0;
     }
     const double s = sqrt((r - h) * (r + h)),
-                 angle = atan2(s, h); /* factored, because r * r - h * h would lose digits near h = r */
+                 angle = koksma__atan2(s, h); /* factored, because r * r - h * h would lose digits near h = r */
     switch (law) {
     case 0:
         return 2 * r * r * angle - 2 * h * s;
     case 1:
-        return (2 * r * r * r * angle - 4 * h * r * s + (h > 0 ? 2 * h * h * h * log((r + s) / h) : 0)) / (3 * r);
+        return (2 * r * r * r * angle - 4 * h * r * s + (h > 0 ? 2 * h * h * h * koksma__log((r + s) / h) : 0)) /
+               (3 * r);
     default:
         return (r * r * r * r * angle - (5 * h * s * s * s) / 3 - h * h * h * s) / (r * r);
     }

@@ -13,6 +13,7 @@
  */
 #include <math.h>
 
+#include "core/elementary.h"
 #include "measures/l2/l2.h"
 #include "measures/measures.h"
 
@@ -35,7 +36,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
         return koksma__l2_value_by_pairs(&row, points, args->run, out);
     }
     const koksma_status status = koksma__l2_by_sorting(&divided, points, args->run, &out->square);
-    out->square = koksma__not_below_0(out->square * pow(q / 6, points->dim));
+    out->square = koksma__not_below_0(out->square * koksma__pow(q / 6, points->dim));
     out->value = sqrt(out->square);
     return status;
 }

@@ -80,6 +80,7 @@ const koksma_measure koksma__measure_disk_sampled = {
     .name = "disk-sampled",
     .title = "L2 discrepancy of disks or balls on the torus (root mean square), estimated from random ones",
     .cite = "mitchell1992",
+    .revision = 1, /* own elementary functions */
     .cost = "disks n",
     .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,

@@ -75,6 +75,7 @@ const koksma_measure koksma__measure_edge = {
     .name = "edge",
     .title = "L-infinity discrepancy of half-planes or half-spaces",
     .cite = "mitchell1992 dobkin1993 dobkin1996 meyer1991",
+    .revision = 1, /* own elementary functions */
     .cost = "n^2 log n; n^4 in 3D, up to 1024 points",
     .family = KOKSMA_FAMILY_EDGES,
     .min_dim = 2,

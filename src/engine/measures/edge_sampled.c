@@ -110,6 +110,7 @@ const koksma_measure koksma__measure_edge_sampled = {
     .name = "edge-sampled",
     .title = "L2 discrepancy of half-planes or half-spaces (root mean square), estimated from random lines or planes",
     .cite = "mitchell1992",
+    .revision = 1, /* own elementary functions */
     .cost = "lines n",
     .family = KOKSMA_FAMILY_EDGES,
     .min_dim = 2,

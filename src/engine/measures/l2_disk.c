@@ -206,6 +206,7 @@ const koksma_measure koksma__measure_l2_disk = {
     .name = "l2-disk",
     .title = "L2 discrepancy of disks or balls on the torus (root mean square over them)",
     .cite = "mitchell1992",
+    .revision = 1, /* own elementary functions */
     .cost = "n^2; in 2D with r <= 1/8, n times the mean number of points within 2r",
     .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,

@@ -161,6 +161,7 @@ const koksma_measure koksma__measure_l2_edge = {
     .name = "l2-edge",
     .title = "L2 discrepancy of half-planes or half-spaces (root mean square over random lines or planes)",
     .cite = "mitchell1992 alexander1990 robbins1978",
+    .revision = 1, /* own elementary functions */
     .cost = "n^2",
     .family = KOKSMA_FAMILY_EDGES,
     .min_dim = 2,

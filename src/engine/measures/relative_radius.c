@@ -22,6 +22,7 @@
  */
 #include <math.h>
 
+#include "core/elementary.h"
 #include "measures/distances/distances.h"
 #include "measures/measures.h"
 
@@ -36,8 +37,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     const koksma_status status =
         koksma__min_distance("relative-radius", points, args->params[0] > 0, args->run, &out->value);
     const double n = (double)points->n;
-    out->value /=
-        points->dim == 2 ? sqrt(2 / (sqrt(3) * n)) : 2 * pow(centre_density(points->dim) / n, 1.0 / points->dim);
+    out->value /= points->dim == 2 ? sqrt(2 / (sqrt(3) * n))
+                                   : 2 * koksma__pow(centre_density(points->dim) / n, 1.0 / points->dim);
     return status;
 }
 
@@ -50,6 +51,7 @@ const koksma_measure koksma__measure_relative_radius = {
     .name = "relative-radius",
     .title = "smallest distance divided by that of the densest packing (larger values are better)",
     .cite = "lagae2008 conway1999",
+    .revision = 1, /* own elementary functions */
     .cost = "n, or n log n for clustered points; from 3D on between n log n and n^2",
     .min_dim = 2,
     .max_dim = 8,

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/vector.h"
@@ -113,7 +114,8 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
         memcpy(d->before, d->points.xs, n * sizeof(double));
         memcpy(d->gradient_before, d->gradient, n * sizeof(double));
         /* The first step is a tenth of the mean spacing. */
-        double t = d->kept ? 1 : 0.1 * pow((double)d->points.n, -1.0 / d->points.dim) / sqrt(-slope / (double)n);
+        double t =
+            d->kept ? 1 : 0.1 * koksma__pow((double)d->points.n, -1.0 / d->points.dim) / sqrt(-slope / (double)n);
         int halvings = 0;
         for (; halvings < HALVINGS && !status; halvings++, t /= 2) {
             move_by(d, t, step);
@@ -169,7 +171,7 @@ static void exchange(koksma__descent *d, koksma__stream *random, size_t pairs)
 static void kick(koksma__descent *d, koksma__stream *random)
 {
     const size_t n = d->points.n, dim = (size_t)d->points.dim, kind = koksma__next_below(random, 3);
-    const double spacing = d->length * pow((double)n, -1.0 / d->points.dim),
+    const double spacing = d->length * koksma__pow((double)n, -1.0 / d->points.dim),
                  reach = spacing / 3 * koksma__next_unit(random);
     const double width = spacing * (1 + 3 * koksma__next_unit(random));
     const double *centre = d->points.xs + dim * koksma__next_below(random, n);

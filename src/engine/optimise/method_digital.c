@@ -17,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "optimise/optimise.h"
@@ -80,7 +81,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     const double tolerance = 0.02 * koksma__next_unit(&random);
     const double sign = measure->measure->larger_is_better ? -1 : 1;
     unsigned m = 0;
-    double current = sign * log(value), best = current, after;
+    double current = sign * koksma__log(value), best = current, after;
     koksma_points walk = {0}, next; /* the walk's sequence, and the next one; `points` keeps the best one */
     koksma_status status = koksma_points_init(&next, points->n, points->dim);
     status = status ? status : koksma_points_init(&walk, points->n, points->dim);
@@ -100,7 +101,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
         memcpy(next.xs, walk.xs, bytes);
         move(&next, m, &random);
         status = koksma__search_value(measure, o, &next, run, &after);
-        after = sign * log(after);
+        after = sign * koksma__log(after);
         if (!status && after <= current + tolerance * (1 - (double)(i + 1) / MOVES)) {
             current = after;
             memcpy(walk.xs, next.xs, bytes);

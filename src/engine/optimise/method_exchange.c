@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "optimise/optimise.h"
@@ -113,7 +114,7 @@ static void swap(walk *w, size_t k, size_t p, size_t q)
 static koksma_status anneal(walk *w, double temperature, size_t proposals, const koksma_run *run, koksma_points *best)
 {
     const size_t n = w->points.n, dim = (size_t)w->points.dim, bytes = n * dim * sizeof(double);
-    const double fall = pow(COLDEST, (double)ROUND / (double)proposals);
+    const double fall = koksma__pow(COLDEST, (double)ROUND / (double)proposals);
     double sum = 0, least = -1e-9 * temperature;
     koksma_status status = KOKSMA_OK;
     bool lower = false; /* the walk's set is the least, and not yet copied */
@@ -124,7 +125,7 @@ static koksma_status anneal(walk *w, double temperature, size_t proposals, const
         }
         const size_t k = koksma__next_below(&w->random, dim), p = koksma__next_below(&w->random, n),
                      q = koksma__next_below(&w->random, n);
-        const double most = -temperature * log(koksma__next_unit(&w->random) + 0x1p-33);
+        const double most = -temperature * koksma__log(koksma__next_unit(&w->random) + 0x1p-33);
         const double by = p == q ? (double)INFINITY : change_of(w, k, p, q);
         if (by < most) {
             if (lower && by > 0) {
@@ -150,7 +151,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     const double n = (double)points->n;
     walk w;
     koksma_status status = walk_init(&w, points, koksma__l2_row_of(measure->measure), seed);
-    const double hot = WARMEST * pow(COLDEST, koksma__next_unit(&w.random)) * value * value * n * n;
+    const double hot = WARMEST * koksma__pow(COLDEST, koksma__next_unit(&w.random)) * value * value * n * n;
     const size_t proposals = (size_t)((w.swaps.memory ? WORK : SLOW_WORK) / (n * points->dim + 400));
     status = status ? status : anneal(&w, hot, proposals, run, points);
     free(w.swaps.memory);

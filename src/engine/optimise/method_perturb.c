@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "optimise/optimise.h"
 
 enum { MOVES = 200 };
@@ -40,8 +41,8 @@ static void move(koksma_points *points, koksma_keep keep, koksma__stream *random
         b[k] = swapped;
         return;
     }
-    const double spacing = keep == KOKSMA_KEEP_NET ? 1 : pow((double)points->n, -1.0 / points->dim);
-    const double reach = spacing * pow(10, -4 * koksma__next_unit(random));
+    const double spacing = keep == KOKSMA_KEEP_NET ? 1 : koksma__pow((double)points->n, -1.0 / points->dim);
+    const double reach = spacing * koksma__pow(10, -4 * koksma__next_unit(random));
     for (size_t c = 0; c < dim; c++) {
         a[c] = moved(a[c], reach, points->n, keep, random);
     }

@@ -23,6 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
@@ -173,7 +174,7 @@ static koksma_status list(job *j, koksma__descent *d, double limit, double *valu
                 list_row(j, i, b, -1, &limit, value);
             }
         }
-        d->work += pow((double)n + 1, 3) / 12 + (double)j->listed;
+        d->work += koksma__pow((double)n + 1, 3) / 12 + (double)j->listed;
     }
     *value /= (double)n;
     d->cost = 100 + 2 * (double)n + (double)j->listed / 2;
@@ -415,7 +416,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
             d.function = excesses;
             d.context = &j;
             d.run = run;
-            d.budget = fmax(1.5e7 + 6e5 * (double)n, 5 * pow((double)n + 1, 3));
+            d.budget = fmax(1.5e7 + 6e5 * (double)n, 5 * koksma__pow((double)n + 1, 3));
             j.value = value;
             j.result = points;
             status = wander(o->keep, &d, &j, &random, best);

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "optimise/optimise.h"
 
@@ -74,7 +75,8 @@ static void move_point(double *x, const double *direction, double by, int dim)
 /* Moves each point that touches the witness with probability 1/2, or moves a random point. */
 static void move(koksma_points *points, const koksma_witness *w, koksma__stream *random)
 {
-    const double reach = pow((double)points->n, -1.0 / points->dim) * pow(10, -4 * koksma__next_unit(random));
+    const double reach =
+        koksma__pow((double)points->n, -1.0 / points->dim) * koksma__pow(10, -4 * koksma__next_unit(random));
     double direction[KOKSMA_MAX_DIM];
     bool moved = false;
     const bool any = koksma__next(random) % 4 == 0;

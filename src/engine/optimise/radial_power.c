@@ -27,6 +27,7 @@
 #include <unistd.h>
 
 #include "core/c_locale.h"
+#include "core/elementary.h"
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/status.h"
@@ -122,8 +123,8 @@ static koksma_status find_tables(job *j, const koksma_points *points)
             KOKSMA__TRY(ask(j, 8 * rings)); /* a sine and a cosine take as long as some terms */
             const double angle = 2 * M_PI * points->xs[2 * i + (size_t)axis];
             for (size_t k = 0; k <= rings; k++) {
-                c[k * stride + i] = cos((double)k * angle);
-                s[k * stride + i] = sin((double)k * angle);
+                c[k * stride + i] = koksma__cos((double)k * angle);
+                s[k * stride + i] = koksma__sin((double)k * angle);
             }
         }
     }
@@ -133,7 +134,7 @@ static koksma_status find_tables(job *j, const koksma_points *points)
 /* Returns the ring of a frequency, or 0 if it is in none of the rings. */
 static size_t ring_of(const job *j, int kx, int ky)
 {
-    const size_t ring = (size_t)floor(hypot(kx, ky) + 0.5);
+    const size_t ring = (size_t)floor(koksma__hypot(kx, ky) + 0.5);
     return ring <= j->rings ? ring : 0;
 }
 
@@ -324,7 +325,7 @@ koksma_status koksma_radial_power(const char *text, size_t n, int rings, const k
     if (step || !strcmp(text, "gaussian")) {
         for (int r = 1; r <= rings; r++) {
             const double area = M_PI * r * r / (double)n;
-            power[r - 1] = step ? area >= 1 : 1 - exp(-area);
+            power[r - 1] = step ? area >= 1 : 1 - koksma__exp(-area);
         }
         return KOKSMA_OK;
     }

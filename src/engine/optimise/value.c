@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/spec.h"
 #include "core/status.h"
@@ -67,7 +68,7 @@ static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_p
         KOKSMA__FAIL_IF(!(value.value > 0), KOKSMA_ARGUMENT,
                         "%s of the first %zu points is %g: the geometric mean over all prefixes needs values above 0",
                         measure->measure->name, n, value.value);
-        *mean += log(value.value);
+        *mean += koksma__log(value.value);
     }
     *mean /= count;
     return KOKSMA_OK;
@@ -119,7 +120,7 @@ koksma_status koksma__search_value(const koksma_spec *measure, const koksma_opti
         mean /= weights;
         koksma_points_fini(&projected);
     }
-    *value = o->keep == KOKSMA_KEEP_SEQUENCE ? exp(mean) : sqrt(mean);
+    *value = o->keep == KOKSMA_KEEP_SEQUENCE ? koksma__exp(mean) : sqrt(mean);
     return status;
 }
 

@@ -40,6 +40,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -189,14 +190,14 @@ static koksma_status generate_in_space(uint64_t seed, const koksma_args *args, k
     const size_t n = out->n, numbers = n * (size_t)out->dim;
     const double sigma = args->params[1] * (out->dim > 4 ? NARROW : 1);
     const int steps = (int)args->params[0];
-    descent d = {.dim = out->dim, .n = n, .s = sigma * pow((double)n, -1.0 / out->dim), .xs = out->xs};
+    descent d = {.dim = out->dim, .n = n, .s = sigma * koksma__pow((double)n, -1.0 / out->dim), .xs = out->xs};
     KOKSMA__FAIL_IF(d.s > 0.1 && n > MOST_PAIRED, KOKSMA_N,
                     "gaussian-blue-noise: n = %zu is too large in dim %d, where all pairs of points act; n = %d or "
                     "less would do",
                     n, d.dim, MOST_PAIRED);
-    d.step = args->params[2] / pow(2 * M_PI, 0.5 * d.dim - 1);
-    d.limit = TOLERANCE / sqrt(M_PI) * d.s * sqrt(0.5 * d.dim) * pow(M_PI, 0.25 * d.dim) * pow(sigma, 0.5 * d.dim) *
-              sqrt((double)n);
+    d.step = args->params[2] / koksma__pow(2 * M_PI, 0.5 * d.dim - 1);
+    d.limit = TOLERANCE / sqrt(M_PI) * d.s * sqrt(0.5 * d.dim) * koksma__pow(M_PI, 0.25 * d.dim) *
+              koksma__pow(sigma, 0.5 * d.dim) * sqrt((double)n);
     d.least = INFINITY;
     d.moves = calloc(numbers + n, sizeof *d.moves);
     KOKSMA__REQUIRE_MEMORY(d.moves, (numbers + n) * sizeof *d.moves);
@@ -261,5 +262,5 @@ const koksma_pattern koksma__pattern_gaussian_blue_noise = {
     .claims = KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_BLUE | KOKSMA_CLAIM_UNBIASED,
     .params = params,
     .generate = generate,
-    .revision = 1, /* a narrower Gaussian from 5 dimensions on */
+    .revision = 2, /* own elementary functions */
 };

@@ -23,6 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
 #include "patterns/nets/nets.h"
@@ -48,7 +49,7 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
 {
     const vector *v = context;
     if (v->base == 2) { /* computes the same coordinates as the general case, but without divisions */
-        const int unused = 32 - (int)round(log2((double)v->points));
+        const int unused = 32 - (int)round(koksma__log2((double)v->points));
         const double scale = 1 / (double)v->points;
         for (size_t i = 0; i < count; i++) {
             const uint64_t at = (uint64_t)koksma_mirror((uint32_t)(first + i)) >> unused;

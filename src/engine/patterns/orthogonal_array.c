@@ -17,6 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/grids/grids.h"
@@ -41,7 +42,7 @@ static size_t power(size_t s, int strength)
 
 static koksma_status find_levels(size_t n, int dim, int strength, size_t *levels)
 {
-    size_t s = (size_t)pow((double)n, 1.0 / strength);
+    size_t s = (size_t)koksma__pow((double)n, 1.0 / strength);
     s += power(s + 1, strength) <= n;
     const size_t columns = strength == 2 ? s + 1 : s;
     if (power(s, strength) == n && is_prime(s) && (size_t)dim <= columns) {

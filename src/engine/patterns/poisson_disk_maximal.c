@@ -23,6 +23,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/darts/darts.h"
@@ -84,7 +85,7 @@ static double farthest(int dim)
 /* Returns the distance d at which sets have n points on average. */
 static double distance_of(double n, int dim)
 {
-    const double d = dim == 2 ? sqrt(per_volume(dim) / n) : pow(per_volume(dim) / n, 1.0 / dim);
+    const double d = dim == 2 ? sqrt(per_volume(dim) / n) : koksma__pow(per_volume(dim) / n, 1.0 / dim);
     return fmin(d, farthest(dim));
 }
 
@@ -149,7 +150,7 @@ static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, c
 static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run, cover *c)
 {
     const double most = (double)(KOKSMA_MAX_COORDINATES / (size_t)c->dim),
-                 expected = per_volume(c->dim) / pow(d, c->dim);
+                 expected = per_volume(c->dim) / koksma__pow(d, c->dim);
     KOKSMA__FAIL_IF(
         expected > most, KOKSMA_N,
         "poisson-disk-maximal: d=%g would give about %.2g points, which is too many; d=%.2g or more would do", d,
@@ -165,7 +166,7 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
    before the first dart is thrown. */
 static bool is_possible(double d, size_t n, int dim)
 {
-    const double area = (double)n * pow(d, dim), packed = koksma__packing_distance(n, dim, true) / d;
+    const double area = (double)n * koksma__pow(d, dim), packed = koksma__packing_distance(n, dim, true) / d;
     return dim == 2 ? area > 0.999 * 2 / sqrt(27) && area < 1.001 * 2 / sqrt(3) : packed > 0.999 && packed < 2.002;
 }
 
@@ -176,7 +177,7 @@ static koksma_status finish(koksma_status status, const koksma_args *args, koksm
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    const double d = args->params[0], expected = per_volume(out->dim) / pow(d, out->dim);
+    const double d = args->params[0], expected = per_volume(out->dim) / koksma__pow(d, out->dim);
     cover c = {.dim = out->dim};
     KOKSMA__FAIL_IF(d > 0 && expected > MANY && !is_possible(d, out->n, out->dim), KOKSMA_N,
                     "poisson-disk-maximal: d=%g gives about %.3g points, not %zu; leave out d to get n points", d,

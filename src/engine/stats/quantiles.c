@@ -10,6 +10,7 @@
  *     t = z + (z^3 + z) / (4 nu) + (5 z^5 + 16 z^3 + 3 z) / (96 nu^2) + O(nu^-3)
  */
 #define _DEFAULT_SOURCE /* for lgamma_r */
+#include "core/elementary.h"
 #include "stats/stats.h"
 
 #include <math.h>
@@ -39,7 +40,8 @@ static double beta_fraction(double a, double b, double x)
             break;
         }
     }
-    return exp(koksma__log_gamma(a + b) - koksma__log_gamma(a) - koksma__log_gamma(b) + a * log(x) + b * log1p(-x)) *
+    return koksma__exp(koksma__log_gamma(a + b) - koksma__log_gamma(a) - koksma__log_gamma(b) + a * koksma__log(x) +
+                       b * koksma__log1p(-x)) *
            f / a;
 }
 
@@ -47,7 +49,7 @@ static double beta_fraction(double a, double b, double x)
 double koksma__student_tail(double t, double degrees)
 {
     if (degrees > MANY) {
-        return 0.5 * erfc(t * sqrt(0.5));
+        return 0.5 * koksma__erfc(t * sqrt(0.5));
     }
     const double a = 0.5 * degrees, x = degrees / (degrees + t * t);
     return 0.5 * (x < (a + 1) / (a + 2.5) ? beta_fraction(a, 0.5, x) : 1 - beta_fraction(0.5, a, 1 - x));
@@ -85,7 +87,7 @@ static double chi_squared(double x, double degrees)
         term *= z / (a + n);
         sum += term;
     }
-    return sum * exp(a * log(z) - z - koksma__log_gamma(a));
+    return sum * koksma__exp(a * koksma__log(z) - z - koksma__log_gamma(a));
 }
 
 double koksma__chi_squared_quantile(double p, double degrees)
@@ -103,12 +105,4 @@ double koksma__chi_squared_quantile(double p, double degrees)
         }
     }
     return 0.5 * (lo + hi);
-}
-
-/* The logarithm of the gamma function, computed by lgamma_r. lgamma is not safe with several threads, because it
-   stores the sign in a global variable. */
-double koksma__log_gamma(double x)
-{
-    int sign;
-    return lgamma_r(x, &sign);
 }

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -68,7 +69,7 @@ static double redrawn(const koksma__means *m, size_t s, size_t i)
         return m->mean[i];
     }
     koksma__random_pair(m->seed, KOKSMA__PURPOSE_SEARCH, s, (uint32_t)i, u);
-    return m->mean[i] + m->error[i] * sqrt(-2 * log1p(-u[0])) * cos(2 * M_PI * u[1]);
+    return m->mean[i] + m->error[i] * sqrt(-2 * koksma__log1p(-u[0])) * koksma__cos(2 * M_PI * u[1]);
 }
 
 /* Writes resample s to a and b. A pattern that is drawn twice has the same means both times; this tie does not count

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 
 void koksma_tally_add(koksma_tally *tally, double value)
@@ -52,7 +53,7 @@ bool koksma_log_line(size_t n, const double *xs, const double *ys, koksma_line *
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < n; i++) {
             if (xs[i] > 0 && ys[i] > 0 && isfinite(xs[i]) && isfinite(ys[i])) {
-                (pass ? koksma__fit_add : koksma__fit_mean)(&fit, log(xs[i]), log(ys[i]), 1);
+                (pass ? koksma__fit_add : koksma__fit_mean)(&fit, koksma__log(xs[i]), koksma__log(ys[i]), 1);
             }
         }
     }
@@ -147,9 +148,9 @@ double koksma__joint_error(const koksma_joint *joint, size_t n, const double *si
                 continue; /* the fit of the line skips this mean, too */
             }
             if (pass == 0) {
-                middle += (log(sizes[i]) - middle) / ++count;
+                middle += (koksma__log(sizes[i]) - middle) / ++count;
             } else {
-                weights[i] = log(sizes[i]) - middle;
+                weights[i] = koksma__log(sizes[i]) - middle;
                 square += weights[i] * weights[i];
             }
         }

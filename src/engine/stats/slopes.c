@@ -4,6 +4,7 @@
    the errors are unknown. The lack of fit of a weighted line shows whether the means lie on a line at all. The number
    of samples that reaches a given error is interpolated between the two nearest sizes, as if the error followed c
    n^slope between them. */
+#include "core/elementary.h"
 #include "stats/stats.h"
 
 #include <math.h>
@@ -46,7 +47,8 @@ static koksma__fit fit_of(const double *n, const koksma__summary *y, size_t coun
     koksma__fit f = {0};
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < count; i++) {
-            (pass ? koksma__fit_add : koksma__fit_mean)(&f, log(n[i]), log(y[i].mean), weight(&y[i], weighted));
+            (pass ? koksma__fit_add : koksma__fit_mean)(&f, koksma__log(n[i]), koksma__log(y[i].mean),
+                                                        weight(&y[i], weighted));
         }
     }
     return f;
@@ -57,7 +59,7 @@ static double squared_residuals(const koksma__fit *f, const double *n, const kok
 {
     double sum = 0;
     for (size_t i = 0; i < count; i++) {
-        const double r = log(y[i].mean) - f->y - koksma__fit_slope(f) * (log(n[i]) - f->x);
+        const double r = koksma__log(y[i].mean) - f->y - koksma__fit_slope(f) * (koksma__log(n[i]) - f->x);
         sum += weight(&y[i], weighted) * r * r;
     }
     return sum;
@@ -71,7 +73,7 @@ static double half_of_trials(const koksma__fit *f, const double *n, const koksma
 {
     double variance = 0, fourth = 0;
     for (size_t i = 0; i < count; i++) {
-        const double error = log_error(&y[i]), c = (log(n[i]) - f->x) / f->xx;
+        const double error = log_error(&y[i]), c = (koksma__log(n[i]) - f->x) / f->xx;
         if (error > 0) {
             const double v = c * c * error * error;
             variance += v;
@@ -102,10 +104,11 @@ static bool lies_off_line(const double *n, const koksma__summary *y, size_t coun
     const double p = (double)count - 2, q = squared_residuals(&f, n, y, count, true);
     double a = 0;
     for (size_t i = 0; i < count; i++) {
-        const double w = weight(&y[i], true), t = log(n[i]) - f.x, h = w / f.weight + w * t * t / f.xx;
+        const double w = weight(&y[i], true), t = koksma__log(n[i]) - f.x, h = w / f.weight + w * t * t / f.xx;
         a += (1 - h) * (1 - h) / (double)(y[i].n - 1);
     }
-    const double u = 2 / (9 * p), v = 2 * a / (3 * p * (p + 2)), root = cbrt(q / (p + 2 * a - 6 * a / (p + 2)));
+    const double u = 2 / (9 * p), v = 2 * a / (3 * p * (p + 2)),
+                 root = koksma__cbrt(q / (p + 2 * a - 6 * a / (p + 2)));
     return (1 - v) * root - (1 - u) > NORMAL_99 * sqrt(v * root * root + u);
 }
 
@@ -139,8 +142,9 @@ koksma__estimate koksma__samples_for(const koksma__convergence *p, double target
         a++;
     }
     const size_t b = a + 1;
-    const double x0 = log(p->n[a]), x1 = log(p->n[b]), y0 = log(p->mean[a]), y1 = log(p->mean[b]);
-    const double slope = (y1 - y0) / (x1 - x0), y = log(target), share = (y - y0) / (y1 - y0);
+    const double x0 = koksma__log(p->n[a]), x1 = koksma__log(p->n[b]), y0 = koksma__log(p->mean[a]),
+                 y1 = koksma__log(p->mean[b]);
+    const double slope = (y1 - y0) / (x1 - x0), y = koksma__log(target), share = (y - y0) / (y1 - y0);
     if (!(slope < 0)) {
         return none;
     }
@@ -148,5 +152,6 @@ koksma__estimate koksma__samples_for(const koksma__convergence *p, double target
     const double e = target_error / target, e0 = p->error[a] / p->mean[a], e1 = p->error[b] / p->mean[b];
     const double dx = sqrt(e * e + (1 - share) * (1 - share) * e0 * e0 + share * share * e1 * e1) / -slope;
     const double x = x0 + share * (x1 - x0);
-    return (koksma__estimate){exp(x), exp(x - 1.959963984540054 * dx), exp(x + 1.959963984540054 * dx)};
+    return (koksma__estimate){koksma__exp(x), koksma__exp(x - 1.959963984540054 * dx),
+                              koksma__exp(x + 1.959963984540054 * dx)};
 }

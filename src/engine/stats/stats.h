@@ -24,9 +24,6 @@ KOKSMA__LAB double koksma__student_tail(double t, double degrees);
 /* Returns the quantile of chi-squared: x with P(X <= x) = p, for 0 < p < 1 and degrees > 0. */
 KOKSMA__LAB double koksma__chi_squared_quantile(double p, double degrees);
 
-/* log gamma(x), x > 0. Several threads may call it at the same time, unlike lgamma. */
-KOKSMA__LAB double koksma__log_gamma(double x);
-
 /* ---- Lines by weighted least squares --------------------------------------------------------------------------- */
 
 /* The caller passes the pairs one at a time, twice: first for the means, then for the sums about the means. A

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/points.h"
 #include "verify/verify.h"
 
@@ -73,7 +74,7 @@ static koksma_status look_stratified(koksma__verification *v)
         }
     }
     if (dim == 3 || dim == 4) {
-        const size_t m = (size_t)(pow((double)n, 1.0 / dim) + 0.5), sides[4] = {m, m, m, m};
+        const size_t m = (size_t)(koksma__pow((double)n, 1.0 / dim) + 0.5), sides[4] = {m, m, m, m};
         if (m >= 2 && (dim == 3 ? m * m * m : m * m * m * m) == n && !status) {
             snprintf(subject, sizeof subject, "%zu^%d", m, dim);
             status = add_strata(v, use, sides, dim, subject);
@@ -239,7 +240,7 @@ static koksma_status look_progressive(koksma__verification *v)
     const size_t last = longest_prefix(points);
     for (size_t n = PREFIX_LEAST; n <= points->n && n <= last && points->dim <= PREFIX_MOST_DIM && !status; n *= 2) {
         const koksma_points prefix = {n, points->dim, points->xs};
-        const double random = (pow(2, -points->dim) - pow(3, -points->dim)) / (double)n;
+        const double random = (koksma__pow(2, -points->dim) - koksma__pow(3, -points->dim)) / (double)n;
         koksma_value found;
         status = koksma_evaluate(&l2_star, &prefix, v->run, &found);
         const double ratio = status ? 0 : found.value / sqrt(random);

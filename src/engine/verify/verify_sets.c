@@ -27,6 +27,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "verify/verify.h"
@@ -78,14 +79,14 @@ static bool is_inside(const box *b, const unsigned char *cell)
 static double log_at_most(const search *s, size_t k, double p)
 {
     const size_t n = s->v->n_sets;
-    const double first = s->log_factorial[n] - s->log_factorial[k] - s->log_factorial[n - k] + (double)k * log(p) +
-                         (double)(n - k) * log1p(-p);
+    const double first = s->log_factorial[n] - s->log_factorial[k] - s->log_factorial[n - k] +
+                         (double)k * koksma__log(p) + (double)(n - k) * koksma__log1p(-p);
     double term = 1, sum = 1;
     for (size_t i = k; i > 0 && term > 1e-17 * sum; i--) {
         term *= (double)i / (double)(n - i + 1) * (1 - p) / p;
         sum += term;
     }
-    return fmin(first + log(sum), 0);
+    return fmin(first + koksma__log(sum), 0);
 }
 
 /* Adds to the worst evidence of a property that of one box. */
@@ -106,7 +107,7 @@ static void test_sample(search *s, const box *b, size_t index, size_t count)
                                        .index = index,
                                        .mean = mean,
                                        .z = (mean - b->volume) * sqrt((double)n / (b->volume * (1 - b->volume))),
-                                       .weight = -fmin(less, more) - log(2)});
+                                       .weight = -fmin(less, more) - koksma__log(2)});
 }
 
 /* The bets of one side: on shares above the volume (sign 1) or below it. */
@@ -121,7 +122,7 @@ static void bet(bets *b, double sign, double volume, double stake, double differ
     const double mean = b->sum / (double)(b->n + 1);
     const double variance = fmax((b->squares + volume * (1 - volume)) / (double)(b->n + 1) - mean * mean, 1e-12);
     const double most = 0.75 / (sign > 0 ? volume : 1 - volume);
-    b->capital += log1p(fmin(stake / sqrt(variance), most) * sign * difference);
+    b->capital += koksma__log1p(fmin(stake / sqrt(variance), most) * sign * difference);
     b->sum += difference;
     b->squares += difference * difference;
     b->n++;
@@ -132,7 +133,7 @@ static void test_box(search *s, const box *b)
 {
     const koksma_points *sets = s->v->points;
     const size_t n = sets->n, dim = (size_t)sets->dim, n_sets = s->v->n_sets;
-    const double stake = sqrt(2 * log(1e6) / (double)n_sets);
+    const double stake = sqrt(2 * koksma__log(1e6) / (double)n_sets);
     size_t counts[MAX_INDICES] = {0};
     bets above = {0}, below = {0};
     for (size_t set = 0; set < n_sets; set++) {
@@ -152,7 +153,7 @@ static void test_box(search *s, const box *b)
     keep_worst(&s->shares, (evidence){.box = *b,
                                       .mean = b->volume + mean,
                                       .z = square > 0 ? mean * sqrt((double)n_sets / square) : 0,
-                                      .weight = fmax(above.capital, below.capital) - log(2)});
+                                      .weight = fmax(above.capital, below.capital) - koksma__log(2)});
     for (size_t k = 0; k < s->n_indices; k++) {
         test_sample(s, b, s->indices[k], counts[k]);
     }
@@ -232,7 +233,7 @@ static koksma_status add(koksma__verification *v, const search *s)
     if (!of_shares) {
         snprintf(subject, sizeof subject, "sample %zu", e->index);
     }
-    const bool holds = e->weight < log((double)tests / LEVEL) && !s->equal;
+    const bool holds = e->weight < koksma__log((double)tests / LEVEL) && !s->equal;
     if (s->equal && of_shares) {
         return koksma__add_finding(v, subject, 0, false,
                                    "all %zu sets are the same: their mean is the value of one set", v->n_sets);
@@ -254,7 +255,7 @@ static koksma_status prepare(search *s)
     KOKSMA__REQUIRE_MEMORY(s->cells && s->log_factorial, v->n_sets * size);
     s->equal = true;
     for (size_t set = 0; set < v->n_sets; set++) {
-        s->log_factorial[set + 1] = s->log_factorial[set] + log((double)(set + 1));
+        s->log_factorial[set + 1] = s->log_factorial[set] + koksma__log((double)(set + 1));
         s->equal = s->equal && !memcmp(v->points[set].xs, v->points->xs, size * sizeof *v->points->xs);
         for (size_t i = 0; i < size; i++) {
             s->cells[set * size + i] = (unsigned char)fmin(v->points[set].xs[i] * FINE, FINE - 1);

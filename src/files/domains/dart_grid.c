@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/vector.h"
@@ -32,8 +33,9 @@ koksma_status koksma__dart_grid_init(koksma__dart_grid *g, const koksma__point_d
     const size_t dim = (size_t)domain->dim;
     *g = (koksma__dart_grid){.dim = domain->dim, .torus = torus, .capacity = capacity, .side = 1};
     memcpy(g->lengths, domain->lengths, sizeof g->lengths);
-    const double length = pow(g->lengths[0] * g->lengths[1] * (dim > 2 ? g->lengths[2] : 1), 1.0 / domain->dim);
-    const double most = fmin(pow((double)capacity, 1.0 / domain->dim), d > 0 ? length / d : 1);
+    const double length =
+        koksma__pow(g->lengths[0] * g->lengths[1] * (dim > 2 ? g->lengths[2] : 1), 1.0 / domain->dim);
+    const double most = fmin(koksma__pow((double)capacity, 1.0 / domain->dim), d > 0 ? length / d : 1);
     g->side = most > 1 ? (uint32_t)most : 1;
     const size_t bytes = capacity * ((dim + 1) * sizeof *g->xs + sizeof *g->next) + cells_of(g) * sizeof *g->head;
     g->xs = malloc(bytes);

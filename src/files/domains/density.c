@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/random.h"
@@ -201,7 +202,7 @@ static koksma_status add_boxes(density_field *f)
     int best = 1;
     double off = INFINITY;
     for (int rows = 1; rows <= ROOTS; rows++) {
-        const double found = fabs(log(round(ratio * rows) / rows / ratio));
+        const double found = fabs(koksma__log(round(ratio * rows) / rows / ratio));
         best = found < off ? rows : best;
         off = fmin(found, off);
     }

@@ -34,6 +34,7 @@
 
 #include <koksma/series.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "core/sum.h"
 #include "image/coherence.h"
@@ -114,12 +115,12 @@ static double share_within(double f)
     if (f <= 0.5) {
         return M_PI * square;
     }
-    return fmin(M_PI * square - 4 * (square * acos(0.5 / f) - 0.5 * sqrt(square - 0.25)), 1);
+    return fmin(M_PI * square - 4 * (square * koksma__acos(0.5 / f) - 0.5 * sqrt(square - 0.25)), 1);
 }
 
 static size_t ring_of(const koksma_coherence *c, size_t u, size_t v, size_t rings)
 {
-    const double f = hypot((double)u / c->width, signed_frequency(v, c->height));
+    const double f = koksma__hypot((double)u / c->width, signed_frequency(v, c->height));
     const size_t ring = (size_t)((double)rings * share_within(fmin(f, 0.70710678118654752)));
     return ring < rings ? ring : rings - 1;
 }
@@ -254,7 +255,7 @@ static double log_series(double k, double x)
         term *= x / (k + j);
         sum += term;
     }
-    return k * log(x) - x - koksma__log_gamma(k + 1) + log(sum);
+    return k * koksma__log(x) - x - koksma__log_gamma(k + 1) + koksma__log(sum);
 }
 
 /* Q(k, x) for x above k + 1, by Lentz's method on the continued fraction 6.5.31 of Abramowitz & Stegun. */
@@ -273,12 +274,12 @@ static double upper_fraction(double k, double x)
             break;
         }
     }
-    return exp(k * log(x) - x - koksma__log_gamma(k)) * f;
+    return koksma__exp(k * koksma__log(x) - x - koksma__log_gamma(k)) * f;
 }
 
 static double upper_gamma(double k, double x)
 {
-    return x <= 0 ? 1 : x < k + 1 ? 0 - expm1(log_series(k, x)) : upper_fraction(k, x);
+    return x <= 0 ? 1 : x < k + 1 ? 0 - koksma__expm1(log_series(k, x)) : upper_fraction(k, x);
 }
 
 /* Returns the probability that the power at one frequency with a mirror image exceeds x. */
@@ -289,11 +290,11 @@ static double wave_tail(const koksma__coherence_law *law, double x)
         return 1;
     }
     if (law->images == 1) {
-        return 2 * x >= free ? 0 : exp((free / 2 - 1) * log1p(-2 * x / free));
+        return 2 * x >= free ? 0 : koksma__exp((free / 2 - 1) * koksma__log1p(-2 * x / free));
     }
     const double a = (1 + (images - 1) * law->common) / images, b = (1 - law->common) / images;
     if (b < 1e-9 * a) {
-        return exp(-x / a);
+        return koksma__exp(-x / a);
     }
     const double k = images - 1, z = x / b, rest = 1 - b / a, y = z * rest;
     if (y < k + 1) { /* (1 - b/a)^-k and y^k are multiplied as logarithms, as each may overflow alone */
@@ -302,9 +303,9 @@ static double wave_tail(const koksma__coherence_law *law, double x)
             term *= y / (k + j);
             sum += term;
         }
-        return upper_gamma(k, z) + sum * exp(k * log(z) - z - koksma__log_gamma(k + 1));
+        return upper_gamma(k, z) + sum * koksma__exp(k * koksma__log(z) - z - koksma__log_gamma(k + 1));
     }
-    return upper_gamma(k, z) + exp(-x / a - k * log(rest)) * (1 - upper_fraction(k, y));
+    return upper_gamma(k, z) + koksma__exp(-x / a - k * koksma__log(rest)) * (1 - upper_fraction(k, y));
 }
 
 /* Returns the probability that the power at one frequency without a mirror image exceeds x. */
@@ -320,12 +321,12 @@ double koksma__coherence_tail(const koksma__coherence_law *law, double x)
 {
     double log_below = 0;
     if (law->waves) {
-        log_below += (double)law->waves * log1p(-fmin(wave_tail(law, x), 1));
+        log_below += (double)law->waves * koksma__log1p(-fmin(wave_tail(law, x), 1));
     }
     if (law->real) {
-        log_below += (double)law->real * log1p(-fmin(real_tail(law, x), 1));
+        log_below += (double)law->real * koksma__log1p(-fmin(real_tail(law, x), 1));
     }
-    return 0 - expm1(log_below); /* not -0 */
+    return 0 - koksma__expm1(log_below); /* not -0 */
 }
 
 double koksma__coherence_quantile(const koksma__coherence_law *law, double tail)

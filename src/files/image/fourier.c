@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "core/dft.h"
+#include "core/elementary.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 
@@ -44,8 +45,8 @@ static koksma_status open_lines(size_t n, lines *l)
     l->work = l->twiddles + 2 * n;
     for (size_t k = 0; k < n; k++) {
         const double angle = 2 * M_PI * (double)k / (double)n;
-        l->twiddles[2 * k] = cos(angle);
-        l->twiddles[2 * k + 1] = sin(angle);
+        l->twiddles[2 * k] = koksma__cos(angle);
+        l->twiddles[2 * k + 1] = koksma__sin(angle);
     }
     const size_t padded = koksma__dft_padded(n);
     koksma_status status = l->power_of_two ? KOKSMA_OK : koksma__fourier_init(&l->fourier, padded ? padded : 1);

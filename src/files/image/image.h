@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 
 /* A growing array of bytes. */
@@ -54,12 +55,12 @@ enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
 /* The transfer function of sRGB (IEC 61966-2-1): linear light of a level of [0,1], its inverse, and the level of 8 bits. */
 static inline double koksma__from_srgb(double level)
 {
-    return level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
+    return level <= 0.04045 ? level / 12.92 : koksma__pow((level + 0.055) / 1.055, 2.4);
 }
 
 static inline double koksma__to_srgb(double linear)
 {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * koksma__pow(linear, 1 / 2.4) - 0.055;
 }
 
 static inline unsigned char koksma__srgb_byte(float linear)

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "image/formats.h"
 
@@ -158,7 +159,7 @@ static koksma_status to_linear(const unsigned char *levels, const head *h, size_
     KOKSMA__REQUIRE_MEMORY(table, n * sizeof *table);
     for (size_t i = 0; i < n; i++) {
         const double s = (double)i / (double)(n - 1);
-        table[i] = (float)(h->power > 0 ? pow(s, h->power) : koksma__from_srgb(s));
+        table[i] = (float)(h->power > 0 ? koksma__pow(s, h->power) : koksma__from_srgb(s));
     }
     for (size_t i = 0; i < count; i++) {
         out[i] = table[h->level_bytes == 1 ? levels[i] : levels[2 * i] << 8 | levels[2 * i + 1]];

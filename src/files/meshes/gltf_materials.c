@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 
 typedef koksma__json_node field;
@@ -68,7 +69,7 @@ static koksma_status take_transform(const field *info, koksma__file_texture *out
     KOKSMA__TRY(koksma__json_get_numbers(&f, "offset", false, -1e6, 1e6, 2, offset));
     KOKSMA__TRY(koksma__json_get_numbers(&f, "scale", false, -1e6, 1e6, 2, scale));
     KOKSMA__TRY(koksma__json_get_number(&f, "rotation", false, -1e6, 1e6, &turn));
-    const double c = cos(turn), s = sin(turn);
+    const double c = koksma__cos(turn), s = koksma__sin(turn);
     const double matrix[6] = {c * scale[0], -s * scale[1], s * scale[1] + offset[0],
                               s * scale[0], c * scale[1],  1 - c * scale[1] - offset[1]};
     out->moved = true;

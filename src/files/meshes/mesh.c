@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/hash.h"
 #include "core/status.h"
 #include "core/vector.h"
@@ -253,7 +254,7 @@ static double corner_angle(const koksma__mesh *m, size_t t, size_t c)
     }
     double across[3];
     koksma__cross(sides[0], sides[1], across);
-    return atan2(sqrt(koksma__dot(across, across)), koksma__dot(sides[0], sides[1]));
+    return koksma__atan2(sqrt(koksma__dot(across, across)), koksma__dot(sides[0], sides[1]));
 }
 
 koksma_status koksma__mesh_smooth_by_angles(koksma__mesh *m)
@@ -328,9 +329,9 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
                               double matrix[12])
 {
     const double to_rad = M_PI / 180;
-    const double cx = cos(rotate_deg[0] * to_rad), sx = sin(rotate_deg[0] * to_rad);
-    const double cy = cos(rotate_deg[1] * to_rad), sy = sin(rotate_deg[1] * to_rad);
-    const double cz = cos(rotate_deg[2] * to_rad), sz = sin(rotate_deg[2] * to_rad);
+    const double cx = koksma__cos(rotate_deg[0] * to_rad), sx = koksma__sin(rotate_deg[0] * to_rad);
+    const double cy = koksma__cos(rotate_deg[1] * to_rad), sy = koksma__sin(rotate_deg[1] * to_rad);
+    const double cz = koksma__cos(rotate_deg[2] * to_rad), sz = koksma__sin(rotate_deg[2] * to_rad);
     const double turn[9] = {cz * cy,
                             cz * sy * sx - sz * cx,
                             cz * sy * cx + sz * sx,
@@ -352,7 +353,7 @@ koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[
 {
     koksma__pose p = {.rotation = {1, 0, 0, 0}};
     for (int k = 0; k < 3; k++) { /* the product q = z y x rotates about x first */
-        const double half = rotate_deg[k] * M_PI / 360, c = cos(half), s = sin(half), *q = p.rotation;
+        const double half = rotate_deg[k] * M_PI / 360, c = koksma__cos(half), s = koksma__sin(half), *q = p.rotation;
         const int i = 1 + (k + 1) % 3, j = 1 + (k + 2) % 3;
         double out[4];
         out[0] = c * q[0] - s * q[1 + k];
@@ -444,15 +445,15 @@ static double arc(const koksma__pose poses[2], double *sign)
         difference += (a[i] - *sign * b[i]) * (a[i] - *sign * b[i]);
         sum += (a[i] + *sign * b[i]) * (a[i] + *sign * b[i]);
     }
-    return 2 * atan2(sqrt(difference), sqrt(sum));
+    return 2 * koksma__atan2(sqrt(difference), sqrt(sum));
 }
 
 void koksma__poses_at(const koksma__pose poses[2], double t, double m[12])
 {
     double sign, q[4], length = 0;
-    const double angle = arc(poses, &sign), whole = sin(angle);
-    const double first = whole > 1e-9 ? sin((1 - t) * angle) / whole : 1 - t;
-    const double second = sign * (whole > 1e-9 ? sin(t * angle) / whole : t);
+    const double angle = arc(poses, &sign), whole = koksma__sin(angle);
+    const double first = whole > 1e-9 ? koksma__sin((1 - t) * angle) / whole : 1 - t;
+    const double second = sign * (whole > 1e-9 ? koksma__sin(t * angle) / whole : t);
     for (int i = 0; i < 4; i++) {
         q[i] = first * poses[0].rotation[i] + second * poses[1].rotation[i];
         length += q[i] * q[i];

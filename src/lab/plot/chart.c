@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/elementary.h"
 #include "core/status.h"
 
 enum { MARGIN = 8, TITLE = 13, TEXT = 11, SWATCH = 28, MAX_TICKS = 64, MAX_SIZES = 12, TICK = 32 };
@@ -32,7 +33,7 @@ typedef struct axes {
 
 static double scaled(const axis *a, double value)
 {
-    return !a->log ? value : value > 0 ? log10(value) : (double)NAN;
+    return !a->log ? value : value > 0 ? koksma__log10(value) : (double)NAN;
 }
 
 static double place(const axis *a, double value)
@@ -79,7 +80,7 @@ static void find_ranges(const koksma_chart *c, axis *x, axis *y)
 static void widen_noise(axis *a)
 {
     const double middle = a->low / 2 + a->high / 2, size = fmax(fabs(a->low), fabs(a->high));
-    if (a->high - a->low <= NOISE * (a->log ? 1 / log(10) : size)) {
+    if (a->high - a->low <= NOISE * (a->log ? 1 / koksma__log(10) : size)) {
         const double half = a->log || size == 0 ? 0.5 : size / 2;
         a->low = middle - half;
         a->high = middle + half;
@@ -123,7 +124,8 @@ koksma_status koksma__chart_check(const koksma_chart *c)
 static int linear_ticks(double low, double high, double most, double ticks[MAX_TICKS])
 {
     int n = 0;
-    const double raw = (high - low) / fmax(most, 2), power = pow(10, floor(log10(raw))), lead = raw / power;
+    const double raw = (high - low) / fmax(most, 2), power = koksma__pow(10, floor(koksma__log10(raw))),
+                 lead = raw / power;
     const double step = power * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
     for (double i = ceil(low / step); i * step <= high + 1e-12 * step && n < MAX_TICKS; i++) {
         ticks[n++] = i * step + 0.0; /* ceil gives -0, too */
@@ -142,13 +144,13 @@ static int find_ticks(const axis *a, double most, double ticks[MAX_TICKS])
     const double step = fmax(1, ceil((a->high - a->low) / most));
     for (double e = floor(a->low); e <= a->high; e += step) {
         for (int m = 0; m < per_decade; m++) {
-            const double value = pow(10, e) * (m == 0 ? 1 : m == 1 ? 2 : 5);
-            if (log10(value) >= a->low && log10(value) <= a->high && n < MAX_TICKS) {
+            const double value = koksma__pow(10, e) * (m == 0 ? 1 : m == 1 ? 2 : 5);
+            if (koksma__log10(value) >= a->low && koksma__log10(value) <= a->high && n < MAX_TICKS) {
                 ticks[n++] = value;
             }
         }
     }
-    return n > 1 ? n : linear_ticks(pow(10, a->low), pow(10, a->high), fmin(most, 4), ticks);
+    return n > 1 ? n : linear_ticks(koksma__pow(10, a->low), koksma__pow(10, a->high), fmin(most, 4), ticks);
 }
 
 /* Writes the abscissas of the marks in ascending order, for ticks, and returns their number, or 0 if there are too

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
@@ -52,7 +53,7 @@ static double at_y(const plot *p, double y)
    z = 1 is the centre and z = -1 the rim. */
 static void project_sphere(double at[3])
 {
-    const double across = hypot(at[0], at[1]), radius = sqrt(fmax(1 - at[2], 0) / 2);
+    const double across = koksma__hypot(at[0], at[1]), radius = sqrt(fmax(1 - at[2], 0) / 2);
     at[0] = across > 0 ? radius * (at[0] / across) : radius;
     at[1] = across > 0 ? radius * (at[1] / across) : 0;
 }
@@ -124,8 +125,8 @@ static void draw_disk(const plot *p, const koksma_witness *w)
     for (int copy = 0; copy < 9; copy++) {
         for (int i = 0; i < KOKSMA__MAX_CORNERS; i++) {
             const double angle = 2 * M_PI * i / (KOKSMA__MAX_CORNERS - 1);
-            xys[2 * i] = at_x(p, w->lo[0] + copy % 3 - 1 + w->hi[0] * cos(angle));
-            xys[2 * i + 1] = at_y(p, w->lo[1] + copy / 3 - 1 + w->hi[0] * sin(angle));
+            xys[2 * i] = at_x(p, w->lo[0] + copy % 3 - 1 + w->hi[0] * koksma__cos(angle));
+            xys[2 * i + 1] = at_y(p, w->lo[1] + copy / 3 - 1 + w->hi[0] * koksma__sin(angle));
         }
         koksma__canvas_path_inside(p->canvas, xys, KOKSMA__MAX_CORNERS, square(p), line_of(p->theme->wash, 0));
         koksma__canvas_path_inside(p->canvas, xys, KOKSMA__MAX_CORNERS, square(p), line_of(p->theme->mark, 1.2));
@@ -134,7 +135,7 @@ static void draw_disk(const plot *p, const koksma_witness *w)
 
 static void draw_half_plane(const plot *p, const koksma_witness *w)
 {
-    const double norm = hypot(w->lo[0], w->lo[1]), a = w->lo[0] / norm, b = w->lo[1] / norm, reach = 2;
+    const double norm = koksma__hypot(w->lo[0], w->lo[1]), a = w->lo[0] / norm, b = w->lo[1] / norm, reach = 2;
     const double x = a * w->hi[0] / norm, y = b * w->hi[0] / norm;
     /* the first two corners are on the line; with the others they bound a band of width `reach` inside the
        half-plane */

@@ -15,6 +15,7 @@
 
 #include "core/c_locale.h"
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/status.h"
 
 enum { STYLE = 160 };
@@ -179,7 +180,7 @@ static koksma_status pixels(koksma__canvas *canvas, koksma__box b, int columns, 
     koksma_status status = koksma_image_init(&image, columns, rows, grey ? 1 : 3);
     for (size_t i = 0; i < (grey ? n : 3 * n) && !status; i++) {
         const double level = rgb[grey ? 3 * i : i] / 255.0;
-        image.pixels[i] = (float)(level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4));
+        image.pixels[i] = (float)(level <= 0.04045 ? level / 12.92 : koksma__pow((level + 0.055) / 1.055, 2.4));
     }
     status = status ? status : koksma_image_png_bytes(&image, &png, &size);
     koksma_image_fini(&image);

@@ -11,6 +11,7 @@
  */
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "render/filters/filters.h"
 
@@ -31,7 +32,7 @@ static sums integrate(const koksma_filter *filter, double frequency)
         for (int side = -1; side <= 1; side += 2) {
             const double x = h * (i + 0.5 + side * gauss), f = filter->value(x);
             s.f += f;
-            s.wave += f * cos(2 * M_PI * frequency * x);
+            s.wave += f * koksma__cos(2 * M_PI * frequency * x);
             s.square += f * f;
         }
     }

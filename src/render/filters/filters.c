@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 
 /* ---- The filters ------------------------------------------------------------------------------------------------ */
@@ -40,7 +41,7 @@ static double hermite(double x)
    radius r. */
 static double gaussian(double x)
 {
-    return fmax(exp(-2 * x * x) - exp(-4.5), 0);
+    return fmax(koksma__exp(-2 * x * x) - koksma__exp(-4.5), 0);
 }
 
 /* mitchell: the cubic of Mitchell & Netravali (1988) with B = C = 1/3, negative from 8/7 to 2. */
@@ -63,7 +64,9 @@ static double b_spline(double x)
 static double blackman_harris(double x)
 {
     const double turn = M_PI * x / 1.5;
-    return fabs(x) < 1.5 ? 0.35875 + 0.48829 * cos(turn) + 0.14128 * cos(2 * turn) + 0.01168 * cos(3 * turn) : 0;
+    return fabs(x) < 1.5 ? 0.35875 + 0.48829 * koksma__cos(turn) + 0.14128 * koksma__cos(2 * turn) +
+                               0.01168 * koksma__cos(3 * turn)
+                         : 0;
 }
 
 static const koksma_filter rows[] = {

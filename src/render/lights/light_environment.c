@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"
@@ -26,7 +27,7 @@ static void pixel(const koksma_image *image, size_t i, float rgb[3])
 
 static float row_sine(const koksma_image *image, size_t y)
 {
-    return sinf(KOKSMA__PI_F * ((float)y + 0.5f) / (float)image->height);
+    return (float)koksma__sin((double)(KOKSMA__PI_F * ((float)y + 0.5f) / (float)image->height));
 }
 
 /* Writes the cumulative sums of n weights, scaled to end at 1; returns the total. */

@@ -20,6 +20,7 @@
  */
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "render/lights/beams.h"
 
@@ -111,17 +112,19 @@ static const char *const falloffs[] = {
 static double power_of(int falloff, double inner, double outer)
 {
     if (falloff == KOKSMA__FALLOFF_ANGLE) {
-        return outer > inner ? 1 - (sin(outer) - sin(inner)) / (outer - inner) : 1 - cos(outer);
+        return outer > inner ? 1 - (koksma__sin(outer) - koksma__sin(inner)) / (outer - inner)
+                             : 1 - koksma__cos(outer);
     }
-    return 1 - cos(inner) + (cos(inner) - cos(outer)) / (falloff == KOKSMA__FALLOFF_SMOOTH ? 2 : 3);
+    return 1 - koksma__cos(inner) +
+           (koksma__cos(inner) - koksma__cos(outer)) / (falloff == KOKSMA__FALLOFF_SMOOTH ? 2 : 3);
 }
 
 static koksma_status open_spot(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
 {
     const double outer = from->values[ANGLE] * TURN / 360, inner = (1 - from->values[EDGE]) * outer;
     (void)scene;
-    light->values[OUTER] = (float)cos(outer);
-    light->values[INNER] = (float)cos(inner);
+    light->values[OUTER] = (float)koksma__cos(outer);
+    light->values[INNER] = (float)koksma__cos(inner);
     light->values[SLOPE] = (float)(outer > inner ? TURN / (outer - inner) : 0);
     light->values[EDGE_TURNS] = (float)(outer / TURN);
     const double part = power_of((int)from->values[FALLOFF], inner, outer);

@@ -16,6 +16,7 @@
  */
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/vector.h"
 #include "render/description_build.h"
 #include "render/lights/beams.h"
@@ -114,7 +115,9 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
 {
     const bool rectangle = from->kind == &koksma__light_rectangle;
     (void)scene;
-    koksma__emitter_open(light, area_of(from), rectangle ? hypotf(light->half[0], light->half[1]) : light->half[0]);
+    koksma__emitter_open(light, area_of(from),
+                         rectangle ? (float)koksma__hypot((double)light->half[0], (double)light->half[1])
+                                   : light->half[0]);
     return KOKSMA_OK;
 }
 

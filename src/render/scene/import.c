@@ -18,6 +18,7 @@
 
 #include "core/c_locale.h"
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/vector.h"
 #include "image/formats.h"
 #include "image/image.h"
@@ -715,7 +716,7 @@ bool koksma__import_invert(const double m[12], double out[12])
 bool koksma__import_rotation(double angle_deg, const double axis[3], double out[12])
 {
     double a[3] = {axis[0], axis[1], axis[2]};
-    const double angle = angle_deg * TURN / 360, c = cos(angle), s = sin(angle);
+    const double angle = angle_deg * TURN / 360, c = koksma__cos(angle), s = koksma__sin(angle);
     if (!koksma__import_normalise(a)) {
         return false;
     }

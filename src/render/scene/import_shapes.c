@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/vector.h"
 #include "meshes/mesh_file.h"
 #include "render/description_build.h"
@@ -238,14 +239,15 @@ static void form_point(koksma__form form, double u, double v, double p[3], doubl
 {
     const double phi = TURN * u, theta = M_PI * (1 - v);
     if (form == KOKSMA__FORM_SPHERE) {
-        n[0] = sin(theta) * cos(phi), n[1] = sin(theta) * sin(phi), n[2] = cos(theta);
+        n[0] = koksma__sin(theta) * koksma__cos(phi), n[1] = koksma__sin(theta) * koksma__sin(phi),
+        n[2] = koksma__cos(theta);
         memcpy(p, n, 3 * sizeof *p);
     } else if (form == KOKSMA__FORM_CYLINDER) {
-        n[0] = cos(phi), n[1] = sin(phi), n[2] = 0;
+        n[0] = koksma__cos(phi), n[1] = koksma__sin(phi), n[2] = 0;
         p[0] = n[0], p[1] = n[1], p[2] = v;
     } else if (form == KOKSMA__FORM_DISK) {
         n[0] = n[1] = 0, n[2] = 1;
-        p[0] = (1 - v) * cos(phi), p[1] = (1 - v) * sin(phi), p[2] = 0;
+        p[0] = (1 - v) * koksma__cos(phi), p[1] = (1 - v) * koksma__sin(phi), p[2] = 0;
     } else {
         n[0] = n[1] = 0, n[2] = 1;
         p[0] = 2 * u - 1, p[1] = 2 * v - 1, p[2] = 0;
@@ -467,7 +469,7 @@ static koksma_status set_own_motion(const koksma__import_item *item, const place
     }
     shape->turn.turns = true;
     shape->turn.scale = stretch[1][largest] / stretch[0][largest];
-    shape->turn.angle_rad = 2 * atan2(sqrt(square), fabs(w));
+    shape->turn.angle_rad = 2 * koksma__atan2(sqrt(square), fabs(w));
     const double side = koksma__matrix_mirrors(at->after) ? -1 : 1;
     for (int k = 0; k < 3; k++) {
         const double *row = at->after + 4 * k;
@@ -479,7 +481,8 @@ static koksma_status set_own_motion(const koksma__import_item *item, const place
         off[k] = shape->centre[k] - shape->turn.pivot[k];
     }
     koksma__normalise(shape->turn.axis);
-    const double reach = shape->turn.scale * (sqrt(koksma__dot(off, off)) + hypot(shape->half[0], shape->half[1]));
+    const double reach =
+        shape->turn.scale * (sqrt(koksma__dot(off, off)) + koksma__hypot(shape->half[0], shape->half[1]));
     for (int k = 0; k < 3; k++) {
         if (!(fabs(shape->turn.pivot[k] + shape->motion[k]) + reach <= FAR)) {
             return koksma__import_fail(item->place, "a shape moves beyond 1e6");

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "render/fields.h"
 
@@ -123,7 +124,7 @@ static inline void add_interpolated(const koksma_image *image, double u, double 
 static void find_points(const sky *s, bool octahedral, double theta, int first, int n, double *restrict u,
                         double *restrict v)
 {
-    const double *m = s->inverse, sine = sin(theta), cosine = cos(theta);
+    const double *m = s->inverse, sine = koksma__sin(theta), cosine = koksma__cos(theta);
     const double *restrict sines = s->sines + first, *restrict cosines = s->cosines + first;
     double x[2 * TILE], y[2 * TILE], z[2 * TILE];
     for (int i = 0; i < n; i++) {
@@ -210,8 +211,8 @@ koksma_status koksma__sky_turn(const koksma_image *from, bool octahedral, const 
     KOKSMA__REQUIRE_MEMORY(sines, 4 * (size_t)width * sizeof *sines);
     for (int i = 0; i < 2 * width; i++) {
         const double phi = TURN * (i / 2 + 0.25 + 0.5 * (i % 2)) / width;
-        sines[i] = sin(phi);
-        cosines[i] = cos(phi);
+        sines[i] = koksma__sin(phi);
+        cosines[i] = koksma__cos(phi);
     }
     const koksma_status status = koksma_image_init(out, width, height, from->channels);
     if (!status) {

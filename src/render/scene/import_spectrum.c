@@ -9,6 +9,7 @@
  * Unbounded values, such as refractive indices, are converted as reflectances are, and may be above 1. The functions of
  * each nanometre are computed once, because a scene may have a million spectra.
  */
+#include "core/elementary.h"
 #include "scene/import.h"
 
 #include <math.h>
@@ -32,7 +33,7 @@ static void matching(double wavelength, double xyz[3])
     xyz[0] = xyz[1] = xyz[2] = 0;
     for (size_t i = 0; i < sizeof lobes / sizeof *lobes; i++) {
         const double off = wavelength - lobes[i].centre, t = off / (off < 0 ? lobes[i].below : lobes[i].above);
-        xyz[lobes[i].function] += lobes[i].height * exp(-0.5 * t * t);
+        xyz[lobes[i].function] += lobes[i].height * koksma__exp(-0.5 * t * t);
     }
 }
 

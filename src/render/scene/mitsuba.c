@@ -17,6 +17,7 @@
 #include <strings.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/vector.h"
 #include "render/fields.h"
 #include "render/lights/lights.h"
@@ -1176,13 +1177,13 @@ static double focal_length(const reader *r, const node *n)
 /* The vertical angle of view. */
 static double height_angle(const reader *r, const node *n, double width, double height)
 {
-    const double sides[] = {width, height, hypot(width, height), fmin(width, height), fmax(width, height)};
+    const double sides[] = {width, height, koksma__hypot(width, height), fmin(width, height), fmax(width, height)};
     const double side = sides[choice(r, n, "fov_axis")], half = number(r, n, "fov") * TURN / 720;
     if (property(r, n, "fov")) {
-        return 2 * atan(tan(half) * height / side);
+        return 2 * koksma__atan(koksma__tan(half) * height / side);
     }
     /* focal_length refers to the diagonal of 35 mm film */
-    return 2 * atan(hypot(36, 24) / 2 / focal_length(r, n) * height / hypot(width, height));
+    return 2 * koksma__atan(koksma__hypot(36, 24) / 2 / focal_length(r, n) * height / koksma__hypot(width, height));
 }
 
 static koksma_status sensor(reader *r, const node *n)

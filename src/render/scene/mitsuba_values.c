@@ -13,6 +13,7 @@
 #include <strings.h>
 
 #include "core/c_locale.h"
+#include "core/elementary.h"
 #include "core/status.h"
 #include "core/vector.h"
 
@@ -132,7 +133,7 @@ static koksma_status read_hexadecimal(const node *n, const char *digits, double 
     const unsigned long levels = strtoul(digits, NULL, 16);
     for (int k = 0; k < 3; k++) {
         const double level = (double)(levels >> (16 - 8 * k) & 255) / 255;
-        rgb[k] = level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
+        rgb[k] = level <= 0.04045 ? level / 12.92 : koksma__pow((level + 0.055) / 1.055, 2.4);
     }
     return KOKSMA_OK;
 }

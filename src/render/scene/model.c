@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/hash.h"
 #include "core/status.h"
 #include "core/vector.h"
@@ -425,7 +426,7 @@ static void frame_all(koksma_scene *scene, const double centre[3], double radius
     double eye[3], forward[3] = {-0.5, -0.4, -1};
     koksma__normalise(forward);
     for (int k = 0; k < 3; k++) {
-        eye[k] = centre[k] - forward[k] * radius / sin(fov / 2);
+        eye[k] = centre[k] - forward[k] * radius / koksma__sin(fov / 2);
     }
     koksma__camera_aim(eye, forward, up, fov, &scene->camera);
 }

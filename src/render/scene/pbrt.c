@@ -17,6 +17,7 @@
 #include <strings.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/vector.h"
 #include "meshes/mesh_text.h"
 #include "render/description_build.h"
@@ -385,7 +386,7 @@ static void scale_light(const koksma__pbrt_parameters *p, const char *type, doub
     if (!strcmp(type, "spot")) { /* full within the inner cone, half on average between the cones */
         const double outer = koksma__pbrt_number(p, "coneangle");
         const double inner = outer - koksma__pbrt_number(p, "conedeltaangle");
-        own = TURN * (1 - (cos(inner * TURN / 360) + cos(outer * TURN / 360)) / 2);
+        own = TURN * (1 - (koksma__cos(inner * TURN / 360) + koksma__cos(outer * TURN / 360)) / 2);
     }
     for (int k = 0; given > 0 && own > 0 && k < 3; k++) {
         rgb[k] *= given / own;
@@ -913,7 +914,7 @@ static koksma_status set_camera(reader *r)
     KOKSMA__TRY(check_window(r, aspect));
     KOKSMA__TRY(set_motion(r, camera.motion));
     /* what the film shows from top to bottom, and the middle of the picture from that of the window, to the right and up */
-    const double height = r->orthographic ? w[3] - w[2] : tan(r->fov_deg * TURN / 720) * (w[3] - w[2]);
+    const double height = r->orthographic ? w[3] - w[2] : koksma__tan(r->fov_deg * TURN / 720) * (w[3] - w[2]);
     const double part = (r->crop[3] - r->crop[2]) / r->film[1];
     const double x = ((r->crop[0] + r->crop[1]) / 2 - r->film[0] / 2) * height / r->film[1];
     const double y = (r->film[1] / 2 - (r->crop[2] + r->crop[3]) / 2) * height / r->film[1];
@@ -924,8 +925,8 @@ static koksma_status set_camera(reader *r)
             row[3] += ((w[0] + w[1]) / 2 + x) * row[0] + ((w[2] + w[3]) / 2 + y) * row[1];
         }
     } else {
-        const double half = tan(r->fov_deg * TURN / 720);
-        camera.fov_rad = 2 * atan(height * part / 2);
+        const double half = koksma__tan(r->fov_deg * TURN / 720);
+        camera.fov_rad = 2 * koksma__atan(height * part / 2);
         camera.shift[0] = x + (w[0] + w[1]) / 2 * half;
         camera.shift[1] = -y - (w[2] + w[3]) / 2 * half;
     }

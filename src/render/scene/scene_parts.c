@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "core/vector.h"
 #include "render/description.h"
@@ -50,7 +51,7 @@ static double product(double part, double half)
 static double flat_reach(const koksma__shape *shape, double u, double v)
 {
     return shape->half[1] ? product(fabs(u), shape->half[0]) + product(fabs(v), shape->half[1])
-                          : hypot(u, v) * shape->half[0];
+                          : koksma__hypot(u, v) * shape->half[0];
 }
 
 /* The vector w, turned as the shape is at time t. */
@@ -60,7 +61,8 @@ static void turn(const koksma__shape *shape, const double w[3], double t, double
     double across[3];
     koksma__cross(axis, w, across);
     for (int k = 0; k < 3; k++) {
-        out[k] = cos(angle) * w[k] + sin(angle) * across[k] + (1 - cos(angle)) * along * axis[k];
+        out[k] =
+            koksma__cos(angle) * w[k] + koksma__sin(angle) * across[k] + (1 - koksma__cos(angle)) * along * axis[k];
     }
 }
 
@@ -95,7 +97,7 @@ static double swing(const koksma__shape *shape, const double w[3], int k)
 {
     double across[3];
     koksma__cross(shape->turn.axis, w, across);
-    return hypot(w[k] - koksma__dot(shape->turn.axis, w) * shape->turn.axis[k], across[k]);
+    return koksma__hypot(w[k] - koksma__dot(shape->turn.axis, w) * shape->turn.axis[k], across[k]);
 }
 
 /* How far a point of the shape can be beyond the line between its places at the ends of an interval of length h: at
@@ -147,7 +149,7 @@ static void look(const koksma_scene *scene, const box *b, double start, double e
 {
     const koksma__camera *camera = &scene->camera;
     const bool parallel = camera->height > 0;
-    const double half_height = parallel ? camera->height / 2 : tan(camera->fov_rad / 2);
+    const double half_height = parallel ? camera->height / 2 : koksma__tan(camera->fov_rad / 2);
     const double half[2] = {half_height * scene->width / scene->height, half_height};
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     int behind = 0, endless = 0;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/status.h"
 #include "core/vector.h"
 #include "meshes/mesh_file.h"
@@ -42,7 +43,7 @@ static koksma_status parse_box(const char *name, const field *f, koksma_scene *s
     status = status ? status : koksma__json_get_number(f, "angle_deg", false, -360, 360, &angle_deg);
     KOKSMA__JSON_FAIL_IF(!status && !(half[0] > TINY && half[1] > TINY && half[2] > TINY), f, "zero volume");
     status = status ? status : koksma__shape_motion(f, true, box);
-    const double c = cos(angle_deg * TURN / 360), s = sin(angle_deg * TURN / 360);
+    const double c = koksma__cos(angle_deg * TURN / 360), s = koksma__sin(angle_deg * TURN / 360);
     double axes[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int side = 0; !status && side < 6; side++) {
         koksma__shape *shape = NULL;

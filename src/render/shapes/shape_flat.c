@@ -11,6 +11,7 @@
  *
  * A ray that starts on a flat shape never meets it, without any epsilon.
  */
+#include "core/elementary.h"
 #include "core/vector.h"
 #include "render/pipelines/batch_kernel.h"
 #include "render/shapes/shapes.h"
@@ -171,7 +172,7 @@ static double disk_equation(const koksma__shape *shape, const double p[3], doubl
 {
     double uv[2];
     const double height = coordinates(shape, p, uv);
-    *beyond = hypot(uv[0], uv[1]) - shape->half[0];
+    *beyond = koksma__hypot(uv[0], uv[1]) - shape->half[0];
     return height;
 }
 

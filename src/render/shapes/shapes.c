@@ -8,6 +8,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 
 const koksma__shape_type *const koksma__shape_types[] = {
@@ -41,7 +42,7 @@ static void set_turn(koksma__shape *shape, const double to[3], const double rota
     const double sine = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
     shape->turn.turns = true;
     shape->turn.scale = scale;
-    shape->turn.angle_rad = 2 * atan2(sine, sign * pose.rotation[0]);
+    shape->turn.angle_rad = 2 * koksma__atan2(sine, sign * pose.rotation[0]);
     for (int k = 0; k < 3; k++) {
         shape->motion[k] = to[k] - shape->centre[k];
         shape->turn.pivot[k] = shape->centre[k];

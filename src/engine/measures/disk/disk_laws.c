@@ -9,6 +9,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 
 const char *const koksma__disk_laws[] = {"fixed", "radius", "area", NULL};
@@ -24,14 +25,14 @@ double koksma__disk_overlap(koksma__disk_law law, double r, double distance2)
     if (h >= r) {
         return 0;
     }
-    const double s = sqrt((r - h) * (r + h)), angle = atan2(s, h);
+    const double s = sqrt((r - h) * (r + h)), angle = koksma__atan2(s, h);
     if (law == KOKSMA__DISKS_FIXED) {
         return 2 * r * r * angle - 2 * h * s;
     }
     if (law == KOKSMA__DISKS_AREA) {
         return (r * r * r * r * angle - 5 * h * s * s * s / 3 - h * h * h * s) / (r * r);
     }
-    const double logarithm = h > 0 ? h * h * h * log((r + s) / h) : 0;
+    const double logarithm = h > 0 ? h * h * h * koksma__log((r + s) / h) : 0;
     return (2 * r * r * r * angle - 4 * h * r * s + 2 * logarithm) / (3 * r);
 }
 
@@ -74,7 +75,7 @@ double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double dis
                : law == KOKSMA__DISKS_RADIUS ? -M_PI / r * (r3 / 3 - h * h * r + 2 * h3 / 3)
                                              : -3 * M_PI / r3 * whole;
     }
-    const double logarithm = h > 0 ? h * h * log((r + s) / h) : 0;
+    const double logarithm = h > 0 ? h * h * koksma__log((r + s) / h) : 0;
     return law == KOKSMA__DISKS_FIXED    ? -2 * s
            : law == KOKSMA__DISKS_RADIUS ? -(r * s - logarithm) / r
                                          : -4 * s * s2 / (3 * r * r);
@@ -98,6 +99,6 @@ void koksma__random_disk(koksma__disk_law law, double r, uint64_t seed, uint64_t
     if (law == KOKSMA__DISKS_RADIUS) {
         *radius2 *= u[0] * u[0];
     } else if (law == KOKSMA__DISKS_AREA) {
-        *radius2 *= dim == 3 ? cbrt(u[0] * u[0]) : u[0];
+        *radius2 *= dim == 3 ? koksma__cbrt(u[0] * u[0]) : u[0];
     }
 }

@@ -17,6 +17,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/shared/shared.h"
@@ -50,7 +51,7 @@ static double mass_below(const cover *v, double a, double b, double c)
    (a, b); at: the indices of the points in order of t. */
 static void bound_cut(const cover *v, cut *now, double a, double b, const double *t, const uint32_t *at)
 {
-    const double n = (double)v->n, slack = 4 * v->domain->radius * sin(v->width / 4) + 1e-14;
+    const double n = (double)v->n, slack = 4 * v->domain->radius * koksma__sin(v->width / 4) + 1e-14;
     double bounds[2] = {-1, -1};
     size_t best[2] = {0, 0}; /* positions, in the sorted order, of the largest excess and of the largest deficit */
     for (size_t r = 0; r < v->n; r++) {
@@ -83,7 +84,7 @@ static koksma_status look_along(void *context, size_t block)
     const cover *v = context;
     cut *now = &v->cuts[block];
     const size_t bytes = v->n * (2 * sizeof(double) + sizeof(uint32_t));
-    const double a = cos(now->middle), b = sin(now->middle);
+    const double a = koksma__cos(now->middle), b = koksma__sin(now->middle);
     double *t = koksma__now_s() < v->deadline_s ? malloc(bytes) : NULL, low = INFINITY, high = -INFINITY;
     if (!t) {
         return KOKSMA_OK; /* the bound of the wider interval that contains this one is also a bound here */

@@ -30,6 +30,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/shared/double_double.h"
@@ -95,7 +96,8 @@ static void consider(const search *s, half_space *best, const double normal[3], 
 
 static void normal_at(const fan *f, double angle, double normal[3])
 {
-    const double x = cos(angle), y = sin(angle);
+    double x, y;
+    koksma__cos_sin(angle, &x, &y);
     for (int k = 0; k < 3; k++) {
         normal[k] = x * f->e[k] + y * f->f[k];
     }
@@ -166,7 +168,7 @@ static double about_point(const double *p, const void *context, double angle, do
 {
     double normal[3];
     (void)context;
-    const fan f = {p, {-sin(angle), cos(angle), 0}, {0, 0, 1}};
+    const fan f = {p, {-koksma__sin(angle), koksma__cos(angle), 0}, {0, 0, 1}};
     return least_about_line(&f, best ? best : normal);
 }
 
@@ -208,14 +210,19 @@ static bool fan_about(const double *p, const double *q, fan *f)
     if (!(size > 0)) {
         return false;
     }
-    const double length = hypot(hypot(u[0] / size, u[1] / size), u[2] / size);
+    double square = 0; /* of the line's direction, with a largest component of 1 */
+    for (int k = 0; k < 3; k++) {
+        u[k] /= size;
+        square += u[k] * u[k];
+    }
+    const double length = sqrt(square);
     int least_axis = 0;
     for (int k = 0; k < 3; k++) {
-        u[k] = u[k] / size / length;
+        u[k] /= length;
         least_axis = fabs(u[k]) < fabs(u[least_axis]) ? k : least_axis;
     }
     const int l = (least_axis + 1) % 3, m = (least_axis + 2) % 3;
-    const double across = hypot(u[l], u[m]);
+    const double across = sqrt(u[l] * u[l] + u[m] * u[m]);
     *f = (fan){.p = p};
     f->e[l] = -u[m] / across;
     f->e[m] = u[l] / across;

@@ -9,6 +9,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "core/status.h"
 
@@ -66,19 +67,19 @@ double koksma__line_separates(koksma__line_law law, double dx, double dy)
         return sqrt(x * x + y * y) / 2;
     }
     const double a = x > y ? x : y, b = x > y ? y : x;
-    return a > 0 ? ((a + b) * log1p(b / a) + a - b) / 2 : 0;
+    return a > 0 ? ((a + b) * koksma__log1p(b / a) + a - b) / 2 : 0;
 }
 
 /* Returns the integral of sigma(1, s) over 0 < s < t. */
 static double integral(koksma__line_law law, double t)
 {
     if (law == KOKSMA__LINES_ISOTROPIC) {
-        return (t * hypot(1, t) + asinh(t)) / 4;
+        return (t * koksma__hypot(1, t) + koksma__asinh(t)) / 4;
     }
     const double first = t < 1 ? t : 1, s = (1 + first) * (1 + first);
-    double sum = (s / 2 * log1p(first) - (s - 1) / 4 + first - first * first / 2) / 2;
+    double sum = (s / 2 * koksma__log1p(first) - (s - 1) / 4 + first - first * first / 2) / 2;
     if (t > 1) {
-        sum += ((1 + t) * (1 + t) / 2 * log1p(1 / t) + (log(t) + t) / 2 + t * t / 2 - t) / 2;
+        sum += ((1 + t) * (1 + t) / 2 * koksma__log1p(1 / t) + (koksma__log(t) + t) / 2 + t * t / 2 - t) / 2;
         sum -= (2 * M_LN2 + 0.5 + 0.5 - 1) / 2;
     }
     return sum;
@@ -108,7 +109,7 @@ void koksma__line_separates_slope(koksma__line_law law, double dx, double dy, do
         slope[0] = dx / r / 2;
         slope[1] = dy / r / 2;
     } else if (r > 0) {
-        const double far = (log1p(ratio) - ratio + 1) / 2, near = log1p(ratio) / 2;
+        const double far = (koksma__log1p(ratio) - ratio + 1) / 2, near = koksma__log1p(ratio) / 2;
         slope[0] = copysign(x > y ? far : near, dx);
         slope[1] = copysign(x > y ? near : far, dy);
     }
@@ -131,7 +132,7 @@ void koksma__line_potential_slope(koksma__line_law law, const double p[2], doubl
 
 double koksma__line_constant(koksma__line_law law)
 {
-    return law == KOKSMA__LINES_ISOTROPIC ? (2 + M_SQRT2 + 5 * asinh(1)) / 30 : 8 * M_LN2 / 15 - 1.0 / 9;
+    return law == KOKSMA__LINES_ISOTROPIC ? (2 + M_SQRT2 + 5 * koksma__asinh(1)) / 30 : 8 * M_LN2 / 15 - 1.0 / 9;
 }
 
 void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, double *a, double *b, double *c)
@@ -141,9 +142,9 @@ void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, do
     koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 1, s);
     if (law == KOKSMA__LINES_ISOTROPIC) {
         /* the angle of the normal has a density proportional to cos + sin, which is the width of the square */
-        const double angle = M_PI_4 + asin((2 * r[0] - 1) / M_SQRT2);
-        *a = cos(angle);
-        *b = r[1] < 0.5 ? sin(angle) : -sin(angle);
+        const double angle = M_PI_4 + koksma__asin((2 * r[0] - 1) / M_SQRT2);
+        *a = koksma__cos(angle);
+        *b = r[1] < 0.5 ? koksma__sin(angle) : -koksma__sin(angle);
         *c = s[0] * (*a + fabs(*b)) + (*b < 0 ? *b : 0);
         return;
     }

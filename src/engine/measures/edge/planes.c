@@ -20,6 +20,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 
 /* Returns the volume of the part of the cube with a x + b y + d z <= c, for 0 <= a <= b <= d and c <= (a + b + d) /
@@ -81,9 +82,9 @@ static double face(double a, double b, double c)
 {
     const double r = sqrt(a * a + b * b + c * c);
     double sum = b * c * r / 3;
-    sum += b * (b * b + 3 * a * a) / 6 * asinh(c / hypot(a, b));
-    sum += c * (c * c + 3 * a * a) / 6 * asinh(b / hypot(a, c));
-    return sum - a * a * a / 3 * atan2(b * c, a * r);
+    sum += b * (b * b + 3 * a * a) / 6 * koksma__asinh(c / koksma__hypot(a, b));
+    sum += c * (c * c + 3 * a * a) / 6 * koksma__asinh(b / koksma__hypot(a, c));
+    return sum - a * a * a / 3 * koksma__atan2(b * c, a * r);
 }
 
 static double box(double a, double b, double c)
@@ -119,7 +120,9 @@ void koksma__plane_potential_slope(const double p[3], double slope[3])
 double koksma__plane_constant(void)
 {
     const double root3 = sqrt(3.0);
-    return ((4 + 17 * M_SQRT2 - 6 * root3) / 105 + log(1 + M_SQRT2) / 5 + 2 * log(2 + root3) / 5 - M_PI / 15) / 3;
+    return ((4 + 17 * M_SQRT2 - 6 * root3) / 105 + koksma__log(1 + M_SQRT2) / 5 + 2 * koksma__log(2 + root3) / 5 -
+            M_PI / 15) /
+           3;
 }
 
 /* The density of the normal is proportional to the width of the cube, |a1| + |a2| + |a3|. This is a mixture of three
@@ -133,8 +136,8 @@ void koksma__random_plane(uint64_t seed, uint64_t index, double a[3], double *c)
     const int axis = (int)third;
     const double height2 = third - axis, across = sqrt(1 - height2), turn = 2 * M_PI * r[1];
     a[axis] = sqrt(height2);
-    a[(axis + 1) % 3] = across * cos(turn);
-    a[(axis + 2) % 3] = across * sin(turn);
+    a[(axis + 1) % 3] = across * koksma__cos(turn);
+    a[(axis + 2) % 3] = across * koksma__sin(turn);
     *c = s[0] * (fabs(a[0]) + fabs(a[1]) + fabs(a[2]));
     for (int k = 0; k < 3; k++) {
         *c += a[k] < 0 ? a[k] : 0;

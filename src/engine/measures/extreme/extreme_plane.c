@@ -18,6 +18,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
@@ -274,7 +275,7 @@ static double budget_of(const plane *p, size_t a)
     const double points = (double)p->n * (1 - (double)a / (double)p->n_levels);
     return p->method == KOKSMA__EXTREME_BOUND   ? HUGE_VAL
            : p->method == KOKSMA__EXTREME_SWEEP ? -1
-                                                : SWEEP_COST * left * points * log2((double)p->n + 2);
+                                                : SWEEP_COST * left * points * koksma__log2((double)p->n + 2);
 }
 
 /* Finds the exact maximum of a block of strips by a sweep; used for blocks for which bounding would take longer. */

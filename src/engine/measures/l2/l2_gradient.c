@@ -15,6 +15,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 
@@ -117,7 +118,7 @@ koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points
         add_product(twice, points->xs + i * dim, dim, 1 / (count * count), own);
         linear += add_product(a, points->xs + i * dim, dim, -2 / count, own);
     }
-    *square = pow(row->c12 / 12, (double)dim) - 2 * linear / count + all_pairs / (count * count);
+    *square = koksma__pow(row->c12 / 12, (double)dim) - 2 * linear / count + all_pairs / (count * count);
     free(p.u);
     return status;
 }

@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 
@@ -20,14 +21,14 @@ enum { PLAIN_DIM = 200, FAR_BITS = 900, GUARD_BITS = 1000 };
 /* Returns log2(f K(x, x)) for the one-dimensional kernel K. */
 static double bits_of(const koksma__l2_row *row, double x, double f)
 {
-    return log2(2 * koksma__l2_polynomial(row->g, x) * f);
+    return koksma__log2(2 * koksma__l2_polynomial(row->g, x) * f);
 }
 
 /* Returns log2 M, with the M that the comment at the top of this file defines. */
 static double bits_of_largest(const koksma__l2_row *row, const koksma_points *points)
 {
     const size_t dim = (size_t)points->dim;
-    double most = (double)dim * log2(row->c12 / 12);
+    double most = (double)dim * koksma__log2(row->c12 / 12);
     for (size_t i = 0; i < points->n; i++) {
         double bits = 0;
         for (size_t k = 0; k < dim; k++) {
@@ -75,8 +76,8 @@ static koksma_status fail_product(const koksma__l2_row *row, int dim)
 static koksma_status unscale(const koksma__l2_row *row, double square, double bits, int dim, koksma_value *out)
 {
     const double half = floor(bits / 2);
-    out->value = ldexp(sqrt(square) * exp2(bits / 2 - half), (int)half);
-    out->square = ldexp(square * exp2(bits - 2 * half), 2 * (int)half);
+    out->value = ldexp(sqrt(square) * koksma__exp2(bits / 2 - half), (int)half);
+    out->square = ldexp(square * koksma__exp2(bits - 2 * half), 2 * (int)half);
     if (!isfinite(out->value) || (square > 0 && out->value < 0x1p-1022)) {
         return fail_range(row, dim);
     }
@@ -98,7 +99,7 @@ koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_
     double f = 1;
     if (fabs(largest) > FAR_BITS) {
         int exponent;
-        const double fraction = frexp(exp2(-largest / dim), &exponent);
+        const double fraction = frexp(koksma__exp2(-largest / dim), &exponent);
         f = ldexp(round(32 * fraction), exponent - 5);
         for (int i = 0; i < 4; i++) {
             scaled.a24[i] *= f;
@@ -113,5 +114,5 @@ koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_
     }
     double square = NAN;
     const koksma_status status = koksma__l2_by_pairs(&scaled, points, run, &square);
-    return status ? status : unscale(row, koksma__not_below_0(square), -dim * log2(f), dim, out);
+    return status ? status : unscale(row, koksma__not_below_0(square), -dim * koksma__log2(f), dim, out);
 }

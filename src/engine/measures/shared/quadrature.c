@@ -4,6 +4,7 @@
  * 1/16. Complete elliptic integrals by the arithmetic-geometric mean, which converges quadratically, so that 16 steps
  * are more than enough.
  */
+#include "core/elementary.h"
 #include "measures/shared/shared.h"
 
 #include <math.h>
@@ -17,10 +18,11 @@ double koksma__integral(double (*f)(double x, const void *context), const void *
     }
     double sum = M_PI / 2 * f(a + half, context);
     for (int k = 1; k <= STEPS; k++) {
-        const double t = k * step, e = exp(M_PI * sinh(t)); /* tanh((pi/2) sinh t) = (e - 1) / (e + 1) */
+        const double t = k * step,
+                     e = koksma__exp(M_PI * koksma__sinh(t)); /* tanh((pi/2) sinh t) = (e - 1) / (e + 1) */
         const double gap =
             2 * half / (1 + e); /* distance from the end of the interval, computed without cancellation */
-        const double weight = M_PI / 2 * cosh(t) * 4 * e / ((1 + e) * (1 + e));
+        const double weight = M_PI / 2 * koksma__cosh(t) * 4 * e / ((1 + e) * (1 + e));
         sum += weight * (f(a + gap, context) + f(b - gap, context));
     }
     return half * step * sum;

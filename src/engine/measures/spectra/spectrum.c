@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/points.h"
 #include "core/points_io.h"
 #include "core/status.h"
@@ -152,7 +153,7 @@ static double anisotropy_db(double points, double power, double variance)
     if (!(power > AMPLITUDE * AMPLITUDE * points)) {
         return NAN;
     }
-    return relative > rounding * rounding ? 10 * log10(relative) : -(double)INFINITY;
+    return relative > rounding * rounding ? 10 * koksma__log10(relative) : -(double)INFINITY;
 }
 
 koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings)

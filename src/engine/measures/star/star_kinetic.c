@@ -38,6 +38,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 
@@ -275,7 +276,7 @@ static koksma_status walk(walks *w, tree *t, size_t block, size_t from, size_t e
     const double slack = 0x1p-51 * (double)n * (double)n;
     /* If on average more bounds than this are tested for each point, a kinetic tournament (see the top) is as fast, and
        the tree becomes one. */
-    const size_t too_many = 4 + 2 * (size_t)log2((double)t->n_blocks);
+    const size_t too_many = 4 + 2 * (size_t)koksma__log2((double)t->n_blocks);
     *best = (best_box){-INFINITY, from};
     start(t, w, from, sign);
     for (size_t i = from; i < end; i++) {

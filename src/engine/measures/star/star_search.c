@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -149,7 +150,7 @@ static double climb(walk *w, double fraction_done)
 static double random_box(walk *w)
 {
     for (size_t k = 0; k < w->dim; k++) {
-        set_end(w, k, rank_of(w, k, pow(draw(w), 1.0 / (double)w->dim)));
+        set_end(w, k, rank_of(w, k, koksma__pow(draw(w), 1.0 / (double)w->dim)));
     }
     return climb(w, 0);
 }

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/sum.h"
@@ -33,10 +34,10 @@ typedef struct ring {
 static double ring_distance(double b, const void *context)
 {
     const ring *r = context;
-    const double far = sin((r->angle + b) / 2), near = fabs(sin((r->angle - b) / 2));
+    const double far = koksma__sin((r->angle + b) / 2), near = fabs(koksma__sin((r->angle - b) / 2));
     double first, second;
     koksma__elliptic(far > 0 ? fmin(near / far, 1) : 1, &first, &second);
-    return 4 / M_PI * far * second * sin(b) * (r->cosine ? 2 * cos(b) : 1);
+    return 4 / M_PI * far * second * koksma__sin(b) * (r->cosine ? 2 * koksma__cos(b) : 1);
 }
 
 double koksma__cap_potential(const double *x, koksma_warp_domain domain)
@@ -44,7 +45,8 @@ double koksma__cap_potential(const double *x, koksma_warp_domain domain)
     if (domain == KOKSMA_DOMAIN_SPHERE) {
         return 4.0 / 3;
     }
-    const ring r = {.angle = atan2(hypot(x[0], x[1]), x[2]), .cosine = domain == KOKSMA_DOMAIN_HEMISPHERE_COSINE};
+    const ring r = {.angle = koksma__atan2(koksma__hypot(x[0], x[1]), x[2]),
+                    .cosine = domain == KOKSMA_DOMAIN_HEMISPHERE_COSINE};
     return koksma__integral(ring_distance, &r, 0, r.angle) + koksma__integral(ring_distance, &r, r.angle, M_PI / 2);
 }
 

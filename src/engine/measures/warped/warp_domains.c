@@ -4,6 +4,7 @@
  * that one of them separates two points, the integral of this probability over the second point (potential), and the
  * integral of the potential (constant).
  */
+#include "core/elementary.h"
 #include "measures/warped/warped.h"
 
 #include <math.h>
@@ -16,7 +17,7 @@ enum { NODES = 64 };
 static void gauss(int n, double *x, double *w)
 {
     for (int i = 0; i < n; i++) {
-        double z = cos(M_PI * (i + 0.75) / (n + 0.5)), slope = 1;
+        double z = koksma__cos(M_PI * (i + 0.75) / (n + 0.5)), slope = 1;
         for (int step = 0; step < 8; step++) {
             double p0 = 1, p1 = z;
             for (int k = 2; k <= n; k++) {
@@ -38,9 +39,9 @@ static void gauss(int n, double *x, double *w)
    circular segment. */
 static double below_in_disk(double a, double b, const double p[2])
 {
-    const double length = hypot(a, b), t = (a * p[0] + b * p[1]) / length;
+    const double length = koksma__hypot(a, b), t = (a * p[0] + b * p[1]) / length;
     const double h = t < -1 ? -1 : t > 1 ? 1 : t;
-    return (acos(-h) + h * sqrt((1 - h) * (1 + h))) / M_PI;
+    return (koksma__acos(-h) + h * sqrt((1 - h) * (1 + h))) / M_PI;
 }
 
 /* The chord with midpoint p is perpendicular to the radius. If p is the centre, every diameter is such a chord with
@@ -89,7 +90,7 @@ double koksma__disks_share(double r, double distance)
     const double square = distance * distance, rest = (1 - r) * (1 + r);
     const double height =
         sqrt(fmax((1 + r - distance) * (distance + r - 1) * (distance - r + 1) * (distance + r + 1), 0));
-    return atan2(height, square + rest) + r * r * atan2(height, square - rest) - height / 2;
+    return koksma__atan2(height, square + rest) + r * r * koksma__atan2(height, square - rest) - height / 2;
 }
 
 /* ---- The triangle (0,0) (1,0) (0,1) ------------------------------------------------------------------- */
@@ -144,7 +145,7 @@ static void chords_of_triangle(const double p[2], koksma__chord chords[KOKSMA__M
 /* Returns the integral of the distance from p over the triangle that p forms with an edge. */
 static double edge_integral(const double p[2], const double u[2], const double v[2])
 {
-    const double dx = v[0] - u[0], dy = v[1] - u[1], length = hypot(dx, dy);
+    const double dx = v[0] - u[0], dy = v[1] - u[1], length = koksma__hypot(dx, dy);
     const double h = fabs(dx * (u[1] - p[1]) - dy * (u[0] - p[0])) / length;
     if (h < 1e-150) {
         return 0;
@@ -152,7 +153,7 @@ static double edge_integral(const double p[2], const double u[2], const double v
     double sum = 0;
     for (int end = 0; end < 2; end++) {
         const double *e = end ? v : u, t = (dx * (e[0] - p[0]) + dy * (e[1] - p[1])) / length / h;
-        sum += (end ? 1 : -1) * (t * sqrt(1 + t * t) + asinh(t)) / 2;
+        sum += (end ? 1 : -1) * (t * sqrt(1 + t * t) + koksma__asinh(t)) / 2;
     }
     return h * h * h * sum / 3;
 }
@@ -186,16 +187,17 @@ static double triangle_constant(void)
    theta/pi over the normals on the side of p. */
 static double hemisphere_potential(const double *p)
 {
-    const double alpha = atan2(hypot(p[0], p[1]), p[2]);
+    const double alpha = koksma__atan2(koksma__hypot(p[0], p[1]), p[2]);
     double x[NODES], w[NODES], sum = 0;
     gauss(NODES, x, w);
     for (int i = 0; i < NODES; i++) {
         const double below = x[i] * (M_PI_2 - alpha); /* all normals at this theta are on the side of p */
-        const double phase = M_PI * (x[i] - 0.5), theta = M_PI_2 + alpha * sin(phase);
-        const double cotangents = alpha > 0 ? cos(theta) / sin(theta) * cos(alpha) / sin(alpha) : 0;
-        const double part = acos(fmin(1, fmax(-1, -cotangents))) / M_PI;
-        sum += w[i] * (M_PI_2 - alpha) * below * sin(below);
-        sum += w[i] * M_PI * alpha * cos(phase) * theta * sin(theta) * part;
+        const double phase = M_PI * (x[i] - 0.5), theta = M_PI_2 + alpha * koksma__sin(phase);
+        const double cotangents =
+            alpha > 0 ? koksma__cos(theta) / koksma__sin(theta) * koksma__cos(alpha) / koksma__sin(alpha) : 0;
+        const double part = koksma__acos(fmin(1, fmax(-1, -cotangents))) / M_PI;
+        sum += w[i] * (M_PI_2 - alpha) * below * koksma__sin(below);
+        sum += w[i] * M_PI * alpha * koksma__cos(phase) * theta * koksma__sin(theta) * part;
     }
     return sum / M_PI;
 }
@@ -217,14 +219,14 @@ static double line_density(koksma__domain_kind kind)
 double koksma__domain_separates(koksma__domain_kind kind, const double *p, const double *q)
 {
     if (kind < KOKSMA__HEMISPHERE) {
-        return line_density(kind) * hypot(p[0] - q[0], p[1] - q[1]);
+        return line_density(kind) * koksma__hypot(p[0] - q[0], p[1] - q[1]);
     }
     double minus = 0, plus = 0;
     for (int k = 0; k < 3; k++) {
         minus += (p[k] - q[k]) * (p[k] - q[k]);
         plus += (p[k] + q[k]) * (p[k] + q[k]);
     }
-    return 2 * atan2(sqrt(minus), sqrt(plus)) /
+    return 2 * koksma__atan2(sqrt(minus), sqrt(plus)) /
            M_PI; /* for nearly opposite points this is more accurate than the arc sine of half the distance */
 }
 

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/sum.h"
@@ -42,7 +43,7 @@ static double arc(double p, const void *context)
     const double near = fmax((g->r - p + g->s) * (g->r + p - g->s), 0),
                  far = fmax((p + g->s - g->r) * (p + g->s + g->r), 0); /* near / far is tan^2 of half the angle of the
                                                                           arc */
-    return 4 * p * atan2(sqrt(near), sqrt(far)) * koksma__disks_share(g->r, p) / M_PI;
+    return 4 * p * koksma__atan2(sqrt(near), sqrt(far)) * koksma__disks_share(g->r, p) / M_PI;
 }
 
 static double square_of_share(double p, const void *context)
@@ -77,7 +78,7 @@ static koksma_status block(void *context, size_t index)
     rows *t = context;
     const double *xs = t->xs, *ys = t->ys;
     for (size_t i = index * BLOCK; i < t->n && i < (index + 1) * BLOCK; i++) {
-        koksma__sum_add(&t->linear[index], linear_term(t->r, 4 * hypot(xs[i], ys[i])));
+        koksma__sum_add(&t->linear[index], linear_term(t->r, 4 * koksma__hypot(xs[i], ys[i])));
         koksma__sum_add(&t->pairs[index],
                         16 * koksma__kernels()->disk_overlaps(0, t->r / 4, xs[i], ys[i], i, xs, ys));
     }

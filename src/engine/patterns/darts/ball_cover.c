@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -35,7 +36,7 @@ double koksma__balls_per_volume(int dim)
     for (int k = dim % 2 ? 3 : 4; k <= dim; k += 2) {
         ball *= 2 * M_PI / k;
     }
-    return filled[dim - 2] * pow(2, dim) / ball;
+    return filled[dim - 2] * koksma__pow(2, dim) / ball;
 }
 
 /* ---- The cells ------------------------------------------------------------------------------------------- */
@@ -83,7 +84,7 @@ static koksma_status make_grid(koksma__balls *s, double d)
 
 koksma_status koksma__balls_init(koksma__balls *s, uint64_t seed, int dim, double d)
 {
-    const size_t room = 64 + (size_t)(1.1 * koksma__balls_per_volume(dim) / pow(d, dim));
+    const size_t room = 64 + (size_t)(1.1 * koksma__balls_per_volume(dim) / koksma__pow(d, dim));
     *s = (koksma__balls){.dim = dim, .seed = seed, .room = room};
     s->xs = malloc(room * (size_t)dim * sizeof *s->xs);
     s->next = malloc(room * sizeof *s->next);

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
@@ -50,7 +51,7 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
         KOKSMA__FAIL_IF(out->dim != 2, KOKSMA_ARGUMENT, "%s: columns can be used only in dim = 2", name);
         return koksma__divisors(name, n, columns, along_x, along_rest);
     }
-    size_t m = (size_t)(out->dim == 2 ? sqrt((double)n) : pow((double)n, 1.0 / out->dim));
+    size_t m = (size_t)(out->dim == 2 ? sqrt((double)n) : koksma__pow((double)n, 1.0 / out->dim));
     while (power(m + 1, out->dim) <= n) {
         m++;
     }

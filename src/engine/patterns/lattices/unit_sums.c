@@ -33,6 +33,7 @@
 
 #include "core/capacity.h"
 #include "core/dft.h"
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 
@@ -342,7 +343,7 @@ static double find_block(koksma__unit_sums *s, const block *b, const double *pro
         }
     }
     return DBL_EPSILON / 2 * b->norm / sqrt((double)b->count) *
-           (256 * (1 + log2((double)b->m)) * sqrt(square) + 64 * sqrt(whole));
+           (256 * (1 + koksma__log2((double)b->m)) * sqrt(square) + 64 * sqrt(whole));
 }
 
 /* Adds the sums of the blocks over the divisors of n, one prime after the other. For each prime, the i that are

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 
@@ -57,7 +58,7 @@ static double tail_of(const koksma__radical *r, uint64_t rest)
     }
     /* The tail is rounded to a grid on which the sum of numerator and tail is exact, and it is kept below 1, so that
        values are below 1. */
-    const double grid = exp2(floor(52 - log2(r->whole)));
+    const double grid = koksma__exp2(floor(52 - koksma__log2(r->whole)));
     return fmin(floor(tail * grid + 0.5), grid - 1) / grid;
 }
 

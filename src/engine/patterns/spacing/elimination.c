@@ -33,6 +33,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -79,13 +80,13 @@ double koksma__elimination_radius(size_t n, int dim)
         return 2 * sqrt(area / (2 * sqrt(3)));
     }
     if (dim == 3) {
-        return 2 * cbrt(area / (4 * sqrt(2)));
+        return 2 * koksma__cbrt(area / (4 * sqrt(2)));
     }
     double ball = dim % 2 ? 2 : M_PI; /* volume of the unit ball, computed from that in dim - 2 dimensions */
     for (int d = dim % 2 ? 3 : 4; d <= dim; d += 2) {
         ball *= 2 * M_PI / d;
     }
-    return 2 * pow(area / ball, 1.0 / dim);
+    return 2 * koksma__pow(area / ball, 1.0 / dim);
 }
 
 double koksma__elimination_limit(size_t n, size_t m, int dim)
@@ -390,7 +391,7 @@ koksma_status koksma__progressive_order(size_t count, int dim, const double *poi
 {
     const size_t width = (size_t)dim;
     const size_t bytes = count * ((width + 1) * sizeof *points + 2 * sizeof *order);
-    const double growth = volume_dim == 2 ? sqrt(2) : pow(2, 1.0 / volume_dim);
+    const double growth = volume_dim == 2 ? sqrt(2) : koksma__pow(2, 1.0 / volume_dim);
     double *xs = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(xs, bytes);
     double *units = xs + count * width;

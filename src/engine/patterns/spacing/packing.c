@@ -7,6 +7,7 @@
  *   other dimensions: the volume of n disjoint balls of radius d/2 is at most that of the cube, which is enlarged by
  *   d/2 on each side unless it is the torus.
  */
+#include "core/elementary.h"
 #include "patterns/spacing/spacing.h"
 
 #include <math.h>
@@ -44,8 +45,9 @@ double koksma__packing_distance(size_t n, int dim, bool torus)
     if (dim == 2) {
         return (1 + sqrt(1 + 2 / sqrt(3) * (count - 1))) / (count - 1);
     }
-    const double ball = exp(0.5 * dim * log(M_PI) - koksma__log_gamma(0.5 * dim + 1)); /* volume of the unit ball */
-    const double d = 2 * pow(1 / (count * ball), 1.0 / dim);
+    const double ball =
+        koksma__exp(0.5 * dim * koksma__log(M_PI) - koksma__log_gamma(0.5 * dim + 1)); /* volume of the unit ball */
+    const double d = 2 * koksma__pow(1 / (count * ball), 1.0 / dim);
     if (torus) {
         return fmin(d, sqrt(dim) / 2);
     }

@@ -57,7 +57,7 @@ koksma_status koksma__space_forces_init(koksma__space_forces *f, size_t n, int d
     *f = (koksma__space_forces){.dim = dim, .n = n, .s = s, .side = 1};
     const bool tabled = s > 0.1;
     size_t cells = 1;
-    while (!tabled && pow((double)f->side + 1, dim) <= (double)n && 2.5 * s * (double)(f->side + 1) <= 1) {
+    while (!tabled && koksma__pow((double)f->side + 1, dim) <= (double)n && 2.5 * s * (double)(f->side + 1) <= 1) {
         f->side++;
     }
     f->side = f->side < 5 ? 1 : f->side;

@@ -465,6 +465,7 @@ const koksma_metric koksma__metric_ldr_flip = {
     .name = "ldr-flip",
     .title = "LDR-FLIP: the visible difference of RGB images clamped to 0..1; from 0 to 1",
     .cite = "andersson2020",
+    .revision = 1, /* own elementary functions */
     .params = params,
     .channels = 3,
     .errors = ldr_errors,
@@ -477,6 +478,7 @@ const koksma_metric koksma__metric_hdr_flip = {
         "is black, the median that sets the largest exposure is that of the pixels above 0; the authors' "
         "flip-evaluator takes 2^-23 for it, exposes up to 23 stops further, and gives much larger values",
     .cite = "andersson2021",
+    .revision = 1,
     .params = hdr_params,
     .channels = 3,
     .errors = hdr_errors,

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/elementary.h"
 #include "core/status.h"
 #include "study/plan/plan.h"
 #include "study/plan/plan_read.h"
@@ -41,7 +42,7 @@ static koksma_status parse_printed(const koksma__json_node *node, koksma__printe
     const char *point = strchr(text, '.'), *exponent = strchr(text, 'e'); /* a small JSON number has an exponent */
     const double places = (point ? (double)strcspn(point + 1, "e") : 0) - (exponent ? atoi(exponent + 1) : 0);
     strcpy(out->text, text);
-    out->half_digit = 0.5 * pow(10, -places);
+    out->half_digit = 0.5 * koksma__pow(10, -places);
     return KOKSMA_OK;
 }
 

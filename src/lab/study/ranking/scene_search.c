@@ -31,6 +31,7 @@
 #include <koksma/study.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "image/image.h"
@@ -293,7 +294,7 @@ static koksma_status random_factors(uint64_t seed, double factors[3])
     if (!status) {
         status = koksma_generate(&spec, seed, NULL, &points);
         for (int k = 0; k < 3; k++) {
-            factors[k] = pow(4, 2 * points.xs[k] - 1);
+            factors[k] = koksma__pow(4, 2 * points.xs[k] - 1);
         }
         koksma_points_fini(&points);
     }

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "study/report/report.h"
 
@@ -64,7 +65,7 @@ static void compare(koksma__report *r, koksma__document *d, const side *base, co
         t->worse += e.low > 0;
         t->equal += equal;
         t->unknown += !equal && isnan(e.low);
-        t->logs += log(1 + e.value);
+        t->logs += koksma__log(1 + e.value);
     }
     free(x);
 }
@@ -83,8 +84,8 @@ static void say_change(koksma__document *d, const char *base, const char *other,
     koksma__doc_say(d,
                     "*%s instead of %s:* %+.1f %% (geometric mean over %zu cases); surely smaller in %zu, surely "
                     "larger in %zu, too close to tell in %zu",
-                    name_of(other), name_of(base), 100 * (exp(t->logs / (double)t->cases) - 1), t->cases, t->better,
-                    t->worse, t->cases - t->better - t->worse - t->equal - t->unknown);
+                    name_of(other), name_of(base), 100 * (koksma__exp(t->logs / (double)t->cases) - 1), t->cases,
+                    t->better, t->worse, t->cases - t->better - t->worse - t->equal - t->unknown);
     if (t->equal) {
         koksma__doc_say(d, ", equal bit for bit in %zu", t->equal);
     }

@@ -17,6 +17,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "measures/shared/shared.h"
 #include "study/report/report.h"
 
@@ -108,7 +109,7 @@ static double half(const koksma__estimate *e)
    the slopes are equal, or one of them has no interval. */
 static bool are_tied(const koksma__estimate *a, const koksma__estimate *b)
 {
-    return !koksma__compare(a->value, b->value) || !(fabs(a->value - b->value) > hypot(half(a), half(b)));
+    return !koksma__compare(a->value, b->value) || !(fabs(a->value - b->value) > koksma__hypot(half(a), half(b)));
 }
 
 /* Whether pattern i may be the one that falls fastest: it has a slope, and none surely falls faster. */
@@ -189,7 +190,7 @@ static void say_trials(koksma__document *d, const slopes *s, size_t a, size_t b)
 {
     const koksma__estimate *x = &s->trends[a].slope, *y = &s->trends[b].slope;
     const char *first = s->of->patterns->at[a], *second = s->of->patterns->at[b];
-    const double factor = koksma__trials_factor(x->value - y->value, hypot(half(x), half(y)));
+    const double factor = koksma__trials_factor(x->value - y->value, koksma__hypot(half(x), half(y)));
     if (!koksma__compare(x->value, y->value)) {
         koksma__doc_say(d, "; the slopes of %s and %s are equal", first, second);
     } else if (koksma__has_one_set(first) || koksma__has_one_set(second)) {
@@ -305,7 +306,7 @@ static const char *bound_of(const koksma__subject *s, const curve *like, curve *
     out->n = like->n;
     for (size_t i = 0; i < like->n; i++) {
         const double n = out->x[i] = like->x[i];
-        out->y[i] = koksma__exactly(pow(n, -bound.power) * pow(log(n), bound.logs));
+        out->y[i] = koksma__exactly(koksma__pow(n, -bound.power) * koksma__pow(koksma__log(n), bound.logs));
     }
     return bound.source;
 }

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "study/report/report.h"
 
 enum { NAMED = 4 };
@@ -73,7 +74,7 @@ static void order(standing *s)
    unknown. */
 static double half_of(const koksma__summary *a, const koksma__summary *b, size_t comparisons)
 {
-    const double half = hypot(a->high - a->mean, b->high - b->mean);
+    const double half = koksma__hypot(a->high - a->mean, b->high - b->mean);
     const size_t fewer = a->n > 1 && (a->n < b->n || b->n < 2) ? a->n : b->n;
     return half > 0 ? half * koksma__student_quantile(1 - 0.025 / (double)comparisons, (double)(fewer - 1)) /
                           koksma_student_975(fewer - 1)
@@ -100,7 +101,7 @@ static void say_trials(koksma__document *d, const standing *s, size_t i)
         koksma__doc_say(d, " A mean of one trial has no interval: 2 or more trials are needed");
     } else {
         const double needed = trials * koksma__trials_factor(a->mean - b->mean, half);
-        const double unit = pow(10, floor(log10(needed)) - 1);
+        const double unit = koksma__pow(10, floor(koksma__log10(needed)) - 1);
         koksma__doc_say(d, " About %.0f trials instead of %.0f would tell %s from %s",
                         fmax(ceil(needed / unit) * unit, trials + 1), trials, name_at(s, 0), name_at(s, i));
     }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "study/plan/plan.h"
 #include "study/report/report.h"
 
@@ -302,7 +303,7 @@ static void conclude_metric(koksma__report *r, koksma__document *d, const koksma
             continue;
         }
         const double ratio = x.mean / y.mean;
-        const double half = ratio * hypot((x.high - x.mean) / x.mean, (y.high - y.mean) / y.mean);
+        const double half = ratio * koksma__hypot((x.high - x.mean) / x.mean, (y.high - y.mean) / y.mean);
         test(all, ratio - half > 1);
         koksma__doc_say(d, "%s%.3g (%.3g to %.3g) in %s", all->tests > 1 ? "; " : "", ratio, ratio - half,
                         ratio + half, s.scene);

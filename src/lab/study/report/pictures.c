@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "image/coherence.h"
@@ -268,7 +269,7 @@ static void add_coherence(koksma__document *d, const koksma__task *first, const 
             koksma__doc_row(d);
             koksma__doc_cells(d, "tinnnnt", first->image->patterns.at[p],
                               (koksma__estimate){v->coherence, v->low, v->high}, v->noise_low, v->noise_high,
-                              v->common, hypot(v->frequency_x, v->frequency_y),
+                              v->common, koksma__hypot(v->frequency_x, v->frequency_y),
                               v->images == 0 ? "none"
                               : v->coherent  ? "coherent"
                                              : "noise");

@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/elementary.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "image/formats.h"
@@ -148,8 +149,9 @@ static double upper_limit(long long k, long long n)
         const double p = (low + high) / 2;
         double below = 0;
         for (long long j = 0; j <= k; j++) {
-            below += exp(koksma__log_gamma((double)n + 1) - koksma__log_gamma((double)j + 1) -
-                         koksma__log_gamma((double)(n - j) + 1) + (double)j * log(p) + (double)(n - j) * log1p(-p));
+            below += koksma__exp(koksma__log_gamma((double)n + 1) - koksma__log_gamma((double)j + 1) -
+                                 koksma__log_gamma((double)(n - j) + 1) + (double)j * koksma__log(p) +
+                                 (double)(n - j) * koksma__log1p(-p));
         }
         *(below > CHANCE ? &low : &high) = p;
     }

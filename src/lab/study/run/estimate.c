@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "core/clock.h"
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "study/run/references.h"
@@ -64,7 +65,7 @@ static bool is_timed(const guesses *g, size_t i)
    times the points), plus 1 for different patterns (like twice the points). */
 static double distance(const koksma__task *s, const koksma__task *t)
 {
-    return fabs(log2((double)s->n / (double)t->n)) + (strcmp(s->pattern, t->pattern) ? 1 : 0) +
+    return fabs(koksma__log2((double)s->n / (double)t->n)) + (strcmp(s->pattern, t->pattern) ? 1 : 0) +
            (strcmp(s->variant, t->variant) ? 0.5 : 0);
 }
 
@@ -79,12 +80,12 @@ static double power_at(const guesses *g, size_t i, long long n)
     for (size_t j = 0; j < g->n; j++) {
         const koksma__task *other = g->at[j].task;
         if (is_timed(g, j) && other->n != t->n && same_kind(other, t)) {
-            const double ratio = log((double)other->n / (double)t->n);
+            const double ratio = koksma__log((double)other->n / (double)t->n);
             /* a task on the other side of task i is used only if there is none on the side of n */
             const double far = fabs(ratio) + ((ratio > 0) == up ? 0 : 100);
             if (far < best) {
                 best = far;
-                power = log(g->at[j].seconds / g->at[i].seconds) / ratio;
+                power = koksma__log(g->at[j].seconds / g->at[i].seconds) / ratio;
             }
         }
     }
@@ -106,8 +107,8 @@ static void learn(guesses *g, size_t timed)
         }
         const guess *from = &g->at[to->nearest];
         const double ratio = (double)to->task->n / (double)from->task->n;
-        to->seconds =
-            from->seconds * (to->task->n == from->task->n ? 1 : pow(ratio, power_at(g, to->nearest, to->task->n)));
+        to->seconds = from->seconds *
+                      (to->task->n == from->task->n ? 1 : koksma__pow(ratio, power_at(g, to->nearest, to->task->n)));
     }
 }
 

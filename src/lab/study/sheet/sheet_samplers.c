@@ -15,6 +15,7 @@
 
 #include <koksma/render.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
 
@@ -82,11 +83,11 @@ static size_t thin(size_t *sizes, size_t n)
     if (n <= KOKSMA__SHEET_SIZES) {
         return n;
     }
-    const double first = log((double)sizes[0]),
-                 step = (log((double)sizes[n - 1]) - first) / (KOKSMA__SHEET_SIZES - 1);
+    const double first = koksma__log((double)sizes[0]),
+                 step = (koksma__log((double)sizes[n - 1]) - first) / (KOKSMA__SHEET_SIZES - 1);
     for (size_t i = 0, k = 0; i < KOKSMA__SHEET_SIZES && k < n; i++) {
-        while (k + 1 < n && fabs(log((double)sizes[k + 1]) - first - (double)i * step) <=
-                                fabs(log((double)sizes[k]) - first - (double)i * step)) {
+        while (k + 1 < n && fabs(koksma__log((double)sizes[k + 1]) - first - (double)i * step) <=
+                                fabs(koksma__log((double)sizes[k]) - first - (double)i * step)) {
             k++;
         }
         sizes[kept++] = sizes[k++];
