@@ -124,24 +124,23 @@ static koksma_status make_in(const cli_source *source, const target *t, uint64_t
     return status;
 }
 
-/* Writes the comment of the file: what the points are, and what their coordinates mean. */
-static void describe(const cli_source *source, const target *t, uint64_t seed, char *comment, size_t size)
+/* Returns the comment of the file, to be freed, or NULL without memory: what the points are, and where they lie. */
+static char *describe(const cli_source *source, const target *t, uint64_t seed)
 {
-    char text[KOKSMA_MAX_SPEC];
+    const char *what = t->on ? "\non " : t->density ? "\ndensity " : "";
+    const char *file = t->on ? t->on : t->density ? t->density : "";
+    const size_t size = KOKSMA_MAX_SPEC + strlen(file) + 256; /* a path may be longer than a spec */
+    char text[KOKSMA_MAX_SPEC], domain[128] = "", *comment = malloc(size);
     koksma_spec_text(&source->spec, text);
-    int used = snprintf(comment, size, "pattern %s\nseed %llu", text, (unsigned long long)seed);
-    if (t->on) {
-        used += snprintf(comment + used, size - (size_t)used, "\non %s", t->on);
-    }
-    if (t->density) {
-        used += snprintf(comment + used, size - (size_t)used, "\ndensity %s", t->density);
-    }
     if (t->size) {
-        snprintf(comment + used, size - (size_t)used, "\ndomain %.17g:%.17g", t->width, t->height);
+        snprintf(domain, sizeof domain, "\ndomain %.17g:%.17g", t->width, t->height);
     } else if (t->density) {
-        snprintf(comment + used, size - (size_t)used,
-                 "\ncoordinates x of the picture's width, y of its height from the bottom");
+        strcpy(domain, "\ncoordinates x of the picture's width, y of its height from the bottom");
     }
+    if (comment) {
+        snprintf(comment, size, "pattern %s\nseed %llu%s%s%s", text, (unsigned long long)seed, what, file, domain);
+    }
+    return comment;
 }
 
 /* Generates and writes the points of a target. If source->n is 0, the pattern's d decides how many there are. */
@@ -149,18 +148,21 @@ static int generate_in(const cli_arguments *arguments, const cli_source *source,
                        uint64_t seed, cli_work *work)
 {
     const koksma_run *run = &work->run;
-    char comment[3 * KOKSMA_MAX_SPEC + 256];
+    char *comment = describe(source, t, seed);
     koksma_points points = {.dim = t->on && dim == 2 ? 3 : dim};
     bool unfit = false;
+    if (!comment) {
+        return cli_no_memory();
+    }
     koksma_status status = source->n ? koksma_points_init(&points, source->n, points.dim) : KOKSMA_OK;
     status = status ? status : make_in(source, t, seed, run, &points, &unfit);
     if (!status) {
-        describe(source, t, seed, comment, sizeof comment);
         make_way(arguments, work);
         status = (t->on || t->size ? koksma_points_write_mapped
                                    : koksma_points_write)(cli_text(arguments, "output", "-"), &points, comment, run);
     }
     koksma_points_fini(&points);
+    free(comment);
     return unfit ? fail_in_density(arguments, t->density) : status ? cli_fail(arguments, status) : CLI_YES;
 }
 
