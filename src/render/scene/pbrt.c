@@ -933,13 +933,19 @@ static koksma_status set_camera(reader *r)
     return koksma__import_camera(r->im, r->camera_place, r->camera[0], 1, &camera);
 }
 
-/* Sets the times at which the shutter opens and closes, as fractions of the interval of the motion
-   (TransformTimes). */
+/* Sets the times at which the shutter opens and closes, as fractions of the interval of the motion (TransformTimes).
+   Without an exposure all lights are black. */
 static koksma_status set_shutter(reader *r)
 {
     koksma_scene *scene = r->im->scene;
     const double length = r->times[1] - r->times[0];
     koksma__scene_finish(scene);
+    if (scene->n_lights && !(r->values.exposure > 0)) {
+        return koksma__import_fail(
+            r->camera_place,
+            "a shutter that is open from %g to %g, at ISO %g, makes all light black; pbrt refuses it", r->shutter[0],
+            r->shutter[1], r->iso);
+    }
     if (!scene->moves) {
         return KOKSMA_OK;
     }
