@@ -216,6 +216,13 @@ static void wrong_metrics(void **state)
     wrong_metric("\"metrics\": [\"smape\",\n\"smape:epsilon=0.01\"]",
                  "plan 'p': line 3: metrics[1]: 'smape' is listed twice");
     wrong_metric("\"metrics\": []", "plan 'p': line 2: metrics: an empty list");
+    char many[1536] = "\"metrics\": [\"grain\"";
+    for (int i = 11; i < 50; i++) { /* with grain and, in all studies, mae, rmse, relmse and smape: 44 */
+        snprintf(many + strlen(many), sizeof many - strlen(many), ", \"grain:below=0.0%d\"", i);
+    }
+    strcat(many, "]");
+    wrong_metric(
+        many, "plan 'p': line 1: images[0]: 44 metrics, with those of all studies; a block of images has at most 32");
     wrong_metric("\"questions\": [{\"id\": \"q\", \"title\": \"q\", \"kind\": \"table\", \"images\": \"i\",\n"
                  "\"metric\": \"flip\"}]",
                  "plan 'p': line 3: questions[0].metric: no metric 'flip'; 'koksma list metrics' names them");

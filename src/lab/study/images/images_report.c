@@ -245,8 +245,8 @@ static koksma_status put_pictures(koksma__document *d, const koksma__images *all
     shown = shown > MAX_SHOWN ? MAX_SHOWN : shown ? shown - 1 : 0; /* one of the shown images is the reference */
     koksma_status status = KOKSMA_OK;
     if (shown < n) {
-        koksma__doc_paragraph(d, "%zu of %zu groups are shown, because images of %d x %d pixels make a large page.",
-                              shown, n, r->width, r->height);
+        koksma__doc_paragraph(d, "%zu of %zu groups are shown: a page has at most %d, and %d MiB of images.", shown,
+                              n, MAX_SHOWN, MOST_BYTES >> 20);
     }
     if (shown) {
         koksma__doc_pictures_begin(d, all->reference_path, r->width, r->height);

@@ -93,8 +93,8 @@ koksma_status koksma__plan_set_metrics(const koksma__json_node *root, koksma__pl
     for (size_t b = 0; !status && b < plan->n_images; b++) {
         status = set_block(plan, &plan->images[b]);
         KOKSMA__JSON_FAIL_IF(!status && plan->images[b].metrics.n > KOKSMA__MOST_METRICS, root,
-                             "%zu metrics, with those of all studies; a plan has at most %d",
-                             plan->images[b].metrics.n, KOKSMA__MOST_METRICS);
+                             "images[%zu]: %zu metrics, with those of all studies; a block of images has at most %d",
+                             b, plan->images[b].metrics.n, KOKSMA__MOST_METRICS);
     }
     return status;
 }
