@@ -34,7 +34,8 @@ typedef struct cli_command {
     const char *name, *summary;
     const char *synopsis; /* operands and options after "koksma NAME", one line per usage */
     const char *details;  /* text for --help; its lines are joined into paragraphs (cli/paragraphs.c); may be NULL */
-    const char *examples; /* command lines for --help, one per line; tests run them (tests/docs/readme.sh) */
+    const char *
+        examples; /* command lines for --help, one per line; tests run them, long ones shortened (tests/docs/readme.sh) */
     const cli_option *options;
     int (*run)(const cli_arguments *arguments); /* returns the exit code */
 } cli_command;

@@ -9,8 +9,9 @@
  * and few errors rarely contain the large ones that v consists of. So v is the largest of three estimates:
  *
  *     v1 = (1 + 4 / T) sample variance of e^2 / M^2
- *     v2 = 2 + 1.2 (1 + 1.5 / sqrt T) (g^2 - 6 / T), with the skewness g of e and its variance 6 / T for normal errors:
- *          gamma distributions have v = 2 + 1.5 g^2, and a sample shows its skewness earlier than its kurtosis
+ *     v2 = 2 + 1.2 (1 + 1.5 / sqrt T) (g^2 - 6 / T), but only where g^2 > 6 / T, with the skewness g of e and its variance
+ *          6 / T for normal errors: gamma distributions have v = 2 + 1.5 g^2, and a sample shows its skewness earlier than
+ *          its kurtosis
  *     v3 = min(2, v0 + sqrt(24 / T)), with v0 as v1 without its factor: v is below 2 only if it is so significantly
  *
  * What a sample lacks are large errors. So with z = (v - 2) / sqrt T, v - 2 between 0 and 8, the lower bound uses
@@ -51,18 +52,19 @@ static moments moments_of(const double *values, size_t count, size_t stride, dou
     return m;
 }
 
-/* The skewness of the errors, with the factor that makes it unbiased for normal errors; NaN if all are equal. */
+/* The skewness of the errors, with the factor that makes it unbiased for normal errors; 0 for two, NaN if three or more
+   are all equal. */
 static double skewness(const moments *m, double n)
 {
     return n > 2 ? sqrt(n * (n - 1)) / (n - 2) * sqrt(n) * m->third / (m->second * sqrt(m->second)) : 0;
 }
 
-/* v of the file's head; NaN if all errors are equal. */
+/* v of the file's head; NaN if the skewness is. */
 static double relative_variance(const moments *m, double n)
 {
     const double v = m->square_spread / (n - 1) / (m->square * m->square), g = skewness(m, n);
-    const double by_skewness = 2 + 1.2 * (1 + 1.5 / sqrt(n)) * fmax(g * g - 6 / n, 0);
-    return isnan(g) ? g : fmax(fmax(v * (1 + 4 / n), g * g > 6 / n ? by_skewness : 0), fmin(2, v + sqrt(24 / n)));
+    const double by_skewness = g * g > 6 / n ? 2 + 1.2 * (1 + 1.5 / sqrt(n)) * (g * g - 6 / n) : 0;
+    return isnan(g) ? g : fmax(fmax(v * (1 + 4 / n), by_skewness), fmin(2, v + sqrt(24 / n)));
 }
 
 /* Returns the second derivative of log gamma: the recurrence trigamma(x) = trigamma(x + 1) + 1 / x^2, then the

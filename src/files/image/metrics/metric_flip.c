@@ -410,7 +410,7 @@ static const char *black_caveat(const koksma_metric_input *in)
            : dark == n
                ? "the whole reference is black, so the exposure is 2^0 alone; the authors' flip-evaluator refuses it"
                : "more than half of the reference is black, so the largest exposure follows from the median of "
-                 "the pixels above 0; the authors' flip-evaluator takes 2^-23, and gives much larger values";
+                 "the pixels above 0; the authors' flip-evaluator takes 2^-23, and can give much larger values";
 }
 
 static void expose(const double *in, size_t n, double scale, int tone_mapper, const curve *t, double *out)
@@ -476,7 +476,7 @@ const koksma_metric koksma__metric_hdr_flip = {
     .title =
         "HDR-FLIP: the largest LDR-FLIP over a range of exposures; from 0 to 1. If more than half of the reference "
         "is black, the median that sets the largest exposure is that of the pixels above 0; the authors' "
-        "flip-evaluator takes 2^-23 for it, exposes up to 23 stops further, and gives much larger values",
+        "flip-evaluator takes 2^-23 for it, exposes up to 23 stops further, and can give much larger values",
     .cite = "andersson2021",
     .revision = 1,
     .params = hdr_params,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Checks which tables a file has. The SQL of every table and view, as SQLite stores it, is compared with the
-   statements of schema.sql after removing comments and replacing white space by one blank: the file must have each
-   statement once and nothing else. A file from an untrusted source thus has no triggers, further tables or views,
+   statements of schema.sql after removing comments (from -- to the end of the line) and replacing white space by one blank:
+   the file must have each statement once and nothing else. A file from an untrusted source thus has no triggers, further tables or views,
    virtual tables, or computed columns. */
 #include <ctype.h>
 #include <stdio.h>
@@ -17,8 +17,9 @@ static const uint32_t APPLICATION = 0x4b6b736d;
 
 enum { STATEMENTS = 6 };
 
-/* Writes one statement to `out` without comments and with one blank for each stretch of white space. The statement
-   ends at the first ';' outside quotes, or at the end of the text. Returns the rest of the SQL. */
+/* Writes one statement to `out` without comments that begin with -- and with one blank for each stretch of white space,
+   both outside quotes. The statement ends at the first ';' outside quotes, or at the end of the text. Returns the rest of
+   the SQL. */
 static const char *normal_form(const char *sql, char *out)
 {
     char *to = out;

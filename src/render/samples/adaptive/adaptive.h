@@ -143,8 +143,9 @@ double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pi
  * position in the pixel or a point on a light. A stratum is a cell in the unit square of every use at once: the cells
  * of the uses are paired one to one, and splitting a stratum quarters its cell in each use. A stratum has one sample.
  *
- * At first there are m x m strata. Stratum i has cell i of the base use, which is the pixel or the use that causes
- * most of the variance, and one cell of every other use. Aligned pairing takes cell i in every use, so that all uses
+ * At first there are m x m strata. Stratum i has cell i of the pixel and one cell of every other use. Neighbours are
+ * compared in the base use, which is the pixel or, in the method `selective`, the use that causes most of the variance.
+ * Aligned pairing takes cell i in every use, so that all uses
  * have the same neighbours ("correlated jitter"; Shirley 1991, section 5.6). Shuffled pairing takes cell p(i), with a
  * random permutation p for each pixel and use ("uncorrelated jitter"). The cells of a one-dimensional use are m^2
  * intervals of a line with shuffled pairing, and the columns of the square with aligned pairing.
