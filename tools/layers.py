@@ -31,6 +31,7 @@ MAY_USE = {
     "stats": "core",
     "patterns": "core kernels stats",
     "measures": "core kernels stats warps",
+    "masks": "core kernels patterns warps",
     "api": "core patterns measures warps",
     "integrands": "core stats patterns api",
     "verify": "core patterns measures api",

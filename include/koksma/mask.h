@@ -8,6 +8,8 @@
  *                              select; a single mask can serve as a threshold image for dithering
  *     koksma_mask_void_and_cluster_3d   computes a void-and-cluster mask in space and time
  *     koksma_mask_vectors      computes a vector mask: one sample of up to 8 dimensions for each pixel
+ *     koksma_mask_optimise     arranges scalars, vectors or directions for a given filter, in any rectangle; the command
+ *                              `koksma mask` writes such masks to files
  *     koksma_keys_2d           (koksma/keys.h) gives the 32 x 32 pixels of a cell different blocks of one sequence,
  *                              in an order optimised for 1, 2, 4 ... 64 samples per pixel
  *     koksma_z_rank            (koksma/sampler.h) gives pixel (x, y) the samples rank * spp .. rank * spp + spp - 1
@@ -84,6 +86,102 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster_3d(int size, int frames, u
      values  size * size * dim numbers; coordinate k of pixel (x, y) is values[(y * size + x) * dim + k]
    Errors: ARGUMENT (size, dim), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_mask_vectors(int size, int dim, uint64_t seed, const koksma_run *run, double *values);
+
+/* ---- Masks optimised for a filter --------------------------------------------------------------------- */
+
+/* The numbers that the pixels of a mask have. */
+typedef struct koksma_mask_space {
+    const char *name, *title;
+    int dim;          /* numbers a pixel, 1 to 4 */
+    double low, high; /* every number lies in [low, high]; image files map this range to their levels */
+} koksma_mask_space;
+
+/* Returns space i of the table, or the space with this name, or NULL if there is none:
+     scalar       uniform in [0,1)
+     tent         the density 1 - |v| on [-1,1]
+     gaussian     the normal distribution of mean 0 and variance 1; high is 6, which no mask reaches
+     vector2 .. vector4   uniform in [0,1)^2 to [0,1)^4
+     disk, circle, sphere uniform in the unit disk, on the unit circle and the unit sphere
+     hemisphere   unit vectors with z >= 0 and the density z / pi */
+KOKSMA_API const koksma_mask_space *koksma_mask_space_at(size_t i);
+KOKSMA_API const koksma_mask_space *koksma_mask_space_find(const char *name);
+
+enum { KOKSMA_MASK_MAX_SIDE = 65, KOKSMA_MASK_REVISION = 1 };
+
+/* The filter that will be applied to the noise: weights[y * width + x]. It need be neither symmetric nor normalised. */
+typedef struct koksma_mask_filter {
+    int width, height; /* 1 to KOKSMA_MASK_MAX_SIDE */
+    double weights[KOKSMA_MASK_MAX_SIDE * KOKSMA_MASK_MAX_SIDE];
+} koksma_mask_filter;
+
+/* Scales the weights to the sum 1.
+   Errors: ARGUMENT (a size; a weight that is not finite; a sum of 0; a single weight, under which all arrangements are
+   equal). */
+KOKSMA_API koksma_status koksma_mask_filter_check(koksma_mask_filter *filter);
+
+typedef struct koksma_mask_options {
+    int width, height;              /* KOKSMA_MASK_MIN to KOKSMA_MASK_MAX */
+    const koksma_mask_space *space; /* NULL: scalar */
+    koksma_mask_filter filter;      /* koksma_mask_optimise normalises a copy */
+    bool open;  /* false: the mask is a tile that repeats; true: it has borders, and what lies beyond
+                                       them has no error */
+    int levels; /* scalar only: the number of different values, (k + 1/2) / levels, of which each occurs equally
+                          often (to 1, if levels does not divide the number of pixels). 0: as many as pixels */
+    uint64_t seed;
+    double swaps;      /* proposed swaps a pixel, 0 to 1e6; 0: none */
+    const float *from; /* width * height * dim numbers of a mask of this space: the search rearranges them. NULL: a
+                          random arrangement of new values */
+    uint64_t done;     /* number of proposals that an earlier call with these options has made before it returned the
+                          mask `from`: this call continues it. 0: the search begins */
+    double target;     /* end once the error is at most this number; 0: never */
+} koksma_mask_options;
+
+typedef struct koksma_mask_result {
+    double first, error; /* the error, below, of the first arrangement and of the last */
+    uint64_t done;       /* number of proposals made, those of options.done included */
+    bool finished;       /* false: the time limit ended the search */
+} koksma_mask_result;
+
+/* Arranges values such that the filter leaves as little as possible of them, whatever function of the value each pixel
+   evaluates. It minimises
+
+       error^2 = 1/n sum over pixels p, q of A(p - q) (h(v_p) + h(v_q) - |v_p - v_q| - mean of h) / 2
+
+   where A is the autocorrelation of the filter, h(v) the mean distance of v from all values, and |.| the Euclidean
+   distance. Of scalars, error^2 is the mean over all thresholds t of the variance over the pixels of the filtered image
+   of (v < t); tent and gaussian are scalars whose value is mapped by the inverse of their distribution. Of vectors
+   it is, up to a constant factor, the mean of that variance over all half-spaces {v: w.v < t} by their invariant
+   measure (Crofton's formula), and so the generalised energy distance of Szekely & Rizzo (2013) after filtering.
+
+   The search is simulated annealing by swaps of two pixels whose values are close. The error of the result is never above
+   that of the first arrangement. Equal options give equal bits on every machine. With 2,000 swaps a pixel it takes
+   about 4 s for 128 x 128 scalars and a filter of 5 x 5 pixels; the time is proportional to the number of pixels and of
+   the filter's pixels.
+     run     its time limit ends the search; the mask then is as good as it was by then, and options.done continues it.
+             It uses one thread
+     values  receives width * height * space->dim numbers: coordinate k of pixel (x, y) is
+             values[(y * width + x) * dim + k]
+     result  may be NULL
+   Errors: ARGUMENT (the message names the option), MEMORY, INTERRUPTED. */
+KOKSMA_API koksma_status koksma_mask_optimise(const koksma_mask_options *options, const koksma_run *run,
+                                              float *values, koksma_mask_result *result);
+
+/* Measures a mask: the root of the mean, over tests, of the variance over the pixels of the filtered image of (v < t).
+   The tests of a space of one number are the thresholds (i + 1/2) / tests of the value's rank among the pixels, where
+   pixels of equal values have their mean rank; of values 0 to 1, `scalar`, the thresholds are of the value itself. In
+   other spaces the tests are half-spaces with the directions and offsets of fixed random numbers, the offset uniform
+   between the least and the largest projection of a value.
+     space   NULL: scalar
+     filter  koksma_mask_filter_check has accepted it
+     open    false: on the torus; true: over those pixels whose filter lies within the mask; the mask is then at least as
+             large as the filter
+     tests   1 to 65536
+     error   receives the root
+     white   receives its expectation for a random arrangement of the same values on the torus. May be NULL
+   Errors: ARGUMENT, MEMORY, INTERRUPTED. */
+KOKSMA_API koksma_status koksma_mask_error(int width, int height, const koksma_mask_space *space, const float *values,
+                                           const koksma_mask_filter *filter, bool open, int tests,
+                                           const koksma_run *run, double *error, double *white);
 
 #ifdef __cplusplus
 }

@@ -165,6 +165,20 @@ static void nearest_offset(const koksma__kernel_table *t, size_t count, void *ou
     t->nearest_offset(count % 30, units, units + 100, count, units, 0.3, out);
 }
 
+/* Windows of 8 and 16 columns, values of 1 to 4 coordinates. */
+static void mask_growth(const koksma__kernel_table *t, size_t count, void *out)
+{
+    const size_t span = 8 + 8 * (count % 2), rows = count / 9 % 7;
+    float numbers[2 * MAX], *found = out;
+    for (size_t i = 0; i < 2 * MAX; i++) {
+        numbers[i] = (float)units[i];
+    }
+    for (int dim = 1; dim <= 4; dim++) {
+        found[dim] = t->mask_growth(rows, span, 17, 131, dim, numbers + count, numbers + count % 5, numbers + 100,
+                                    numbers + 104 + count % 3);
+    }
+}
+
 /* Numbers, the words of their relatives, and what lies between, which stays as it is. */
 static void nested_digits(const koksma__kernel_table *t, size_t count, void *out)
 {
@@ -276,6 +290,7 @@ TEST(covers, 250)
 TEST(dart_cells, 200)
 TEST(nearest_offset, MAX)
 TEST(pair_counts, MAX)
+TEST(mask_growth, MAX)
 TEST(nested_digits, MAX)
 TEST(permute, MAX)
 TEST(rooks_2d, 120)
@@ -296,6 +311,7 @@ int main(void)
         cmocka_unit_test(nested_digits_equals_reference),   cmocka_unit_test(rooks_2d_equals_reference),
         cmocka_unit_test(rows_of_columns_equals_reference), cmocka_unit_test(gauss_force_equals_reference),
         cmocka_unit_test(permute_equals_reference),         cmocka_unit_test(source_force_equals_reference),
+        cmocka_unit_test(mask_growth_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -336,3 +336,24 @@ void KERNEL_NAME(source_force)(size_t runs, const uint32_t *run, const double *c
         force[k] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
     }
 }
+
+static float distance_of(int dim, const float *a, const float *values, size_t plane)
+{
+    float square = 0;
+    for (int k = 0; k < dim; k++) {
+        const float d = a[k] - values[(size_t)k * plane];
+        square += d * d;
+    }
+    return dim == 1 ? fabsf(*a - *values) : sqrtf(square);
+}
+
+float KERNEL_NAME(mask_growth)(size_t rows, size_t span, size_t stride, size_t plane, int dim, const float *weights,
+                               const float *values, const float *from, const float *to)
+{
+    float s[8] = {0};
+    for (size_t i = 0; i < rows * span; i++) {
+        const float *value = values + i / span * stride + i % span;
+        s[i % 8] += weights[i] * (distance_of(dim, from, value, plane) - distance_of(dim, to, value, plane));
+    }
+    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+}

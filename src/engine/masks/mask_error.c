@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The error that a filter leaves of a mask, measured by its definition (koksma/mask.h): the indicators are filtered, test
+ * by test, and the variance over the pixels is averaged over the tests. Tests are independent, so each is a block of the
+ * parallel loop; their variances are added in order.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/elementary.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "core/status.h"
+#include "masks/masks.h"
+
+enum { MOST_TESTS = 65536, SEED = 1 };
+
+typedef struct measuring {
+    int width, height, dim, tests;
+    bool open;
+    const float *values;
+    const koksma_mask_filter *filter;
+    double *variances,
+        *shares; /* of each test: over the pixels of the filtered indicator; the share of pixels inside */
+} measuring;
+
+/* Computes the half-space of a test: a random direction, by a normally distributed vector, and a random offset. */
+static void half_space(const measuring *m, size_t test, double *direction, double *offset)
+{
+    double u[6], least = (double)INFINITY, most = -(double)INFINITY;
+    for (uint32_t lane = 0; lane < 3; lane++) {
+        koksma__random_pair(SEED, KOKSMA__PURPOSE_TEST, test, lane, u + 2 * lane);
+    }
+    for (int k = 0; k < KOKSMA__MASK_DIM; k += 2) {
+        const double radius = sqrt(-2 * koksma__log(1 - u[k]));
+        koksma__cos_sin(2 * M_PI * u[k + 1], &direction[k], &direction[k + 1]);
+        direction[k] *= radius;
+        direction[k + 1] *= radius;
+    }
+    for (size_t p = 0; p < (size_t)m->width * (size_t)m->height; p++) {
+        double along = 0;
+        for (int k = 0; k < m->dim; k++) {
+            along += direction[k] * (double)m->values[p * (size_t)m->dim + (size_t)k];
+        }
+        least = fmin(least, along);
+        most = fmax(most, along);
+    }
+    *offset = least + u[4] * (most - least);
+}
+
+/* Fills `image`, whose rows have `stride` pixels, with the indicator of a test, repeated beyond the right and lower side of
+   a torus. Returns the share of pixels inside. */
+static double indicate(const measuring *m, size_t test, size_t columns, size_t rows, double *image)
+{
+    double direction[KOKSMA__MASK_DIM] = {1}, offset = ((double)test + 0.5) / m->tests, inside = 0;
+    if (m->dim > 1) {
+        half_space(m, test, direction, &offset);
+    }
+    for (size_t y = 0; y < rows; y++) {
+        for (size_t x = 0; x < columns; x++) {
+            const size_t p = y % (size_t)m->height * (size_t)m->width + x % (size_t)m->width;
+            double along = 0;
+            for (int k = 0; k < m->dim; k++) {
+                along += direction[k] * (double)m->values[p * (size_t)m->dim + (size_t)k];
+            }
+            image[y * columns + x] = along < offset ? 1 : 0;
+            inside += x < (size_t)m->width && y < (size_t)m->height && along < offset ? 1 : 0;
+        }
+    }
+    return inside / ((double)m->width * m->height);
+}
+
+static koksma_status measure_test(void *context, size_t test)
+{
+    const measuring *m = context;
+    const koksma_mask_filter *f = m->filter;
+    const size_t more_x = (size_t)f->width - 1, more_y = (size_t)f->height - 1;
+    const size_t columns = (size_t)m->width + (m->open ? 0 : more_x),
+                 rows = (size_t)m->height + (m->open ? 0 : more_y);
+    const size_t width = columns - more_x, height = rows - more_y;
+    double *image = malloc((columns * rows + width) * sizeof *image), *line = image + columns * rows;
+    KOKSMA__REQUIRE_MEMORY(image, (columns * rows + width) * sizeof *image);
+    double sum = 0, squares = 0;
+    m->shares[test] = indicate(m, test, columns, rows, image);
+    for (size_t y = 0; y < height; y++) {
+        memset(line, 0, width * sizeof *line);
+        for (size_t i = 0; i < (more_x + 1) * (more_y + 1); i++) {
+            const double weight = f->weights[i];
+            const double *from = image + (y + i / (more_x + 1)) * columns + i % (more_x + 1);
+            for (size_t x = 0; x < width; x++) {
+                line[x] += weight * from[x];
+            }
+        }
+        for (size_t x = 0; x < width; x++) {
+            const double d = line[x] - m->shares[test];
+            sum += d;
+            squares += d * d;
+        }
+    }
+    const double mean = sum / (double)(width * height);
+    m->variances[test] = fmax(squares / (double)(width * height) - mean * mean, 0);
+    free(image);
+    return KOKSMA_OK;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Makes the mean rank of each value, as a share of the pixels. */
+static koksma_status rank(const float *values, size_t n, float *ranks)
+{
+    float *sorted = malloc(n * sizeof *sorted);
+    KOKSMA__REQUIRE_MEMORY(sorted, n * sizeof *sorted);
+    memcpy(sorted, values, n * sizeof *sorted);
+    qsort(sorted, n, sizeof *sorted, ascending);
+    for (size_t p = 0; p < n; p++) {
+        size_t below = 0, end = n, upto;
+        while (below < end) { /* the first that is not below the value */
+            const size_t middle = (below + end) / 2;
+            if (sorted[middle] < values[p]) {
+                below = middle + 1;
+            } else {
+                end = middle;
+            }
+        }
+        for (upto = below; upto < n && !(values[p] < sorted[upto]); upto++) {
+        }
+        ranks[p] = (float)((double)(below + upto) / 2 / (double)n);
+    }
+    free(sorted);
+    return KOKSMA_OK;
+}
+
+static koksma_status measure_all(measuring *m, const koksma_run *run, double *error, double *white)
+{
+    KOKSMA__TRY(koksma__parallel(run, (size_t)m->tests, measure_test, m));
+    const double n = (double)m->width * m->height;
+    double sum = 0, random = 0, squares = 0;
+    for (int i = 0; i < m->filter->width * m->filter->height; i++) {
+        squares += m->filter->weights[i] * m->filter->weights[i];
+    }
+    for (int t = 0; t < m->tests; t++) {
+        sum += m->variances[t];
+        random += m->shares[t] * (1 - m->shares[t]) * (n * squares - 1) / (n - 1);
+    }
+    *error = sqrt(sum / m->tests);
+    if (white) {
+        *white = sqrt(random / m->tests);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_mask_error(int width, int height, const koksma_mask_space *space, const float *values,
+                                const koksma_mask_filter *filter, bool open, int tests, const koksma_run *run,
+                                double *error, double *white)
+{
+    KOKSMA__REQUIRE(values, filter, error);
+    KOKSMA__REQUIRE_RUN(run);
+    koksma_mask_filter f = *filter;
+    KOKSMA__TRY(koksma__mask_check(width, height, &space, values));
+    KOKSMA__TRY(koksma_mask_filter_check(&f));
+    KOKSMA__FAIL_IF(tests < 1 || tests > MOST_TESTS, KOKSMA_ARGUMENT, "mask: %d tests; it takes 1 to %d", tests,
+                    MOST_TESTS);
+    KOKSMA__FAIL_IF(open && (f.width > width || f.height > height), KOKSMA_ARGUMENT,
+                    "mask: a filter of %d x %d pixels does not fit into an open mask of %d x %d", f.width, f.height,
+                    width, height);
+    const size_t n = (size_t)width * (size_t)height;
+    const bool ranked = space->dim == 1 && space->low < 0;
+    double *numbers = calloc(2 * (size_t)tests, sizeof *numbers);
+    float *ranks = malloc(n * sizeof *ranks);
+    koksma_status status = numbers && ranks ? KOKSMA_OK : koksma__fail_memory(n * sizeof *ranks);
+    status = status || !ranked ? status : rank(values, n, ranks);
+    measuring m = {width, height, space->dim, tests, open, ranked ? ranks : values, &f, numbers, numbers + tests};
+    status = status ? status : measure_all(&m, run, error, white);
+    free(numbers);
+    free(ranks);
+    return status;
+}

@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Masks optimised for a filter, against the definition: the error is the variance over the pixels of the filtered
+ * indicators, which is computed here by direct sums. The search never makes a mask worse, rearranges the given values
+ * only, and its masks are better than void-and-cluster ones (Ulichney 1993) under a filter that those are good for.
+ */
+#include <koksma/mask.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "test.h"
+
+#define assert_close(a, b, share) assert_near(a, b, (share)*fabs(b))
+
+#define assert_error(call, status, text)                                                                             \
+    do {                                                                                                             \
+        assert_int_equal(call, status);                                                                              \
+        assert_non_null(strstr(koksma_error_text(), text));                                                          \
+    } while (0)
+
+enum { MOST = 64 * 64 * 4 };
+
+static const double uneven[] = {1, 4, 2, 0, 3, -1}; /* 3 x 2 pixels, neither symmetric nor positive */
+
+static koksma_mask_options options_of(int width, int height, const char *space)
+{
+    koksma_mask_options o = {.width = width, .height = height, .space = koksma_mask_space_find(space), .swaps = 40};
+    assert_non_null(o.space);
+    o.filter.width = 3;
+    o.filter.height = 2;
+    memcpy(o.filter.weights, uneven, sizeof uneven);
+    return o;
+}
+
+/* exp(-(x^2 + y^2) / 2) in 7 x 7 pixels. */
+static void use_gaussian(koksma_mask_options *o)
+{
+    o->filter.width = o->filter.height = 7;
+    for (int i = 0; i < 49; i++) {
+        const int x = i % 7 - 3, y = i / 7 - 3;
+        o->filter.weights[i] = exp(-0.5 * (x * x + y * y));
+    }
+}
+
+/* The filtered image of (v < t) - t at (x, y), the corner of the filter; pixels beyond the border count 0 if `open`. */
+static double filtered(const koksma_mask_options *o, const float *v, double t, int x, int y)
+{
+    double sum = 0, weights = 0;
+    for (int j = 0; j < o->filter.height; j++) {
+        for (int i = 0; i < o->filter.width; i++) {
+            const double w = o->filter.weights[j * o->filter.width + i];
+            const bool inside = x + i >= 0 && x + i < o->width && y + j >= 0 && y + j < o->height;
+            const int a = (x + i + 5 * o->width) % o->width, b = (y + j + 5 * o->height) % o->height;
+            weights += w;
+            sum += o->open && !inside ? 0 : w * (((double)v[b * o->width + a] < t ? 1 : 0) - t);
+        }
+    }
+    return sum / weights;
+}
+
+/* The root of the mean over thresholds of the variance over the pixels; of an open mask, over those whose filter lies
+   within. */
+static double error_by_definition(const koksma_mask_options *o, const float *v, int tests)
+{
+    const int w = o->open ? o->width - o->filter.width + 1 : o->width;
+    const int h = o->open ? o->height - o->filter.height + 1 : o->height;
+    double all = 0;
+    for (int k = 0; k < tests; k++) {
+        double sum = 0, squares = 0;
+        for (int p = 0; p < w * h; p++) {
+            const double f = filtered(o, v, (k + 0.5) / tests, p % w, p / w);
+            sum += f / (w * h);
+            squares += f * f / (w * h);
+        }
+        all += (squares - sum * sum) / tests;
+    }
+    return sqrt(all);
+}
+
+static void error_is_that_of_the_definition(void **state)
+{
+    (void)state;
+    float v[30 * 20];
+    for (int open = 0; open < 2; open++) {
+        koksma_mask_options o = options_of(13, 10, "scalar");
+        o.open = open;
+        koksma_mask_result r;
+        assert_ok(koksma_mask_optimise(&o, NULL, v, &r));
+        double error, white, again;
+        koksma_run one = {.threads = 1}, two = {.threads = 2};
+        assert_ok(koksma_mask_error(13, 10, NULL, v, &o.filter, open, 17, &one, &error, &white));
+        assert_ok(koksma_mask_error(13, 10, NULL, v, &o.filter, open, 17, &two, &again, NULL));
+        assert_true(error == again);
+        assert_close(error, error_by_definition(&o, v, 17), 1e-12);
+    }
+}
+
+/* The error that the search minimises is the mean over all thresholds; of an open mask the pixels beyond have no error, and
+   the filter is applied wherever it meets the mask. */
+static void energy_is_that_of_the_definition(void **state)
+{
+    (void)state;
+    enum { TESTS = 2000 };
+    float v[16 * 12];
+    for (int open = 0; open < 2; open++) {
+        koksma_mask_options o = options_of(16, 12, "scalar");
+        koksma_mask_result r;
+        o.open = open;
+        assert_ok(koksma_mask_optimise(&o, NULL, v, &r));
+        double sum = 0;
+        for (int k = 0; k < TESTS; k++) {
+            for (int y = open ? -1 : 0; y < 12; y++) {
+                for (int x = open ? -2 : 0; x < 16; x++) {
+                    const double f = filtered(&o, v, (k + 0.5) / TESTS, x, y);
+                    sum += f * f / (16 * 12) / TESTS;
+                }
+            }
+        }
+        assert_close(r.error, sqrt(sum), 2e-3);
+    }
+}
+
+static void errors_never_rise(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"scalar", "vector2", "sphere"};
+    static float v[MOST], next[MOST];
+    for (size_t s = 0; s < 3; s++) {
+        koksma_mask_options o = options_of(16, 11, names[s]);
+        koksma_mask_result r;
+        o.swaps = 0;
+        assert_ok(koksma_mask_optimise(&o, NULL, v, &r));
+        assert_true(r.error == r.first && r.done == 0 && r.finished);
+        double error = r.error;
+        for (int round = 0; round < 6; round++) {
+            o.from = v;
+            o.swaps = round;
+            o.seed = (uint64_t)round;
+            assert_ok(koksma_mask_optimise(&o, NULL, next, &r));
+            assert_close(r.first, error, 1e-9);
+            assert_true(r.error <= r.first);
+            error = r.error;
+            memcpy(v, next, sizeof v);
+        }
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return x < y ? -1 : x > y;
+}
+
+static void each_value_occurs_once_or_equally_often(void **state)
+{
+    (void)state;
+    float v[24 * 10], mask[24 * 10];
+    koksma_mask_options o = options_of(24, 10, "scalar");
+    for (int levels = 0; levels <= 8; levels += 8) {
+        o.levels = levels;
+        assert_ok(koksma_mask_optimise(&o, NULL, v, NULL));
+        memcpy(mask, v, sizeof v);
+        qsort(v, 240, sizeof *v, ascending);
+        for (int i = 0; i < 240; i++) {
+            assert_close((double)v[i], levels ? (i / 30 + 0.5) / 8 : (i + 0.5) / 240, 1e-6);
+        }
+    }
+    o.levels = 0;
+    o.from = mask; /* rearranges what it gets */
+    float again[24 * 10];
+    assert_ok(koksma_mask_optimise(&o, NULL, again, NULL));
+    qsort(again, 240, sizeof *again, ascending);
+    assert_memory_equal(again, v, sizeof v);
+}
+
+static void a_search_continues_where_it_ended(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"scalar", "tent", "vector3", "circle"};
+    static float whole[MOST], part[MOST], rest[MOST];
+    for (size_t s = 0; s < 4; s++) {
+        koksma_mask_options o = options_of(16, 16, names[s]);
+        koksma_mask_result r;
+        koksma_run soon = {.threads = 1, .time_limit_s = 1e-9}; /* ends after the first block */
+        o.seed = 5;
+        assert_ok(koksma_mask_optimise(&o, NULL, whole, &r));
+        assert_int_equal(r.done, 40 * 256);
+        assert_ok(koksma_mask_optimise(&o, &soon, part, &r));
+        assert_true(r.done > 0 && r.done < 40 * 256 && !r.finished);
+        o.from = part;
+        o.done = r.done;
+        assert_ok(koksma_mask_optimise(&o, NULL, rest, &r));
+        assert_true(r.finished && r.done == 40 * 256);
+        assert_memory_equal(rest, whole, 256 * (size_t)o.space->dim * sizeof *whole);
+    }
+}
+
+static void target_ends_the_search(void **state)
+{
+    (void)state;
+    float v[32 * 32];
+    koksma_mask_options o = options_of(32, 32, "scalar");
+    koksma_mask_result all, some;
+    assert_ok(koksma_mask_optimise(&o, NULL, v, &all));
+    o.target = (all.first + all.error) / 2;
+    assert_ok(koksma_mask_optimise(&o, NULL, v, &some));
+    assert_true(some.done < all.done && some.error <= o.target * (1 + 1e-4));
+}
+
+/* The moments of each space: the mean, and the mean of the square of each number. */
+static void values_have_the_distribution_of_their_space(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        double mean[4], square[4];
+    } known[] = {{"scalar", {0.5}, {1.0 / 3}},
+                 {"tent", {0}, {1.0 / 6}},
+                 {"gaussian", {0}, {1}},
+                 {"vector2", {0.5, 0.5}, {1.0 / 3, 1.0 / 3}},
+                 {"vector3", {0.5, 0.5, 0.5}, {1.0 / 3, 1.0 / 3, 1.0 / 3}},
+                 {"vector4", {0.5, 0.5, 0.5, 0.5}, {1.0 / 3, 1.0 / 3, 1.0 / 3, 1.0 / 3}},
+                 {"disk", {0, 0}, {0.25, 0.25}},
+                 {"circle", {0, 0}, {0.5, 0.5}},
+                 {"sphere", {0, 0, 0}, {1.0 / 3, 1.0 / 3, 1.0 / 3}},
+                 {"hemisphere", {0, 0, 2.0 / 3}, {0.25, 0.25, 0.5}}};
+    static float v[MOST];
+    for (size_t s = 0; koksma_mask_space_at(s); s++) {
+        assert_string_equal(koksma_mask_space_at(s)->name, known[s].name);
+        koksma_mask_options o = options_of(64, 48, known[s].name);
+        o.swaps = 1;
+        const int dim = o.space->dim, n = 64 * 48;
+        assert_ok(koksma_mask_optimise(&o, NULL, v, NULL));
+        for (int k = 0; k < dim; k++) {
+            double mean = 0, square = 0;
+            for (int p = 0; p < n; p++) {
+                const double x = (double)v[p * dim + k];
+                assert_true(x >= o.space->low && x <= o.space->high);
+                mean += x / n;
+                square += x * x / n;
+            }
+            assert_close(mean + 1, known[s].mean[k] + 1, 2e-3);
+            assert_close(square, known[s].square[k], 5e-3);
+        }
+    }
+}
+
+/* Under a Gaussian of sigma = 1, the filter for which void-and-cluster is best, and also beside its ranks. */
+static void masks_are_better_than_void_and_cluster(void **state)
+{
+    (void)state;
+    enum { SIZE = test_repeats(48, 16), N = SIZE * SIZE };
+    static float v[N], ulichney[N];
+    static uint32_t ranks[N];
+    koksma_mask_options o = options_of(SIZE, SIZE, "scalar");
+    use_gaussian(&o);
+    o.swaps = test_repeats(2000, 500);
+    koksma_mask_result r;
+    assert_ok(koksma_mask_optimise(&o, NULL, v, &r));
+    assert_ok(koksma_mask_void_and_cluster(SIZE, 1, NULL, ranks));
+    for (int p = 0; p < N; p++) {
+        ulichney[p] = (float)((ranks[p] + 0.5) / N);
+    }
+    double error, other;
+    assert_ok(koksma_mask_error(SIZE, SIZE, NULL, v, &o.filter, false, 64, NULL, &error, NULL));
+    assert_ok(koksma_mask_error(SIZE, SIZE, NULL, ulichney, &o.filter, false, 64, NULL, &other, NULL));
+    if (!(error < other)) {
+        fail_msg("error %.5f, void-and-cluster %.5f", error, other);
+    }
+}
+
+/* A random arrangement has the error `white`. */
+static void white_is_the_error_of_random_arrangements(void **state)
+{
+    (void)state;
+    float v[32 * 32 * 2];
+    static const char *const names[] = {"scalar", "vector2"};
+    for (size_t s = 0; s < 2; s++) {
+        koksma_mask_options o = options_of(32, 32, names[s]);
+        use_gaussian(&o);
+        double squares = 0, expected = 0;
+        o.swaps = 0;
+        for (o.seed = 0; o.seed < 20; o.seed++) {
+            double error, white;
+            assert_ok(koksma_mask_optimise(&o, NULL, v, NULL));
+            assert_ok(koksma_mask_error(32, 32, o.space, v, &o.filter, false, 32, NULL, &error, &white));
+            squares += error * error / 20;
+            expected = white * white;
+        }
+        assert_close(squares, expected, 0.06); /* a standard deviation of 2 % of each, 20 of them */
+    }
+}
+
+static void bad_options_are_refused(void **state)
+{
+    (void)state;
+    float v[16 * 16] = {0};
+    koksma_mask_options good = options_of(16, 16, "scalar"), o = good;
+    o.width = 3;
+    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "3 x 16");
+    o = good;
+    o.height = 1025;
+    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "16 x 1025");
+    o = good;
+    o.filter.weights[1] = -5;
+    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "sum to 0");
+    o.filter.weights[1] = NAN;
+    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "not a finite");
+    o.filter.width = o.filter.height = 1;
+    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "single weight");
+    o.filter.width = 66;
+    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "66 x 1");
+    o = good;
+    o.levels = 257;
+    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "257 levels");
+    o = good;
+    o.swaps = NAN;
+    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "swaps");
+    o = good;
+    o.from = v;
+    v[17] = 2;
+    float out[16 * 16];
+    assert_error(koksma_mask_optimise(&o, NULL, out, NULL), KOKSMA_ARGUMENT, "(1, 1)");
+    v[17] = NAN;
+    assert_error(koksma_mask_optimise(&o, NULL, out, NULL), KOKSMA_ARGUMENT, "(1, 1)");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(error_is_that_of_the_definition),
+        cmocka_unit_test(energy_is_that_of_the_definition),
+        cmocka_unit_test(errors_never_rise),
+        cmocka_unit_test(each_value_occurs_once_or_equally_often),
+        cmocka_unit_test(a_search_continues_where_it_ended),
+        cmocka_unit_test(target_ends_the_search),
+        cmocka_unit_test(values_have_the_distribution_of_their_space),
+        cmocka_unit_test(masks_are_better_than_void_and_cluster),
+        cmocka_unit_test(white_is_the_error_of_random_arrangements),
+        cmocka_unit_test(bad_options_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
