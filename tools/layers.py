@@ -39,9 +39,10 @@ MAY_USE = {
     "modules": "core",
     "image": "core kernels stats modules",
     "meshes": "core json image",
+    "maskfiles": "core json masks image",
     "domains": "core kernels patterns warps api image meshes",
     "plot": "core patterns measures image api modules",
-    "render": "core modules json kernels stats patterns warps image meshes api",
+    "render": "core modules json kernels stats masks patterns warps image meshes api",
     "scene": "core json image meshes warps render",
     "study/plan": "core json patterns measures warps integrands image scene render api",
     "study/store": "core study/plan",
@@ -51,7 +52,7 @@ MAY_USE = {
     "study/report": "core stats patterns measures warps integrands image plot render study/plan study/store study/run "
                     "api",
     "study/sheet": "core stats patterns measures integrands verify api image scene render study/plan study/run study/ranking study/report",
-    "cli": "core kernels stats patterns measures warps integrands api verify optimise image domains scene plot render "
+    "cli": "core kernels stats masks maskfiles patterns measures warps integrands api verify optimise image domains scene plot render "
            "study/plan study/run study/ranking study/images study/report study/sheet",
 }
 
@@ -343,6 +344,7 @@ ABOUT = {
     "warps": "maps of the square to a domain", "json": "JSON reader with line numbers",
     "stats": "statistics", "patterns": "one file a pattern", "measures": "one file a measure",
     "api": "generate, evaluate", "verify": "proved properties",
+    "masks": "masks for a filter", "maskfiles": "files of masks",
     "integrands": "functions, errors", "optimise": "searches for points", "image": "images, formats, spectra",
     "meshes": "mesh readers", "domains": "points by density, on models", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
     "study/plan": "what to run", "study/store": "results (SQLite)", "study/run": "jobs, threads, MPI",

@@ -154,8 +154,8 @@ typedef struct koksma_mask_result {
    measure (Crofton's formula), and so the generalised energy distance of Szekely & Rizzo (2013) after filtering.
 
    The search is simulated annealing by swaps of two pixels whose values are close. The error of the result is never above
-   that of the first arrangement. Equal options give equal bits on every machine. With 2,000 swaps a pixel it takes
-   about 4 s for 128 x 128 scalars and a filter of 5 x 5 pixels; the time is proportional to the number of pixels and of
+   that of the first arrangement. Equal options give equal bits on every machine. With 4,000 swaps a pixel it takes
+   about 5 s for 128 x 128 scalars and a filter of 5 x 5 pixels; the time is proportional to the number of pixels and of
    the filter's pixels.
      run     its time limit ends the search; the mask then is as good as it was by then, and options.done continues it.
              It uses one thread
@@ -166,22 +166,29 @@ typedef struct koksma_mask_result {
 KOKSMA_API koksma_status koksma_mask_optimise(const koksma_mask_options *options, const koksma_run *run,
                                               float *values, koksma_mask_result *result);
 
-/* Measures a mask: the root of the mean, over tests, of the variance over the pixels of the filtered image of (v < t).
-   The tests of a space of one number are the thresholds (i + 1/2) / tests of the value's rank among the pixels, where
-   pixels of equal values have their mean rank; of values 0 to 1, `scalar`, the thresholds are of the value itself. In
-   other spaces the tests are half-spaces with the directions and offsets of fixed random numbers, the offset uniform
-   between the least and the largest projection of a value.
+/* How much of a mask a filter leaves. */
+typedef struct koksma_mask_quality {
+    double
+        error; /* on the torus: the root of the mean, over tests, of the variance over the pixels of the filtered image
+                      of (v < t) */
+    double white; /* the root of the expectation of its square for a random arrangement of the same values */
+    double
+        inside; /* the same as error over those pixels whose filter lies within the mask, about the mean of the whole;
+                      NaN if there are none */
+    double seam; /* over the other pixels, whose filter spans opposite sides; NaN if there are none */
+} koksma_mask_quality;
+
+/* Measures a mask. The tests of a space of one number are the thresholds (i + 1/2) / tests, of the value itself or, for
+   tent and gaussian, of its rank as a share of the pixels, where equal values have their mean rank. In other spaces the
+   tests are half-spaces v.w < t of fixed random directions w, with t uniform between the least and the largest v.w.
      space   NULL: scalar
-     filter  koksma_mask_filter_check has accepted it
-     open    false: on the torus; true: over those pixels whose filter lies within the mask; the mask is then at least as
-             large as the filter
+     filter  need not be normalised
      tests   1 to 65536
-     error   receives the root
-     white   receives its expectation for a random arrangement of the same values on the torus. May be NULL
+     run     the number of threads does not change the result
    Errors: ARGUMENT, MEMORY, INTERRUPTED. */
-KOKSMA_API koksma_status koksma_mask_error(int width, int height, const koksma_mask_space *space, const float *values,
-                                           const koksma_mask_filter *filter, bool open, int tests,
-                                           const koksma_run *run, double *error, double *white);
+KOKSMA_API koksma_status koksma_mask_measure(int width, int height, const koksma_mask_space *space,
+                                             const float *values, const koksma_mask_filter *filter, int tests,
+                                             const koksma_run *run, koksma_mask_quality *out);
 
 #ifdef __cplusplus
 }

@@ -90,6 +90,16 @@ VALID = {
     "koksma_adaptive_find.name": "\"contrast\"", "koksma_strata_fini.strata": "a_zero(sizeof(koksma_strata))",
     "koksma_adaptive_parse.text": "\"contrast\"", "koksma_adaptive_parse.out": "a_buffer(sizeof(koksma_adaptive_options))",
     "koksma_mask_void_and_cluster.size": "4", "koksma_mask_void_and_cluster_3d.size": "4", "koksma_mask_void_and_cluster_3d.frames": "4",
+    "koksma_mask_space_find.name": "\"scalar\"", "koksma_mask_space *": "(void *)(uintptr_t)koksma_mask_space_at(0)", "koksma_mask_options *": "mask_options()",
+    "koksma_mask_result *": "a_buffer(sizeof(koksma_mask_result))", "koksma_mask_quality *": "a_buffer(sizeof(koksma_mask_quality))",
+    "koksma_mask_filter *": "a_mask_filter()", "koksma_mask_filter_parse.out": "a_buffer(sizeof(koksma_mask_filter))", "koksma_mask_filter_parse.text": "\"box:size=3\"",
+    "koksma_mask_optimise.values": "a_buffer(64 * sizeof(float))", "koksma_mask_measure.values": "a_zero(64 * sizeof(float))", "koksma_mask_measure.width": "8",
+    "koksma_mask_measure.height": "8", "koksma_mask_measure.tests": "4", "koksma_mask *": "a_mask()", "koksma_mask_fini.mask": "a_zero(sizeof(koksma_mask))",
+    "koksma_mask_read.path": "mask_file()", "koksma_mask_read.out": "a_buffer(sizeof(koksma_mask))", "koksma_mask_check_path.path": "\"a.png\"",
+    "koksma_mask_check_path.bits": "8", "koksma_mask_write.path": "work_path(\"mask.raw\")", "koksma_mask_write.bits": "8",
+    "koksma_mask_write_recipe.path": "work_path(\"mask.json\")", "koksma_mask_write_recipe.filter": "\"box:size=3\"", "koksma_mask_write_recipe.from": "\"a.png\"",
+    "koksma_mask_write_recipe.result": "a_zero(sizeof(koksma_mask_result))", "koksma_mask_read_recipe.path": "mask_recipe()",
+    "koksma_mask_read_recipe.out": "a_buffer(sizeof(koksma_mask_options))", "koksma_mask_rings.rings": "4",
     "koksma_mask_vectors.size": "4", "koksma_mask_vectors.dim": "1",
     "koksma_mask_void_and_cluster_3d.ranks": "a_buffer(64 * sizeof(uint32_t))", "koksma_render_options_init.options": "a_buffer(sizeof(koksma_render_options))",
     "koksma_render_patterns.options": "render_options(\"jittered\")", "koksma_plan_try.pattern": "\"jittered\"", "koksma_plan_try.n": "4", "koksma_plan_try.dim": "2", "koksma_plan_try_measure.measure": "\"star\"", "koksma_plan_try_measure.n": "4", "koksma_plan_try_measure.dim": "2", "koksma_plan_write.folder": "study_folder()", "koksma_plan_write.text": "a_plan()", "koksma_study_export.folder": "work_path(\"done\")", "koksma_study_left_out.folder": "work_path(\"done\")", "koksma_study_table_row.id": "\"5.1\"",
@@ -124,9 +134,9 @@ VALID = {
 }
 
 # Members of the library's tables, which are constant: a copy of one, with one pointer NULL, must not crash a call.
-TABLES = {"koksma_pattern", "koksma_measure", "koksma_integrand", "koksma_warp", "koksma_filter", "koksma_integrator", "koksma_adaptive", "koksma_metric", "koksma_param"}
+TABLES = {"koksma_pattern", "koksma_measure", "koksma_integrand", "koksma_warp", "koksma_filter", "koksma_integrator", "koksma_adaptive", "koksma_metric", "koksma_param", "koksma_mask_space"}
 # Structs that a function only writes: what is in them before the call means nothing.
-RESULTS = re.compile(r"_(audit|optimum|entry|tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring|facts|integration|sensitivity)$")
+RESULTS = re.compile(r"_(audit|optimum|entry|tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring|facts|integration|sensitivity|result|quality)$")
 WRONG = {
     "size_t": ["0", "SIZE_MAX", "SIZE_MAX / 2 + 1"], "int": ["0", "-1", "INT_MIN", "INT_MAX"],
     "long long": ["-1", "LLONG_MIN", "LLONG_MAX"], "uint64_t": ["0", "UINT64_MAX"],
@@ -179,6 +189,8 @@ ALLOWED = [
     r"koksma_optimise_scene options->(candidates|phases|n_held_out|held_out|against) = (0|NULL) .*",
     r"koksma_datasheet options->(beside = NULL|scenes = NULL|n_beside = 0|n_scenes = 0|metric = NULL) .*",
     r"koksma_study_images metric = NULL .*", r"koksma_plan_write made = NULL .*",
+    r"koksma_mask_\w+ (space|options->space|options->from|filter|from|result) = .*", r"koksma_mask_\w+ options->(levels|done) = 0 .*", r"koksma_mask_\w+ bits = 0.*", r"koksma_mask_rings anisotropy = NULL.*",
+    r"koksma_mask_write_recipe options->(levels|done|from) = .*",
     r"(\w+ path|koksma_plan_write folder) = .(%s%n|nothing:of).*",  # names of files like others
 ]
 

@@ -28,6 +28,7 @@ static void asserted(const char *condition);
 #include <koksma/integrate.h>
 #include <koksma/keys.h>
 #include <koksma/mask.h>
+#include <koksma/maskfile.h>
 #include <koksma/optimise.h>
 #include <koksma/series.h>
 #include <koksma/study.h>
@@ -172,6 +173,42 @@ static void *a_function(void)
 static void *integration_options(void)
 {
     return COPY(koksma_integration_options, {.sizes = {4, 9, 16}, .n_sizes = 3, .seed = 1, .trials = 1});
+}
+
+static void *mask_options(void)
+{
+    static float values[64];
+    koksma_mask_options *o = COPY(koksma_mask_options, {.width = 8, .height = 8, .swaps = 2, .seed = 1});
+    o->space = koksma_mask_space_find("scalar");
+    o->from = a_copy(values, sizeof values);
+    must(koksma_mask_filter_parse("box:size=3", &o->filter));
+    return o;
+}
+
+static void *a_mask_filter(void)
+{
+    koksma_mask_filter filter;
+    must(koksma_mask_filter_parse("box:size=3", &filter));
+    return a_copy(&filter, sizeof filter);
+}
+
+static void *a_mask(void)
+{
+    return COPY(koksma_mask, {8, 8, koksma_mask_space_at(0), a_zero(64 * sizeof(float))});
+}
+
+static const char *mask_file(void)
+{
+    const char *path = work_path("in_mask.npy");
+    must(koksma_mask_write(path, a_mask(), 0));
+    return path;
+}
+
+static const char *mask_recipe(void)
+{
+    const char *path = work_path("in_mask.json");
+    must(koksma_mask_write_recipe(path, mask_options(), NULL, NULL, a_zero(sizeof(koksma_mask_result))));
+    return path;
 }
 
 static void *two_axes(void)

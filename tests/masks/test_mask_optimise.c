@@ -59,41 +59,36 @@ static double filtered(const koksma_mask_options *o, const float *v, double t, i
     return sum / weights;
 }
 
-/* The root of the mean over thresholds of the variance over the pixels; of an open mask, over those whose filter lies
-   within. */
-static double error_by_definition(const koksma_mask_options *o, const float *v, int tests)
-{
-    const int w = o->open ? o->width - o->filter.width + 1 : o->width;
-    const int h = o->open ? o->height - o->filter.height + 1 : o->height;
-    double all = 0;
-    for (int k = 0; k < tests; k++) {
-        double sum = 0, squares = 0;
-        for (int p = 0; p < w * h; p++) {
-            const double f = filtered(o, v, (k + 0.5) / tests, p % w, p / w);
-            sum += f / (w * h);
-            squares += f * f / (w * h);
-        }
-        all += (squares - sum * sum) / tests;
-    }
-    return sqrt(all);
-}
-
 static void error_is_that_of_the_definition(void **state)
 {
     (void)state;
-    float v[30 * 20];
-    for (int open = 0; open < 2; open++) {
-        koksma_mask_options o = options_of(13, 10, "scalar");
-        o.open = open;
-        koksma_mask_result r;
-        assert_ok(koksma_mask_optimise(&o, NULL, v, &r));
-        double error, white, again;
-        koksma_run one = {.threads = 1}, two = {.threads = 2};
-        assert_ok(koksma_mask_error(13, 10, NULL, v, &o.filter, open, 17, &one, &error, &white));
-        assert_ok(koksma_mask_error(13, 10, NULL, v, &o.filter, open, 17, &two, &again, NULL));
-        assert_true(error == again);
-        assert_close(error, error_by_definition(&o, v, 17), 1e-12);
+    enum { W = 13, H = 10, TESTS = 17 };
+    float v[W * H];
+    koksma_mask_options o = options_of(W, H, "scalar");
+    assert_ok(koksma_mask_optimise(&o, NULL, v, NULL));
+    double all = 0, inside = 0, seam = 0;
+    for (int k = 0; k < TESTS; k++) {
+        const double t = (k + 0.5) / TESTS;
+        double mean = 0;
+        for (int p = 0; p < W * H; p++) {
+            mean += filtered(&o, v, t, p % W, p / W) / (W * H);
+        }
+        for (int p = 0; p < W * H; p++) {
+            const double d = filtered(&o, v, t, p % W, p / W) - mean;
+            const bool wraps = p % W > W - 3 || p / W > H - 2;
+            all += d * d / (W * H * TESTS);
+            inside += wraps ? 0 : d * d / ((W - 2) * (H - 1) * TESTS);
+            seam += wraps ? d * d / ((W * H - (W - 2) * (H - 1)) * TESTS) : 0;
+        }
     }
+    koksma_mask_quality one, two;
+    const koksma_run run_one = {.threads = 1}, run_two = {.threads = 2};
+    assert_ok(koksma_mask_measure(W, H, NULL, v, &o.filter, TESTS, &run_one, &one));
+    assert_ok(koksma_mask_measure(W, H, NULL, v, &o.filter, TESTS, &run_two, &two));
+    assert_memory_equal(&one, &two, sizeof one);
+    assert_close(one.error, sqrt(all), 1e-12);
+    assert_close(one.inside, sqrt(inside), 1e-12);
+    assert_close(one.seam, sqrt(seam), 1e-12);
 }
 
 /* The error that the search minimises is the mean over all thresholds; of an open mask the pixels beyond have no error, and
@@ -262,11 +257,11 @@ static void masks_are_better_than_void_and_cluster(void **state)
     for (int p = 0; p < N; p++) {
         ulichney[p] = (float)((ranks[p] + 0.5) / N);
     }
-    double error, other;
-    assert_ok(koksma_mask_error(SIZE, SIZE, NULL, v, &o.filter, false, 64, NULL, &error, NULL));
-    assert_ok(koksma_mask_error(SIZE, SIZE, NULL, ulichney, &o.filter, false, 64, NULL, &other, NULL));
-    if (!(error < other)) {
-        fail_msg("error %.5f, void-and-cluster %.5f", error, other);
+    koksma_mask_quality ours, other;
+    assert_ok(koksma_mask_measure(SIZE, SIZE, NULL, v, &o.filter, 64, NULL, &ours));
+    assert_ok(koksma_mask_measure(SIZE, SIZE, NULL, ulichney, &o.filter, 64, NULL, &other));
+    if (!(ours.error < other.error)) {
+        fail_msg("error %.5f, void-and-cluster %.5f", ours.error, other.error);
     }
 }
 
@@ -282,11 +277,11 @@ static void white_is_the_error_of_random_arrangements(void **state)
         double squares = 0, expected = 0;
         o.swaps = 0;
         for (o.seed = 0; o.seed < 20; o.seed++) {
-            double error, white;
+            koksma_mask_quality q;
             assert_ok(koksma_mask_optimise(&o, NULL, v, NULL));
-            assert_ok(koksma_mask_error(32, 32, o.space, v, &o.filter, false, 32, NULL, &error, &white));
-            squares += error * error / 20;
-            expected = white * white;
+            assert_ok(koksma_mask_measure(32, 32, o.space, v, &o.filter, 32, NULL, &q));
+            squares += q.error * q.error / 20;
+            expected = q.white * q.white;
         }
         assert_close(squares, expected, 0.06); /* a standard deviation of 2 % of each, 20 of them */
     }

@@ -64,6 +64,12 @@ koksma_status koksma__points_put_rows(FILE *stream, const koksma_points *points,
 /* Reads points. Error messages call the stream `name`. On failure points is left empty. */
 koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points);
 
+/* Reads a mask: an array of shape (height, width) or (height, width, numbers), of up to `most` pixels a side and 4 numbers;
+   shape[2] is 1 for the first. An unsigned integer of b bits becomes the middle of its interval, (k + 1/2) / 2^b. The
+   caller frees *numbers. Errors: MISSING, MALFORMED, MEMORY, SYSTEM. */
+KOKSMA__LAB koksma_status koksma__npy_read_mask(const char *path, koksma__named by, size_t most, size_t shape[3],
+                                                float **numbers);
+
 /* Writes the points that follow the header. Errors: INTERRUPTED. */
 koksma_status koksma__points_put_npy(FILE *stream, const koksma_points *points, koksma__progress progress);
 

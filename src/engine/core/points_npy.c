@@ -16,7 +16,9 @@
 enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 2048, /* read, or converted */ WRITTEN_AT_ONCE = 1 << 18 };
 
 typedef struct layout {
-    size_t n, dim;
+    size_t n, dim;   /* of points */
+    size_t shape[3]; /* sizes along the axes */
+    int axes, most_axes;
     size_t item_size;
     char kind; /* NumPy's: f, u or i */
     bool big_endian, fortran_order;
@@ -43,37 +45,47 @@ static koksma_status find_value(const char *name, const char *header, const char
     return KOKSMA_OK;
 }
 
+/* Sets n and dim from the shape (n,) or (n, dim); digits: the sizes as the file has them. */
+static koksma_status set_points(const char *name, char digits[3][32], layout *out)
+{
+    KOKSMA__FAIL_IF(out->shape[1] > KOKSMA_MAX_DIM || out->shape[0] > KOKSMA_MAX_COORDINATES / out->shape[1],
+                    KOKSMA_MALFORMED,
+                    "%s: npy header: claims %s points of %s dimensions, which is more than one set can have", name,
+                    digits[0], digits[1]);
+    out->n = out->shape[0];
+    out->dim = out->shape[1];
+    return KOKSMA_OK;
+}
+
 static koksma_status parse_shape(const char *name, const char *shape, layout *out)
 {
-    unsigned long long sizes[2] = {0, 1};
-    char digits[2][32] = {"0", "1"}; /* for messages: a number may be larger than any integer of C */
-    int n_sizes = 0;
+    const char *expected = out->most_axes == 2 ? "the shape is not (n,) or (n, dim)"
+                                               : "the shape is not (height, width) or (height, width, numbers)";
+    char digits[3][32] = {"0", "1", "1"}; /* for messages: a number may be larger than any integer of C */
+    out->shape[0] = 0;
+    out->shape[1] = out->shape[2] = 1;
     const char *s = shape + 1;
     s += strspn(s, " ");
     while (*s != ')') {
         char *end;
-        if (*s < '0' || *s > '9' || n_sizes == 2) {
-            return malformed(name, "the shape is not (n,) or (n, dim)");
+        if (*s < '0' || *s > '9' || out->axes == out->most_axes) {
+            return malformed(name, expected);
         }
-        sizes[n_sizes] = strtoull(s, &end, 10); /* ULLONG_MAX for a larger number */
+        const unsigned long long size = strtoull(s, &end, 10); /* ULLONG_MAX for a larger number */
+        out->shape[out->axes] = size > SIZE_MAX ? SIZE_MAX : (size_t)size;
         const bool fits = end - s < (ptrdiff_t)sizeof digits[0];
-        snprintf(digits[n_sizes++], sizeof digits[0], "%.*s%s", fits ? (int)(end - s) : 28, s, fits ? "" : "...");
+        snprintf(digits[out->axes++], sizeof digits[0], "%.*s%s", fits ? (int)(end - s) : 28, s, fits ? "" : "...");
         s = end + strspn(end, " ");
         if (*s == ',') {
             s += 1 + strspn(s + 1, " ");
         } else if (*s != ')') {
-            return malformed(name, "the shape is not (n,) or (n, dim)");
+            return malformed(name, expected);
         }
     }
-    if (n_sizes == 0 || sizes[0] == 0 || sizes[1] == 0) {
-        return malformed(name, "no points");
+    if (out->shape[0] == 0 || out->shape[1] == 0 || out->shape[2] == 0 || out->axes < out->most_axes - 1) {
+        return malformed(name, out->most_axes == 2 ? "no points" : expected);
     }
-    KOKSMA__FAIL_IF(sizes[1] > KOKSMA_MAX_DIM || sizes[0] > KOKSMA_MAX_COORDINATES / sizes[1], KOKSMA_MALFORMED,
-                    "%s: npy header: claims %s points of %s dimensions, which is more than one set can have", name,
-                    digits[0], digits[1]);
-    out->n = (size_t)sizes[0];
-    out->dim = (size_t)sizes[1];
-    return KOKSMA_OK;
+    return out->most_axes == 2 ? set_points(name, digits, out) : KOKSMA_OK;
 }
 
 static koksma_status parse_header(const char *name, const char *header, layout *out)
@@ -203,9 +215,56 @@ static koksma_status check_length(FILE *stream, const char *name, const layout *
     return KOKSMA_OK;
 }
 
+/* Reads the numbers of an array whose header was read, as floats: item i of C order at numbers[i]. */
+static koksma_status read_floats(FILE *stream, const char *name, const layout *l, float *numbers)
+{
+    const size_t count = l->n * l->dim;
+    for (size_t i = 0; i < count; i++) {
+        unsigned char bytes[8];
+        KOKSMA__FAIL_IF(fread(bytes, l->item_size, 1, stream) != 1, KOKSMA_MALFORMED,
+                        "%s: item %zu: the file ends before the %zu numbers that it claims", name, i, count);
+        /* the middle of the interval of an unsigned integer */
+        const double x = decode(bytes, l) + (l->kind == 'u' ? ldexp(0.5, -8 * (int)l->item_size) : 0);
+        numbers[i] = (float)x;
+    }
+    KOKSMA__FAIL_IF(getc(stream) != EOF, KOKSMA_MALFORMED,
+                    "%s: the file goes on after the %zu numbers that it claims", name, count);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__npy_read_mask(const char *path, koksma__named by, size_t most, size_t shape[3], float **numbers)
+{
+    FILE *stream;
+    layout l = {.most_axes = 3};
+    *numbers = NULL;
+    KOKSMA__TRY(koksma__file_open(path, KOKSMA__FILE_POINTS, by, &stream));
+    koksma_status status = read_header(stream, path, &l);
+    if (!status && (l.fortran_order || l.shape[0] > most || l.shape[1] > most || l.shape[2] > 4)) {
+        status = malformed(path, l.fortran_order ? "a mask in Fortran order; numpy.ascontiguousarray converts it"
+                                                 : "a mask larger than 1024 x 1024 pixels of 4 numbers");
+    }
+    if (!status) {
+        l.n = l.shape[0] * l.shape[1];
+        l.dim = l.shape[2];
+        status = check_length(stream, path, &l);
+    }
+    if (!status) {
+        *numbers = malloc(l.n * l.dim * sizeof **numbers);
+        status =
+            *numbers ? read_floats(stream, path, &l, *numbers) : koksma__fail_memory(l.n * l.dim * sizeof **numbers);
+    }
+    koksma__file_close(stream);
+    memcpy(shape, l.shape, sizeof l.shape);
+    if (status) {
+        free(*numbers);
+        *numbers = NULL;
+    }
+    return status;
+}
+
 koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points)
 {
-    layout l = {0};
+    layout l = {.most_axes = 2};
     *points = (koksma_points){0};
     koksma_status status = read_header(stream, name, &l);
     if (!status) {

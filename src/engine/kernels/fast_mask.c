@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The change of a mask's energy when a pixel gets another value (masks/mask_optimise.c). Sums run in eight lanes for
-   every vector width, so that all instruction sets give the same bits; the loops over lanes become vectors. */
+   every vector width, so that all instruction sets give the same bits. */
 #include <math.h>
+#include <string.h>
 
 #include "kernels/kernels.h"
 
@@ -10,28 +11,53 @@ float KERNEL_NAME(mask_growth)(size_t rows, size_t span, size_t stride, size_t p
 
 enum { LANES = 8 };
 
+typedef float lanes __attribute__((vector_size(32)));
+typedef int32_t lanes_bits __attribute__((vector_size(32)));
+
+/* Vectors are passed by pointers, since the ways to pass them by value differ between instruction sets. */
+static inline __attribute__((always_inline)) void absolute(lanes *v)
+{
+    *v = (lanes)((lanes_bits)*v & INT32_MAX);
+}
+
+static inline __attribute__((always_inline)) void root(lanes *v)
+{
+    float s[LANES];
+    memcpy(s, v, sizeof s);
+    for (int l = 0; l < LANES; l++) {
+        s[l] = sqrtf(s[l]);
+    }
+    memcpy(v, s, sizeof s);
+}
+
 /* The loop for one number of coordinates, which the compiler knows. */
 static inline __attribute__((always_inline)) float growth(size_t rows, size_t span, size_t stride, size_t plane,
                                                           int dim, const float *weights, const float *values,
                                                           const float *from, const float *to)
 {
-    float s[LANES] = {0};
+    lanes sum = {0};
     for (size_t y = 0; y < rows; y++, weights += span, values += stride) {
         for (size_t x = 0; x < span; x += LANES) {
-            float old[LANES] = {0}, new[LANES] = {0};
+            lanes old = {0}, new = {0}, weight, v;
+            memcpy(&weight, weights + x, sizeof weight);
             for (int k = 0; k < dim; k++) {
-                const float *v = values + (size_t)k * plane + x;
-                for (int l = 0; l < LANES; l++) {
-                    const float a = from[k] - v[l], b = to[k] - v[l];
-                    old[l] += dim == 1 ? fabsf(a) : a * a;
-                    new[l] += dim == 1 ? fabsf(b) : b *b;
-                }
+                memcpy(&v, values + (size_t)k * plane + x, sizeof v);
+                const lanes a = from[k] - v, b = to[k] - v;
+                old = dim == 1 ? a : old + a * a;
+                new = dim == 1 ? b : new + b *b;
             }
-            for (int l = 0; l < LANES; l++) {
-                s[l] += weights[x + (size_t)l] * (dim == 1 ? old[l] - new[l] : sqrtf(old[l]) - sqrtf(new[l]));
+            if (dim == 1) {
+                absolute(&old);
+                absolute(&new);
+            } else {
+                root(&old);
+                root(&new);
             }
+            sum += weight * (old - new);
         }
     }
+    float s[LANES];
+    memcpy(s, &sum, sizeof s);
     return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }
 

@@ -23,9 +23,9 @@
 #include "kernels/kernels.h"
 #include "masks/masks.h"
 
-/* The temperature at the beginning and at the end, in units of A(0) times three times the mean distance of two values, which
-   is 1 for uniform scalars; and the largest distance in the sorted list, as a share of its length. */
-static const double HOT = 0.03, COLD = 0.0004, FAR = 0.3, NEAR = 0.015;
+/* The temperature at the beginning and at the end, in units of A(0) times three times the mean distance of two values (for
+   uniform scalars that mean is 1/3), and the largest distance in the sorted list as a share of its length. */
+static const double HOT = 0.03, COLD = 0.0004, FAR_OF_NUMBERS = 0.3, FAR_OF_VECTORS = 1, NEAR = 0.015;
 
 /* Weights of the window below this share of A(0) are left out of the search. */
 static const double LEAST = 1e-4;
@@ -154,10 +154,11 @@ static double growth_of_swap(search *s, uint32_t p, uint32_t q)
 static void propose(search *s, uint64_t first, size_t count, uint64_t all)
 {
     uint32_t words[4 * BLOCK + 32];
-    const double done = (double)first / (double)all, cool = koksma__log(COLD / HOT), narrow = koksma__log(NEAR / FAR);
+    const double far = s->values->dim == 1 ? FAR_OF_NUMBERS : FAR_OF_VECTORS;
+    const double done = (double)first / (double)all, cool = koksma__log(COLD / HOT), narrow = koksma__log(NEAR / far);
     const double temperature = 3 * s->mean * HOT * koksma__exp(done * cool);
     const uint32_t n = (uint32_t)s->values->n;
-    const uint32_t range = 1 + (uint32_t)((n - 1) * FAR * koksma__exp(done * narrow));
+    const uint32_t range = 1 + (uint32_t)((n - 1) * far * koksma__exp(done * narrow));
     s->kernels->draws(s->options->seed, KOKSMA__PURPOSE_SEARCH, first, 0, count, words);
     for (size_t i = 0; i < count; i++) {
         const uint32_t *w = words + 4 * i, a = koksma__below(w[0], n), b = a + 1 + koksma__below(w[1], range);
@@ -294,9 +295,11 @@ static koksma_status check(const koksma_mask_options *o)
                     "mask: %d levels for %d pixels; it takes 2 to as many as pixels, or 0", o->levels, pixels);
     KOKSMA__FAIL_IF(o->levels && o->from, KOKSMA_ARGUMENT,
                     "mask: levels have no effect on the values of a mask that is given");
-    KOKSMA__FAIL_IF(o->done && !o->from, KOKSMA_ARGUMENT, "mask: a search is continued from the mask that it made");
+    KOKSMA__FAIL_IF(o->done && !o->from, KOKSMA_ARGUMENT,
+                    "mask: done is above 0 without `from`, the mask that the search made");
     KOKSMA__FAIL_IF((double)o->done > o->swaps * pixels, KOKSMA_ARGUMENT,
-                    "mask: the mask had more swaps than the search has in all");
+                    "mask: done = %llu proposals, and the search has %.0f in all", (unsigned long long)o->done,
+                    o->swaps * pixels);
     KOKSMA__FAIL_IF(!(o->target >= 0 && o->target <= 1e100), KOKSMA_ARGUMENT,
                     "mask: a target of %g; errors are 0 or more", o->target);
     return KOKSMA_OK;

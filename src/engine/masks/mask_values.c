@@ -81,6 +81,12 @@ koksma_status koksma__mask_check(int width, int height, const koksma_mask_space 
                     KOKSMA_ARGUMENT, "mask: a size of %d x %d; sides are %d to %d pixels", width, height,
                     KOKSMA_MASK_MIN, KOKSMA_MASK_MAX);
     *face = *face ? *face : &spaces[0].face;
+    size_t row = 0;
+    while (koksma_mask_space_at(row) && koksma_mask_space_at(row) != *face) {
+        row++;
+    }
+    KOKSMA__FAIL_IF(!koksma_mask_space_at(row), KOKSMA_ARGUMENT,
+                    "mask: the space is no member of the table; koksma_mask_space_find has them");
     const size_t count = numbers ? (size_t)width * (size_t)height * (size_t)(*face)->dim : 0;
     for (size_t i = 0; i < count; i++) {
         const double x = (double)numbers[i];

@@ -9,6 +9,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/visibility.h"
+
 /* ---- Mask values ----------------------------------------------------------------------------------------- */
 
 enum { KOKSMA__MASK_DIM = 4 };
@@ -29,7 +31,8 @@ koksma_status koksma__mask_values_init(const koksma_mask_options *options, const
 void koksma__mask_values_fini(koksma__mask_values *values);
 
 /* Checks the size and space of a mask and, if they are not NULL, its numbers. *space: NULL becomes scalar. */
-koksma_status koksma__mask_check(int width, int height, const koksma_mask_space **space, const float *numbers);
+KOKSMA__LAB koksma_status koksma__mask_check(int width, int height, const koksma_mask_space **space,
+                                             const float *numbers);
 
 /* ---- Mask window ----------------------------------------------------------------------------------------- */
 

@@ -41,6 +41,14 @@ typedef struct koksma__image_format {
 /* maximum length of a layer's name; capacity for a channel's name: the layer's name, ".R" and the final 0 */
 enum { KOKSMA__LAYER_NAME = 63, KOKSMA__CHANNEL_NAME = KOKSMA__LAYER_NAME + 3 };
 
+/* Levels for a PNG file without a transfer function: channels is 1, 3 or 4, bits 8 or 16. Errors: UNSUPPORTED (no libpng),
+   MEMORY. */
+typedef struct koksma__levels {
+    int width, height, channels, bits;
+    const uint16_t *levels;
+} koksma__levels;
+koksma_status koksma__png_levels(const koksma__levels *levels, koksma__bytes *out);
+
 /* ---- Reading and writing ---- */
 
 /* Reads an image as koksma_image_read does; `kind` is the kind of the file, and `by` tells whether the user or

@@ -5,7 +5,7 @@
  * chunk sRGB or iCCP, which take precedence (PNG, 3rd edition, section 13.13). A g within 5 % of 1/2.2 is read as sRGB,
  * because writers of sRGB files often store such a g. read_srgb ignores gAMA. Transparency does not change the colours, so
  * that albedos and comparisons use each pixel's colour; read_alpha reads the transparency alone. Files are written as
- * sRGB with 8 bits.
+ * sRGB with 8 bits; koksma__png_levels writes levels of 8 or 16 bits as they are.
  */
 #ifdef KOKSMA_PNG
 #include <math.h>
@@ -294,12 +294,35 @@ static bool put_image(png_structp png, png_infop info, const koksma_image *image
     return true;
 }
 
-static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
+/* Like put_image, for levels as they are, without a transfer function. */
+static bool put_levels(png_structp png, png_infop info, const koksma__levels *l, unsigned char *row)
 {
-    const koksma_image *image = layers->image; /* a file holds one layer */
-    (void)n;
+    static const int types[] = {0, PNG_COLOR_TYPE_GRAY, 0, PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+    if (setjmp(png_jmpbuf(png))) {
+        return false;
+    }
+    png_set_IHDR(png, info, (png_uint_32)l->width, (png_uint_32)l->height, l->bits, types[l->channels],
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
+    png_write_info(png, info);
+    const size_t count = (size_t)l->width * (size_t)l->channels, bytes = (size_t)l->bits / 8;
+    for (size_t y = 0; y < (size_t)l->height; y++) {
+        for (size_t i = 0; i < count; i++) {
+            const unsigned level = l->levels[y * count + i];
+            row[i * bytes] = (unsigned char)(level >> (l->bits - 8));
+            row[i * bytes + bytes - 1] = (unsigned char)level;
+        }
+        png_write_row(png, row);
+    }
+    png_write_end(png, NULL);
+    return true;
+}
+
+static koksma_status write_with(const koksma_image *image, const char *metadata, const koksma__levels *levels,
+                                koksma__bytes *out)
+{
     stream s = {.out = out};
-    const size_t count = (size_t)image->width * (size_t)image->channels;
+    const size_t count = levels ? (size_t)levels->width * (size_t)(levels->channels * levels->bits / 8)
+                                : (size_t)image->width * (size_t)image->channels;
     unsigned char *row = malloc(count);
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &s, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
@@ -308,13 +331,24 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
         status = koksma__fail_memory(count);
     } else {
         png_set_write_fn(png, &s, put, flush);
-        if (!put_image(png, info, image, metadata, row)) {
+        if (!(levels ? put_levels(png, info, levels, row) : put_image(png, info, image, metadata, row))) {
             status = koksma__fail(KOKSMA_MEMORY, "as a PNG: %s", s.message);
         }
     }
     png_destroy_write_struct(&png, &info);
     free(row);
     return status;
+}
+
+static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
+{
+    (void)n; /* a file holds one layer */
+    return write_with(layers->image, metadata, NULL, out);
+}
+
+koksma_status koksma__png_levels(const koksma__levels *levels, koksma__bytes *out)
+{
+    return write_with(NULL, NULL, levels, out);
 }
 
 const koksma__image_format koksma__format_png = {
@@ -331,6 +365,9 @@ const koksma__image_format koksma__format_png = {
 
 #include <string.h>
 
+#include "core/status.h"
+#include "image/formats.h"
+
 static bool recognises(const unsigned char *bytes, size_t size)
 {
     static const unsigned char magic[4] = {0x89, 'P', 'N', 'G'};
@@ -338,5 +375,12 @@ static bool recognises(const unsigned char *bytes, size_t size)
 }
 
 const koksma__image_format koksma__format_png = {.name = "png", .recognises = recognises, .left_out = "libpng"};
+
+koksma_status koksma__png_levels(const koksma__levels *levels, koksma__bytes *out)
+{
+    (void)levels;
+    (void)out;
+    return koksma__fail(KOKSMA_UNSUPPORTED, "this build cannot write .png files: it was made without libpng");
+}
 
 #endif

@@ -18,11 +18,11 @@ enum { MOST_TESTS = 65536, SEED = 1 };
 
 typedef struct measuring {
     int width, height, dim, tests;
-    bool open;
     const float *values;
     const koksma_mask_filter *filter;
-    double *variances,
-        *shares; /* of each test: over the pixels of the filtered indicator; the share of pixels inside */
+    /* of each test: the share of pixels in it; the sums of squares of the filtered indicator, less its mean, over the
+       pixels whose filter lies within the mask, and over the others */
+    double *shares, *inside, *seam;
 } measuring;
 
 /* Computes the half-space of a test: a random direction, by a normally distributed vector, and a random offset. */
@@ -75,31 +75,25 @@ static koksma_status measure_test(void *context, size_t test)
 {
     const measuring *m = context;
     const koksma_mask_filter *f = m->filter;
-    const size_t more_x = (size_t)f->width - 1, more_y = (size_t)f->height - 1;
-    const size_t columns = (size_t)m->width + (m->open ? 0 : more_x),
-                 rows = (size_t)m->height + (m->open ? 0 : more_y);
-    const size_t width = columns - more_x, height = rows - more_y;
+    const size_t width = (size_t)m->width, height = (size_t)m->height, taps = (size_t)f->width;
+    const size_t columns = width + taps - 1, rows = height + (size_t)f->height - 1;
     double *image = malloc((columns * rows + width) * sizeof *image), *line = image + columns * rows;
     KOKSMA__REQUIRE_MEMORY(image, (columns * rows + width) * sizeof *image);
-    double sum = 0, squares = 0;
     m->shares[test] = indicate(m, test, columns, rows, image);
     for (size_t y = 0; y < height; y++) {
         memset(line, 0, width * sizeof *line);
-        for (size_t i = 0; i < (more_x + 1) * (more_y + 1); i++) {
-            const double weight = f->weights[i];
-            const double *from = image + (y + i / (more_x + 1)) * columns + i % (more_x + 1);
+        for (size_t i = 0; i < taps * (size_t)f->height; i++) {
+            const double weight = f->weights[i], *from = image + (y + i / taps) * columns + i % taps;
             for (size_t x = 0; x < width; x++) {
                 line[x] += weight * from[x];
             }
         }
         for (size_t x = 0; x < width; x++) {
             const double d = line[x] - m->shares[test];
-            sum += d;
-            squares += d * d;
+            const bool wraps = x + taps > width || y + (size_t)f->height > height;
+            *(wraps ? &m->seam[test] : &m->inside[test]) += d * d;
         }
     }
-    const double mean = sum / (double)(width * height);
-    m->variances[test] = fmax(squares / (double)(width * height) - mean * mean, 0);
     free(image);
     return KOKSMA_OK;
 }
@@ -135,47 +129,52 @@ static koksma_status rank(const float *values, size_t n, float *ranks)
     return KOKSMA_OK;
 }
 
-static koksma_status measure_all(measuring *m, const koksma_run *run, double *error, double *white)
+static koksma_status measure_all(measuring *m, const koksma_run *run, koksma_mask_quality *out)
 {
     KOKSMA__TRY(koksma__parallel(run, (size_t)m->tests, measure_test, m));
-    const double n = (double)m->width * m->height;
-    double sum = 0, random = 0, squares = 0;
+    const int free_x = m->width - m->filter->width + 1, free_y = m->height - m->filter->height + 1;
+    const double n = (double)m->width * m->height, within = free_x > 0 && free_y > 0 ? (double)free_x * free_y : 0;
+    double inside = 0, seam = 0, random = 0, squares = 0;
     for (int i = 0; i < m->filter->width * m->filter->height; i++) {
         squares += m->filter->weights[i] * m->filter->weights[i];
     }
     for (int t = 0; t < m->tests; t++) {
-        sum += m->variances[t];
-        random += m->shares[t] * (1 - m->shares[t]) * (n * squares - 1) / (n - 1);
+        inside += m->inside[t] / m->tests;
+        seam += m->seam[t] / m->tests;
+        random += m->shares[t] * (1 - m->shares[t]) * fmax(n * squares - 1, 0) / (n - 1);
     }
-    *error = sqrt(sum / m->tests);
-    if (white) {
-        *white = sqrt(random / m->tests);
-    }
+    *out = (koksma_mask_quality){sqrt((inside + seam) / n), sqrt(random / m->tests), sqrt(inside / within),
+                                 sqrt(seam / (n - within))};
     return KOKSMA_OK;
 }
 
-koksma_status koksma_mask_error(int width, int height, const koksma_mask_space *space, const float *values,
-                                const koksma_mask_filter *filter, bool open, int tests, const koksma_run *run,
-                                double *error, double *white)
+koksma_status koksma_mask_measure(int width, int height, const koksma_mask_space *space, const float *values,
+                                  const koksma_mask_filter *filter, int tests, const koksma_run *run,
+                                  koksma_mask_quality *out)
 {
-    KOKSMA__REQUIRE(values, filter, error);
+    KOKSMA__REQUIRE(values, filter, out);
     KOKSMA__REQUIRE_RUN(run);
     koksma_mask_filter f = *filter;
     KOKSMA__TRY(koksma__mask_check(width, height, &space, values));
     KOKSMA__TRY(koksma_mask_filter_check(&f));
     KOKSMA__FAIL_IF(tests < 1 || tests > MOST_TESTS, KOKSMA_ARGUMENT, "mask: %d tests; it takes 1 to %d", tests,
                     MOST_TESTS);
-    KOKSMA__FAIL_IF(open && (f.width > width || f.height > height), KOKSMA_ARGUMENT,
-                    "mask: a filter of %d x %d pixels does not fit into an open mask of %d x %d", f.width, f.height,
-                    width, height);
     const size_t n = (size_t)width * (size_t)height;
     const bool ranked = space->dim == 1 && space->low < 0;
-    double *numbers = calloc(2 * (size_t)tests, sizeof *numbers);
+    double *numbers = calloc(3 * (size_t)tests, sizeof *numbers);
     float *ranks = malloc(n * sizeof *ranks);
     koksma_status status = numbers && ranks ? KOKSMA_OK : koksma__fail_memory(n * sizeof *ranks);
     status = status || !ranked ? status : rank(values, n, ranks);
-    measuring m = {width, height, space->dim, tests, open, ranked ? ranks : values, &f, numbers, numbers + tests};
-    status = status ? status : measure_all(&m, run, error, white);
+    measuring m = {.width = width,
+                   .height = height,
+                   .dim = space->dim,
+                   .tests = tests,
+                   .values = ranked ? ranks : values,
+                   .filter = &f,
+                   .shares = numbers,
+                   .inside = numbers + tests,
+                   .seam = numbers + 2 * tests};
+    status = status ? status : measure_all(&m, run, out);
     free(numbers);
     free(ranks);
     return status;

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Files of masks (koksma/mask.h), and filters by name. Part of libkoksma-lab.
+ */
+#ifndef KOKSMA_MASKFILE_H
+#define KOKSMA_MASKFILE_H
+
+#include <koksma/mask.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Parses the text of a filter and makes its weights, which sum to 1:
+     box:size=K           K x K pixels of equal weight, K from 2 to 65
+     binomial:size=K      the coefficients of (1 + x)^(K - 1) along each axis
+     gaussian:sigma=S     exp(-x^2 / (2 S^2)) along each axis, up to the whole number nearest to 4 S, S from 0.1 to 8
+     tent, mitchell ..    a filter of koksma_filter_at (koksma/render.h): its mean over each pixel, for a sample in the
+                          middle of a pixel
+     file:PATH            a text with a row of numbers a line, separated by blanks or commas; # begins a comment
+   Errors: ARGUMENT (a parameter; weights that koksma_mask_filter_check refuses), UNKNOWN (the name), MISSING, MALFORMED. */
+KOKSMA_API koksma_status koksma_mask_filter_parse(const char *text, koksma_mask_filter *out);
+
+/* A mask in memory: values as those of koksma_mask_optimise. */
+typedef struct koksma_mask {
+    int width, height;
+    const koksma_mask_space *space; /* not NULL */
+    float *values;
+} koksma_mask;
+
+/* Frees the values and zeroes the struct. mask may be NULL, or zeroed. */
+KOKSMA_API void koksma_mask_fini(koksma_mask *mask);
+
+/* Reads a mask; allocates out. Levels of b bits are read as (k + 1/2) / 2^b and mapped to the range of the space; floats
+   are read as they are.
+     path   PNG, EXR or PFM, known by their content, or an .npy array of shape (height, width) or (height, width,
+            numbers). Of an image all channels are read, but for an alpha that is 1 everywhere, a blue that is 0
+            everywhere, and green and blue that equal red everywhere
+     space  NULL: scalar, vector2, vector3 or vector4, by the number of channels
+   Errors: MISSING, MALFORMED (also a size that masks do not have, a number outside the space, or another number of
+   channels), UNSUPPORTED (this build lacks the format), MEMORY, SYSTEM. */
+KOKSMA_API koksma_status koksma_mask_read(const char *path, const koksma_mask_space *space, koksma_mask *out);
+
+/* Checks by the ending of a path whether koksma_mask_write supports it for this space and number of bits; touches no file.
+   Errors: ARGUMENT. */
+KOKSMA_API koksma_status koksma_mask_check_path(const char *path, const koksma_mask_space *space, int bits);
+
+/* Writes a mask, completely or not at all. A value v of a space with the range [low, high] becomes the level
+   floor(2^bits (v - low) / (high - low)), at most 2^bits - 1.
+     path  ends in
+             .png   levels of 8 or 16 bits (the default) without a transfer function; two numbers as red and green with
+                    a blue of 0, four as red, green, blue and alpha
+             .exr   floats, one or three numbers; two as red and green with a blue of 0
+             .npy   little-endian float32 of shape (height, width) or (height, width, numbers)
+             .raw   nothing but levels of 8 (the default) or 16 bits or float32, little-endian, in the order of the
+                    values: what texture uploads take
+             .h     a table of C: floats, or levels of 8 or 16 bits
+     bits  8, 16 or 32 (floats); 0: the default of the ending
+   Errors: ARGUMENT, UNSUPPORTED, IO, MEMORY. */
+KOKSMA_API koksma_status koksma_mask_write(const char *path, const koksma_mask *mask, int bits);
+
+/* Writes a JSON text with everything that makes a mask again, its filter's weights included.
+     filter  the text of koksma_mask_filter_parse; may be NULL
+     from    the file of options->from, if the search began with one; NULL: none
+   Errors: ARGUMENT, IO, MEMORY. */
+KOKSMA_API koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_options *options,
+                                                  const char *filter, const char *from,
+                                                  const koksma_mask_result *result);
+
+/* Reads such a text: out->done is the number of proposals that were made, and out->from is NULL.
+   Errors: MISSING, MALFORMED (also of another revision of the search), MEMORY, SYSTEM. */
+KOKSMA_API koksma_status koksma_mask_read_recipe(const char *path, koksma_mask_options *out);
+
+/* The radial mean of a mask's power spectrum, summed over its numbers. With P(u, v) the power at u cycles along the width
+   and v along the height, ring k of `rings` has the frequencies (k + [0,1)) / (2 rings) of sqrt((u / width)^2 + (v /
+   height)^2), cycles a pixel; ring 0 lacks (0, 0).
+     power       receives `rings` means, divided by the mean over all frequencies but (0, 0), which is 1 of white noise;
+                 NaN for a ring without frequencies
+     anisotropy  receives the variance of the power within each ring divided by the square of its mean, in decibels
+                 (Ulichney 1988); 0 dB is that of one periodogram of noise without a preferred direction. May be NULL
+   Errors: ARGUMENT (rings from 1 to 1024), MEMORY. */
+KOKSMA_API koksma_status koksma_mask_rings(const koksma_mask *mask, int rings, double *power, double *anisotropy);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The JSON text beside a mask, with everything that makes it again, written and read. */
+#include <koksma/maskfile.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/files.h"
+#include "core/json_writer.h"
+#include "core/status.h"
+#include "masks/masks.h"
+#include "json/json.h"
+
+koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_options *options, const char *filter,
+                                       const char *from, const koksma_mask_result *result)
+{
+    KOKSMA__REQUIRE(path, options, result);
+    const koksma_mask_options *o = options;
+    koksma_mask_filter f = o->filter;
+    const koksma_mask_space *space = o->space;
+    KOKSMA__TRY(koksma__mask_check(o->width, o->height, &space, NULL));
+    KOKSMA__TRY(koksma_mask_filter_check(&f));
+    koksma__json_writer w = {0};
+    char seed[32], *text;
+    size_t size;
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)o->seed);
+    koksma__json_begin_object(&w, NULL);
+    koksma__json_write_text(&w, "format", "koksma-mask");
+    koksma__json_write_text(&w, "version", koksma_version());
+    koksma__json_write_whole(&w, "revision", KOKSMA_MASK_REVISION);
+    koksma__json_write_whole(&w, "width", o->width);
+    koksma__json_write_whole(&w, "height", o->height);
+    koksma__json_write_text(&w, "space", space->name);
+    koksma__json_write_flag(&w, "open", o->open);
+    koksma__json_write_whole(&w, "levels", o->levels);
+    koksma__json_write_text(&w, "seed", seed);
+    koksma__json_write_number(&w, "swaps", o->swaps);
+    koksma__json_write_number(&w, "target", o->target);
+    koksma__json_write_text(&w, "from", from);
+    koksma__json_write_whole(&w, "done", (int64_t)result->done);
+    koksma__json_write_flag(&w, "finished", result->finished);
+    koksma__json_write_number(&w, "first", result->first);
+    koksma__json_write_number(&w, "error", result->error);
+    koksma__json_write_text(&w, "filter", filter);
+    koksma__json_begin_array(&w, "weights");
+    for (int y = 0; y < f.height; y++) {
+        koksma__json_begin_array(&w, NULL);
+        for (int x = 0; x < f.width; x++) {
+            koksma__json_write_number(&w, NULL, f.weights[y * f.width + x]);
+        }
+        koksma__json_end(&w);
+    }
+    koksma__json_end(&w);
+    koksma__json_end(&w);
+    KOKSMA__TRY(koksma__json_finish(&w, &text, &size));
+    const koksma_status status = koksma__atomic_put(NULL, path, text, size);
+    free(text);
+    return status;
+}
+
+static koksma_status read_whole(const koksma__json_node *root, const char *key, long long max, long long *out)
+{
+    koksma__json_node node;
+    KOKSMA__TRY(koksma__json_member(root, key, &node));
+    return koksma__json_whole(&node, 0, max, out);
+}
+
+static koksma_status read_number(const koksma__json_node *root, const char *key, double max, double *out)
+{
+    koksma__json_node node;
+    KOKSMA__TRY(koksma__json_member(root, key, &node));
+    return koksma__json_number(&node, 0, max, out);
+}
+
+static koksma_status read_weights(const koksma__json_node *root, koksma_mask_filter *f)
+{
+    koksma__json_node rows;
+    size_t height, width;
+    KOKSMA__TRY(koksma__json_member(root, "weights", &rows));
+    KOKSMA__TRY(koksma__json_length(&rows, KOKSMA_MASK_MAX_SIDE, &height));
+    f->height = (int)height;
+    for (size_t y = 0; y < height; y++) {
+        const koksma__json_node row = koksma__json_item(&rows, y);
+        KOKSMA__TRY(koksma__json_length(&row, KOKSMA_MASK_MAX_SIDE, &width));
+        KOKSMA__JSON_FAIL_IF(y && (int)width != f->width, &row, "its length differs from that of the rows before");
+        f->width = (int)width;
+        for (size_t x = 0; x < width; x++) {
+            const koksma__json_node item = koksma__json_item(&row, x);
+            KOKSMA__TRY(koksma__json_number(&item, -1e100, 1e100, &f->weights[y * width + x]));
+        }
+    }
+    const koksma_status status = koksma_mask_filter_check(f);
+    return status ? koksma__json_fail_in(&rows, status) : KOKSMA_OK;
+}
+
+static koksma_status read_texts(const koksma__json_node *root, koksma_mask_options *out)
+{
+    koksma__json_node node;
+    const char *text;
+    KOKSMA__TRY(koksma__json_member(root, "space", &node));
+    KOKSMA__TRY(koksma__json_text(&node, &text));
+    out->space = koksma_mask_space_find(text);
+    KOKSMA__JSON_FAIL_IF(!out->space, &node, "no space '%s'", text);
+    KOKSMA__TRY(koksma__json_member(root, "seed", &node));
+    KOKSMA__TRY(koksma__json_text(&node, &text));
+    char *end;
+    out->seed = strtoull(text, &end, 10);
+    KOKSMA__JSON_FAIL_IF(end == text || *end, &node, "a text of a whole number is expected");
+    KOKSMA__TRY(koksma__json_member(root, "open", &node));
+    return koksma__json_flag(&node, &out->open);
+}
+
+static koksma_status read_options(const koksma__json_node *root, koksma_mask_options *out)
+{
+    long long revision, width, height, levels, done;
+    KOKSMA__TRY(read_whole(root, "revision", 1000000, &revision));
+    KOKSMA__JSON_FAIL_IF(revision != KOKSMA_MASK_REVISION, root,
+                         "made by revision %lld of the search; this library has %d and makes other masks", revision,
+                         KOKSMA_MASK_REVISION);
+    KOKSMA__TRY(read_whole(root, "width", KOKSMA_MASK_MAX, &width));
+    KOKSMA__TRY(read_whole(root, "height", KOKSMA_MASK_MAX, &height));
+    KOKSMA__TRY(read_whole(root, "levels", KOKSMA_MASK_MAX * KOKSMA_MASK_MAX, &levels));
+    KOKSMA__TRY(read_whole(root, "done", (long long)1 << 53, &done));
+    KOKSMA__TRY(read_number(root, "swaps", 1e6, &out->swaps));
+    KOKSMA__TRY(read_number(root, "target", 1e100, &out->target));
+    out->width = (int)width;
+    out->height = (int)height;
+    out->levels = (int)levels;
+    out->done = (uint64_t)done;
+    KOKSMA__TRY(read_texts(root, out));
+    return read_weights(root, &out->filter);
+}
+
+koksma_status koksma_mask_read_recipe(const char *path, koksma_mask_options *out)
+{
+    KOKSMA__REQUIRE(path, out);
+    unsigned char *bytes;
+    size_t size;
+    koksma__json *document = NULL;
+    *out = (koksma_mask_options){0};
+    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_PLAN, KOKSMA__BY_USER, koksma__check_text, &bytes, &size));
+    koksma_status status = koksma__json_open("mask", path, (const char *)bytes, size, &document);
+    if (!status) {
+        const koksma__json_node root = koksma__json_root(document);
+        status = read_options(&root, out);
+    }
+    koksma__json_close(document);
+    free(bytes);
+    return status;
+}
