@@ -119,6 +119,15 @@ static double defined(const koksma_integral *f, const double *x)
         }
         return product;
     }
+    if (!strcmp(name, "sum-exp") || !strcmp(name, "ridge")) {
+        double sum = 0, z = 0;
+        for (int j = 0; j < f->dim; j++) {
+            sum += x[j] * exp(x[j]) - 1;
+            z += normal_of(x[j]) / sqrt(f->dim);
+        }
+        const double g[] = {erfc(-(z + 1) / sqrt(2)) / 2, (z < -2 ? 0 : z > 1 ? 3 : z + 2) / 3, z >= 1};
+        return *name == 's' ? sum : g[(int)f->params[0]];
+    }
     const double y = f->dim > 1 ? x[1] : 0;
     const struct {
         const char *name;
@@ -156,6 +165,8 @@ static double defined(const koksma_integral *f, const double *x)
 static const char *const more[] = {"bernoulli:r=1",
                                    "bernoulli:r=3,w=3",
                                    "bernoulli:r=4,decay=0,w=10",
+                                   "ridge:kind=smooth",
+                                   "ridge:kind=jump",
                                    "asian:path=bridge",
                                    "asian:strike=120,volatility=0.5",
                                    "genz-oscillatory:seed=5,difficulty=3",

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * coverage_table PATTERN N DIM RUNS REPLICATES: the error of each estimator of integrals and the coverage of each
+ * interval (koksma/estimate.h), over integrands whose truth is known. One JSON object a line; docs/findings/coverage.md
+ * has what tools/coverage_page.py makes of them. Built as build/clang/tests/coverage_table.
+ *
+ * RUNS REPLICATES independent sets are made with the seeds 0, 1, ..; every REPLICATES of them in order are a run. An
+ * interval covers if it holds the truth, or misses it by no more than rounding, 1e-14 of the root of the mean square of
+ * the integrand. The width is relative to this root; that of an interval that fails (too few replicates) is null.
+ */
+#include <koksma/estimate.h>
+#include <koksma/integrate.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const struct {
+    const char *kind, *spec;
+    int max_dim;
+} functions[] = {
+    {"smooth", "exp", 2},
+    {"smooth", "sum-exp", 32},
+    {"smooth", "genz-oscillatory", 32},
+    {"smooth", "genz-product-peak", 32},
+    {"smooth", "genz-corner-peak", 32},
+    {"smooth", "genz-gaussian", 32},
+    {"smooth", "ridge:kind=smooth", 32},
+    {"kink", "genz-continuous", 32},
+    {"kink", "ridge:kind=kink", 32},
+    {"kink", "asian", 32},
+    {"jump", "genz-discontinuous", 32},
+    {"jump", "ridge:kind=jump", 32},
+    {"jump", "corner", 2},
+    {"jump", "disk", 2},
+};
+enum { N_FUNCTIONS = sizeof functions / sizeof *functions };
+
+static void must(koksma_status status)
+{
+    if (status) {
+        fprintf(stderr, "coverage_table: %s\n", koksma_error_text());
+        exit(koksma_status_exit_code(status));
+    }
+}
+
+/* The estimates of all functions by all sets: estimates[f * sets + s]. */
+static void integrate(const koksma_spec *pattern, size_t n, int dim, size_t sets, koksma_integral *const *integrals,
+                      double *estimates)
+{
+    koksma_points points;
+    must(koksma_points_init(&points, n, dim));
+    for (size_t s = 0; s < sets; s++) {
+        must(koksma_generate(pattern, s, &(koksma_run){.threads = 1}, &points));
+        for (size_t f = 0; f < N_FUNCTIONS; f++) {
+            if (integrals[f]) {
+                must(koksma_integrate(integrals[f], &points, &(koksma_run){.threads = 1}, &estimates[f * sets + s]));
+            }
+        }
+    }
+    koksma_points_fini(&points);
+}
+
+static void put_number(const char *key, double value)
+{
+    printf(isfinite(value) ? ",\"%s\":%.6g" : ",\"%s\":null", key, value);
+}
+
+static void put_rows(const koksma_integral *integral, const double *estimates, size_t runs, size_t replicates)
+{
+    koksma_integral_facts facts;
+    koksma_integral_about(integral, &facts);
+    const double root = sqrt(facts.variance + facts.value * facts.value);
+    for (size_t i = 0; koksma_estimator_at(i); i++) {
+        double square = 0;
+        koksma_estimate_options o = {.estimator = koksma_estimator_at(i)->name, .interval = "student"};
+        for (size_t run = 0; run < runs; run++) {
+            koksma_integral_estimate e;
+            must(koksma_estimate_integral(&o, estimates + run * replicates, replicates, NULL, &e));
+            square += (e.value - facts.value) * (e.value - facts.value) / (double)runs;
+        }
+        printf(",\"%s\":%.6g", o.estimator, sqrt(square) / root);
+    }
+    for (size_t i = 0; koksma_interval_at(i); i++) {
+        const koksma_interval *interval = koksma_interval_at(i);
+        koksma_estimate_options o = {.estimator = "mean", .interval = interval->name};
+        const bool bounded = isfinite(facts.lowest) && isfinite(facts.highest);
+        o.lowest = bounded ? facts.lowest : 0;
+        o.highest = bounded ? facts.highest : 0;
+        double covered = 0, width = 0;
+        for (size_t run = 0; run < runs && (bounded || !interval->bounded); run++) {
+            koksma_integral_estimate e;
+            must(koksma_estimate_integral(&o, estimates + run * replicates, replicates, NULL, &e));
+            covered += facts.value >= e.low - 1e-14 * root && facts.value <= e.high + 1e-14 * root;
+            width += (e.high - e.low) / root;
+        }
+        const double count = bounded || !interval->bounded ? (double)runs : (double)NAN;
+        char key[64];
+        snprintf(key, sizeof key, "%s_width", interval->name);
+        put_number(interval->name, covered / count);
+        put_number(key, width / count);
+    }
+}
+
+int main(int count, char **arguments)
+{
+    koksma_spec pattern;
+    koksma_integral *integrals[N_FUNCTIONS] = {0};
+    const long n = count == 6 ? atol(arguments[2]) : 0, dim = n ? atol(arguments[3]) : 0,
+               runs = n ? atol(arguments[4]) : 0, replicates = n ? atol(arguments[5]) : 0;
+    if (n < 1 || dim < 1 || dim > KOKSMA_MAX_DIM || runs < 1 || replicates < 2) {
+        fprintf(stderr, "usage: coverage_table PATTERN N DIM RUNS REPLICATES\n");
+        return 2;
+    }
+    const size_t sets = (size_t)(runs * replicates);
+    double *estimates = calloc(N_FUNCTIONS * sets, sizeof *estimates);
+    if (!estimates) {
+        return 4;
+    }
+    must(koksma_pattern_spec(arguments[1], &pattern));
+    for (size_t f = 0; f < N_FUNCTIONS; f++) {
+        const koksma_status status = dim <= functions[f].max_dim
+                                         ? koksma_integral_open(functions[f].spec, (int)dim, &integrals[f])
+                                         : KOKSMA_DIM;
+        must(status == KOKSMA_DIM ? KOKSMA_OK : status);
+    }
+    integrate(&pattern, (size_t)n, (int)dim, sets, integrals, estimates);
+    for (size_t f = 0; f < N_FUNCTIONS; f++) {
+        if (integrals[f]) {
+            printf("{\"kind\":\"%s\",\"integrand\":\"%s\",\"pattern\":\"%s\",\"n\":%ld,\"dim\":%ld,\"runs\":%ld,"
+                   "\"replicates\":%ld",
+                   functions[f].kind, functions[f].spec, arguments[1], n, dim, runs, replicates);
+            put_rows(integrals[f], estimates + f * sets, (size_t)runs, (size_t)replicates);
+            puts("}");
+        }
+        koksma_integral_close(integrals[f]);
+    }
+    free(estimates);
+    return 0;
+}
