@@ -121,6 +121,10 @@ VALID = {
     "koksma_integrand_find.name": "\"disk\"", "koksma_integral_open.text": "\"disk\"", "koksma_integral_open.dim": "2",
     "koksma_integral_of_function.dim": "2", "koksma_integral_sensitivity.n_axes": "2", "koksma_integral_component.n_axes": "2", "koksma_integral_sensitivity.samples": "16",
     "koksma_integration_errors.pattern": "a_pattern(\"gaussian-jittered:sigma=0.2\")",
+    "koksma_estimator_find.name": "\"mean\"", "koksma_interval_find.name": "\"student\"", "koksma_integral_estimate *": "a_buffer(sizeof(koksma_integral_estimate))",
+    "koksma_estimate_options *": "a_zero(sizeof(koksma_estimate_options))", "koksma_estimate_integral.n": "16", "koksma_estimate_integral.values": "a_buffer(16 * sizeof(double))",
+    "koksma_values_of *": "first_coordinates", "koksma_integrate_to.context": "NULL", "koksma_integrate_to.dim": "2", "koksma_integrate_to.pattern": "a_pattern(\"random\")",
+    "koksma_tolerance_options *": "tolerance_options()", "koksma_tolerance *": "a_buffer(sizeof(koksma_tolerance))",
     "koksma_audit_options *": "audit_options()", "koksma_audit *": "a_buffer(sizeof(koksma_audit))",
     "koksma_rank_picture *": "a_rank_picture()", "koksma_scene_search *": "scene_search()",
     "koksma_scene_optimum *": "a_buffer(sizeof(koksma_scene_optimum))", "koksma_scene_optimum_fini.best": "a_zero(sizeof(koksma_scene_optimum))",
@@ -134,9 +138,9 @@ VALID = {
 }
 
 # Members of the library's tables, which are constant: a copy of one, with one pointer NULL, must not crash a call.
-TABLES = {"koksma_pattern", "koksma_measure", "koksma_integrand", "koksma_warp", "koksma_filter", "koksma_integrator", "koksma_adaptive", "koksma_metric", "koksma_param", "koksma_mask_space"}
+TABLES = {"koksma_adaptive", "koksma_estimator", "koksma_filter", "koksma_integrand", "koksma_integrator", "koksma_interval", "koksma_mask_space", "koksma_measure", "koksma_metric", "koksma_param", "koksma_pattern", "koksma_warp"}
 # Structs that a function only writes: what is in them before the call means nothing.
-RESULTS = re.compile(r"_(audit|optimum|entry|tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring|facts|integration|sensitivity|result|quality)$")
+RESULTS = re.compile(r"_(audit|optimum|entry|tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring|facts|integration|sensitivity|result|quality|estimate|tolerance)$")
 WRONG = {
     "size_t": ["0", "SIZE_MAX", "SIZE_MAX / 2 + 1"], "int": ["0", "-1", "INT_MIN", "INT_MAX"],
     "long long": ["-1", "LLONG_MIN", "LLONG_MAX"], "uint64_t": ["0", "UINT64_MAX"],
@@ -188,6 +192,9 @@ ALLOWED = [
     r"koksma_rank_patterns options->(render|render_context|reference) = .*",
     r"koksma_optimise_scene options->(candidates|phases|n_held_out|held_out|against) = (0|NULL) .*",
     r"koksma_datasheet options->(beside = NULL|scenes = NULL|n_beside = 0|n_scenes = 0|metric = NULL) .*",
+    r"koksma_estimate_integral values.*",
+    r"koksma_(estimate_integral|integrate_to) options->\S*(estimator|interval) = NULL .*", r"koksma_integrate_to options->(seed|replicates = 0|first_n = 0|most_points) .*",
+    r"koksma_integrate_to options->most_points = .*", r"koksma_integrate_to pattern->(params|path|modifiers|measure).*",
     r"koksma_study_images metric = NULL .*", r"koksma_plan_write made = NULL .*",
     r"koksma_mask_\w+ (space|options->space|options->from|filter|from|result) = .*", r"koksma_mask_\w+ options->(levels|done) = 0 .*", r"koksma_mask_\w+ bits = 0.*", r"koksma_mask_rings anisotropy = NULL.*",
     r"koksma_mask_write_recipe options->(levels|done|from) = .*",

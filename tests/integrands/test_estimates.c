@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Estimators and intervals against hand-made numbers, their formulas and their coverage; integration to a tolerance. */
+#include <koksma/estimate.h>
+#include <koksma/integrate.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "test.h"
+
+static koksma_integral_estimate estimate(const char *estimator, const char *interval, double confidence,
+                                         double lowest, double highest, const double *values, size_t n)
+{
+    koksma_integral_estimate e;
+    const koksma_estimate_options o = {estimator, interval, confidence, lowest, highest};
+    assert_ok(koksma_estimate_integral(&o, values, n, NULL, &e));
+    return e;
+}
+
+static void estimators_are_their_formulas(void **state)
+{
+    (void)state;
+    const double six[] = {5, 1, 9, 3, 7, 2}, nine[] = {0, 10, 2, 1, 20, 4, 2, 60, 100};
+    const struct {
+        const char *name;
+        double six, nine;
+    } known[] = {
+        {"mean", 4.5, 199 / 9.0},
+        {"median", 4, 4},
+        {"median-of-means", 4.5, 30}, /* one group of 6; groups 0 1 2, 10 20 60 and 2 4 100 with means 1, 30, 106/3 */
+        {"trimmed", 4.25, 38 / 5.0},  /* without 1 and 9; without 0, 1 and 60, 100 */
+    };
+    size_t count = 0;
+    for (; koksma_estimator_at(count); count++) {
+    }
+    assert_int_equal(count, sizeof known / sizeof *known);
+    for (size_t i = 0; i < count; i++) {
+        assert_near(estimate(known[i].name, "student", 0, 0, 0, six, 6).value, known[i].six, 1e-14);
+        assert_near(estimate(known[i].name, "student", 0, 0, 0, nine, 9).value, known[i].nine, 1e-13);
+    }
+}
+
+/* Student: t of 4 degrees is 2.776445. Order statistics: 2 P(B <= 3) = .0352 for B of Binomial(15, 1/2), and 2 P(B <= 4)
+   = .118, so that y_(4) and y_(12) are the interval of 15 values; of 6 values it has all, of 5 there is none. */
+static void intervals_are_their_formulas(void **state)
+{
+    (void)state;
+    const double five[] = {3, 1, 5, 2, 4};
+    koksma_integral_estimate e = estimate("mean", NULL, 0, 0, 0, five, 5);
+    assert_near(e.value, 3, 1e-15);
+    assert_near(e.high - 3, 2.7764451052 * sqrt(2.5 / 5), 1e-9);
+    assert_near(e.low, 6 - e.high, 1e-14);
+    assert_near(e.error, e.high - 3, 1e-14);
+    assert_near(e.confidence, 0.95, 1e-15);
+    double values[15];
+    for (size_t i = 0; i < 15; i++) {
+        values[i] = (double)(i * 4 % 15 + 1);
+    }
+    e = estimate(NULL, NULL, 0.95, 0, 0, values, 15);
+    assert_near(e.value, 8, 0);
+    assert_near(e.low, 4, 0);
+    assert_near(e.high, 12, 0);
+    e = estimate("median", "quantile", 0.95, 0, 0, values, 6);
+    assert_near(e.low, 1, 0);
+    assert_near(e.high, 13, 0);
+    const koksma_estimate_options o = {.estimator = "median"};
+    assert_int_equal(koksma_estimate_integral(&o, values, 5, NULL, &e), KOKSMA_ARGUMENT);
+    assert_non_null(strstr(koksma_error_text(), "takes 6"));
+}
+
+/* The formulas of Waudby-Smith & Ramdas once more, term by term, for values of a range from 10 to 30. */
+static void bounded_intervals_are_their_formulas(void **state)
+{
+    (void)state;
+    const double x[] = {0.2, 0.9, 0.4, 0.35, 0.5, 0.1, 0.6, 0.45, 0.3, 0.7};
+    enum { N = sizeof x / sizeof *x };
+    double y[N], stake[N], before[N];
+    const double level = log(2 / 0.1);
+    for (size_t i = 0; i < N; i++) {
+        double sum = 0.5, squares = 0.25;
+        for (size_t k = 0; k < i; k++) {
+            sum += x[k];
+            squares += pow(x[k] - sum / (double)(k + 2), 2);
+        }
+        before[i] = sum / (double)(i + 1);
+        stake[i] = sqrt(2 * level / (N * squares / (double)(i + 1)));
+        y[i] = 10 + 20 * x[i];
+    }
+    double stakes = 0, mean = 0, spread = 0;
+    for (size_t i = 0; i < N; i++) {
+        const double l = fmin(stake[i], 0.5);
+        stakes += l;
+        mean += l * x[i];
+        spread += 4 * pow(x[i] - before[i], 2) * (-log(1 - l) - l) / 4;
+    }
+    koksma_integral_estimate e = estimate("mean", "empirical-bernstein", 0.9, 10, 30, y, N);
+    const double half = (level + spread) / stakes;
+    assert_near(e.low, 10 + 20 * fmax(mean / stakes - half, 0), 1e-11);
+    assert_near(e.high, 10 + 20 * fmin(mean / stakes + half, 1), 1e-11);
+    e = estimate("mean", "betting", 0.9, 10, 30, y, N);
+    const double ends[] = {(e.low - 10) / 20, (e.high - 10) / 20};
+    for (int side = 0; side < 2; side++) {
+        const double sign = side ? -1 : 1;
+        for (int outside = 0; outside < 2; outside++) {
+            const double m = ends[side] + (outside ? -sign : sign) * 1e-6;
+            double capital = 1, most = 1;
+            for (size_t i = 0; i < N; i++) {
+                capital *= 1 + sign * fmin(stake[i], 0.75 / (side ? 1 - m : m)) * (x[i] - m);
+                most = fmax(most, capital);
+            }
+            assert_true((most >= 2 / 0.1) == outside);
+        }
+    }
+}
+
+/* Independent values of a law with mean 1/3 on [0,1], which is 1 in one of three. Those that are proved hold in 95 % or
+   more of the runs; the others come near for 60 values; none is so wide that it says nothing. */
+static void intervals_cover(void **state)
+{
+    (void)state;
+    enum { N = 60 };
+    const size_t runs = test_repeats(400, 10);
+    const koksma_points u = test_points("random", runs * N, 1, 5);
+    const koksma_interval *interval;
+    for (size_t i = 0; (interval = koksma_interval_at(i)); i++) {
+        if (!strcmp(interval->name, "quantile")) {
+            continue; /* of the median, which is 0 */
+        }
+        size_t covered = 0;
+        double width = 0;
+        for (size_t run = 0; run < runs; run++) {
+            double values[N];
+            for (size_t k = 0; k < N; k++) {
+                values[k] = u.xs[run * N + k] < 1.0 / 3;
+            }
+            const koksma_integral_estimate e = estimate("mean", interval->name, 0.95, 0, 1, values, N);
+            covered += e.low <= 1.0 / 3 && e.high >= 1.0 / 3;
+            width += (e.high - e.low) / (double)runs;
+        }
+        const double least = interval->proved ? 0.95 : 0.91, noise = 4 * sqrt(0.05 * 0.95 / (double)runs);
+        if ((double)covered < (least - noise) * (double)runs || width > 0.6 || width < 0.2) {
+            fail_msg("%s covers in %zu of %zu runs, mean width %g", interval->name, covered, runs, width);
+        }
+    }
+}
+
+/* ---- A tolerance ------------------------------------------------------------------------------------------------- */
+
+typedef struct call {
+    size_t points, calls;
+    double (*at)(const double *x, int dim);
+    koksma_status status;
+} call;
+
+static koksma_status values_of(void *context, const koksma_points *points, double *values)
+{
+    call *c = context;
+    for (size_t i = 0; i < points->n; i++) {
+        values[i] = c->at(points->xs + i * (size_t)points->dim, points->dim);
+    }
+    c->points += points->n;
+    c->calls++;
+    return c->status;
+}
+
+static double exponential(const double *x, int dim)
+{
+    return dim > 1 ? exp(x[0] + x[1]) : exp(x[0]);
+}
+
+static double kink(const double *x, int dim)
+{
+    (void)dim;
+    return fabs(x[0] - 0.3) + x[1];
+}
+
+static double needle(const double *x, int dim)
+{
+    (void)dim;
+    return x[0] < 1e-12 ? 1 : 0;
+}
+
+static double hole(const double *x, int dim)
+{
+    (void)dim;
+    return x[0] < 0.01 ? (double)NAN : 1;
+}
+
+static koksma_status integrate(call *c, const char *pattern, const koksma_tolerance_options *o, const koksma_run *run,
+                               koksma_tolerance *t)
+{
+    koksma_spec spec;
+    assert_ok(koksma_pattern_spec(pattern, &spec));
+    return koksma_integrate_to(values_of, c, 2, &spec, o, run, t);
+}
+
+static void errors_are_within_the_tolerance(void **state)
+{
+    (void)state;
+    const double truth = pow(exp(1) - 1, 2);
+    const struct {
+        const char *pattern, *estimator;
+        double tolerance;
+    } cases[] = {{"sobol:scramble=lms,digital-shift=1", "median", 1e-6},
+                 {"sobol:scramble=owen", "mean", 1e-4},
+                 {"n-rooks", "trimmed", 0.05},
+                 {"halton:shift=1", "median-of-means", 1e-3}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        call c = {.at = exponential};
+        koksma_tolerance one, three;
+        const koksma_tolerance_options o = {
+            .estimate.estimator = cases[i].estimator, .absolute = cases[i].tolerance, .first_n = 64, .seed = 3};
+        assert_ok(integrate(&c, cases[i].pattern, &o, &(koksma_run){.threads = 1}, &one));
+        assert_ok(integrate(&(call){.at = exponential}, cases[i].pattern, &o, &(koksma_run){.threads = 3}, &three));
+        assert_memory_equal(one.steps, three.steps, sizeof one.steps);
+        const koksma_tolerance_step *last = &one.steps[one.n_steps - 1];
+        assert_true(one.reached && last->estimate.error <= cases[i].tolerance);
+        assert_near(last->estimate.value, truth, cases[i].tolerance);
+        size_t sum = 0; /* a sequence is extended; n-rooks begins anew */
+        for (size_t k = 0; k < one.n_steps; k++) {
+            assert_int_equal(one.steps[k].n, 64 << k);
+            sum += 15 * one.steps[k].n;
+        }
+        assert_int_equal(last->points, c.points);
+        assert_int_equal(c.points, strcmp(cases[i].pattern, "n-rooks") ? 15 * last->n : sum);
+        assert_true(c.calls < 2 * one.n_steps + c.points / 30000);
+    }
+}
+
+/* Without a tolerance all steps are done, with the confidence shared by them; the rate of the mean over Owen's scrambling of
+   a function with a kink in a coordinate is near -3/2, and the prediction of what a smaller error needs follows it. */
+static void a_limit_ends_the_search(void **state)
+{
+    (void)state;
+    call c = {.at = kink};
+    koksma_tolerance t;
+    koksma_tolerance_options o = {
+        .estimate.estimator = "mean", .replicates = 40, .most_points = 40 << 12, .first_n = 256};
+    assert_ok(integrate(&c, "sobol:scramble=owen", &o, NULL, &t));
+    assert_false(t.reached);
+    assert_int_equal(t.n_steps, 5);
+    assert_near(t.steps[0].estimate.confidence, 0.99, 1e-14);
+    assert_near(t.rate, -1.5, 0.3);
+    assert_true(isnan(t.needed));
+    o.absolute = 1e-9;
+    assert_ok(integrate(&c, "sobol:scramble=owen", &o, NULL, &t));
+    const double factor = pow(t.steps[4].estimate.error / 1e-9, -1 / t.rate);
+    assert_near(t.needed / (40 << 12) / factor, 1, 1e-9);
+    assert_true(t.needed_low < t.needed && t.needed < t.needed_high);
+    o.absolute = 0;
+    o.relative = 1e-3;
+    assert_ok(integrate(&c, "sobol:scramble=owen", &o, NULL, &t));
+    assert_true(t.reached && t.steps[t.n_steps - 1].estimate.error <= 1e-3 * 0.79);
+}
+
+/* All values 0 at first: the interval [0,0] is no answer. */
+static void equal_values_end_no_search_at_once(void **state)
+{
+    (void)state;
+    call c = {.at = needle};
+    koksma_tolerance t;
+    const koksma_tolerance_options o = {.absolute = 1e-3, .first_n = 16};
+    assert_ok(integrate(&c, "random", &o, NULL, &t));
+    assert_true(t.reached && c.points >= 1 << 16 && c.points < 1 << 18);
+}
+
+static void mistakes_are_named(void **state)
+{
+    (void)state;
+    koksma_tolerance t;
+    const koksma_tolerance_options plain = {.absolute = 1e-3};
+    const struct {
+        const char *pattern, *text;
+        call call;
+        koksma_tolerance_options o;
+        koksma_status status;
+    } cases[] = {
+        {"sobol", "one set", {.at = kink}, plain, KOKSMA_ARGUMENT},
+        {"half-jittered", "unbiased", {.at = kink}, plain, KOKSMA_ARGUMENT},
+        {"random", "is nan", {.at = hole}, plain, KOKSMA_ARGUMENT},
+        {"random", "values", {.at = kink, .status = KOKSMA_IO}, plain, KOKSMA_IO},
+        {"random", "outside the bounds", {.at = kink}, {.absolute = 1, .estimate.highest = 1}, KOKSMA_ARGUMENT},
+        {"random", "needs bounds", {.at = kink}, {.estimate.interval = "betting"}, KOKSMA_ARGUMENT},
+        {"random", "'median'", {.at = kink}, {.estimate.estimator = "medan"}, KOKSMA_UNKNOWN},
+        {"random", "'student'", {.at = kink}, {.estimate.interval = "studnt"}, KOKSMA_UNKNOWN},
+        {"random", "confidence", {.at = kink}, {.estimate.confidence = 1}, KOKSMA_ARGUMENT},
+        {"random", "most_points", {.at = kink}, {.most_points = 100}, KOKSMA_ARGUMENT},
+        {"random", "tolerance", {.at = kink}, {.absolute = -1}, KOKSMA_ARGUMENT},
+        {"random", "replicates", {.at = kink}, {.replicates = 1}, KOKSMA_ARGUMENT},
+        {"random", "seed", {.at = kink}, {.seed = UINT64_MAX - 13}, KOKSMA_ARGUMENT},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        call c = cases[i].call;
+        const koksma_status status = integrate(&c, cases[i].pattern, &cases[i].o, NULL, &t);
+        if (status != cases[i].status || !strstr(koksma_error_text(), cases[i].text)) {
+            fail_msg("case %zu: status %d, '%s'", i, status, koksma_error_text());
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(estimators_are_their_formulas),        cmocka_unit_test(intervals_are_their_formulas),
+        cmocka_unit_test(bounded_intervals_are_their_formulas), cmocka_unit_test(intervals_cover),
+        cmocka_unit_test(errors_are_within_the_tolerance),      cmocka_unit_test(a_limit_ends_the_search),
+        cmocka_unit_test(equal_values_end_no_search_at_once),   cmocka_unit_test(mistakes_are_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
