@@ -72,7 +72,8 @@ const cli_command *cli_command_find(const char *name);
     {0, "threads", "T", "threads to use (default: all)"},                                                            \
         {0, "progress", "auto|always|never", "show progress (default: auto, when stderr is a terminal)"},            \
         {0, "allow-exec", NULL, "allow the patterns exec:PROGRAM and plugin:LIBRARY to run code of others"},         \
-        {0, "exec-seconds", "S", "with --allow-exec: seconds a program may take for one set (default: 60)"},         \
+        {0, "exec-seconds", "S",                                                                                     \
+         "with --allow-exec, or integrate --with: seconds a program may take for one set (default: 60)"},            \
     {                                                                                                                \
         'q', "quiet", NULL, "print only errors to stderr"                                                            \
     }

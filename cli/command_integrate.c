@@ -3,10 +3,9 @@
  * `koksma integrate`: estimates integrals of functions by means over point sets and prints the errors against n, and
  * the analysis of variance of the functions. Operands are integrands, then sources of points as `koksma measure`
  * takes them; sources of one pattern that differ in their size become one series with a slope. Rows are printed in
- * three tables: errors, slopes, variance. An operand may name a shared library that defines functions. Plans of
- * studies can't name libraries.
+ * three tables: errors, slopes, variance. cli/integrands.c opens the functions, cli/estimating.c has the
+ * estimates of functions whose integral is not known.
  */
-#include <dlfcn.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +13,7 @@
 
 #include <koksma/integrate.h>
 
-#include "source.h"
+#include "integrating.h"
 
 enum { MOST_TRIALS = 1000000, MOST_PAIRED_AXES = 16 };
 
@@ -49,69 +48,14 @@ typedef struct job {
     /* the number of deterministic patterns, which have one set and thus no trials */
     size_t n_deterministic;
     char deterministic[KOKSMA_MAX_SPEC]; /* the first deterministic pattern */
-    void *libraries[16];
-    size_t n_libraries;
+    cli_integrands integrands;
 } job;
 
-/* ---- Integrands --------------------------------------------------------------------------------------------- */
-
-/* Opens the function NAME, or the first function, of the library "PATH.so[:NAME]". Returns the exit code. */
-static int open_library(job *j, const char *text, int dim, koksma_integral **out)
-{
-    char path[KOKSMA_MAX_SPEC];
-    snprintf(path, sizeof path, "%s", text);
-    char *name = strrchr(path, ':');
-    if (name && !strchr(name, '/')) {
-        *name++ = 0;
-    } else {
-        name = NULL;
-    }
-    const size_t most = sizeof j->libraries / sizeof *j->libraries;
-    void *library = j->n_libraries < most ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
-    if (!library) {
-        const char *reason = j->n_libraries < most ? dlerror() : "a command takes 16 libraries at most";
-        const size_t length = strlen(path); /* some reasons of dlerror begin with the path */
-        const bool named = !strncmp(reason, path, length) && !strncmp(reason + length, ": ", 2);
-        cli_say(j->arguments->command->name, "%s: %s", path, named ? reason + length + 2 : reason);
-        return koksma_status_exit_code(KOKSMA_MISSING);
-    }
-    j->libraries[j->n_libraries++] = library;
-    const koksma_function *(*at)(size_t) = NULL;
-    void *symbol = dlsym(library, "koksma_function_at");
-    memcpy(&at, &symbol, sizeof at); /* ISO C has no cast from a pointer to an object to a pointer to a function */
-    const koksma_function *function = NULL;
-    for (size_t i = 0; at && (function = at(i)) && name && strcmp(name, function->name) != 0; i++) {
-    }
-    if (!function) {
-        cli_say(j->arguments->command->name,
-                at ? "%s: its koksma_function_at has no function%s%s"
-                   : "%s: it exports no koksma_function_at (koksma/integrate.h)%s%s",
-                path, at && name ? " " : "", at && name ? name : "");
-        return koksma_status_exit_code(KOKSMA_MALFORMED);
-    }
-    const koksma_status status = koksma_integral_of_function(function, dim, out);
-    return status ? cli_fail(j->arguments, status) : CLI_YES;
-}
-
-/* Opens integrand i of the first operand, which is "all" or a list. *end: whether i is past the end. *out is NULL
-   past the end, and for an integrand of "all" that does not exist in this dimension. Returns the exit code. */
-static int open_integrand(job *j, size_t i, int dim, bool *end, koksma_integral **out)
-{
-    const char *list = j->arguments->operands[0];
-    const bool all = !strcmp(list, "all");
-    const koksma_integrand *member = all ? koksma_integrand_at(i) : NULL;
-    char item[KOKSMA_MAX_SPEC];
-    *out = NULL;
-    *end = all ? !member : !cli_list_item(list, i, item, sizeof item);
-    if (*end) {
-        return CLI_YES;
-    }
-    if (!all && strchr(item, '/')) {
-        return open_library(j, item, dim, out);
-    }
-    const koksma_status status = koksma_integral_open(all ? member->name : item, dim, out);
-    return status && !(all && status == KOKSMA_DIM) ? cli_fail(j->arguments, status) : CLI_YES;
-}
+/* What a function that cli_integrands_each calls has as its context: the job, and what else it needs. */
+typedef struct of_job {
+    job *j;
+    void *other;
+} of_job;
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
@@ -264,9 +208,10 @@ static int put_component(job *j, const koksma_integral *integral, const char *na
 }
 
 /* Prints the errors of the components of all coordinates and of all pairs of coordinates, for one series. */
-static int put_components(job *j, const koksma_integral *integral, void *one)
+static int put_components(const koksma_integral *integral, void *context)
 {
-    const series *all = one;
+    job *j = ((of_job *)context)->j;
+    const series *all = ((of_job *)context)->other;
     series *s = malloc(sizeof *s);
     koksma_integration result;
     koksma_integral_facts facts;
@@ -379,39 +324,26 @@ static int open_series(job *j, int i)
     return code;
 }
 
-/* Calls f for every integrand of the first operand, in dim dimensions. */
-static int run_each(job *j, int dim, int (*f)(job *j, const koksma_integral *integral, void *context), void *context)
+static int errors_of_series(const koksma_integral *integral, void *context)
 {
-    int code = CLI_YES;
-    bool end = false;
-    for (size_t i = 0; !code && !end; i++) {
-        koksma_integral *integral;
-        code = open_integrand(j, i, dim, &end, &integral);
-        if (!code && integral) {
-            code = f(j, integral, context);
-        }
-        koksma_integral_close(integral);
-    }
-    return code;
-}
-
-static int errors_of_series(job *j, const koksma_integral *integral, void *s)
-{
+    job *j = ((of_job *)context)->j;
+    series *s = ((of_job *)context)->other;
     slope *more = realloc(j->slopes, (j->n_slopes + 1) * sizeof *more);
     j->slopes = more ? more : j->slopes;
     return more ? integrate(j, integral, s) : cli_no_memory();
 }
 
-static int shares_of_variance(job *j, const koksma_integral *integral, void *samples)
+static int shares_of_variance(const koksma_integral *integral, void *context)
 {
-    return put_variance(j, integral, *(const uint64_t *)samples);
+    const of_job *of = context;
+    return put_variance(of->j, integral, *(const uint64_t *)of->other);
 }
 
 static int run_variance(job *j, int dim)
 {
     uint64_t samples;
     return cli_whole(j->arguments, "samples", 0, 1, 1 << 20, &samples)
-               ? run_each(j, dim, shares_of_variance, &samples)
+               ? cli_integrands_each(&j->integrands, dim, shares_of_variance, &(of_job){j, &samples})
                : CLI_USAGE;
 }
 
@@ -429,7 +361,7 @@ static int run_all(job *j)
     j->rows = code ? NULL : cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < j->n_series && !code; i++) {
         cli_work_part(&j->work, i, j->n_series);
-        code = run_each(j, j->series[i].dim, errors_of_series, &j->series[i]);
+        code = cli_integrands_each(&j->integrands, j->series[i].dim, errors_of_series, &(of_job){j, &j->series[i]});
     }
     for (size_t i = 0; i < j->n_slopes; i++) {
         put_slope(j, &j->slopes[i]);
@@ -437,7 +369,7 @@ static int run_all(job *j)
     if (!code && cli_flag(arguments, "anova")) {
         code = run_variance(j, j->n_series ? j->series[0].dim : (int)dim);
         for (size_t i = 0; i < j->n_series && !code; i++) {
-            code = run_each(j, j->series[i].dim, put_components, &j->series[i]);
+            code = cli_integrands_each(&j->integrands, j->series[i].dim, put_components, &(of_job){j, &j->series[i]});
         }
     }
     cli_work_end();
@@ -452,7 +384,10 @@ static int run_all(job *j)
 
 static int run(const cli_arguments *arguments)
 {
-    job j = {.arguments = arguments};
+    job j = {.arguments = arguments, .integrands.arguments = arguments};
+    if (cli_estimates(arguments)) {
+        return cli_run_estimates(arguments);
+    }
     if (arguments->n_operands == 0) {
         return cli_usage_error(arguments, "it takes an integrand, such as disk or genz-gaussian:difficulty=5, and "
                                           "patterns or files; 'koksma list integrands' names them");
@@ -478,9 +413,7 @@ static int run(const cli_arguments *arguments)
     for (size_t i = 0; j.series && i < (size_t)arguments->n_operands; i++) {
         koksma_points_fini(&j.series[i].points);
     }
-    for (size_t i = 0; i < j.n_libraries; i++) {
-        dlclose(j.libraries[i]);
-    }
+    cli_integrands_close(&j.integrands);
     free(j.series);
     free(j.sizes);
     free(j.slopes);
@@ -494,6 +427,7 @@ static const cli_option options[] = {
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {0, "anova", NULL, "print the share of each coordinate and pair of coordinates in the variance"},
     {0, "samples", "N", "with --anova: estimate shares by N points, even if a closed form is known"},
+    CLI_ESTIMATE_OPTIONS,
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -503,7 +437,8 @@ const cli_command cli_command_integrate = {
     .name = "integrate",
     .summary = "integrate functions with known integrals; print errors against n",
     .synopsis =
-        "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]",
+        "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]\n"
+        "INTEGRAND,..|--with COMMAND --tolerance ERROR [--relative] [--confidence C] [-p PATTERN,..] [-d DIM]",
     .details =
         "rmse is the root mean square, over the trials, of the estimate minus the integral, with its 95 % interval. "
         "With a single set, which is all that deterministic patterns have, it is the absolute error. gain is the "
@@ -526,11 +461,33 @@ const cli_command cli_command_integrate = {
         "components that contain any of them.\n"
         "Without a closed form they are estimated, with 95 % intervals. With patterns, --anova also prints the error "
         "of each component at the largest n, for products of functions of one coordinate. These errors add up to the "
-        "total error. part is the mean square of a component's error divided by that of the total error.\n",
+        "total error. part is the mean square of a component's error divided by that of the total error.\n"
+        "\n"
+        "--estimator, --interval, --replicates and --confidence print estimates that need no known integral, each "
+        "from R "
+        "independent sets of n points, with an interval for the integral; error is the larger distance of its ends "
+        "from "
+        "the estimate, points the number of function values. Where the integral is known, off is estimate minus "
+        "integral, and holds tells whether the interval has it. --tolerance doubles n, from 256 or from -n, until "
+        "the "
+        "error is within the tolerance or the next step exceeds --max-points; the pattern is by default "
+        "sobol:scramble=lms,digital-shift=1. The confidence is shared by all steps that the limit allows, so that "
+        "the "
+        "last interval holds with it, whenever the search ends. rate is the slope of log error against log points "
+        "over "
+        "the last five steps, needed the number of points that a tolerance out of reach would take by it, with its "
+        "approximate 95 % interval. Patterns must be unbiased over their seeds ('koksma list claims').\n"
+        "\n"
+        "COMMAND runs in the shell, with your permissions, for up to 2^16 points at a time: it reads a point a line "
+        "from "
+        "stdin and prints a value for each. --exec-seconds limits each run.\n",
     .examples = "koksma integrate quarter-disk,quarter-gaussian -p random,halton -n 16,64,256\n"
                 "koksma integrate genz-gaussian:difficulty=3 -d 5 -p halton -n 64,256,1024\n"
                 "koksma integrate asian:path=bridge -d 4 --anova\n"
-                "koksma integrate disk points.txt --json\n",
+                "koksma integrate disk points.txt --json\n"
+                "koksma integrate exp --tolerance 1e-6\n"
+                "koksma integrate disk -p sobol:scramble=owen -n 256 --estimator mean\n"
+                "koksma integrate --with \"awk '{print \\$1 * \\$2}'\" --tolerance 1e-4 -d 2\n",
     .options = options,
     .run = run,
 };

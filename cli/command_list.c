@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include <koksma/adaptive.h>
+#include <koksma/estimate.h>
 #include <koksma/integrate.h>
 #include <koksma/optimise.h>
 #include <koksma/study.h>
@@ -146,6 +147,10 @@ LIST(measures, "measure", const koksma_measure *, (x = koksma_measure_at(i)), x-
 LIST(integrands, "integrand", const koksma_integrand *, (x = koksma_integrand_at(i)), x->name, x->title,
      (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), cli_row_text(rows, "integral", x->known),
       SOURCE))
+LIST(estimators, "estimator", const koksma_estimator *, (x = koksma_estimator_at(i)), x->name, x->title,
+     (cli_row_text(rows, "interval", x->interval), SOURCE))
+LIST(intervals, "interval", const koksma_interval *, (x = koksma_interval_at(i)), x->name, x->title,
+     (cli_row_flag(rows, "proved", x->proved), cli_row_text(rows, "assumes", x->assumes), SOURCE))
 LIST(claims, "claim", const claim_line *, i < N_CLAIMS && (x = &claim_lines[i]), x->name, x->meaning, (void)x)
 LIST(properties, "property", const koksma_property *, (x = koksma_property_at(i)), x->name, x->meaning, (void)x)
 LIST(warps, "warp", const koksma_warp *, (x = koksma_warp_at(i)), x->name, x->title,
@@ -286,6 +291,8 @@ static const struct {
     {"modifiers", list_modifiers},
     {"measures", list_measures},
     {"integrands", list_integrands},
+    {"estimators", list_estimators},
+    {"intervals", list_intervals},
     {"claims", list_claims},
     {"properties", list_properties},
     {"warps", list_warps},

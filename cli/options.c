@@ -274,7 +274,9 @@ static int read_shared_options(cli_arguments *arguments)
         if (!cli_real(arguments, "exec-seconds", 60, 1e-3, 86400, &seconds)) {
             return CLI_USAGE;
         }
-        if (!allowed && cli_text(arguments, "exec-seconds", NULL)) {
+        const bool is_integrand =
+            !strcmp(arguments->command->name, "integrate") && cli_text(arguments, "with", NULL) != NULL;
+        if (!allowed && !is_integrand && cli_text(arguments, "exec-seconds", NULL)) {
             return cli_usage_error(arguments, "--exec-seconds needs --allow-exec");
         }
         koksma_allow_exec(allowed ? seconds : 0);

@@ -306,19 +306,22 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
 }
 
 /* Checks an item of -p: a pattern, which has @N unless there is -n, or a file. `generate` makes some patterns without a
-   number of points. Returns the exit code. */
+   number of points, and `integrate --tolerance` chooses it. Returns the exit code. */
 static int check_item(const cli_arguments *arguments, const char *item, bool counted)
 {
     const char *spec = cli_spec_in(item);
     koksma_spec known;
+    const bool chosen =
+        !strcmp(arguments->command->name, "integrate") && cli_text(arguments, "tolerance", NULL) != NULL;
     if (is_counted(item) || is_miscounted(item) || !strcmp(arguments->command->name, "generate") ||
         (spec == item && !access(item, F_OK))) {
         return CLI_YES;
     }
     const koksma_status status = koksma_pattern_spec(spec, &known);
-    return status    ? cli_fail(arguments, status)
-           : counted ? CLI_YES
-                     : cli_usage_error(arguments, "-n N, the number of points, is missing; -p %s has no @N", item);
+    return status ? cli_fail(arguments, status)
+           : counted || chosen
+               ? CLI_YES
+               : cli_usage_error(arguments, "-n N, the number of points, is missing; -p %s has no @N", item);
 }
 
 /* Whether the first operand names no points, but an integrand or a curve. */

@@ -126,6 +126,20 @@ KOKSMA_API koksma_status koksma_integrate_to(koksma_values_of *values, void *con
                                              const koksma_spec *pattern, const koksma_tolerance_options *options,
                                              const koksma_run *run, koksma_tolerance *out);
 
+/* A function that a program computes: the context of koksma_values_by_command. */
+typedef struct koksma_values_command {
+    const char *command; /* for the shell: a program that reads points, one a line of coordinates separated by blanks,
+                              up to the end of its standard input, and prints as many values */
+    double seconds;      /* time limit of each run, above 0 */
+    const koksma_run *run; /* may be NULL; the command is ended when its keep_going returns false */
+} koksma_values_command;
+
+/* A koksma_values_of that runs a command, once for each 2^20 coordinates or fewer. It runs with the caller's permissions;
+   all its processes are ended with it.
+   Errors: MISSING (it can't be run), MALFORMED (it fails, takes too long, or prints something else than as many numbers as
+   there are points), INTERRUPTED, MEMORY, SYSTEM. */
+KOKSMA_API koksma_status koksma_values_by_command(void *context, const koksma_points *points, double *values);
+
 #ifdef __cplusplus
 }
 #endif

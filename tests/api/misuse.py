@@ -123,7 +123,7 @@ VALID = {
     "koksma_integration_errors.pattern": "a_pattern(\"gaussian-jittered:sigma=0.2\")",
     "koksma_estimator_find.name": "\"mean\"", "koksma_interval_find.name": "\"student\"", "koksma_integral_estimate *": "a_buffer(sizeof(koksma_integral_estimate))",
     "koksma_estimate_options *": "a_zero(sizeof(koksma_estimate_options))", "koksma_estimate_integral.n": "16", "koksma_estimate_integral.values": "a_buffer(16 * sizeof(double))",
-    "koksma_values_of *": "first_coordinates", "koksma_integrate_to.context": "NULL", "koksma_integrate_to.dim": "2", "koksma_integrate_to.pattern": "a_pattern(\"random\")",
+    "koksma_values_of *": "first_coordinates", "koksma_integrate_to.context": "NULL", "koksma_values_by_command.context": "values_command()", "koksma_integrate_to.dim": "2", "koksma_integrate_to.pattern": "a_pattern(\"random\")",
     "koksma_tolerance_options *": "tolerance_options()", "koksma_tolerance *": "a_buffer(sizeof(koksma_tolerance))",
     "koksma_audit_options *": "audit_options()", "koksma_audit *": "a_buffer(sizeof(koksma_audit))",
     "koksma_rank_picture *": "a_rank_picture()", "koksma_scene_search *": "scene_search()",

@@ -226,8 +226,8 @@ static void errors_are_within_the_tolerance(void **state)
     }
 }
 
-/* Without a tolerance all steps are done, with the confidence shared by them; the rate of the mean over Owen's scrambling of
-   a function with a kink in a coordinate is near -3/2, and the prediction of what a smaller error needs follows it. */
+/* Without a tolerance all steps are done, with the confidence shared by them; the rate of the mean over Owen's scrambling
+   of a function with a kink in a coordinate is near -3/2, and the prediction of what a smaller error needs follows it. */
 static void a_limit_ends_the_search(void **state)
 {
     (void)state;

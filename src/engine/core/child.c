@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Runs a program as a child process, for samplers that are programs. The program leads a process group of its own, with a
- * limit on memory and no core file; at its end, or when the caller stops it, the whole group is killed. A process that
+ * Runs a program as a child process, for samplers and integrands that are programs. The program leads a process group of
+ * its own, with a limit on memory and no core file; at its end, or when the caller stops it, the whole group is killed. A process that
  * leaves the group (setsid) is not followed. Between fork and exec the child makes only calls that are safe after fork in
  * a process of several threads.
  */
@@ -34,8 +34,21 @@ koksma_status koksma__child_run(const koksma__child *child, const koksma_run *ru
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* OUT and ERR: the program's standard output and error. START: errno, if the program can't be started. */
-enum { OUT, ERR, START, N_ENDS, STEP_MS = 20, LAST_STEP_MS = 1, FULL_PIPES = 16, CHUNK = 1 << 16, SHOWN = 200 };
+/* OUT and ERR: the program's standard output and error. START: errno, if the program can't be started. IN: its standard
+   input, which is the only end that the caller writes to. */
+enum {
+    OUT,
+    ERR,
+    START,
+    N_READ,
+    IN = N_READ,
+    N_ENDS,
+    STEP_MS = 20,
+    LAST_STEP_MS = 1,
+    FULL_PIPES = 16,
+    CHUNK = 1 << 16,
+    SHOWN = 200
+};
 
 static _Noreturn void become_program(const koksma__child *child, const int ends[N_ENDS])
 {
@@ -43,8 +56,8 @@ static _Noreturn void become_program(const koksma__child *child, const int ends[
     sigset_t no_signals;
     sigemptyset(&no_signals);
     setpgid(0, 0);
-    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    if (nothing >= 0 && dup2(nothing, 0) >= 0 && dup2(ends[OUT], 1) >= 0 && dup2(ends[ERR], 2) >= 0 &&
+    const int input = child->input ? ends[IN] : open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (input >= 0 && dup2(input, 0) >= 0 && dup2(ends[OUT], 1) >= 0 && dup2(ends[ERR], 2) >= 0 &&
         !setrlimit(RLIMIT_CORE, &none) && (child->most_memory == UINT64_MAX || !setrlimit(RLIMIT_DATA, &memory))) {
         signal(SIGPIPE, SIG_DFL);
         signal(SIGCHLD, SIG_DFL);
@@ -65,6 +78,7 @@ typedef struct conversation {
     double started_s;
     char *output;
     size_t size, capacity;
+    size_t given;                  /* bytes of the input that were written */
     char line[SHOWN], last[SHOWN]; /* the current line of standard error, and its last line that was not empty */
     size_t length;
     int error;            /* errno of the start, 0: the program was started */
@@ -127,7 +141,7 @@ static void take_error(conversation *c, const char *bytes, size_t count)
 /* Reads once from an end; returns whether there may be more. */
 static bool take(conversation *c, int end, char *chunk)
 {
-    static void (*const takers[N_ENDS])(conversation * c, const char *bytes, size_t count) = {
+    static void (*const takers[N_READ])(conversation * c, const char *bytes, size_t count) = {
         [OUT] = take_output, [ERR] = take_message, [START] = take_error};
     const ssize_t count = c->ends[end] < 0 ? 0 : read(c->ends[end], chunk, CHUNK);
     if (count > 0) {
@@ -136,6 +150,28 @@ static bool take(conversation *c, int end, char *chunk)
         shut(&c->ends[end]);
     }
     return count > 0 || (count < 0 && errno == EINTR);
+}
+
+/* Writes what fits of the input, and closes it at its end or when the program has closed it. The SIGPIPE of that is
+   blocked in this thread and taken, since its handler is the host program's. */
+static void give(conversation *c)
+{
+    sigset_t broken, before, pending;
+    sigemptyset(&broken);
+    sigaddset(&broken, SIGPIPE);
+    sigpending(&pending);
+    pthread_sigmask(SIG_BLOCK, &broken, &before);
+    const ssize_t count = write(c->ends[IN], c->child->input + c->given, c->child->input_size - c->given);
+    const int error = count < 0 ? errno : 0;
+    if (error == EPIPE && !sigismember(&pending, SIGPIPE)) {
+        while (sigtimedwait(&broken, NULL, &(struct timespec){0}) < 0 && errno == EINTR) {
+        }
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    c->given += count > 0 ? (size_t)count : 0;
+    if (c->given == c->child->input_size || (error && error != EAGAIN && error != EINTR)) {
+        shut(&c->ends[IN]);
+    }
 }
 
 /* Whether the program has ended. It is not reaped yet, so that its number remains that of its group. */
@@ -153,13 +189,15 @@ static void talk(conversation *c, char *chunk)
     while (!has_ended(c)) {
         struct pollfd files[N_ENDS];
         for (int e = 0; e < N_ENDS; e++) {
-            files[e] = (struct pollfd){.fd = c->ends[e], .events = POLLIN}; /* poll() ignores -1 */
+            files[e] = (struct pollfd){.fd = c->ends[e], .events = e == IN ? POLLOUT : POLLIN}; /* -1 is ignored */
         }
         /* the pipes are closed a moment before the program has ended */
         const bool closed = c->ends[OUT] < 0 && c->ends[ERR] < 0;
         const int ready = poll(files, N_ENDS, closed ? LAST_STEP_MS : STEP_MS);
         for (int e = 0; e < N_ENDS && ready > 0; e++) {
-            if (files[e].revents) {
+            if (files[e].revents && e == IN) {
+                give(c);
+            } else if (files[e].revents) {
                 take(c, e, chunk);
             }
         }
@@ -172,7 +210,7 @@ static void talk(conversation *c, char *chunk)
         }
     }
     kill(-c->program, SIGKILL);
-    for (int e = 0; e < N_ENDS; e++) {
+    for (int e = 0; e < N_READ; e++) {
         for (int i = 0; i < FULL_PIPES && !c->status && take(c, e, chunk); i++) {
         }
     }
@@ -207,15 +245,15 @@ static bool lift(int *end)
     return *end >= 0;
 }
 
-/* Makes pipes: one end for the caller, which never waits in read(), one for the child. */
+/* Makes pipes: one end for the caller, which never waits in read() or write(), one for the child. */
 static bool open_ends(int ours[N_ENDS], int theirs[N_ENDS])
 {
     bool good = true;
     for (int e = 0; e < N_ENDS; e++) {
         int pair[2] = {-1, -1};
         const int failed = pipe2(pair, O_CLOEXEC);
-        ours[e] = failed ? -1 : pair[0];
-        theirs[e] = failed ? -1 : pair[1];
+        ours[e] = failed ? -1 : pair[e == IN];
+        theirs[e] = failed ? -1 : pair[e != IN];
         const bool lifted = lift(&ours[e]) && lift(&theirs[e]);
         good = good && lifted && !fcntl(ours[e], F_SETFL, O_NONBLOCK);
     }
@@ -244,6 +282,9 @@ static koksma_status start(conversation *c)
     }
     KOKSMA__FAIL_IF(c->program <= 0, KOKSMA_SYSTEM, "%s: can't start a process for it: %s", c->child->name,
                     strerror(error));
+    if (!c->child->input) {
+        shut(&c->ends[IN]);
+    }
     setpgid(c->program, c->program); /* both processes call setpgid, because either may run first */
     return KOKSMA_OK;
 }

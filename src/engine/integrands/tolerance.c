@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Integrates to a tolerance: R independent random sets, whose number of points doubles until the interval for the integral
- * is narrow enough. The points of several sets are put into batches of about BATCH points, so that functions of other
+ * is narrow enough. The points of several sets are put into batches of up to BATCH points or COORDINATES coordinates,
+ * so that functions of other
  * programs and languages are called seldom; the sums of each set are compensated and in the order of its points, so
  * that batches and threads change no bit.
  */
@@ -15,7 +16,15 @@
 #include "core/status.h"
 #include "core/sum.h"
 
-enum { REPLICATES = 15, MOST_REPLICATES = 100000, FIRST_N = 256, BATCH = 1 << 16, ENOUGH = 1 << 16, FITTED = 5 };
+enum {
+    REPLICATES = 15,
+    MOST_REPLICATES = 100000,
+    FIRST_N = 256,
+    BATCH = 1 << 16,
+    COORDINATES = 1 << 22,
+    ENOUGH = 1 << 16,
+    FITTED = 5
+};
 
 static const uint64_t MOST_POINTS = UINT64_C(1) << 24;
 
@@ -24,7 +33,9 @@ typedef struct job {
     void *context;
     const koksma_spec *pattern;
     const koksma_tolerance_options *options;
-    const koksma_run *run;
+    const koksma_run *run; /* of the caller; in_step is that of all calls within a step */
+    koksma_run in_step;
+    double done;          /* fraction of the steps */
     bool extends;         /* the sets of a step begin with those of the step before */
     size_t replicates, n; /* n: of the present step */
     int dim;
@@ -42,8 +53,8 @@ typedef struct piece {
 static koksma_status make(const job *j, const piece *p, koksma_points *out)
 {
     const uint64_t seed = j->options->seed + p->replicate;
-    return j->extends ? koksma_generate_range(j->pattern, seed, j->n, p->first, j->run, out)
-                      : koksma_generate(j->pattern, seed, j->run, out);
+    return j->extends ? koksma_generate_range(j->pattern, seed, j->n, p->first, &j->in_step, out)
+                      : koksma_generate(j->pattern, seed, &j->in_step, out);
 }
 
 static koksma_status add(job *j, const piece *p, const double *values)
@@ -74,7 +85,7 @@ static koksma_status evaluate(job *j, const piece *pieces, size_t count, double 
         KOKSMA__TRY(make(j, &pieces[p], &part));
         batch.n += part.n;
     }
-    KOKSMA__TRY(koksma__ask(j->run));
+    KOKSMA__TRY(koksma__ask(&j->in_step));
     const char kept = koksma__call_begin();
     KOKSMA__TRY(koksma__call_end(kept, j->values(j->context, &batch, values), "values"));
     for (size_t p = 0; p < count; p++) {
@@ -88,7 +99,8 @@ static koksma_status evaluate(job *j, const piece *pieces, size_t count, double 
 static koksma_status extend(job *j, size_t from)
 {
     const size_t begin = j->extends ? from : 0, fresh = j->n - begin;
-    const size_t length = j->extends && fresh > BATCH ? BATCH : fresh, at_once = length < BATCH ? BATCH / length : 1;
+    const size_t most = COORDINATES / j->dim < BATCH ? (size_t)(COORDINATES / j->dim) : BATCH;
+    const size_t length = j->extends && fresh > most ? most : fresh, at_once = length < most ? most / length : 1;
     piece *pieces = calloc(at_once, sizeof *pieces);
     koksma_points batch = {0};
     koksma_status status =
@@ -197,6 +209,14 @@ static koksma_status check(const koksma_spec *pattern, const koksma_tolerance_op
     return KOKSMA_OK;
 }
 
+/* The keep_going within a step, whose calls know only fractions of their own. */
+static bool go_on(void *context, double fraction)
+{
+    const job *j = context;
+    (void)fraction;
+    return koksma__keep_going(j->run, j->done);
+}
+
 static koksma_status run_steps(job *j, size_t n, size_t steps, koksma_tolerance *t)
 {
     koksma_estimate_options estimate = j->options->estimate;
@@ -211,11 +231,9 @@ static koksma_status run_steps(job *j, size_t n, size_t steps, koksma_tolerance 
         }
         koksma_tolerance_step *step = &t->steps[t->n_steps++];
         *step = (koksma_tolerance_step){.n = j->n, .points = j->points};
-        KOKSMA__TRY(koksma_estimate_integral(&estimate, j->means, j->replicates, j->run, &step->estimate));
+        KOKSMA__TRY(koksma_estimate_integral(&estimate, j->means, j->replicates, &j->in_step, &step->estimate));
         t->reached = is_reached(j, &step->estimate);
-        if (!koksma__keep_going(j->run, (double)(k + 1) / (double)steps)) {
-            return koksma__fail_interrupted();
-        }
+        j->done = (double)(k + 1) / (double)steps;
     }
     predict(j, t);
     return KOKSMA_OK;
@@ -239,6 +257,7 @@ koksma_status koksma_integrate_to(koksma_values_of *values, void *context, int d
              .dim = dim,
              .least = HUGE_VAL,
              .largest = -HUGE_VAL};
+    j.in_step = (koksma_run){.threads = run ? run->threads : 0, .keep_going = go_on, .context = &j};
     const size_t n = options->first_n ? options->first_n : FIRST_N;
     size_t steps;
     KOKSMA__TRY(count_steps(&j, n, &steps));

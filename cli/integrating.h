@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The parts of `koksma integrate`: integrands, and estimates with intervals or to a tolerance. */
+#ifndef KOKSMA_CLI_INTEGRATING_H
+#define KOKSMA_CLI_INTEGRATING_H
+
+#include <koksma/estimate.h>
+#include <koksma/integrate.h>
+
+#include "source.h"
+
+#define CLI_ESTIMATE_OPTIONS                                                                                         \
+    {0, "tolerance", "ERROR",                                                                                        \
+     "double the points until the error is at most ERROR; exit code 1 if the limit ends it"},                        \
+        {0, "relative", NULL, "with --tolerance: ERROR is relative to the integral"},                                \
+        {0, "max-points", "N", "with --tolerance: limit of the points of all sets together (default: 16777216)"},    \
+        {0, "estimator", "ESTIMATOR", "print an estimate; see 'koksma list estimators' (default: median)"},          \
+        {0, "interval", "INTERVAL", "of an estimate; see 'koksma list intervals' (default: the estimator's)"},       \
+        {0, "replicates", "R", "independent sets of an estimate (default: 15)"},                                     \
+        {0, "confidence", "C", "of the interval, above 0 and below 1 (default: 0.95)"},                              \
+        {0, "range", "LOW,HIGH", "bounds of the function's values, for intervals that need them"},                   \
+    {                                                                                                                \
+        0, "with", "COMMAND",                                                                                        \
+            "estimate the function that COMMAND computes: points on its stdin, values on its stdout"                 \
+    }
+
+/* Integrands of the first operand, with the libraries that have them. */
+typedef struct cli_integrands {
+    const cli_arguments *arguments;
+    void *libraries[16];
+    size_t n_libraries;
+} cli_integrands;
+
+/* Calls f for each, in dim dimensions; of "all" only those that have this dimension. Returns the exit code. */
+int cli_integrands_each(cli_integrands *all, int dim, int (*f)(const koksma_integral *integral, void *context),
+                        void *context);
+
+void cli_integrands_close(cli_integrands *all);
+
+/* Whether the command line asks for estimates in place of errors. */
+bool cli_estimates(const cli_arguments *arguments);
+
+/* Estimates each integrand, or the function of --with, by each pattern. Returns the exit code. */
+int cli_run_estimates(const cli_arguments *arguments);
+
+#endif
