@@ -142,8 +142,6 @@ static void put_step(const estimating *e, const printed *p, const koksma_toleran
 {
     cli_rows *rows = e->rows;
     const koksma_integral_estimate *found = &step->estimate;
-    const char *estimator = e->options.estimate.estimator, *interval = e->options.estimate.interval;
-    const koksma_estimator *member = estimator ? koksma_estimator_find(estimator) : koksma_estimator_at(0);
     cli_row_text(rows, "integrand", p->name);
     cli_row_text(rows, "source", p->pattern);
     cli_row_whole(rows, "n", step->n);
@@ -155,8 +153,8 @@ static void put_step(const estimating *e, const printed *p, const koksma_toleran
     cli_row_number(rows, "low", found->low);
     cli_row_number(rows, "high", found->high);
     cli_row_number(rows, "confidence", found->confidence);
-    cli_row_text(rows, "estimator", member->name);
-    cli_row_text(rows, "interval", interval ? interval : member->interval);
+    cli_row_text(rows, "estimator", found->estimator);
+    cli_row_text(rows, "interval", found->interval);
     cli_row_number(rows, "integral", p->truth);
     cli_row_number(rows, "off", found->value - p->truth);
     if (isnan(p->truth)) {

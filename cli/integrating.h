@@ -13,8 +13,9 @@
      "double the points until the error is at most ERROR; exit code 1 if the limit ends it"},                        \
         {0, "relative", NULL, "with --tolerance: ERROR is relative to the integral"},                                \
         {0, "max-points", "N", "with --tolerance: limit of the points of all sets together (default: 16777216)"},    \
-        {0, "estimator", "ESTIMATOR", "print an estimate; see 'koksma list estimators' (default: median)"},          \
-        {0, "interval", "INTERVAL", "of an estimate; see 'koksma list intervals' (default: the estimator's)"},       \
+        {0, "estimator", "ESTIMATOR", "print an estimate; see 'koksma list estimators' (default: the interval's)"},  \
+        {0, "interval", "INTERVAL",                                                                                  \
+         "of an estimate; see 'koksma list intervals' (default: the estimator's, or auto)"},                         \
         {0, "replicates", "R", "independent sets of an estimate (default: 15)"},                                     \
         {0, "confidence", "C", "of the interval, above 0 and below 1 (default: 0.95)"},                              \
         {0, "range", "LOW,HIGH", "bounds of the function's values, for intervals that need them"},                   \

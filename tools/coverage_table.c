@@ -83,22 +83,27 @@ static void put_rows(const koksma_integral *integral, const double *estimates, s
     }
     for (size_t i = 0; koksma_interval_at(i); i++) {
         const koksma_interval *interval = koksma_interval_at(i);
-        koksma_estimate_options o = {.estimator = "mean", .interval = interval->name};
+        koksma_estimate_options o = {.interval = interval->name};
         const bool bounded = isfinite(facts.lowest) && isfinite(facts.highest);
         o.lowest = bounded ? facts.lowest : 0;
         o.highest = bounded ? facts.highest : 0;
-        double covered = 0, width = 0;
+        double covered = 0, width = 0, square = 0;
         for (size_t run = 0; run < runs && (bounded || !interval->bounded); run++) {
             koksma_integral_estimate e;
             must(koksma_estimate_integral(&o, estimates + run * replicates, replicates, NULL, &e));
             covered += facts.value >= e.low - 1e-14 * root && facts.value <= e.high + 1e-14 * root;
             width += (e.high - e.low) / root;
+            square += (e.value - facts.value) * (e.value - facts.value);
         }
         const double count = bounded || !interval->bounded ? (double)runs : (double)NAN;
         char key[64];
         snprintf(key, sizeof key, "%s_width", interval->name);
         put_number(interval->name, covered / count);
         put_number(key, width / count);
+        if (!interval->estimator) {
+            snprintf(key, sizeof key, "%s_rmse", interval->name);
+            put_number(key, sqrt(square / count) / root);
+        }
     }
 }
 

@@ -38,6 +38,7 @@ typedef struct koksma_estimator {
 /* An interval for the integral from the same R estimates. */
 typedef struct koksma_interval {
     const char *name, *title, *cite; /* as those of an estimator */
+    const char *estimator;           /* name of the estimator that it has by default; NULL: auto chooses it */
     const char *assumes;             /* what its coverage rests on */
     bool proved;  /* the coverage is proved for all integrands with the given bounds and every R, if the sets are
                      independent and unbiased; false: it holds if `assumes` does, or for large R */
@@ -52,8 +53,8 @@ KOKSMA_API const koksma_interval *koksma_interval_find(const char *name);
 
 /* How an integral is estimated. A struct of zeros has the defaults, for an integrand of unknown bounds. */
 typedef struct koksma_estimate_options {
-    const char *estimator;  /* name; NULL: the first of the table */
-    const char *interval;   /* name; NULL: that of the estimator */
+    const char *estimator;  /* name; NULL: that of the interval */
+    const char *interval;   /* name; NULL: that of the estimator, and without either the first of the table, auto */
     double confidence;      /* of the interval, above 0 and below 1; 0: .95 */
     double lowest, highest; /* bounds of the integrand's values, lowest < highest; both 0: unknown */
 } koksma_estimate_options;
@@ -62,6 +63,7 @@ typedef struct koksma_integral_estimate {
     double value, low, high; /* the estimate, which may lie outside the interval unless both are of one kind */
     double error;      /* the larger of high - value and value - low: the error of `value` with this confidence */
     double confidence; /* of the interval */
+    const char *estimator, *interval; /* names of the members that were used; auto chooses them */
 } koksma_integral_estimate;
 
 /* Computes the estimate and the interval from n estimates by independent sets.
@@ -115,7 +117,8 @@ typedef struct koksma_tolerance {
 
    The confidence is divided by Bonferroni over the steps that are allowed: with K steps each interval misses with a
    probability of (1 - confidence) / K, so that the last interval holds with the stated confidence no matter when the
-   search ends. While all values of the function have been equal, which tells nothing of rare peaks, no step but the
+   search ends. An interval of width 0 is widened by one point's share of the range of the values so far, (largest - least)
+   / n, on both sides: functions with jumps give equal estimates that are off by less than that. While all values of the function have been equal, which tells nothing of rare peaks, no step but the
    last one ends the search before 2^16 points.
 
      values, context  the function

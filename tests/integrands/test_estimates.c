@@ -55,7 +55,7 @@ static void intervals_are_their_formulas(void **state)
     for (size_t i = 0; i < 15; i++) {
         values[i] = (double)(i * 4 % 15 + 1);
     }
-    e = estimate(NULL, NULL, 0.95, 0, 0, values, 15);
+    e = estimate("median", NULL, 0.95, 0, 0, values, 15);
     assert_near(e.value, 8, 0);
     assert_near(e.low, 4, 0);
     assert_near(e.high, 12, 0);
@@ -65,6 +65,28 @@ static void intervals_are_their_formulas(void **state)
     const koksma_estimate_options o = {.estimator = "median"};
     assert_int_equal(koksma_estimate_integral(&o, values, 5, NULL, &e), KOKSMA_ARGUMENT);
     assert_non_null(strstr(koksma_error_text(), "takes 6"));
+}
+
+/* Most values near 3 and two far off: the median; values spread evenly, or with equal ones: the mean. */
+static void auto_takes_the_median_of_heavy_tails(void **state)
+{
+    (void)state;
+    double tails[15], even[15], equal[15];
+    for (size_t i = 0; i < 15; i++) {
+        tails[i] = 3 + 1e-4 * (double)i + (i == 4 ? 50 : i == 9 ? -20 : 0);
+        even[i] = (double)i;
+        equal[i] = i == 4 ? 50 : 3;
+    }
+    koksma_integral_estimate e = estimate(NULL, NULL, 0, 0, 0, tails, 15);
+    assert_string_equal(e.estimator, "median");
+    assert_string_equal(e.interval, "quantile");
+    assert_near(e.value, 3.0007, 1e-3);
+    e = estimate(NULL, NULL, 0, 0, 0, even, 15);
+    assert_string_equal(e.estimator, "mean");
+    assert_string_equal(e.interval, "student");
+    assert_near(e.high, estimate("mean", "student", 0.975, 0, 0, even, 15).high, 1e-12); /* half of the risk */
+    e = estimate(NULL, NULL, 0, 0, 0, equal, 15);
+    assert_string_equal(e.estimator, "mean");
 }
 
 /* The formulas of Waudby-Smith & Ramdas once more, term by term, for values of a range from 10 to 30. */
@@ -252,6 +274,25 @@ static void a_limit_ends_the_search(void **state)
     assert_true(t.reached && t.steps[t.n_steps - 1].estimate.error <= 1e-3 * 0.79);
 }
 
+static double step(const double *x, int dim)
+{
+    (void)dim;
+    return x[0] < 0.001 ? 1 : 0;
+}
+
+/* Of 256 points of each set none or one is below .001: sets may all have the same, but the error is not 0. */
+static void equal_estimates_have_an_error(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 40; seed++) {
+        koksma_tolerance t;
+        const koksma_tolerance_options o = {.replicates = 8, .most_points = 8 * 256, .seed = seed, .absolute = 1e-4};
+        assert_ok(integrate(&(call){.at = step}, "sobol:scramble=owen", &o, NULL, &t));
+        const koksma_integral_estimate *e = &t.steps[0].estimate;
+        assert_true(e->low <= e->value && e->value <= e->high && (e->error > 1e-4 || e->value == 0) && !t.reached);
+    }
+}
+
 /* All values 0 at first: the interval [0,0] is no answer. */
 static void equal_values_end_no_search_at_once(void **state)
 {
@@ -300,10 +341,16 @@ static void mistakes_are_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(estimators_are_their_formulas),        cmocka_unit_test(intervals_are_their_formulas),
-        cmocka_unit_test(bounded_intervals_are_their_formulas), cmocka_unit_test(intervals_cover),
-        cmocka_unit_test(errors_are_within_the_tolerance),      cmocka_unit_test(a_limit_ends_the_search),
-        cmocka_unit_test(equal_values_end_no_search_at_once),   cmocka_unit_test(mistakes_are_named),
+        cmocka_unit_test(estimators_are_their_formulas),
+        cmocka_unit_test(intervals_are_their_formulas),
+        cmocka_unit_test(auto_takes_the_median_of_heavy_tails),
+        cmocka_unit_test(bounded_intervals_are_their_formulas),
+        cmocka_unit_test(intervals_cover),
+        cmocka_unit_test(errors_are_within_the_tolerance),
+        cmocka_unit_test(a_limit_ends_the_search),
+        cmocka_unit_test(equal_estimates_have_an_error),
+        cmocka_unit_test(equal_values_end_no_search_at_once),
+        cmocka_unit_test(mistakes_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -86,7 +86,7 @@ static const koksma_estimator trimmed_row = {
     "trimmed", "mean of the y without the lowest and the highest quarter (R / 4 rounded down of each)", "huber1981",
     "bootstrap", trimmed};
 
-static const koksma_estimator *const estimators[] = {&median_row, &mean_row, &median_of_means_row, &trimmed_row};
+static const koksma_estimator *const estimators[] = {&mean_row, &median_row, &median_of_means_row, &trimmed_row};
 
 KOKSMA__LOOKUP(koksma_estimator, estimators)
 KOKSMA__NAME_AT(koksma_estimator)
@@ -95,7 +95,8 @@ KOKSMA__NAME_AT(koksma_estimator)
 
 /* What an interval is computed from. `values` are in the order of the sets, `scratch` has room for as many. */
 typedef struct sample {
-    const koksma_estimator *estimator;
+    const koksma_estimator *estimator; /* NULL: auto chooses it */
+    const char *interval;              /* name of the interval that is used */
     const double *values;
     double *scratch;
     size_t n;
@@ -106,11 +107,11 @@ typedef struct sample {
 
 typedef struct interval_row {
     koksma_interval public;
-    koksma_status (*of)(const sample *s, double *low, double *high);
+    koksma_status (*of)(sample *s, double *low, double *high);
 } interval_row;
 
 /* Mean +- t sd / sqrt R, with t the quantile of Student's t of R - 1 degrees of freedom (Student 1908). */
-static koksma_status student(const sample *s, double *low, double *high)
+static koksma_status student(sample *s, double *low, double *high)
 {
     koksma__sum squares = {0};
     memcpy(s->scratch, s->values, s->n * sizeof *s->values);
@@ -127,7 +128,7 @@ static koksma_status student(const sample *s, double *low, double *high)
 
 /* The order statistics y_(k) and y_(R + 1 - k), of the largest k for which 2 P(B < k) <= 1 - confidence, B of
    Binomial(R, 1/2): the interval of Clopper & Pearson for the level of a quantile, inverted. */
-static koksma_status quantile(const sample *s, double *low, double *high)
+static koksma_status quantile(sample *s, double *low, double *high)
 {
     const double n = (double)s->n, all = koksma__log_gamma(n + 1) - n * log(2);
     double below = 0;
@@ -180,7 +181,7 @@ static void look_at(running *r, double x)
 /* The predictable plug-in empirical Bernstein interval (Waudby-Smith & Ramdas 2024, theorem 2): with stakes l_i,
    truncated at 1/2, the mean of the y weighted by l, +- (log(2 / miss) + sum 4 (y_i - m_i-1)^2 psi(l_i)) / sum l_i,
    where psi(l) = (-log(1 - l) - l) / 4 and m_i-1 estimates the mean from the values before. */
-static koksma_status empirical_bernstein(const sample *s, double *low, double *high)
+static koksma_status empirical_bernstein(sample *s, double *low, double *high)
 {
     running r = prior;
     double stakes = 0, weighted = 0, spread = 0;
@@ -226,7 +227,7 @@ static double refuted(const sample *s, bool mirrored)
 /* The interval of the hedged capital process (Waudby-Smith & Ramdas 2024, theorem 3 and section 4.4): all means m
    against which neither of two gamblers, who bet on more and on less and own half of the capital each, ever reaches
    1 / miss of the whole. Stakes are truncated at 3/4 of what would risk all. */
-static koksma_status betting(const sample *s, double *low, double *high)
+static koksma_status betting(sample *s, double *low, double *high)
 {
     running r = prior;
     for (size_t i = 0; i < s->n; i++) {
@@ -240,7 +241,7 @@ static koksma_status betting(const sample *s, double *low, double *high)
 }
 
 /* The percentile interval of the estimator over resamples of the y (Efron 1979). */
-static koksma_status bootstrap(const sample *s, double *low, double *high)
+static koksma_status bootstrap(sample *s, double *low, double *high)
 {
     double *found = malloc(RESAMPLES * sizeof *found);
     KOKSMA__REQUIRE_MEMORY(found, RESAMPLES * sizeof *found);
@@ -261,24 +262,53 @@ static koksma_status bootstrap(const sample *s, double *low, double *high)
     return status;
 }
 
+/* Both intervals with half of the risk. The quantile's is taken where it is less than half as wide, as it is where a few of
+   the y are far from the others, and no two y are equal: equal ones are those of functions with jumps, whose estimates
+   have few values, and their median may be none that is near the integral. */
+static koksma_status choose(sample *s, double *low, double *high)
+{
+    sample half = *s;
+    double lowest, highest;
+    half.miss /= 2;
+    KOKSMA__TRY(quantile(&half, &lowest, &highest));
+    bool equal = false; /* quantile leaves the values in order */
+    for (size_t i = 1; i < s->n; i++) {
+        equal = equal || s->scratch[i] == s->scratch[i - 1];
+    }
+    KOKSMA__TRY(student(&half, low, high));
+    const bool tails = !equal && highest - lowest < (*high - *low) / 2;
+    s->estimator = s->estimator ? s->estimator : tails ? &median_row : &mean_row;
+    s->interval = tails ? "quantile" : "student";
+    *low = tails ? lowest : *low;
+    *high = tails ? highest : *high;
+    return KOKSMA_OK;
+}
+
 static const interval_row interval_rows[] = {
+    {{"auto", "quantile where that is less than half as wide as student and no two y are equal, else student",
+      "clopper1934 student1908", NULL,
+      "what the one that it takes assumes; each has half of the risk, so that the choice costs no coverage", false,
+      false},
+     choose},
     {{"quantile", "order statistics y_(k) and y_(R + 1 - k) that hold the median of an estimate's distribution",
-      "clopper1934",
+      "clopper1934", "median",
       "the integral is the median of the distribution of y, as where that is symmetric; then proved "
       "for every R that it takes (6 for 95 %)",
       false, false},
      quantile},
-    {{"student", "mean of the y, +- t sd / sqrt R", "student1908 lecuyer2023", "the y are normal, or R is large",
-      false, false},
+    {{"student", "mean of the y, +- t sd / sqrt R", "student1908 lecuyer2023", "mean",
+      "the y are normal, or R is large", false, false},
      student},
-    {{"bootstrap", "percentiles of the estimator in 2000 resamples of the y", "efron1979 lecuyer2023",
+    {{"bootstrap", "percentiles of the estimator in 2000 resamples of the y", "efron1979 lecuyer2023", "mean",
       "R is large; with few replicates it is too narrow", false, false},
      bootstrap},
     {{"empirical-bernstein", "predictable plug-in empirical Bernstein interval of the mean of the y",
-      "waudbysmith2024 jain2025", "the values of the integrand lie between the bounds that are given", true, true},
+      "waudbysmith2024 jain2025", "mean", "the values of the integrand lie between the bounds that are given", true,
+      true},
      empirical_bernstein},
     {{"betting", "means that bets on the y, with the hedged capital process, do not refute",
-      "waudbysmith2024 jain2025", "the values of the integrand lie between the bounds that are given", true, true},
+      "waudbysmith2024 jain2025", "mean", "the values of the integrand lie between the bounds that are given", true,
+      true},
      betting},
 };
 enum { N_INTERVALS = sizeof interval_rows / sizeof *interval_rows };
@@ -316,16 +346,21 @@ const koksma_interval *koksma_interval_find(const char *name)
 /* Finds the members and checks the other options. */
 static koksma_status parse(const koksma_estimate_options *o, sample *s, const interval_row **interval)
 {
-    s->estimator = o->estimator ? koksma_estimator_find(o->estimator) : estimators[0];
-    if (!s->estimator) {
+    s->estimator = o->estimator ? koksma_estimator_find(o->estimator) : NULL;
+    if (o->estimator && !s->estimator) {
         return koksma__fail_unknown("estimator", o->estimator, koksma_estimator_name_at, NULL,
                                     "'koksma list estimators' names them");
     }
-    const char *name = o->interval ? o->interval : s->estimator->interval;
+    const char *name = o->interval    ? o->interval
+                       : o->estimator ? s->estimator->interval
+                                      : interval_rows[0].public.name;
     *interval = find_interval(name);
     if (!*interval) {
         return koksma__fail_unknown("interval", name, interval_name_at, NULL, "'koksma list intervals' names them");
     }
+    const char *natural = (*interval)->public.estimator;
+    s->estimator = s->estimator || !natural ? s->estimator : koksma_estimator_find(natural);
+    s->interval = (*interval)->public.name;
     const bool known = o->lowest != 0 || o->highest != 0;
     const double confidence = o->confidence == 0 ? 0.95 : o->confidence;
     KOKSMA__FAIL_IF(!(confidence > 0 && confidence < 1), KOKSMA_ARGUMENT,
@@ -364,12 +399,14 @@ koksma_status koksma_estimate_integral(const koksma_estimate_options *options, c
     KOKSMA__REQUIRE_MEMORY(s.scratch, n * sizeof *s.scratch);
     koksma_integral_estimate e = {.confidence = 1 - s.miss};
     const koksma_status status = interval->of(&s, &e.low, &e.high);
-    memcpy(s.scratch, values, n * sizeof *values);
-    e.value = s.estimator->of(s.scratch, n);
-    e.error = fmax(e.high - e.value, e.value - e.low);
-    free(s.scratch);
     if (!status) {
+        memcpy(s.scratch, values, n * sizeof *values);
+        e.value = s.estimator->of(s.scratch, n);
+        e.estimator = s.estimator->name;
+        e.interval = s.interval;
+        e.error = fmax(e.high - e.value, e.value - e.low);
         *out = e;
     }
+    free(s.scratch);
     return status;
 }

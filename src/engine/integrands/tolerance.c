@@ -209,6 +209,15 @@ static koksma_status check(const koksma_spec *pattern, const koksma_tolerance_op
     return KOKSMA_OK;
 }
 
+/* Widens an interval of width 0 by one point's share of the range of the values. */
+static void widen(const job *j, koksma_integral_estimate *e)
+{
+    const double share = e->low < e->high ? 0 : (j->largest - j->least) / (double)j->n;
+    e->low -= share;
+    e->high += share;
+    e->error = fmax(e->error, share);
+}
+
 /* The keep_going within a step, whose calls know only fractions of their own. */
 static bool go_on(void *context, double fraction)
 {
@@ -232,6 +241,7 @@ static koksma_status run_steps(job *j, size_t n, size_t steps, koksma_tolerance 
         koksma_tolerance_step *step = &t->steps[t->n_steps++];
         *step = (koksma_tolerance_step){.n = j->n, .points = j->points};
         KOKSMA__TRY(koksma_estimate_integral(&estimate, j->means, j->replicates, &j->in_step, &step->estimate));
+        widen(j, &step->estimate);
         t->reached = is_reached(j, &step->estimate);
         j->done = (double)(k + 1) / (double)steps;
     }
