@@ -35,16 +35,17 @@ from ._render import (Layers, SceneCheck, ScenePart, adaptive, check_scene, filt
 from ._series import Convergence, Trials, convergence, trials
 from ._spectrum import PairCorrelation, Spectrum, pair_correlation, spectrum
 from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
+from ._tolerance import Integral, Interval, Step, estimators, intervals
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Cost", "Datasheet", "Engine", "Error",
-    "Finding", "ForbiddenError", "ImageGroup", "Integrand", "Integration", "Layers", "MalformedError", "Member", "MetricValue",
+    "Finding", "ForbiddenError", "ImageGroup", "Integral", "Integrand", "Integration", "Interval", "Layers", "MalformedError", "Member", "MetricValue",
     "MissingError", "Modifier", "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked",
     "Ranking", "Record", "SceneCheck", "SceneGain", "SceneOptimum", "ScenePart", "Sensitivity", "Share", "SizeCheck",
-    "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "adaptive",
-    "allow_exec", "audit", "canonical", "check_scene", "compare", "convergence", "datasheet", "filters", "generate",
-    "has_ranges", "integrand", "integrands", "integrate", "integrators", "local_discrepancy", "measure", "measures",
+    "Spectrum", "Step", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "adaptive",
+    "allow_exec", "audit", "canonical", "check_scene", "compare", "convergence", "datasheet", "estimators", "filters", "generate",
+    "has_ranges", "integrand", "integrands", "integrate", "integrators", "intervals", "local_discrepancy", "measure", "measures",
     "metrics", "modifiers", "optimise", "optimise_scene", "pair_correlation", "patterns", "plans", "plot",
     "plot_compare", "plot_convergence", "radial_power", "rank", "read", "read_image", "records", "refuse_unknown",
     "render", "scenes", "sensitivity", "spectrum", "study_images", "trials", "verify", "verify_sets", "version", "warp_points",

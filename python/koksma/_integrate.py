@@ -7,7 +7,7 @@ import os
 from contextlib import contextmanager
 from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_void_p
 from dataclasses import dataclass
-from typing import Any, Callable, Iterator, List, Optional, Sequence, SupportsIndex, Tuple, Union
+from typing import Any, Callable, Iterator, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,7 @@ import numpy.typing as npt
 from . import _structs as s
 from ._library import ArgumentError, UnsupportedError, call, check, core, first_seed, flag, quoted, real, several, sizes_of, spec, text, whole
 from ._points import Member, PointArray, as_points, canonical, generate, numbers, table, view
+from ._tolerance import Integral, integrate_to
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
 
@@ -350,20 +351,37 @@ def _each(name: str, numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> 
     return [numbers] if hasattr(numbers, "__index__") and not np.ndim(numbers) else several(name, numbers)  # type: ignore[arg-type]
 
 
+@overload
 def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[SupportsIndex, Sequence[SupportsIndex], None] = None,
               dim: SupportsIndex = 2, *, trials: SupportsIndex = 32, seed: SupportsIndex = 0,
               integral: float = math.nan, variance: float = math.nan, anova: bool = False, samples: SupportsIndex = 0,
-              threads: SupportsIndex = 0) -> Integration:
-    """Integrates a function by sets of a pattern, and measures the error.
+              threads: SupportsIndex = 0) -> Integration: ...
+
+
+@overload
+def integrate(function: Function, pattern: Union[str, SupportsIndex, None] = None, n: Optional[SupportsIndex] = None,
+              dim: SupportsIndex = 2, *, tolerance: float, relative: bool = False, estimator: Optional[str] = None,
+              interval: Optional[str] = None, confidence: float = 0.95, replicates: SupportsIndex = 15,
+              max_points: SupportsIndex = 1 << 24, value_range: Optional[Sequence[float]] = None,
+              bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None, seed: SupportsIndex = 0,
+              threads: SupportsIndex = 0) -> Integral: ...
+
+
+def integrate(function: Function, pattern: Any = None, n: Any = None, dim: SupportsIndex = 2, *, trials: SupportsIndex = 32,
+              seed: SupportsIndex = 0, integral: float = math.nan, variance: float = math.nan, anova: bool = False,
+              samples: SupportsIndex = 0, threads: SupportsIndex = 0, tolerance: Optional[float] = None, **options: Any) -> Any:
+    """Integrates a function by sets of a pattern, and measures the error; or, with a tolerance, to that tolerance.
 
     Parameters
     ----------
     function : str or callable
         A spec of an integrand, or a function of an (n, dim) array of points that returns its n values, real numbers.
     pattern : str or array_like of shape (n, dim)
-        A spec, such as "sobol:scramble=owen"; or points, which are one set.
+        A spec, such as "sobol:scramble=owen"; or points, which are one set. With a tolerance a spec of unbiased sets, None
+        for "sobol:scramble=lms,digital-shift=1", or a number of dimensions: integrate(f, 3, tolerance=1e-6).
     n : int or sequence of int
-        Numbers of points of a pattern, each once; three or more give a slope. Points have their own.
+        Numbers of points of a pattern, each once; three or more give a slope. Points have their own. With a tolerance the
+        number of points of each set in the first step (256).
     dim : int
         Of a pattern.
     trials, seed : int
@@ -377,14 +395,40 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
         With anova, and only then: as of sensitivity().
     threads : int
         0: one for each processor.
+    tolerance : float
+        The points of each set double until the error of the estimate, with the stated confidence, is at most this. 0, with
+        n: one estimate of sets of n points. The remaining parameters have an effect only with a tolerance.
+    relative : bool
+        Whether the tolerance is relative to the integral.
+    estimator, interval : str
+        Names of estimators() and intervals(); by default the interval "auto", which takes median or mean.
+    confidence : float
+        Shared by all steps that max_points allows, so that the last interval has it whenever the search ends.
+    replicates, max_points : int
+        Number of independent sets; limit of their points together.
+    value_range : pair of float
+        Least and largest value of the function, for the intervals that need them. A value outside is an error.
+    bounds : array_like of shape (dim, 2)
+        (low, high) of each coordinate: the integral is that over this box, whose points the function gets.
+    warp : str
+        A name of warps() that maps the first two coordinates to the disk, triangle, hemisphere or sphere: the function gets
+        those points (of two or three coordinates) with the other coordinates behind, and the result is its mean over the
+        domain, with the warp's density.
 
     Returns
     -------
-    Integration
+    Integration, with a tolerance Integral
+
+    Raises
+    ------
+    What the function raises.
 
     Examples
     --------
-    >>> import koksma
+    >>> import koksma, numpy
+    >>> found = koksma.integrate(lambda x: numpy.exp(-(x**2).sum(axis=1)), 3, tolerance=1e-6, bounds=[(-1, 1)] * 3)
+    >>> found.reached, abs(float(found) - 1.493648265624854**3) <= 1e-6
+    (True, True)
     >>> found = koksma.integrate(lambda x: x[:, 0] * x[:, 1], "sobol:scramble=owen", [64, 256, 1024], integral=1/4)
     >>> found.slope < -1  # of random points -1/2
     True
@@ -396,6 +440,17 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
     >>> worst.axes, worst.sensitivity.component.value < 0.1, worst.part > 0.9
     ((0, 1), True, True)
     """
+    if tolerance is not None:
+        if trials != 32 or anova or samples or not (math.isnan(integral) and math.isnan(variance)):
+            raise ArgumentError("trials, integral, variance, anova and samples have no effect with a tolerance; the number of sets "
+                                "is replicates")
+        if hasattr(pattern, "__index__"):
+            pattern, dim = None, pattern
+        return _to_tolerance(function, pattern, n, dim, tolerance, seed=seed, threads=threads, **options)
+    if options:
+        raise TypeError(f"{next(iter(options))} has an effect only with a tolerance")
+    if pattern is None:
+        raise TypeError("pattern must be a str or points, or tolerance a number")
     sizes: List[int]
     if isinstance(pattern, (list, tuple)) or hasattr(pattern, "__array__"):
         points = as_points(pattern)
@@ -435,6 +490,16 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
                        slope=result.slope.value, slope_error=result.slope.standard_error, slope_low=result.slope.low,
                        slope_high=result.slope.high, slope_approximate=result.slope.approximate, slope_sizes=result.slope.count,
                        integral=integral, variance=variance, components=components)
+
+
+def _to_tolerance(function: Function, pattern: Optional[str], n: Optional[SupportsIndex], dim: SupportsIndex, tolerance: float, *,
+                  relative: bool = False, estimator: Optional[str] = None, interval: Optional[str] = None, confidence: float = 0.95,
+                  replicates: SupportsIndex = 15, max_points: SupportsIndex = 1 << 24, value_range: Optional[Sequence[float]] = None,
+                  bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None, seed: SupportsIndex,
+                  threads: SupportsIndex) -> Integral:
+    return integrate_to(_opened, function, pattern, n, dim, tolerance=tolerance, relative=relative, estimator=estimator,
+                        interval=interval, confidence=confidence, replicates=replicates, max_points=max_points,
+                        value_range=value_range, bounds=bounds, warp=warp, seed=seed, threads=threads)
 
 
 def _pattern(pattern: Any) -> str:

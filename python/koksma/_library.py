@@ -157,6 +157,11 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_integration_summary", c_double, c_double, options, POINTER(c_double), result)
     _declare(library, c_int, "koksma_integral_sensitivity", c_void_p, POINTER(c_int), c_size_t, c_size_t, c_uint64, run,
              POINTER(s.Sensitivity))
+    for name, kind in (("koksma_estimator_at", s.Estimator), ("koksma_interval_at", s.Interval)):
+        _declare(library, POINTER(kind), name, c_size_t)
+    _declare(library, c_int, "koksma_integral_values", c_void_p, points, run, POINTER(c_double))
+    _declare(library, c_int, "koksma_integrate_to", s.ValuesOf, c_void_p, c_int, spec, POINTER(s.ToleranceOptions), run,
+             POINTER(s.Tolerance))
     spectrum = POINTER(s.Spectrum)
     _declare(library, c_int, "koksma_spectrum_init", spectrum, c_int)
     _declare(library, None, "koksma_spectrum_fini", spectrum)

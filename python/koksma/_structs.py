@@ -9,7 +9,7 @@ MAX_USE_GROUPS = N_USES // 2
 MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
 MAX_SPP, MAX_IMAGE_SIDE, MAX_DEPTH, MAX_AOVS = 1 << 20, 65536, 64, 72
 MAX_RANK_TRIALS, RANK_CHECKS, RANK_REASON = 65536, 2, 256
-MAX_SIZES, MAX_AGAINST, MAX_HELD_OUT, IMAGES_GROUP = 64, 64, 16, 256
+MAX_SIZES, MAX_AGAINST, MAX_HELD_OUT, IMAGES_GROUP, MAX_STEPS = 64, 64, 16, 256, 32
 MAX_INT, MAX_SEED, MAX_INDEX = (1 << 31) - 1, (1 << 64) - 1, (1 << 51) - 1
 
 KeepGoing = CFUNCTYPE(c_bool, c_void_p, c_double)
@@ -173,6 +173,41 @@ class Integration(Structure):
 
 class IntegrationOptions(Structure):
     _fields_ = [("sizes", c_size_t * MAX_SIZES), ("n_sizes", c_size_t), ("seed", c_uint64), ("trials", c_uint64)]
+
+
+class Estimator(Structure):
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("interval", c_char_p), ("of", c_void_p)]
+
+
+class Interval(Structure):
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("estimator", c_char_p), ("assumes", c_char_p),
+                ("proved", c_bool), ("bounded", c_bool)]
+
+
+class EstimateOptions(Structure):
+    _fields_ = [("estimator", c_char_p), ("interval", c_char_p), ("confidence", c_double), ("lowest", c_double), ("highest", c_double)]
+
+
+class IntegralEstimate(Structure):
+    _fields_ = [("value", c_double), ("low", c_double), ("high", c_double), ("error", c_double), ("confidence", c_double),
+                ("estimator", c_char_p), ("interval", c_char_p)]
+
+
+ValuesOf = CFUNCTYPE(c_int, c_void_p, POINTER(Points), POINTER(c_double))
+
+
+class ToleranceOptions(Structure):
+    _fields_ = [("estimate", EstimateOptions), ("absolute", c_double), ("relative", c_double), ("replicates", c_size_t),
+                ("first_n", c_size_t), ("most_points", c_uint64), ("seed", c_uint64)]
+
+
+class ToleranceStep(Structure):
+    _fields_ = [("n", c_size_t), ("points", c_uint64), ("estimate", IntegralEstimate)]
+
+
+class Tolerance(Structure):
+    _fields_ = [("reached", c_bool), ("n_steps", c_size_t), ("steps", ToleranceStep * MAX_STEPS), ("rate", c_double),
+                ("rate_error", c_double), ("needed", c_double), ("needed_low", c_double), ("needed_high", c_double)]
 
 
 class Share(Structure):
@@ -380,6 +415,7 @@ CONSTANTS = [
     ("study.h", "KOKSMA_RANK_REASON", RANK_REASON), ("study.h", "KOKSMA_MAX_AGAINST", MAX_AGAINST),
     ("study.h", "KOKSMA_MAX_HELD_OUT", MAX_HELD_OUT), ("study.h", "KOKSMA_IMAGES_GROUP", IMAGES_GROUP),
     ("koksma.h", "UINT64_MAX", MAX_SEED), ("koksma.h", "KOKSMA_MAX_INDEX", MAX_INDEX), ("series.h", "KOKSMA_MAX_SIZES", MAX_SIZES),
+    ("estimate.h", "KOKSMA_MAX_STEPS", MAX_STEPS),
 ]
 
 #: Header, C name and class of every struct above.
@@ -394,6 +430,10 @@ LAYOUTS = [
     ("integrate.h", "koksma_integration_slope", IntegrationSlope), ("integrate.h", "koksma_integration", Integration),
     ("integrate.h", "koksma_integration_options", IntegrationOptions), ("integrate.h", "koksma_share", Share),
     ("integrate.h", "koksma_sensitivity", Sensitivity),
+    ("estimate.h", "koksma_estimator", Estimator), ("estimate.h", "koksma_interval", Interval),
+    ("estimate.h", "koksma_estimate_options", EstimateOptions), ("estimate.h", "koksma_integral_estimate", IntegralEstimate),
+    ("estimate.h", "koksma_tolerance_options", ToleranceOptions), ("estimate.h", "koksma_tolerance_step", ToleranceStep),
+    ("estimate.h", "koksma_tolerance", Tolerance),
     ("spectrum.h", "koksma_spectrum", Spectrum),
     ("spectrum.h", "koksma_spectrum_quality_values", SpectrumQuality),
     ("spectrum.h", "koksma_ring", Ring),

@@ -282,5 +282,62 @@ class Definitions(unittest.TestCase):
             self.assertAlmostEqual(known.variance / (moments[1] - moments[0]**2), 1, places=9, msg=spec)
 
 
+class Tolerance(unittest.TestCase):
+    def test_same_numbers_as_the_program(self):
+        output = subprocess.run([os.environ["KOKSMA"], "integrate", "genz-continuous", "-d", "3", "--tolerance", "1e-3", "--relative", "--seed",
+                                 "5", "--json", "-q"], check=True, capture_output=True, text=True).stdout
+        said = [json.loads(line) for line in output.splitlines()]
+        ours = koksma.integrate("genz-continuous", 3, tolerance=1e-3, relative=True, seed=5)
+        for row, step in zip(said, ours.path):
+            self.assertEqual([row[k] for k in ("n", "points", "estimate", "low", "high", "error", "confidence", "estimator", "interval")],
+                             [step.n, step.points, step.value, step.low, step.high, step.error, step.confidence, step.estimator, step.interval])
+        self.assertEqual(len(said), len(ours.path) + 1)
+        self.assertEqual((said[-1]["reached"], said[-1]["estimate"], said[-1]["rate"]), (True, float(ours), ours.rate))
+
+    def test_domains(self):
+        """The integral of x^2 over [-1, 2] x [0, 1/2] is 3/2; the mean of r^2 over the disk 1/2; of z over the hemisphere 1/2."""
+        box = koksma.integrate(lambda x: x[:, 0] ** 2, tolerance=1e-6, bounds=[(-1, 2), (0, .5)])
+        self.assertLessEqual(abs(float(box) - 1.5), 1e-6)
+        disk = koksma.integrate(lambda x: (x ** 2).sum(axis=1), tolerance=1e-4, warp="concentric-disk")
+        self.assertLessEqual(abs(float(disk) - .5), 1e-4)
+        up = koksma.integrate(lambda x: x[:, 2] * 2 * x[:, 3], 3, tolerance=1e-4, warp="hemisphere")
+        self.assertLessEqual(abs(float(up) - .5), 1e-4)
+
+    def test_intervals(self):
+        for interval in koksma.intervals():
+            found = koksma.integrate(lambda x: x[:, 0] * x[:, 1], "sobol:scramble=owen", 1024, tolerance=0, interval=interval.name,
+                                     value_range=(0, 1) if interval.bounded else None)
+            self.assertEqual((len(found.path), found.points), (1, 15 * 1024))
+            self.assertTrue(found.low <= .25 <= found.high, interval.name)
+            self.assertEqual(found.path[0].interval == interval.name, interval.name != "auto")
+
+    def test_limit(self):
+        found = koksma.integrate(lambda x: x[:, 0] < x[:, 1] ** 2, "random", tolerance=1e-5, max_points=10**5)
+        self.assertFalse(found.reached)
+        self.assertIn("not reached", repr(found))
+        self.assertGreater(found.needed, 1e6)
+
+    def test_errors_of_the_function_come_out(self):
+        class Own(Exception):
+            pass
+
+        def bad(_x):
+            raise Own("mine")
+
+        with self.assertRaisesRegex(Own, "mine"):
+            koksma.integrate(bad, 3, tolerance=1e-3)
+        for wrong, text in ((dict(tolerance=-1), "tolerance"), (dict(tolerance=0), "with n"), (dict(tolerance=1, estimator="medan"), "median"),
+                            (dict(tolerance=1, interval="betting"), "bounds"), (dict(tolerance=1, bounds=[(0, 1)]), "2 pairs"),
+                            (dict(tolerance=1, trials=3), "replicates"), (dict(tolerance=1, replicates=1), "replicates"),
+                            (dict(tolerance=1, pattern="sobol"), "one set"), (dict(tolerance=1, confidence=1), "confidence"),
+                            (dict(tolerance=1, value_range=(0, .1)), "outside")):
+            with self.assertRaisesRegex(koksma.ArgumentError, text):
+                koksma.integrate(lambda x: x[:, 0], **wrong)
+        with self.assertRaises(TypeError):
+            koksma.integrate(lambda x: x[:, 0], "random", 4, estimator="mean")
+        with self.assertRaisesRegex(koksma.ArgumentError, r"shape \(3840, 2\) it returned"):
+            koksma.integrate(lambda x: x, tolerance=1)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -17,7 +17,7 @@ import koksma
 
 PROGRAM = os.environ["KOKSMA"]
 CLAIMS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "include", "koksma", "claims.def")
-TABLES = ("patterns", "measures", "modifiers", "integrands", "warps", "metrics", "filters", "integrators", "adaptive")
+TABLES = ("patterns", "measures", "modifiers", "integrands", "warps", "metrics", "filters", "integrators", "adaptive", "estimators", "intervals")
 
 
 def program(*arguments):
