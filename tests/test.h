@@ -14,6 +14,26 @@
 
 #include <koksma/koksma.h>
 
+void test_add(const char *name, CMUnitTestFunction function, int line);
+void test_around(CMFixtureFunction begin, CMFixtureFunction end);
+
+/* TEST_CASE(name) { ... } is a test of cmocka, which the main of tests/main.c runs; `state` is what the group's beginning
+   left. A file that needs more, as a function after each test, has a list and a main of its own. */
+#define TEST_CASE(name)                                                                                              \
+    static void name(void **state);                                                                                  \
+    __attribute__((constructor)) static void add_##name(void)                                                        \
+    {                                                                                                                \
+        test_add(#name, name, __LINE__);                                                                             \
+    }                                                                                                                \
+    static void name(void **state __attribute__((unused)))
+
+/* TEST_GROUP(begin, end): functions of cmocka before the first test and after the last, either may be NULL. */
+#define TEST_GROUP(begin, end)                                                                                       \
+    __attribute__((constructor)) static void add_group(void)                                                         \
+    {                                                                                                                \
+        test_around(begin, end);                                                                                     \
+    }
+
 /* Whether AddressSanitizer or ThreadSanitizer checks this program, which then takes 4 to 10 times longer. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define TEST_SANITIZED 1

@@ -36,9 +36,8 @@ static void expect_name(const char *file, const char *name, const void *member, 
     }
 }
 
-static void names_are_those_of_files(void **state)
+TEST_CASE(names_are_those_of_files)
 {
-    (void)state;
     size_t n[11] = {0};
 #define PATTERN(line)                                                                                                \
     expect_name(#line, koksma__pattern_##line.name, &koksma__pattern_##line,                                         \
@@ -109,9 +108,8 @@ static void names_are_those_of_files(void **state)
 }
 
 /* A file is of one format: whichever is asked first. */
-static void formats_know_their_files_only(void **state)
+TEST_CASE(formats_know_their_files_only)
 {
-    (void)state;
     static const struct {
         const char *format, *head;
     } heads[] = {{"exr", "\x76\x2f\x31\x01\2\0\0\0"},
@@ -130,9 +128,8 @@ static void formats_know_their_files_only(void **state)
 /* ---- Tables with numbers ------------------------------------------------------------------------------------ */
 
 /* By koksma/koksma.h's ABI (docs/abi.md): numbers and exit codes that other programs have compiled in. */
-static void statuses_keep_their_numbers(void **state)
+TEST_CASE(statuses_keep_their_numbers)
 {
-    (void)state;
     static const struct {
         koksma_status status;
         int number, exit_code;
@@ -160,9 +157,8 @@ static void statuses_keep_their_numbers(void **state)
 }
 
 /* In the order of koksma/render.h, with the numbers that keys have had from the first; at every vertex. */
-static void uses_keep_their_numbers(void **state)
+TEST_CASE(uses_keep_their_numbers)
 {
-    (void)state;
     static const struct {
         const char *name;
         uint32_t number;
@@ -183,9 +179,8 @@ static void uses_keep_their_numbers(void **state)
 
 /* ---- Tables of functions ------------------------------------------------------------------------------------ */
 
-static void every_kernel_is_there(void **state)
+TEST_CASE(every_kernel_is_there)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof isas / sizeof *isas; i++) {
         const koksma__kernel_table *table = koksma__kernels_find(isas[i]);
         if (table) {
@@ -199,14 +194,4 @@ static void every_kernel_is_there(void **state)
 #define KERNEL(result, name, arguments) assert_true(batch->name != NULL);
 #include "render/pipelines/batch.def"
 #undef KERNEL
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_those_of_files),    cmocka_unit_test(formats_know_their_files_only),
-        cmocka_unit_test(statuses_keep_their_numbers), cmocka_unit_test(uses_keep_their_numbers),
-        cmocka_unit_test(every_kernel_is_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,9 +45,8 @@ static void all_refuse(const koksma_points *p, const char *reason)
     koksma_spectrum_fini(&spectrum);
 }
 
-static void coordinates_are_in_the_unit_square(void **state)
+TEST_CASE(coordinates_are_in_the_unit_square)
 {
-    (void)state;
     static const double odd[] = {NAN, INFINITY, -INFINITY, 1.7, -7, 1e300};
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
         for (size_t at = 0; at < 4; at++) {
@@ -58,18 +57,16 @@ static void coordinates_are_in_the_unit_square(void **state)
     }
 }
 
-static void sets_have_points(void **state)
+TEST_CASE(sets_have_points)
 {
-    (void)state;
     double xs[] = {0.5, 0.25};
     all_refuse(&(koksma_points){0, 2, xs}, "at least 1 point");
     all_refuse(&(koksma_points){1, 2, NULL}, "at least 1 point");
 }
 
 /* One point in the middle of a side, in a corner and in between is in order. */
-static void closed_sides_are_taken(void **state)
+TEST_CASE(closed_sides_are_taken)
 {
-    (void)state;
     double xs[] = {0, 1, 1, 0.5, 1, 1}, distance;
     const koksma_points p = {3, 2, xs};
     assert_ok(koksma_smallest_distance(&p, false, NULL, &distance));
@@ -77,9 +74,8 @@ static void closed_sides_are_taken(void **state)
     assert_int_equal(koksma_smallest_distance(&(koksma_points){1, 2, xs}, true, NULL, &distance), KOKSMA_N);
 }
 
-static void warps_ask_for_a_measure(void **state)
+TEST_CASE(warps_ask_for_a_measure)
 {
-    (void)state;
     double xs[] = {0.5, 0.25};
     const koksma_points p = {1, 2, xs};
     const koksma_warp *lens = koksma_warp_find("concentric-disk");
@@ -101,9 +97,8 @@ static void warps_ask_for_a_measure(void **state)
     }
 }
 
-static void specs_of_nothing(void **state)
+TEST_CASE(specs_of_nothing)
 {
-    (void)state;
     koksma_spec none = {0}, sobol;
     koksma_points p = {0};
     koksma_value value;
@@ -131,25 +126,11 @@ static void specs_of_nothing(void **state)
     }
 }
 
-static void spectra_ask_for_init(void **state)
+TEST_CASE(spectra_ask_for_init)
 {
-    (void)state;
     double xs[] = {0.5, 0.25};
     koksma_spectrum none = {0};
     assert_int_equal(koksma_spectrum_add(&none, &(koksma_points){1, 2, xs}, KOKSMA_SPECTRUM_FAST, NULL),
                      KOKSMA_ARGUMENT);
     assert_int_equal(koksma_spectrum_write("test_arguments.txt", &none), KOKSMA_ARGUMENT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coordinates_are_in_the_unit_square),
-        cmocka_unit_test(sets_have_points),
-        cmocka_unit_test(closed_sides_are_taken),
-        cmocka_unit_test(warps_ask_for_a_measure),
-        cmocka_unit_test(specs_of_nothing),
-        cmocka_unit_test(spectra_ask_for_init),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

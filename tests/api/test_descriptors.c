@@ -18,9 +18,8 @@ static void refused(koksma_status status, const char *word)
     }
 }
 
-static void patterns_and_measures(void **state)
+TEST_CASE(patterns_and_measures)
 {
-    (void)state;
     koksma_points p = test_points("jittered", 4, 2, 1);
     koksma_spec pattern, measure;
     koksma_value value;
@@ -47,9 +46,8 @@ static void patterns_and_measures(void **state)
     koksma_points_fini(&p);
 }
 
-static void warps(void **state)
+TEST_CASE(warps)
 {
-    (void)state;
     koksma_points p = test_points("jittered", 4, 2, 1), out;
     koksma_warp own = *koksma_warp_find("triangle");
     koksma_scatter_options options = {.warp = &own, .size = 64, .local_discrepancy = true};
@@ -66,9 +64,8 @@ static void warps(void **state)
     koksma_points_fini(&p);
 }
 
-static void renderers(void **state)
+TEST_CASE(renderers)
 {
-    (void)state;
     koksma_scene *scene;
     koksma_render_options options;
     koksma_image image, copy;
@@ -114,9 +111,8 @@ static void renderers(void **state)
 }
 
 /* Counts that nobody could have filled. */
-static void releases(void **state)
+TEST_CASE(releases)
 {
-    (void)state;
     koksma_strata strata = {.n_spaces = 5};
     koksma_strata_fini(&strata);
     assert_true(strata.n_spaces == 0);
@@ -155,9 +151,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     return answer;
 }
 
-static void functions_that_fail(void **state)
+TEST_CASE(functions_that_fail)
 {
-    (void)state;
     static const struct {
         int answer;
         koksma_status status;
@@ -196,16 +191,4 @@ static void functions_that_fail(void **state)
         assert_non_null(strstr(koksma_error_text(), "koksma_rank_options.render"));
     }
     koksma_points_fini(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns_and_measures),
-        cmocka_unit_test(warps),
-        cmocka_unit_test(renderers),
-        cmocka_unit_test(releases),
-        cmocka_unit_test(functions_that_fail),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

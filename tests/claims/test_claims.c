@@ -217,9 +217,8 @@ static bool wanted(const char *name)
     return !names || !*names;
 }
 
-static void patterns_keep_their_claims(void **state)
+TEST_CASE(patterns_keep_their_claims)
 {
-    (void)state;
     const koksma_pattern *p;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         koksma_spec specs[16];
@@ -269,9 +268,8 @@ static void write_operand(const char *name, const char *operand, const char *tex
     }
 }
 
-static void patterns_with_operands_keep_their_claims(void **state)
+TEST_CASE(patterns_with_operands_keep_their_claims)
 {
-    (void)state;
     const koksma_pattern *p;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         bool served = false;
@@ -298,9 +296,8 @@ static void patterns_with_operands_keep_their_claims(void **state)
 }
 
 /* Who does not claim dimension-prefixes changes somewhere: the absence of the claim is a statement, too. */
-static void others_change_with_the_dimension(void **state)
+TEST_CASE(others_change_with_the_dimension)
 {
-    (void)state;
     const koksma_pattern *p;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         bool served = false, changes = false;
@@ -328,9 +325,8 @@ static void others_change_with_the_dimension(void **state)
 }
 
 /* Sets large enough for several blocks, of the patterns that are fast enough. */
-static void large_sets_are_equal_on_any_threads(void **state)
+TEST_CASE(large_sets_are_equal_on_any_threads)
 {
-    (void)state;
     const koksma_pattern *p;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         koksma_spec specs[16];
@@ -355,9 +351,8 @@ static void large_sets_are_equal_on_any_threads(void **state)
     }
 }
 
-static void wrong_arguments_are_refused(void **state)
+TEST_CASE(wrong_arguments_are_refused)
 {
-    (void)state;
     const koksma_pattern *p;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         koksma_spec spec;
@@ -392,9 +387,8 @@ static void wrong_arguments_are_refused(void **state)
     }
 }
 
-static void aliases_are_their_patterns(void **state)
+TEST_CASE(aliases_are_their_patterns)
 {
-    (void)state;
     const koksma_pattern *p;
     size_t aliases = 0;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
@@ -410,17 +404,4 @@ static void aliases_are_their_patterns(void **state)
         }
     }
     assert_true(aliases >= 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns_keep_their_claims),
-        cmocka_unit_test(patterns_with_operands_keep_their_claims),
-        cmocka_unit_test(others_change_with_the_dimension),
-        cmocka_unit_test(large_sets_are_equal_on_any_threads),
-        cmocka_unit_test(wrong_arguments_are_refused),
-        cmocka_unit_test(aliases_are_their_patterns),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

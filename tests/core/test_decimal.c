@@ -38,9 +38,8 @@ static uint64_t random_bits(uint64_t i)
     return (uint64_t)r.w[0] << 32 | r.w[1];
 }
 
-static void numbers_go_there_and_back(void **state)
+TEST_CASE(numbers_go_there_and_back)
 {
-    (void)state;
     for (uint32_t i = 0; i <= 65536; i++) {
         assert_writes(i / 65536.0);
         assert_writes(nextafter(i / 65536.0, 0));
@@ -66,9 +65,8 @@ static void numbers_go_there_and_back(void **state)
     }
 }
 
-static void decimals_are_rounded_once(void **state)
+TEST_CASE(decimals_are_rounded_once)
 {
-    (void)state;
     char text[64];
     for (int i = 0; i < 1000000; i++) {
         snprintf(text, sizeof text, "0.%06d", i);
@@ -90,9 +88,8 @@ static void decimals_are_rounded_once(void **state)
     }
 }
 
-static void other_numbers_are_strtods(void **state)
+TEST_CASE(other_numbers_are_strtods)
 {
-    (void)state;
     static const char *const texts[] = {"",
                                         ".",
                                         "0",
@@ -126,14 +123,4 @@ static void other_numbers_are_strtods(void **state)
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         assert_reads(texts[i]);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_go_there_and_back),
-        cmocka_unit_test(decimals_are_rounded_once),
-        cmocka_unit_test(other_numbers_are_strtods),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

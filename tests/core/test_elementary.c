@@ -55,9 +55,8 @@ static const struct function {
                  ROW(log_gamma, 1, 4)};
 
 /* True values of every function, from the table beside this file. */
-static void test_true_values(void **state)
+TEST_CASE(test_true_values)
 {
-    (void)state;
     FILE *file = fopen(KOKSMA_TESTS "/core/elementary.txt", "r");
     assert_non_null(file);
     char line[200];
@@ -91,9 +90,8 @@ static void test_true_values(void **state)
 }
 
 /* What a libm's functions give exactly. */
-static void test_exact_values(void **state)
+TEST_CASE(test_exact_values)
 {
-    (void)state;
     for (int k = -300; k <= 300; k++) {
         assert_true(koksma__exp2(k) == ldexp(1, k) && koksma__log2(ldexp(1, k)) == k &&
                     koksma__pow(2, k) == ldexp(1, k));
@@ -126,9 +124,8 @@ static void test_exact_values(void **state)
 }
 
 /* Beside long doubles, near multiples of pi / 2 too, where a sine is as small as 6e-17. */
-static void test_cos_and_sin(void **state)
+TEST_CASE(test_cos_and_sin)
 {
-    (void)state;
     for (int i = -200000; i <= 200000; i++) {
         const double x = i % 2 ? i * 0.00031 : i * M_PI_4 / 2 + (i % 7 - 3) * 1e-16 * i;
         double c, s;
@@ -144,9 +141,8 @@ static void test_cos_and_sin(void **state)
 }
 
 /* The way there and back; near 1 a number's neighbours are far apart in t. */
-static void test_inverse_erf(void **state)
+TEST_CASE(test_inverse_erf)
 {
-    (void)state;
     for (int i = -300000; i <= 300000; i++) {
         const double x = i < -200000  ? -1 + ldexp(1, -(i + 300000) % 53)
                          : i > 200000 ? 1 - ldexp(1, -i % 53)
@@ -161,9 +157,8 @@ static void test_inverse_erf(void **state)
     }
 }
 
-static void test_bits(void **state)
+TEST_CASE(test_bits)
 {
-    (void)state;
     assert_true(koksma__exp(0) == 1 && koksma__erf(0) == 0 && koksma__erf(-1.25) == -koksma__erf(1.25) &&
                 koksma__log(1) == 0);
     /* A sum that a last bit anywhere changes. */
@@ -178,18 +173,16 @@ static void test_bits(void **state)
     assert_near(logs, 0x1.4ecee4c5419eap+26, 0);
 }
 
-static void test_limits(void **state)
+TEST_CASE(test_limits)
 {
-    (void)state;
     assert_true(koksma__exp(-1000) == 0 && koksma__exp(-(double)INFINITY) == 0 && isinf(koksma__exp(1000)));
     assert_true(koksma__erf((double)INFINITY) == 1 && koksma__erf(-50) == -1 && koksma__erf(1e-300) > 1e-300);
     assert_true(isnan(koksma__exp((double)NAN)) && isnan(koksma__erf((double)NAN)));
 }
 
 /* Where they are used: gaussian-jittered inverts the law of its points in their cells, for narrow and wide ones. */
-static void test_gaussian_jittered(void **state)
+TEST_CASE(test_gaussian_jittered)
 {
-    (void)state;
     static const double sigmas[] = {0.001, 0.01, 0.1, 0.25, 3, 1000};
     enum { M = 190, N = M * M }; /* more than one thread takes at a time */
     const koksma_run run = {.threads = 3};
@@ -212,18 +205,4 @@ static void test_gaussian_jittered(void **state)
         }
         koksma_points_fini(&points);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_true_values),
-        cmocka_unit_test(test_exact_values),
-        cmocka_unit_test(test_cos_and_sin),
-        cmocka_unit_test(test_inverse_erf),
-        cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_gaussian_jittered),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,9 +20,8 @@ static void expect(koksma__json_writer *w, const char *expected)
     free(text);
 }
 
-static void values_have_commas_and_keys(void **state)
+TEST_CASE(values_have_commas_and_keys)
 {
-    (void)state;
     koksma__json_writer w = {0};
     koksma__json_begin_object(&w, NULL);
     koksma__json_begin_array(&w, "none");
@@ -45,9 +44,8 @@ static void values_have_commas_and_keys(void **state)
 }
 
 /* RFC 8259, section 7; the bytes of RFC 3629, section 4: the first and last of each length, and what is no UTF-8. */
-static void texts_are_valid(void **state)
+TEST_CASE(texts_are_valid)
 {
-    (void)state;
     static const char *const pairs[][2] = {
         {"a\"b\\c/", "a\\\"b\\\\c/"},
         {"\x01\t\n\x1f\x7f", "\\u0001\\u0009\\u000a\\u001f\x7f"},
@@ -77,9 +75,8 @@ static void texts_are_valid(void **state)
     expect(&w, "\"\\u003c/script\\u003e\\u0026\"");
 }
 
-static void numbers_read_back(void **state)
+TEST_CASE(numbers_read_back)
 {
-    (void)state;
     static const double numbers[] = {
         0.1, 1.0 / 3, DBL_MAX, -DBL_MIN, 4.9406564584124654e-324, 0, 1, 123456789012345678.0};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
@@ -93,9 +90,8 @@ static void numbers_read_back(void **state)
     }
 }
 
-static void lines_and_limits(void **state)
+TEST_CASE(lines_and_limits)
 {
-    (void)state;
     koksma__json_writer w = {0};
     FILE *file = tmpfile();
     char line[64];
@@ -119,15 +115,4 @@ static void lines_and_limits(void **state)
     assert_int_equal(koksma__json_finish(&w, &text, &size), KOKSMA_ARGUMENT);
     assert_null(text);
     expect(&w, "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_have_commas_and_keys),
-        cmocka_unit_test(texts_are_valid),
-        cmocka_unit_test(numbers_read_back),
-        cmocka_unit_test(lines_and_limits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,9 +16,8 @@ static koksma_points made(const char *text, size_t n, int dim, int threads)
     return points;
 }
 
-static void large_sets_are_the_same(void **state)
+TEST_CASE(large_sets_are_the_same)
 {
-    (void)state;
     static const struct {
         const char *text;
         int dim;
@@ -51,10 +50,4 @@ static void large_sets_are_the_same(void **state)
         koksma_points_fini(&one);
         koksma_points_fini(&three);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(large_sets_are_the_same)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -92,28 +92,20 @@ static void make_errors(FILE *out)
     koksma_points_fini(&points);
 }
 
-static void points_are_written_and_read(void **state)
+TEST_CASE(points_are_written_and_read)
 {
     test_same_with_comma(*state, make_points);
     test_same_with_comma(*state, read_points);
 }
 
-static void specs_are_parsed_and_told(void **state)
+TEST_CASE(specs_are_parsed_and_told)
 {
     test_same_with_comma(*state, make_specs);
 }
 
-static void errors_and_findings_are_told(void **state)
+TEST_CASE(errors_and_findings_are_told)
 {
     test_same_with_comma(*state, make_errors);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(points_are_written_and_read),
-        cmocka_unit_test(specs_are_parsed_and_told),
-        cmocka_unit_test(errors_and_findings_are_told),
-    };
-    return cmocka_run_group_tests(tests, test_comma_begin, test_comma_end);
-}
+TEST_GROUP(test_comma_begin, test_comma_end)

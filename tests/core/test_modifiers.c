@@ -98,9 +98,8 @@ static void check_claims(const koksma_modifier *m, size_t at, koksma_spec spec, 
     koksma_points_fini(&points);
 }
 
-static void claims_are_kept(void **state)
+TEST_CASE(claims_are_kept)
 {
-    (void)state;
     const koksma_modifier *m;
     size_t looked_at = 0;
     for (size_t i = 0; koksma_pattern_at(i); i++) {
@@ -176,9 +175,8 @@ static void compare_measures(const koksma_modifier *m, koksma_spec *spec, const 
 }
 
 /* Where the table does not say that a value is kept, some pattern's changes: the lists are complete. */
-static void measures_are_kept(void **state)
+TEST_CASE(measures_are_kept)
 {
-    (void)state;
     const koksma_modifier *m;
     const koksma_measure *measure;
     bool changed[KOKSMA_MAX_MODIFIERS][MEASURES] = {{false}};
@@ -223,9 +221,8 @@ static void pair_under(size_t at, uint64_t seed, double x, double y, double out[
 
 /* Owen's definition: images of x and y agree in as many leading digits as x and y do; the first digit at which they
    differ is flipped in half of the cases, and what follows is independent. A digital shift flips the same in both. */
-static void digits_are_scrambled_by_definition(void **state)
+TEST_CASE(digits_are_scrambled_by_definition)
 {
-    (void)state;
     enum { SEEDS = test_repeats(4000, 400), TOP = 12 };
     size_t owen = 0, digital = 0;
     modifier("owen", &owen);
@@ -295,9 +292,8 @@ static void assert_scrambled_in(size_t at, uint32_t base)
 }
 
 /* In bases 2 to 5 and 7; a net in the base stays one. */
-static void digits_of_a_base_are_scrambled_by_definition(void **state)
+TEST_CASE(digits_of_a_base_are_scrambled_by_definition)
 {
-    (void)state;
     static const uint32_t bases[] = {2, 3, 4, 5, 7};
     size_t at = 0;
     modifier("owen-base", &at);
@@ -330,9 +326,8 @@ static void digits_of_a_base_are_scrambled_by_definition(void **state)
 
 /* A value is 0 or a whole number in the modifier's range; a text and a struct with any other are refused by the same
    words. */
-static void limits_are_the_same_in_texts_and_structs(void **state)
+TEST_CASE(limits_are_the_same_in_texts_and_structs)
 {
-    (void)state;
     const koksma_modifier *m;
     for (size_t at = 0; (m = koksma_modifier_at(at)); at++) {
         const double values[] = {0, m->min, m->max, m->min - 1, m->max + 1, m->min + 0.5, -1};
@@ -356,9 +351,8 @@ static void limits_are_the_same_in_texts_and_structs(void **state)
 }
 
 /* tent is 1 - |2x - 1|, below 1; behind a shift the mean over a lattice of x^2 y has a far smaller error than without. */
-static void tents_fold_the_cube(void **state)
+TEST_CASE(tents_fold_the_cube)
 {
-    (void)state;
     size_t at = 0;
     modifier("tent", &at);
     double xs[] = {0, 0.25, 0.5, 0.75, 1 - 0x1p-53, 0x1p-53, 0.3}, values[KOKSMA_MAX_MODIFIERS] = {0};
@@ -388,9 +382,8 @@ static void tents_fold_the_cube(void **state)
 }
 
 /* shift adds the same vector to all points; phase=K is shift with seed K. */
-static void shifts_move_all_points_alike(void **state)
+TEST_CASE(shifts_move_all_points_alike)
 {
-    (void)state;
     size_t at = 0, phase = 0;
     modifier("shift", &at);
     modifier("phase", &phase);
@@ -418,9 +411,8 @@ static void shifts_move_all_points_alike(void **state)
 }
 
 /* Texts: every modifier behind every pattern, none is also a pattern's parameter, and a path ends before them. */
-static void texts_are_read_and_printed(void **state)
+TEST_CASE(texts_are_read_and_printed)
 {
-    (void)state;
     const koksma_modifier *m;
     const koksma_pattern *p;
     char text[KOKSMA_MAX_SPEC], wrong[KOKSMA_MAX_SPEC], all[KOKSMA_MAX_SPEC] = "";
@@ -455,19 +447,4 @@ static void texts_are_read_and_printed(void **state)
     assert_string_equal(spec.path, "x,shift=2.txt");
     koksma_spec_text(&spec, wrong);
     assert_string_equal(wrong, text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(claims_are_kept),
-        cmocka_unit_test(measures_are_kept),
-        cmocka_unit_test(digits_are_scrambled_by_definition),
-        cmocka_unit_test(digits_of_a_base_are_scrambled_by_definition),
-        cmocka_unit_test(limits_are_the_same_in_texts_and_structs),
-        cmocka_unit_test(tents_fold_the_cube),
-        cmocka_unit_test(shifts_move_all_points_alike),
-        cmocka_unit_test(texts_are_read_and_printed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,9 +26,8 @@ static bool listen(void *context, double fraction_done)
     return l->answer;
 }
 
-static void test_paced(void **state)
+TEST_CASE(test_paced)
 {
-    (void)state;
     listener l = {.answer = true};
     koksma__pacing pacing = {.keep_going = listen, .context = &l, .interval_s = 0.25};
     koksma__set_clock(clock_of_test);
@@ -50,10 +49,4 @@ static void test_paced(void **state)
     }
     assert_int_equal(l.asked, 16);
     koksma__set_clock(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_paced)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

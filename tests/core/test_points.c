@@ -15,9 +15,8 @@ static void fails_as_too_large(koksma_status status)
     }
 }
 
-static void larger_sets_are_refused(void **state)
+TEST_CASE(larger_sets_are_refused)
 {
-    (void)state;
     koksma_points p;
     fails_as_too_large(koksma_points_init(&p, KOKSMA_MAX_COORDINATES + 1, 1));
     fails_as_too_large(koksma_points_init(&p, KOKSMA_MAX_COORDINATES / KOKSMA_MAX_DIM + 1, KOKSMA_MAX_DIM));
@@ -30,9 +29,8 @@ static void larger_sets_are_refused(void **state)
 }
 
 /* Structs that a caller filled in: what they claim is looked at before their coordinates are. */
-static void claims_are_looked_at(void **state)
+TEST_CASE(claims_are_looked_at)
 {
-    (void)state;
     double few[2] = {0.5, 0.5};
     koksma_points p = {KOKSMA_MAX_COORDINATES / 2 + 1, 2, few};
     koksma_spec random, star;
@@ -52,9 +50,8 @@ static void claims_are_looked_at(void **state)
 }
 
 /* A method's buffers, of less than 256 bytes for each coordinate, have a size. */
-static void sizes_have_room(void **state)
+TEST_CASE(sizes_have_room)
 {
-    (void)state;
     assert_true(KOKSMA_MAX_COORDINATES <= SIZE_MAX / 255);
     if (sizeof(size_t) > 4) {
         return;
@@ -67,14 +64,4 @@ static void sizes_have_room(void **state)
     assert_int_equal(koksma_spectrum_add(&spectrum, &p, KOKSMA_SPECTRUM_EXACT, NULL), KOKSMA_MEMORY);
     koksma_spectrum_fini(&spectrum);
     koksma_points_fini(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(larger_sets_are_refused),
-        cmocka_unit_test(claims_are_looked_at),
-        cmocka_unit_test(sizes_have_room),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

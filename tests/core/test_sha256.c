@@ -20,7 +20,7 @@ static void expect(const char *bytes, size_t size, size_t piece, const char *exp
     assert_string_equal(text, expected);
 }
 
-static void published_hashes_come_out(void **state)
+TEST_CASE(published_hashes_come_out)
 {
     static const struct {
         const char *text, *hash;
@@ -33,7 +33,6 @@ static void published_hashes_come_out(void **state)
          "nopqrstu",
          "cf5b16a778af8380036ce59e7b0492370b249b11e8f07a51afac45037afee9d1"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         for (size_t piece = 1; piece < 130; piece++) {
             expect(cases[i].text, strlen(cases[i].text), piece, cases[i].hash);
@@ -44,10 +43,4 @@ static void published_hashes_come_out(void **state)
     memset(many, 'a', 1000000);
     expect(many, 1000000, 4097, "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
     free(many);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(published_hashes_come_out)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-static void test_rows(void **state)
+TEST_CASE(test_rows)
 {
     static const struct {
         const char *text, *escaped;
@@ -25,7 +25,6 @@ static void test_rows(void **state)
         {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"}, /* above U+10FFFF */
         {"cut \xe2\x82", "cut \\xe2\\x82"},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[64];
         strcpy(text, rows[i].text);
@@ -64,10 +63,9 @@ static bool is_line_of_utf8(const char *text)
 }
 
 /* A text with as much space as it can take: the same bytes as when they are written one after the other. */
-static void test_space(void **state)
+TEST_CASE(test_space)
 {
     static char text[4 * (1 << 20) + 1];
-    (void)state;
     const size_t n = 1 << 20;
     for (size_t i = 0; i < n; i++) {
         text[i] = i % 3 ? '\x1b' : 'a'; /* moved once for each of them, these would be 3e12 bytes */
@@ -91,10 +89,9 @@ static void test_space(void **state)
     assert_string_equal(text, "ab");
 }
 
-static void test_any_bytes(void **state)
+TEST_CASE(test_any_bytes)
 {
     uint64_t h = 1;
-    (void)state;
     for (int n = 0; n < 200000; n++) {
         char text[24], around[26];
         const size_t size = 1 + (size_t)n % sizeof text, length = (size_t)n / sizeof text % size;
@@ -114,10 +111,9 @@ static void test_any_bytes(void **state)
 
 /* An error names the object and the reason (koksma.h), also where the name alone is longer than the text: one character of
    three bytes more or less moves every byte of what is kept. */
-static void test_long_names(void **state)
+TEST_CASE(test_long_names)
 {
     static const char end[] = ".txt: can't be read: File name too long";
-    (void)state;
     for (size_t n = 300; n < 1300; n++) {
         char path[4096] = "";
         for (size_t i = 0; i < n; i++) {
@@ -134,11 +130,4 @@ static void test_long_names(void **state)
         const size_t whole = strlen(path) + strlen(end) - strlen(".txt");
         assert_true(whole < 1024 ? length == whole : length > 1000 && length < 1024 && strstr(text, "..."));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_space),
-                                       cmocka_unit_test(test_any_bytes), cmocka_unit_test(test_long_names)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,9 +108,8 @@ static double check_maximal(const koksma_points *p, const float *values)
     return d;
 }
 
-static void maximal_sets_follow_a_density(void **state)
+TEST_CASE(maximal_sets_follow_a_density)
 {
-    (void)state;
     koksma_points p = with_density("poisson-disk-maximal", steps, 300, 1, 0);
     check_maximal(&p, steps);
     koksma_points_fini(&p);
@@ -131,9 +130,8 @@ static koksma_status try_density(const char *text, size_t n, koksma_points *p)
 }
 
 /* By distance the set has as many points as the message says, and keeps the distance. */
-static void maximal_sets_keep_a_given_distance(void **state)
+TEST_CASE(maximal_sets_keep_a_given_distance)
 {
-    (void)state;
     koksma_points p;
     assert_int_equal(try_density("poisson-disk-maximal:d=0.05", 200, &p), KOKSMA_N);
     const char *said = strstr(koksma_error_text(), "with this seed has ");
@@ -178,9 +176,8 @@ static double deviation(const koksma_points *p, const float *values)
 }
 
 /* Low frequencies of the points are those of the density. */
-static void gaussian_sets_follow_a_density(void **state)
+TEST_CASE(gaussian_sets_follow_a_density)
 {
-    (void)state;
     koksma_points p = with_density("gaussian-blue-noise", steps, 256, 1, 0);
     koksma_points white = with_density("random", steps, 256, 1, 0);
     assert_true(deviation(&white, steps) > 0.4 && deviation(&white, steps) < 2);
@@ -194,9 +191,8 @@ static void gaussian_sets_follow_a_density(void **state)
 
 /* An even density gives sets like those of the pattern: hardly any power at frequencies below 0.5 sqrt n, and no two
    points closer than half the distance of the densest packing. */
-static void gaussian_sets_of_an_even_density_are_even(void **state)
+TEST_CASE(gaussian_sets_of_an_even_density_are_even)
 {
-    (void)state;
     koksma_points p = with_density("gaussian-blue-noise", even, 144, 3, 0);
     assert_true(deviation(&p, even) < 1e-3);
     for (size_t i = 0; i < p.n; i++) {
@@ -208,9 +204,8 @@ static void gaussian_sets_of_an_even_density_are_even(void **state)
 }
 
 /* One, two and five points: every image on the torus acts. */
-static void few_points_work(void **state)
+TEST_CASE(few_points_work)
 {
-    (void)state;
     static const char *const specs[] = {"gaussian-blue-noise", "poisson-disk-maximal"};
     for (size_t s = 0; s < 2; s++) {
         for (size_t n = 1; n <= 5; n++) {
@@ -226,9 +221,8 @@ static void few_points_work(void **state)
     koksma_points_fini(&p);
 }
 
-static void threads_have_no_effect(void **state)
+TEST_CASE(threads_have_no_effect)
 {
-    (void)state;
     koksma_points a = with_density("gaussian-blue-noise:steps=20", steps, 200, 1, 1);
     koksma_points b = with_density("gaussian-blue-noise:steps=20", steps, 200, 1, 3);
     assert_memory_equal(a.xs, b.xs, 400 * sizeof *a.xs);
@@ -371,9 +365,8 @@ static double chi_squared(const koksma_points *p)
 }
 
 /* Independent points have 16 on average, and less than 3.9 in one case of 1,000. */
-static void models_are_covered_evenly(void **state)
+TEST_CASE(models_are_covered_evenly)
 {
-    (void)state;
     koksma_points p = on_model("gaussian-blue-noise", test_repeats(400, 150), 1);
     assert_true(chi_squared(&p) < test_repeats(4, 8) - 0.1);
     for (size_t i = 0; i < p.n; i++) {
@@ -388,9 +381,8 @@ static void models_are_covered_evenly(void **state)
     koksma_points_fini(&p);
 }
 
-static void maximal_sets_cover_models(void **state)
+TEST_CASE(maximal_sets_cover_models)
 {
-    (void)state;
     koksma_points p = on_model("poisson-disk-maximal", 500, 2);
     double d = INFINITY;
     for (size_t i = 0; i < p.n; i++) {
@@ -456,9 +448,8 @@ static const char *const ordered[] = {"poisson-disk-maximal", "gaussian-blue-noi
 
 /* Prefixes follow the density, as blue noise of their number does; those of the plain order are random. The few points of
    the run with sanitizers have too much spread for that: it compares threads and orders. */
-static void prefixes_follow_a_density(void **state)
+TEST_CASE(prefixes_follow_a_density)
 {
-    (void)state;
     enum { N = test_repeats(512, 128) };
     for (size_t s = 0; s < 2; s++) {
         char text[64];
@@ -484,9 +475,8 @@ static void prefixes_follow_a_density(void **state)
 
 /* The same on a model: distances, and counts in parts of equal area, of which independent points have a chi-squared of 16
    on average. */
-static void prefixes_cover_models(void **state)
+TEST_CASE(prefixes_cover_models)
 {
-    (void)state;
     enum { N = test_repeats(800, 200) };
     for (size_t s = 0; s < 2; s++) {
         char text[64];
@@ -520,9 +510,8 @@ static bool stop(void *context, double fraction)
     return false;
 }
 
-static void calls_can_be_stopped(void **state)
+TEST_CASE(calls_can_be_stopped)
 {
-    (void)state;
     static const char *const specs[] = {"gaussian-blue-noise", "poisson-disk-maximal"};
     koksma_points p;
     assert_ok(koksma_points_init(&p, 500, 3));
@@ -534,20 +523,4 @@ static void calls_can_be_stopped(void **state)
     koksma_points_fini(&p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maximal_sets_follow_a_density),
-        cmocka_unit_test(maximal_sets_keep_a_given_distance),
-        cmocka_unit_test(gaussian_sets_follow_a_density),
-        cmocka_unit_test(gaussian_sets_of_an_even_density_are_even),
-        cmocka_unit_test(few_points_work),
-        cmocka_unit_test(threads_have_no_effect),
-        cmocka_unit_test(models_are_covered_evenly),
-        cmocka_unit_test(maximal_sets_cover_models),
-        cmocka_unit_test(prefixes_follow_a_density),
-        cmocka_unit_test(prefixes_cover_models),
-        cmocka_unit_test(calls_can_be_stopped),
-    };
-    return cmocka_run_group_tests(tests, write_model, remove_model);
-}
+TEST_GROUP(write_model, remove_model)

@@ -64,9 +64,8 @@ static bool outside_binomial(size_t count, size_t n, double p)
     return below < 5e-8 || above < 5e-8;
 }
 
-static void counts_follow_the_density(void **state)
+TEST_CASE(counts_follow_the_density)
 {
-    (void)state;
     const float values[4] = {1, 2, 4, 0};
     koksma_image map = quarters(values);
     for (size_t f = 0; f < FORMS; f++) {
@@ -111,9 +110,8 @@ static double smallest(const double *xs, size_t n, size_t width, size_t dim, boo
 
 /* Distances are in proportion to 1 / sqrt(density): in each quarter elimination and best candidates keep the relative
    radius of their even sets, dart throwing d over the root of the density, in units of its mean. */
-static void distances_follow_the_density(void **state)
+TEST_CASE(distances_follow_the_density)
 {
-    (void)state;
     const float values[4] = {1, 3, 9, 2};
     koksma_image map = quarters(values);
     for (size_t f = 1; f < FORMS; f++) {
@@ -136,9 +134,8 @@ static void distances_follow_the_density(void **state)
 
 /* Best candidates: with an even density the mean relative radius is that of the pattern itself in as many sets. The first
    points do not depend on n. */
-static void best_candidates_are_those_of_the_pattern(void **state)
+TEST_CASE(best_candidates_are_those_of_the_pattern)
 {
-    (void)state;
     enum { SETS = test_repeats(16, 4), N = test_repeats(300, 150) };
     const float values[4] = {5, 5, 5, 5}, others[4] = {1, 4, 4, 1};
     koksma_image even = quarters(values), map = quarters(others);
@@ -166,9 +163,8 @@ static void best_candidates_are_those_of_the_pattern(void **state)
 }
 
 /* An even density gives sets as even as those of sample-elimination itself (0.696 in 1,024 points, 10 sets). */
-static void even_densities_are_even(void **state)
+TEST_CASE(even_densities_are_even)
 {
-    (void)state;
     const float values[4] = {5, 5, 5, 5};
     koksma_image map = quarters(values);
     double sum = 0;
@@ -182,9 +178,8 @@ static void even_densities_are_even(void **state)
 }
 
 /* The first points of a progressive sequence do not depend on n, and are blue noise of their number. */
-static void prefixes_are_blue(void **state)
+TEST_CASE(prefixes_are_blue)
 {
-    (void)state;
     const float values[4] = {1, 4, 4, 1};
     koksma_image map = quarters(values);
     koksma_points all = with_density("progressive-elimination", &map, 1024, 3);
@@ -285,9 +280,8 @@ static double barycentric(int face, const double *x, double weights[3], double n
 
 /* Each triangle is cut into four of equal area by the middles of its sides; counts of the parts by chi-squared: the
    bound is its quantile of 1 - 1e-6 (Wilson & Hilferty 1931). Points lie in the triangle that they name. */
-static void areas_are_even(void **state)
+TEST_CASE(areas_are_even)
 {
-    (void)state;
     static const struct {
         const char *spec;
         size_t n;
@@ -328,9 +322,8 @@ static void areas_are_even(void **state)
     }
 }
 
-static void points_on_models_keep_distances(void **state)
+TEST_CASE(points_on_models_keep_distances)
 {
-    (void)state;
     const double area = 8 + 0.6; /* of five faces of the box, and of the sliver */
     koksma_points p = on_model("poisson-disk:d=0.08", 600, 3, 2);
     assert_true(smallest(p.xs, p.n, 3, 3, false, -1) >= 0.08 * (1 - 1e-9));
@@ -353,9 +346,8 @@ static void points_on_models_keep_distances(void **state)
 
 /* ---- Refusals -------------------------------------------------------------------------------------------- */
 
-static void wrong_inputs_are_refused(void **state)
+TEST_CASE(wrong_inputs_are_refused)
 {
-    (void)state;
     static const float some[4] = {1, 1, 1, 1}, none[4] = {0, 0, 0, 0}, less[4] = {1, 1, -1, 1},
                        nan[4] = {1, (float)NAN, 1, 1};
     static const struct {
@@ -404,9 +396,8 @@ static bool stop(void *context, double fraction)
     return false;
 }
 
-static void calls_can_be_stopped(void **state)
+TEST_CASE(calls_can_be_stopped)
 {
-    (void)state;
     const float values[4] = {1, 2, 3, 4};
     koksma_image map = quarters(values);
     koksma_points p;
@@ -431,9 +422,8 @@ static bool count(void *context, double fraction)
 
 /* The work between two questions whether to go on is bounded, also before the first point is chosen and where a
    candidate is compared with all points. */
-static void calls_ask_often(void **state)
+TEST_CASE(calls_ask_often)
 {
-    (void)state;
     const struct {
         const char *pattern;
         size_t n;
@@ -462,19 +452,4 @@ static void calls_ask_often(void **state)
     koksma_image_fini(&map);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(counts_follow_the_density),
-        cmocka_unit_test(distances_follow_the_density),
-        cmocka_unit_test(even_densities_are_even),
-        cmocka_unit_test(best_candidates_are_those_of_the_pattern),
-        cmocka_unit_test(prefixes_are_blue),
-        cmocka_unit_test(areas_are_even),
-        cmocka_unit_test(points_on_models_keep_distances),
-        cmocka_unit_test(wrong_inputs_are_refused),
-        cmocka_unit_test(calls_can_be_stopped),
-        cmocka_unit_test(calls_ask_often),
-    };
-    return cmocka_run_group_tests(tests, write_model, remove_model);
-}
+TEST_GROUP(write_model, remove_model)

@@ -91,9 +91,8 @@ static double mean_radius(const koksma_spec *spec, const int *shape, bool densit
 
 /* Every pattern that claims blue noise in the plane keeps its relative radius whatever the shape; with distances
    of the unit square 4:3 would lose 10 %, 4:1 half. One set of few points varies by up to 6 % (gaussian-blue-noise). */
-static void radii_do_not_depend_on_the_shape(void **state)
+TEST_CASE(radii_do_not_depend_on_the_shape)
 {
-    (void)state;
     const koksma_pattern *pattern;
     for (size_t i = 0; (pattern = koksma_pattern_at(i)); i++) {
         if (!(pattern->claims & KOKSMA_CLAIM_BLUE) || pattern->alias_of) {
@@ -120,9 +119,8 @@ static void radii_do_not_depend_on_the_shape(void **state)
 }
 
 /* A picture of 2:1, the right half of which has 4 times the density: distances there are half of those on the left. */
-static void distances_follow_the_density_on_a_picture(void **state)
+TEST_CASE(distances_follow_the_density_on_a_picture)
 {
-    (void)state;
     static const char *const specs[] = {"sample-elimination",  "poisson-disk-maximal",
                                         "dart-throwing:f=0.6", "best-candidate",
                                         "gaussian-blue-noise", "progressive-elimination:length=250"};
@@ -159,9 +157,8 @@ static void distances_follow_the_density_on_a_picture(void **state)
 }
 
 /* An image in a rectangle of its shape gives the points of the image, in the rectangle's units. */
-static void a_picture_fills_a_rectangle(void **state)
+TEST_CASE(a_picture_fills_a_rectangle)
 {
-    (void)state;
     const koksma_spec spec = spec_of("sample-elimination");
     koksma_image map = even_picture(4, 2);
     koksma_points a, b;
@@ -179,9 +176,8 @@ static void a_picture_fills_a_rectangle(void **state)
 }
 
 /* Without n the set has the distance, is maximal, and depends on the seed alone. */
-static void distances_decide_the_number(void **state)
+TEST_CASE(distances_decide_the_number)
 {
-    (void)state;
     static const double size[2] = {6, 1.5};
     static const char *const specs[] = {"poisson-disk-maximal:d=0.3", "poisson-disk-maximal:d=0.3,order=progressive"};
     size_t counts[2] = {0};
@@ -211,9 +207,8 @@ static void distances_decide_the_number(void **state)
 }
 
 /* poisson-disk wraps around with torus=1 alone, and d is in the rectangle's units. */
-static void the_torus_is_the_rectangle(void **state)
+TEST_CASE(the_torus_is_the_rectangle)
 {
-    (void)state;
     static const double size[2] = {400, 100}, plane[2] = {10000, 10000}; /* d may be above the sides of a unit cube */
     for (int torus = 0; torus < 2; torus++) {
         const koksma_spec spec = spec_of(torus ? "poisson-disk:d=20,torus=1" : "poisson-disk:d=20");
@@ -226,9 +221,8 @@ static void the_torus_is_the_rectangle(void **state)
     }
 }
 
-static void wrong_inputs_are_refused(void **state)
+TEST_CASE(wrong_inputs_are_refused)
 {
-    (void)state;
     static const struct {
         const char *spec, *said;
         double width, height;
@@ -261,17 +255,4 @@ static void wrong_inputs_are_refused(void **state)
         }
         koksma_points_fini(&p);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(radii_do_not_depend_on_the_shape),
-        cmocka_unit_test(distances_follow_the_density_on_a_picture),
-        cmocka_unit_test(a_picture_fills_a_rectangle),
-        cmocka_unit_test(distances_decide_the_number),
-        cmocka_unit_test(the_torus_is_the_rectangle),
-        cmocka_unit_test(wrong_inputs_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

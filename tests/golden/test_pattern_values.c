@@ -8,9 +8,8 @@
 #include "patterns/nets/nets.h"
 #include "test.h"
 
-static void first_points(void **state)
+TEST_CASE(first_points)
 {
-    (void)state;
     koksma_points p = test_points("zaremba", 4, 2, 0);
     const double third = 1.0 / 3, zaremba[] = {0, third, 0.25, 0.5 + third, 0.5, third - 0.25, 0.75, 0.25 + third};
     for (int i = 0; i < 8; i++) {
@@ -33,9 +32,8 @@ static void first_points(void **state)
 }
 
 /* The points of Kollig & Keller's function, and n D* = m / 5 + O(1) for n = 2^m: 1.30 to 1.45 more up to m = 13. */
-static void larcher_pillichshammers_net(void **state)
+TEST_CASE(larcher_pillichshammers_net)
 {
-    (void)state;
     for (uint32_t m = 1; m <= 13; m++) {
         const size_t n = (size_t)1 << m;
         koksma_points points = test_points("larcher-pillichshammer", n, 2, 0);
@@ -60,9 +58,8 @@ static uint32_t mirrored(const void *context, uint32_t base, int j, uint32_t a)
 }
 
 /* The digits of 0 become base - 1 without end, whose value is 1; the largest that is below 1 stands for it. */
-static void mapped_radicals_stay_below_one(void **state)
+TEST_CASE(mapped_radicals_stay_below_one)
 {
-    (void)state;
     enum { BASES = 1111 };
     koksma__radicals r;
     assert_ok(koksma__radicals_init(&r, BASES, 3, mirrored, NULL));
@@ -75,9 +72,8 @@ static void mapped_radicals_stay_below_one(void **state)
 }
 
 /* In eight dimensions squares of distances go up to 2. */
-static void the_furthest_candidate_is_taken(void **state)
+TEST_CASE(the_furthest_candidate_is_taken)
 {
-    (void)state;
     enum { DIM = 8, N = 4 };
     for (uint64_t seed = 0; seed < 5; seed++) {
         koksma_points points = test_points("best-candidate:candidates=100", N, DIM, seed);
@@ -110,9 +106,8 @@ static void the_furthest_candidate_is_taken(void **state)
 }
 
 /* Two and five points on the torus are a square lattice at best (Dickinson et al. 2011), and these forces find it. */
-static void few_points_repel_each_other_all_around(void **state)
+TEST_CASE(few_points_repel_each_other_all_around)
 {
-    (void)state;
     static const struct {
         size_t n;
         double square;
@@ -126,16 +121,4 @@ static void few_points_repel_each_other_all_around(void **state)
             koksma_points_fini(&points);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(first_points),
-        cmocka_unit_test(larcher_pillichshammers_net),
-        cmocka_unit_test(the_furthest_candidate_is_taken),
-        cmocka_unit_test(mapped_radicals_stay_below_one),
-        cmocka_unit_test(few_points_repel_each_other_all_around),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

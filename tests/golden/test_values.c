@@ -195,9 +195,8 @@ static size_t check_case(char *text)
     return count;
 }
 
-static void values_are_known(void **state)
+TEST_CASE(values_are_known)
 {
-    (void)state;
     char path[1024], line[1024], text[MAX_CASE] = "";
     size_t count = 0;
     snprintf(path, sizeof path, "%s/golden/values.txt", KOKSMA_TESTS);
@@ -218,10 +217,4 @@ static void values_are_known(void **state)
     }
     fclose(file);
     assert_true(count > 500);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_known)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

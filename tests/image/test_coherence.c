@@ -113,9 +113,8 @@ static counts count(int width, int height, int images, int law, int where, int s
 }
 
 /* Gaussian noise: the interval is as wide as it says: 95 % of 400 are 380, standard deviation 4.4. */
-static void noise_is_within_its_interval(void **state)
+TEST_CASE(noise_is_within_its_interval)
 {
-    (void)state;
     static const int sizes[][3] = {{32, 24, 1}, {31, 23, 1}, {24, 16, 4}, {1, 199, 1}, {97, 1, 3}, {7, 5, 1}};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         const counts c = count(sizes[s][0], sizes[s][1], sizes[s][2], 0, 0, 400);
@@ -127,9 +126,8 @@ static void noise_is_within_its_interval(void **state)
 }
 
 /* Other laws, and noise on edges only: large peaks are no more likely than stated. 2.5 % of 200 are 5, SD 2.2. */
-static void uneven_noise_is_not_coherent(void **state)
+TEST_CASE(uneven_noise_is_not_coherent)
 {
-    (void)state;
     for (int law = 0; law < 4; law++) {
         for (int where = 0; where < 3; where++) {
             for (int images = 1; images <= 4; images += 3) {
@@ -144,9 +142,8 @@ static void uneven_noise_is_not_coherent(void **state)
 }
 
 /* The same noise again and again is as noisy as it is once. */
-static void repeated_noise_is_not_coherent(void **state)
+TEST_CASE(repeated_noise_is_not_coherent)
 {
-    (void)state;
     pictures p = make(40, 30);
     for (uint64_t seed = 0; seed < 20; seed++) {
         koksma_coherence once, often;
@@ -174,9 +171,8 @@ static void repeated_noise_is_not_coherent(void **state)
 
 /* A wave of amplitude A among noise of standard deviation s: mean power s^2 + A^2 / 2 and W H A^2 / 4 + s^2 in the
    peak, where it is. */
-static void a_wave_has_its_power(void **state)
+TEST_CASE(a_wave_has_its_power)
 {
-    (void)state;
     static const struct {
         int width, height, u, v;
     } waves[] = {{64, 48, 5, 3}, {61, 47, 7, 44}, {30, 45, 14, 1}, {128, 1, 40, 0}, {1, 97, 0, 13}, {64, 48, 0, 9}};
@@ -208,9 +204,8 @@ static void a_wave_has_its_power(void **state)
 }
 
 /* Only a wave: all power is in it and its mirror image, (n - 1) / 2 times the mean, or n - 1 where it has none. */
-static void a_wave_alone_has_all_power(void **state)
+TEST_CASE(a_wave_alone_has_all_power)
 {
-    (void)state;
     static const struct {
         int width, height;
         double u, v, share;
@@ -233,9 +228,8 @@ static void a_wave_alone_has_all_power(void **state)
 }
 
 /* A wave between the frequencies keeps (2/pi)^4 of its peak at worst. */
-static void a_wave_between_frequencies_is_seen(void **state)
+TEST_CASE(a_wave_between_frequencies_is_seen)
 {
-    (void)state;
     koksma_coherence c;
     pictures p = make(96, 80);
     assert_ok(koksma_coherence_init(&c, 96, 80));
@@ -287,9 +281,8 @@ static koksma_coherence_values coloured(double share, int images, double wave)
 
 /* The power of blue noise is up to 3 times the mean at high frequencies, and no coherence; a wave in it is one.
    Coarse noise is coherent: the eye sees it as blotches. */
-static void blue_noise_is_not_coherent(void **state)
+TEST_CASE(blue_noise_is_not_coherent)
 {
-    (void)state;
     for (int images = 1; images <= 16; images *= 4) {
         const koksma_coherence_values blue = coloured(1, images, 0), red = coloured(-0.9, images, 0);
         assert_false(blue.coherent);
@@ -301,9 +294,8 @@ static void blue_noise_is_not_coherent(void **state)
 /* ---- The rest ------------------------------------------------------------------------------------------ */
 
 /* Neither the size of the error nor its mean nor its sign changes anything. */
-static void scale_does_not_matter(void **state)
+TEST_CASE(scale_does_not_matter)
 {
-    (void)state;
     static const double scales[] = {1, -0.25, 0x1p-60, 0x1p100};
     koksma_coherence_values first = {0};
     for (int k = 0; k < 4; k++) {
@@ -326,9 +318,8 @@ static void scale_does_not_matter(void **state)
     }
 }
 
-static void errors_without_structure_have_none(void **state)
+TEST_CASE(errors_without_structure_have_none)
 {
-    (void)state;
     koksma_coherence c = {0};
     pictures p = make(9, 8);
     assert_int_equal(koksma_coherence_add(&c, &p.image, &p.reference), KOKSMA_ARGUMENT); /* no init */
@@ -368,9 +359,8 @@ static void errors_without_structure_have_none(void **state)
 }
 
 /* How large the peak of a white error's spectrum is by chance, against tables and closed forms. */
-static void tails_are_the_known_ones(void **state)
+TEST_CASE(tails_are_the_known_ones)
 {
-    (void)state;
     /* Fisher's table of 1929 at 5 %; his waves share one power: taken for independent, g is up to 1 % smaller. */
     const koksma__coherence_law five = {1, 5, 0, 0}, fifty = {1, 50, 0, 0};
     assert_near(koksma__coherence_quantile(&five, 0.05) / 5, 0.68377, 0.003);
@@ -403,21 +393,4 @@ static void tails_are_the_known_ones(void **state)
             before = level;
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tails_are_the_known_ones),
-        cmocka_unit_test(noise_is_within_its_interval),
-        cmocka_unit_test(uneven_noise_is_not_coherent),
-        cmocka_unit_test(repeated_noise_is_not_coherent),
-        cmocka_unit_test(a_wave_has_its_power),
-        cmocka_unit_test(a_wave_alone_has_all_power),
-        cmocka_unit_test(a_wave_between_frequencies_is_seen),
-        cmocka_unit_test(blue_noise_is_not_coherent),
-        cmocka_unit_test(scale_does_not_matter),
-        cmocka_unit_test(errors_without_structure_have_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static void assert_kept(const koksma__image_format *format, float before, float 
     }
 }
 
-static void images_come_back(void **state)
+TEST_CASE(images_come_back)
 {
-    (void)state;
     const koksma__image_format *format;
     size_t tested = 0;
     for (size_t f = 0; (format = koksma__image_format_at(f)); f++) {
@@ -80,9 +79,8 @@ static void images_come_back(void **state)
 
 /* A changed number of any channel changes the file, and names of channels are in it; a format without layers writes
    the first alone. */
-static void every_layer_is_in_the_file(void **state)
+TEST_CASE(every_layer_is_in_the_file)
 {
-    (void)state;
     enum { LAYERS = 3, WIDTH = 5, HEIGHT = 3 };
     static const char *const names[] = {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "Z"};
     const koksma__image_format *format;
@@ -154,9 +152,8 @@ static bool assert_error_or_image(const koksma__image_format *format, const unsi
     return !status;
 }
 
-static void broken_files_are_errors_or_images(void **state)
+TEST_CASE(broken_files_are_errors_or_images)
 {
-    (void)state;
     /* 0x0a and 0x0b make DWAB and DWAA of the ZIP in an EXR's header */
     static const unsigned char flips[] = {0x01, 0x10, 0x80, 0xff, 0x0a, 0x0b};
     const koksma__image_format *format;
@@ -184,9 +181,8 @@ static void broken_files_are_errors_or_images(void **state)
 }
 
 /* Names in errors come from the table. */
-static void errors_name_every_format(void **state)
+TEST_CASE(errors_name_every_format)
 {
-    (void)state;
     const char *name, *left_out;
     assert_int_equal(koksma_image_check_path("picture.nosuch"), KOKSMA_ARGUMENT);
     for (size_t i = 0; (name = koksma_image_format(i, &left_out)); i++) {
@@ -194,15 +190,4 @@ static void errors_name_every_format(void **state)
         snprintf(text, sizeof text, ".%s", name);
         assert_non_null(strstr(koksma_error_text(), text));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(images_come_back),
-        cmocka_unit_test(every_layer_is_in_the_file),
-        cmocka_unit_test(broken_files_are_errors_or_images),
-        cmocka_unit_test(errors_name_every_format),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

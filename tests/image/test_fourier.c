@@ -8,9 +8,8 @@
 #include "test.h"
 
 /* Against the definition: powers of two, primes, odd and even, one row, one column, one pixel. */
-static void powers_are_the_definition(void **state)
+TEST_CASE(powers_are_the_definition)
 {
-    (void)state;
     static const int sizes[][2] = {{1, 1},  {2, 1},  {1, 2},  {3, 1},   {1, 7},  {16, 8}, {13, 11},
                                    {31, 2}, {12, 9}, {2, 37}, {17, 16}, {64, 1}, {1, 53}, {30, 45}};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
@@ -41,9 +40,8 @@ static void powers_are_the_definition(void **state)
 }
 
 /* Parseval's theorem where the definition would take too long: large primes beside powers of two. */
-static void powers_add_up(void **state)
+TEST_CASE(powers_add_up)
 {
-    (void)state;
     static const int sizes[][2] = {{509, 512}, {4, 20011}, {65536, 3}};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         const size_t width = (size_t)sizes[s][0], height = (size_t)sizes[s][1], columns = width / 2 + 1;
@@ -62,13 +60,4 @@ static void powers_add_up(void **state)
         free(values);
         free(power);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(powers_are_the_definition),
-        cmocka_unit_test(powers_add_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,9 +36,8 @@ static koksma__bytes written(const char *format, const koksma_image *image)
 
 /* Pixels of every entropy, so that compressed chunks come in all lengths, that of the pixels themselves among them.
  */
-static void exr_keeps_noise_of_every_kind(void **state)
+TEST_CASE(exr_keeps_noise_of_every_kind)
 {
-    (void)state;
     for (uint32_t bits = 0; bits <= 32; bits++) {
         static const int sizes[][3] = {{1, 18, 3}, {156, 35, 1}, {187, 52, 3}, {125, 35, 3}, {32, 18, 1}};
         for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
@@ -61,9 +60,8 @@ static void exr_keeps_noise_of_every_kind(void **state)
 }
 
 /* All 256 grey levels: linear values that come from a PNG give the same PNG. */
-static void png_levels_come_back(void **state)
+TEST_CASE(png_levels_come_back)
 {
-    (void)state;
     koksma_image image, back;
     assert_ok(koksma_image_init(&image, 16, 16, 1));
     for (int i = 0; i < 256; i++) {
@@ -89,9 +87,8 @@ static void png_levels_come_back(void **state)
 }
 
 /* Errors 0, 0.5, 0.25 and -0.25 (in luminance). */
-static void errors_by_hand(void **state)
+TEST_CASE(errors_by_hand)
 {
-    (void)state;
     koksma_image a, b, difference;
     koksma_image_error e;
     assert_ok(koksma_image_init(&a, 2, 2, 1));
@@ -117,9 +114,8 @@ static void errors_by_hand(void **state)
     koksma_image_fini(&b);
 }
 
-static void sizes_are_checked(void **state)
+TEST_CASE(sizes_are_checked)
 {
-    (void)state;
     static const char *const headers[] = {
         "PF\n100000 100000\n-1\n", "Pf\n65536 4096\n-1\nabc",
         "Pf\n0 5\n-1\n",           "Pf\n-3 5\n1\n",
@@ -142,9 +138,8 @@ static void sizes_are_checked(void **state)
 }
 
 /* Names as long as image.h allows are in the file; files without such names are as older readers take them. */
-static void layers_have_long_names(void **state)
+TEST_CASE(layers_have_long_names)
 {
-    (void)state;
     static const char longest[] = "abcdefghijklmnopqrstuvwxyz.ABCDEFGHIJKLMNOPQRSTUVWXYZ.012345678";
     koksma_image image = noise(5, 3, 3), grey = noise(5, 3, 1), back;
     alarm(60); /* an error's handler that waits for a lock waits for ever */
@@ -174,9 +169,8 @@ static void layers_have_long_names(void **state)
     koksma_image_fini(&grey);
 }
 
-static void names_are_given_once(void **state)
+TEST_CASE(names_are_given_once)
 {
-    (void)state;
     koksma_image image = noise(5, 3, 3), grey = noise(5, 3, 1);
     const koksma_layer twice[][2] = {{{"", &grey}, {"", &grey}},
                                      {{"", &image}, {"", &image}},
@@ -199,9 +193,8 @@ static void names_are_given_once(void **state)
 }
 
 /* What is no image is refused, and a file of that name stays as it is. */
-static void only_images_are_written(void **state)
+TEST_CASE(only_images_are_written)
 {
-    (void)state;
     static const char *const names[] = {"kept.exr", "kept.png", "kept.pfm"};
     koksma_image image = noise(4, 2, 3), back;
     const koksma_image none[] = {{0},
@@ -239,18 +232,4 @@ static void only_images_are_written(void **state)
     }
     alarm(0);
     koksma_image_fini(&image);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exr_keeps_noise_of_every_kind),
-        cmocka_unit_test(png_levels_come_back),
-        cmocka_unit_test(errors_by_hand),
-        cmocka_unit_test(sizes_are_checked),
-        cmocka_unit_test(layers_have_long_names),
-        cmocka_unit_test(names_are_given_once),
-        cmocka_unit_test(only_images_are_written),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

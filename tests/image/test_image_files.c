@@ -104,9 +104,8 @@ static file tiled_exr(void)
     return f;
 }
 
-static void tiles_are_read(void **state)
+TEST_CASE(tiles_are_read)
 {
-    (void)state;
     const file f = tiled_exr();
     koksma_image image;
     assert_ok(read_bytes("tiled.exr", &f, f.size, &image));
@@ -168,9 +167,8 @@ static file lines_exr(const char *names, const char *types)
 }
 
 /* A channel is read by its own among any number of others, of any types: those at any place before and behind it. */
-static void one_channel_of_several_is_read(void **state)
+TEST_CASE(one_channel_of_several_is_read)
 {
-    (void)state;
     static const struct {
         const char *names, *types;
     } files[] = {{"Y", "1"},       {"XY", "11"},      {"YZ", "11"},     {"XYZ", "111"},   {"WXY", "111"},
@@ -204,9 +202,8 @@ static koksma_status read_window(const char *name, koksma_image *image)
     return koksma_image_read(path, image);
 }
 
-static void lossy_exr_is_read(void **state)
+TEST_CASE(lossy_exr_is_read)
 {
-    (void)state;
     static const struct {
         const char *name;
         int channels;
@@ -235,9 +232,8 @@ static void lossy_exr_is_read(void **state)
 }
 
 /* images/: PIZ files of OpenEXR's C++ library with the channels X, Y and Z of halves, of which Y is read. */
-static void y_of_xyz_is_read(void **state)
+TEST_CASE(y_of_xyz_is_read)
 {
-    (void)state;
     static const char *const names[] = {"piz-xyz-lines.exr", "piz-xyz-tiles.exr"};
     koksma_image image;
     for (size_t f = 0; f < sizeof names / sizeof *names; f++) {
@@ -326,9 +322,8 @@ static double level_of(int depth, int colours, const char *extra, const void *ex
 }
 
 /* 8 and 16 bits have one curve: sRGB's, unless a gAMA chunk says another. */
-static void png_levels_have_their_curve(void **state)
+TEST_CASE(png_levels_have_their_curve)
 {
-    (void)state;
     static const unsigned char eight[] = {188}, sixteen[] = {188, 188}, colour[] = {188, 188, 1, 2, 3, 4};
     const double s = 188 / 255.0, srgb = pow((s + 0.055) / 1.055, 2.4);
 #define GAMA(b1, b2, b3) "gAMA", (const unsigned char[]){0, b1, b2, b3}, 4
@@ -351,7 +346,7 @@ static void png_levels_have_their_curve(void **state)
 
 /* Textures of glTF are sRGB or numbers, whatever transfer function their files state (glTF 2.0: "any colorspace information
    ... from PNG or JPEG images must be ignored"). */
-static void png_gamma_is_ignored_on_demand(void **state)
+TEST_CASE(png_gamma_is_ignored_on_demand)
 {
     const double s = 188 / 255.0, srgb = pow((s + 0.055) / 1.055, 2.4);
     const struct {
@@ -359,7 +354,6 @@ static void png_gamma_is_ignored_on_demand(void **state)
         double wanted;
     } cases[] = {{KOKSMA__IMAGE_COLOURS, pow(s, 1.8)}, {KOKSMA__IMAGE_SRGB, srgb}, {KOKSMA__IMAGE_NUMBERS, s}};
     file f = {.size = 0};
-    (void)state;
     put_png(&f, 1, 8, 0, GAMA(0, 0xd9, 0x03), (const unsigned char[]){188}, 1);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         koksma_image image;
@@ -371,9 +365,8 @@ static void png_gamma_is_ignored_on_demand(void **state)
 
 /* A pixel's colour is read, whatever its opacity: of pixels with alpha, and where a colour is named as see-through.
  */
-static void png_transparency_is_dropped(void **state)
+TEST_CASE(png_transparency_is_dropped)
 {
-    (void)state;
     const double srgb = pow((188 / 255.0 + 0.055) / 1.055, 2.4);
     assert_near(level_of(8, 4, BARE, (const unsigned char[]){188, 128}, 2), srgb, 1e-7);
     assert_near(level_of(8, 6, BARE, (const unsigned char[]){188, 188, 188, 0}, 4), srgb, 1e-7);
@@ -405,9 +398,8 @@ static koksma_status read_pfm(const char *head, const char *tail)
     return status;
 }
 
-static void pfm_heads_end_as_writers_end_them(void **state)
+TEST_CASE(pfm_heads_end_as_writers_end_them)
 {
-    (void)state;
     static const char *const good[] = {"Pf\n2 1\n-1.0\n", "Pf\r\n2 1\r\n-1.0\r\n",
                                        "Pf\n2 1 -1.0 \n", "Pf\n2 1 -1.0 \t\r\n",
                                        "Pf 2 1 -1 ",      "Pf\n2 1\n-1.0\r"};
@@ -434,27 +426,10 @@ static void pfm_heads_end_as_writers_end_them(void **state)
 }
 
 /* Its 846 bytes claim an image of 13 x 11 pixels in tiles of 8,388,616 x 4, which the C++ library makes room for. */
-static void tiles_beyond_the_image_are_refused(void **state)
+TEST_CASE(tiles_beyond_the_image_are_refused)
 {
-    (void)state;
     koksma_image image;
     assert_int_equal(koksma_image_read(KOKSMA_TESTS "/../fuzz/corpus/image_exr/tiles_beyond.exr", &image),
                      KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "tiles are larger than the image"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tiles_are_read),
-        cmocka_unit_test(one_channel_of_several_is_read),
-        cmocka_unit_test(lossy_exr_is_read),
-        cmocka_unit_test(y_of_xyz_is_read),
-        cmocka_unit_test(png_gamma_is_ignored_on_demand),
-        cmocka_unit_test(png_levels_have_their_curve),
-        cmocka_unit_test(png_transparency_is_dropped),
-        cmocka_unit_test(pfm_heads_end_as_writers_end_them),
-        cmocka_unit_test(tiles_beyond_the_image_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

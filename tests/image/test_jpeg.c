@@ -58,9 +58,8 @@ static void check_jpeg(file *f, const char *words)
 }
 
 /* The four blocks take eight bits, all 0. What comes instead, before and after them: */
-static void damaged_jpeg_is_refused(void **state)
+TEST_CASE(damaged_jpeg_is_refused)
 {
-    (void)state;
     static const char zeros[200] = {0};
     static const struct {
         const char *extra;
@@ -97,9 +96,8 @@ static void damaged_jpeg_is_refused(void **state)
 }
 
 /* A progressive file is whole once all bits of all coefficients came, and never has a hundred scans. */
-static void progressive_jpeg_has_all_its_scans(void **state)
+TEST_CASE(progressive_jpeg_has_all_its_scans)
 {
-    (void)state;
     static const struct {
         int first, last, bits;
     } scans[] = {{0, 0, 0x01}, {1, 5, 0}, {6, 63, 0x01}, {6, 63, 0x10}, {0, 0, 0x10}};
@@ -128,9 +126,8 @@ static void progressive_jpeg_has_all_its_scans(void **state)
 }
 
 /* In colour each component has a scan of its own here, the last of which may be missing. */
-static void each_component_of_a_jpeg_has_a_scan(void **state)
+TEST_CASE(each_component_of_a_jpeg_has_a_scan)
 {
-    (void)state;
     for (unsigned char n = 1; n <= 3; n++) {
         file f = {.size = 0}, colour = {.size = 0};
         put_jpeg(&f, 0xc0, "", 0);
@@ -144,14 +141,4 @@ static void each_component_of_a_jpeg_has_a_scan(void **state)
         }
         check_jpeg(&colour, n < 3 ? "scans are missing" : NULL);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(damaged_jpeg_is_refused),
-        cmocka_unit_test(progressive_jpeg_has_all_its_scans),
-        cmocka_unit_test(each_component_of_a_jpeg_has_a_scan),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

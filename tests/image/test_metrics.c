@@ -76,9 +76,8 @@ static void fill(koksma_image *image, double r, double g, double b)
 
 /* Of every metric: 0 of equal images, positive of others, larger of a larger error, the same of a grey image with one
    channel and with three, and a canonical text that reads back. */
-static void all_metrics_are_errors(void **state)
+TEST_CASE(all_metrics_are_errors)
 {
-    (void)state;
     pair p = noisy();
     size_t n = 0;
     for (const koksma_metric *m; (m = koksma_metric_at(n)); n++) {
@@ -116,9 +115,8 @@ static void all_metrics_are_errors(void **state)
     release(&p);
 }
 
-static void pointwise_metrics_are_their_formulas(void **state)
+TEST_CASE(pointwise_metrics_are_their_formulas)
 {
-    (void)state;
     pair p = make(2, 1, 3);
     const float image[] = {2, 1, 0, 0, 0.5F, 1}, reference[] = {1, 1, 0, 0.5F, 0.5F, 0};
     memcpy(p.image.pixels, image, sizeof image);
@@ -139,9 +137,8 @@ static void pointwise_metrics_are_their_formulas(void **state)
 
 /* Waves of amplitude A have a mean square of A^2 / 2 at their frequency alone: those below 0.05 cycles a pixel are grain,
    and neither those above nor the mean. */
-static void grain_is_the_power_of_coarse_waves(void **state)
+TEST_CASE(grain_is_the_power_of_coarse_waves)
 {
-    (void)state;
     static const struct {
         int width, height, u, v;
         double below, share;
@@ -166,9 +163,8 @@ static void grain_is_the_power_of_coarse_waves(void **state)
 
 /* 3000 pixels, of error 0.01 and three of 1: the 0.1 % are three, and carry 3 / (3 + 29.97) of the absolute error, and
    3 / (3 + 0.2997) of the squared one; without them all is 0.01. */
-static void few_pixels_are_set_apart(void **state)
+TEST_CASE(few_pixels_are_set_apart)
 {
-    (void)state;
     pair p = make(50, 60, 1);
     fill(&p.image, 0.01, 0, 0);
     p.image.pixels[7] = p.image.pixels[1234] = p.image.pixels[2999] = 1;
@@ -193,9 +189,8 @@ static void few_pixels_are_set_apart(void **state)
 
 /* Constant images have no features. Of green and blue the error is 1 by definition; of black and white the distance HyAB
    is 100 (L* alone), and that of green and blue to the power 0.7 is 41.2760 (Andersson et al. 2020's own code). */
-static void flip_of_constant_images_is_closed(void **state)
+TEST_CASE(flip_of_constant_images_is_closed)
 {
-    (void)state;
     pair p = make(30, 20, 3);
     fill(&p.image, 0, 1, 0);
     fill(&p.reference, 0, 0, 1);
@@ -214,9 +209,8 @@ static void flip_of_constant_images_is_closed(void **state)
 }
 
 /* A caveat where the reference's median is 0, for hdr-flip alone, the only metric that looks at a median. */
-static void metrics_warn_where_most_is_black(void **state)
+TEST_CASE(metrics_warn_where_most_is_black)
 {
-    (void)state;
     const koksma_metric *metric;
     const int blacks[] = {0, WIDTH * HEIGHT / 2, WIDTH * HEIGHT / 2 + 1, WIDTH * HEIGHT};
     for (size_t m = 0; (metric = koksma_metric_at(m)); m++) {
@@ -231,9 +225,8 @@ static void metrics_warn_where_most_is_black(void **state)
     }
 }
 
-static void flip_is_that_of_its_authors(void **state)
+TEST_CASE(flip_is_that_of_its_authors)
 {
-    (void)state;
     pair p = noisy();
     expect("ldr-flip", &p, 0.1197534353, 2e-6);
     expect("ldr-flip:ppd=30", &p, 0.2275826037, 2e-6);
@@ -252,9 +245,8 @@ static void flip_is_that_of_its_authors(void **state)
 }
 
 /* Rows of studies are kept under a metric's revision: who changes a bit of a value raises it, and then these numbers. */
-static void bits_go_by_revision(void **state)
+TEST_CASE(bits_go_by_revision)
 {
-    (void)state;
     static const struct {
         const char *name;
         int revision;
@@ -284,9 +276,8 @@ static void bits_go_by_revision(void **state)
     release(&p);
 }
 
-static void wrong_input_is_refused(void **state)
+TEST_CASE(wrong_input_is_refused)
 {
-    (void)state;
     koksma_metric_spec spec, empty = {0};
     koksma_metric_value value;
     pair p = make(3, 2, 3), other = make(2, 3, 3);
@@ -301,20 +292,4 @@ static void wrong_input_is_refused(void **state)
     assert_int_equal(koksma_metric_evaluate(&spec, &p.image, &other.image, &value), KOKSMA_ARGUMENT);
     release(&p);
     release(&other);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_metrics_are_errors),
-        cmocka_unit_test(pointwise_metrics_are_their_formulas),
-        cmocka_unit_test(grain_is_the_power_of_coarse_waves),
-        cmocka_unit_test(few_pixels_are_set_apart),
-        cmocka_unit_test(flip_of_constant_images_is_closed),
-        cmocka_unit_test(flip_is_that_of_its_authors),
-        cmocka_unit_test(wrong_input_is_refused),
-        cmocka_unit_test(bits_go_by_revision),
-        cmocka_unit_test(metrics_warn_where_most_is_black),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

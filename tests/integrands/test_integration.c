@@ -9,9 +9,8 @@
 /* ---- Errors over trials ------------------------------------------------------------------------------------------ */
 
 /* Random points: E of the squared error is variance / n, the slope -1/2. */
-static void random_points_have_gain_one(void **state)
+TEST_CASE(random_points_have_gain_one)
 {
-    (void)state;
     koksma_integral *f;
     koksma_spec pattern;
     koksma_integration one, three;
@@ -35,9 +34,8 @@ static void random_points_have_gain_one(void **state)
 }
 
 /* Rows of estimates that are made up: mean, deviation and RMSE by hand; an unknown integral; rounding. */
-static void summaries_are_those_of_the_estimates(void **state)
+TEST_CASE(summaries_are_those_of_the_estimates)
 {
-    (void)state;
     koksma_integration out;
     const koksma_integration_options options = {.sizes = {10, 100, 1000}, .n_sizes = 3, .trials = 2};
     const double estimates[] = {1.3, 0.99, 1.001, 0.9, 1.01, 0.999};
@@ -61,9 +59,8 @@ static void summaries_are_those_of_the_estimates(void **state)
 
 /* Estimates of mean 1 + d and deviation 1: a mean that is off by more than Student's t allows has no gain. The quantiles
    for 4 standard deviations, P = 6.334e-5 on both sides, are by the closed forms for one and two degrees. */
-static void biased_estimates_have_no_gain(void **state)
+TEST_CASE(biased_estimates_have_no_gain)
 {
-    (void)state;
     koksma_integration out;
     const double p = erfc(4 / sqrt(2));
     const struct {
@@ -93,9 +90,8 @@ static void biased_estimates_have_no_gain(void **state)
 
 /* Of 64 estimates that are 1 with probability .1 none or one may be by chance (p = .001, .01): no sign of bias, although
    z is large or infinite. */
-static void rare_events_are_no_bias(void **state)
+TEST_CASE(rare_events_are_no_bias)
 {
-    (void)state;
     koksma_integration out;
     const koksma_integration_options options = {.sizes = {1}, .n_sizes = 1, .trials = 64};
     double estimates[64] = {0};
@@ -116,9 +112,8 @@ static double corner(const double *x, int dim, void *context)
     return x[0] * x[dim - 1] * *(const double *)context;
 }
 
-static void functions_of_a_caller(void **state)
+TEST_CASE(functions_of_a_caller)
 {
-    (void)state;
     double factor = 4, mean, expected;
     koksma_integral *f, *g;
     koksma_integral_facts facts;
@@ -144,9 +139,8 @@ static void functions_of_a_caller(void **state)
     assert_int_equal(koksma_integral_of_function(&nameless, 1, &f), KOKSMA_ARGUMENT);
 }
 
-static void wrong_arguments_are_refused(void **state)
+TEST_CASE(wrong_arguments_are_refused)
 {
-    (void)state;
     koksma_integral *f;
     koksma_sensitivity s;
     double mean;
@@ -179,14 +173,4 @@ static void wrong_arguments_are_refused(void **state)
     assert_non_null(strstr(koksma_error_text(), "18446744073709551613 or less would do"));
     koksma_integral_close(f);
     koksma_integral_close(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_points_have_gain_one), cmocka_unit_test(biased_estimates_have_no_gain),
-        cmocka_unit_test(rare_events_are_no_bias),     cmocka_unit_test(summaries_are_those_of_the_estimates),
-        cmocka_unit_test(functions_of_a_caller),       cmocka_unit_test(wrong_arguments_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

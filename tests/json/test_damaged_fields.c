@@ -150,30 +150,17 @@ static void walk_files(const char *folder, const char *ending, reader read, cons
     json_decref(w.seen);
 }
 
-static void plans(void **state)
+TEST_CASE(plans)
 {
-    (void)state;
     walk_files(KOKSMA_TESTS "/../fuzz/corpus/plan", ".json", read_plan, "plan 'p': line ");
 }
 
-static void scenes(void **state)
+TEST_CASE(scenes)
 {
-    (void)state;
     walk_files(KOKSMA_TESTS "/../fuzz/corpus/scene", ".json", read_scene, "scene 'p': line ");
 }
 
-static void gltf(void **state)
+TEST_CASE(gltf)
 {
-    (void)state;
     walk_files(KOKSMA_TESTS "/../fuzz/corpus/gltf_check", ".gltf", read_gltf, "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plans),
-        cmocka_unit_test(scenes),
-        cmocka_unit_test(gltf),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

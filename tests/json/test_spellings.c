@@ -8,9 +8,8 @@
 
 static const char *const keys[] = {"centre", "colour_scale", NULL};
 
-static void both_spellings_are_read(void **state)
+TEST_CASE(both_spellings_are_read)
 {
-    (void)state;
     static const char *const texts[] = {"{\"centre\": 7, \"colour_scale\": 2}",
                                         "{\"center\": 7, \"color_scale\": 2}"};
     for (size_t i = 0; i < 2; i++) {
@@ -44,22 +43,12 @@ static void assert_wrong(const char *text, const char *message)
     koksma__json_close(document);
 }
 
-static void errors_name_the_key_as_written(void **state)
+TEST_CASE(errors_name_the_key_as_written)
 {
-    (void)state;
     assert_wrong("{\n\"center\": 70}", "line 2: center");
     assert_wrong("{\n\"centre\": 70}", "line 2: centre");
     assert_wrong("{\"centre\": 1,\n \"center\": 1}", "is the same field");
     assert_wrong("{\"centres\": 1}", "unknown field");
     assert_wrong("{\"couleur_scale\": 1}", "unknown field");
     assert_wrong("{\"colour_scale\": 1}", "'centre' is missing");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(both_spellings_are_read),
-        cmocka_unit_test(errors_name_the_key_as_written),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,9 +18,8 @@ static void fill(size_t count)
     }
 }
 
-static void overlaps_agree(void **state)
+TEST_CASE(overlaps_agree)
 {
-    (void)state;
     static const double radii[] = {0.5, 0.3, 0.25, 0.07, 1e-3};
     const koksma__kernel_table *ref = koksma__kernels_find("ref"), *base = koksma__kernels_find("baseline");
     for (size_t count = 0; count <= MAX; count += 1 + count / 5) {
@@ -41,9 +40,8 @@ static void overlaps_agree(void **state)
 }
 
 /* The overlap at every distance: the arc cosine and the logarithm of the fast form. */
-static void functions_agree(void **state)
+TEST_CASE(functions_agree)
 {
-    (void)state;
     const koksma__kernel_table *ref = koksma__kernels_find("ref"), *base = koksma__kernels_find("baseline");
     for (int i = 0; i <= 20000; i++) {
         const double u = i / 20000.0, x = 0.5 * (i % 2 ? u : u * u * u * u * u * u * u * u), y = 0;
@@ -69,9 +67,8 @@ static double segment(double one_less_cosine)
 /* Disks that barely meet, as those of r = 1/2 about crowded points do around the torus. They are a distance of
    2 r (1 - e) apart, and share 2 r^2 (phi - sin phi cos phi) with cos phi = 1 - e; for the other laws this is
    averaged over the radius or the area. Every form keeps the last bits. */
-static void disks_that_touch(void **state)
+TEST_CASE(disks_that_touch)
 {
-    (void)state;
     static const char *const all[] = {"ref", "baseline", "avx2", "avx512"};
     for (int i = 0; i < 4; i++) {
         const koksma__kernel_table *kernels = koksma__kernels_find(all[i]);
@@ -89,14 +86,4 @@ static void disks_that_touch(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(overlaps_agree),
-        cmocka_unit_test(functions_agree),
-        cmocka_unit_test(disks_that_touch),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

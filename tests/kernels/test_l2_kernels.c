@@ -5,9 +5,8 @@
 
 enum { MAX = 300, DIM = 5 };
 
-static void pairs_equal_reference(void **state)
+TEST_CASE(pairs_equal_reference)
 {
-    (void)state;
     double u[MAX * DIM], g[MAX * DIM], expected[2], got[2], first[2];
     for (size_t i = 0; i < MAX * DIM; i++) {
         u[i] = sets_unit(1, i);
@@ -26,10 +25,4 @@ static void pairs_equal_reference(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_equal_reference)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

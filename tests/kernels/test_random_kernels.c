@@ -11,9 +11,8 @@ enum { MAX = 200 };
 
 static const char *const isas[] = {"baseline", "avx2", "avx512"};
 
-static void uniform_equals_reference(void **state)
+TEST_CASE(uniform_equals_reference)
 {
-    (void)state;
     const koksma__kernel_table *ref = koksma__kernels_find("ref");
     for (size_t isa = 0; isa < 3; isa++) {
         const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
@@ -26,9 +25,8 @@ static void uniform_equals_reference(void **state)
     }
 }
 
-static void words_equal_reference(void **state)
+TEST_CASE(words_equal_reference)
 {
-    (void)state;
     const koksma__kernel_table *ref = koksma__kernels_find("ref");
     for (size_t isa = 0; isa < 3; isa++) {
         const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
@@ -44,9 +42,8 @@ static void words_equal_reference(void **state)
     }
 }
 
-static void permutation_equals_reference(void **state)
+TEST_CASE(permutation_equals_reference)
 {
-    (void)state;
     const koksma__kernel_table *ref = koksma__kernels_find("ref");
     for (size_t isa = 0; isa < 3; isa++) {
         const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
@@ -59,9 +56,8 @@ static void permutation_equals_reference(void **state)
     }
 }
 
-static void cells_equal_reference(void **state)
+TEST_CASE(cells_equal_reference)
 {
-    (void)state;
     static const size_t sizes[][2] = {{1, 1}, {4, 4}, {8, 8}, {3, 5}, {7, 2}, {16, 3}, {5, 16}, {13, 13}};
     for (size_t isa = 0; isa < 3; isa++) {
         const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
@@ -86,9 +82,8 @@ static void cells_equal_reference(void **state)
 }
 
 /* Counts with every remainder of the vectors; seeds and lanes with high bits. */
-static void nested_bits_equal_reference(void **state)
+TEST_CASE(nested_bits_equal_reference)
 {
-    (void)state;
     const koksma__kernel_table *ref = koksma__kernels_find("ref");
     koksma__nested_node first[1 << KOKSMA__NESTED_LEVELS];
     uint64_t x[MAX];
@@ -119,9 +114,8 @@ static void nested_bits_equal_reference(void **state)
 
 /* The definition of nested scrambling, digit by digit: two numbers that agree in exactly their first m digits agree in
    exactly these afterwards, and the flip of digit m depends on the digits before it alone. */
-static void nested_bits_keep_prefixes(void **state)
+TEST_CASE(nested_bits_keep_prefixes)
 {
-    (void)state;
     koksma__nested_node first[1 << KOKSMA__NESTED_LEVELS];
     for (size_t d = 0; d < sizeof first / sizeof *first; d++) {
         first[d] = koksma__nested_node_of(koksma__random(8, KOKSMA__PURPOSE_TEST, d, 0));
@@ -144,24 +138,12 @@ static void nested_bits_keep_prefixes(void **state)
 }
 
 /* Random123's known-answer vectors for philox4x32-10 and -7 with counter and key of all ones. */
-static void philox_known_answer(void **state)
+TEST_CASE(philox_known_answer)
 {
-    (void)state;
     const koksma__words r = koksma__random(UINT64_MAX, UINT32_MAX, UINT64_MAX, UINT32_MAX);
     const uint32_t expected[4] = {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd};
     assert_memory_equal(r.w, expected, sizeof expected);
     const koksma__words draw = koksma__random_draw(UINT64_MAX, UINT32_MAX, UINT64_MAX, UINT32_MAX);
     const uint32_t of_seven[4] = {0x5207ddc2, 0x45165e59, 0x4d8ee751, 0x8c52f662};
     assert_memory_equal(draw.w, of_seven, sizeof of_seven);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uniform_equals_reference),     cmocka_unit_test(words_equal_reference),
-        cmocka_unit_test(permutation_equals_reference), cmocka_unit_test(cells_equal_reference),
-        cmocka_unit_test(nested_bits_equal_reference),  cmocka_unit_test(nested_bits_keep_prefixes),
-        cmocka_unit_test(philox_known_answer),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,9 +9,8 @@ enum { MAX = 600 };
 
 static const char *const isas[] = {"baseline", "avx2", "avx512"};
 
-static void sweep_equals_reference(void **state)
+TEST_CASE(sweep_equals_reference)
 {
-    (void)state;
     const koksma__kernel_table *ref = koksma__kernels_find("ref");
     double x[MAX], y[MAX + 8], count[MAX + 9];
     uint32_t rank[MAX];
@@ -38,9 +37,8 @@ static void sweep_equals_reference(void **state)
     }
 }
 
-static void partition_equals_reference(void **state)
+TEST_CASE(partition_equals_reference)
 {
-    (void)state;
     const koksma__kernel_table *ref = koksma__kernels_find("ref");
     double a[2][MAX], b[2][MAX], r[2][2 * MAX], f[2][2 * MAX + 8];
     for (size_t i = 0; i < 2 * MAX; i++) {
@@ -67,9 +65,8 @@ static void partition_equals_reference(void **state)
     }
 }
 
-static void corners_equal_reference(void **state)
+TEST_CASE(corners_equal_reference)
 {
-    (void)state;
     enum { MOST = 300 };
     const koksma__kernel_table *ref = koksma__kernels_find("ref");
     int16_t counts[MOST];
@@ -92,14 +89,4 @@ static void corners_equal_reference(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sweep_equals_reference),
-        cmocka_unit_test(partition_equals_reference),
-        cmocka_unit_test(corners_equal_reference),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -191,47 +191,32 @@ static void compare_sets(const char *measure, twin *brute, int dim, size_t max_n
     }
 }
 
-static void star_equals_brute_force(void **state)
+TEST_CASE(star_equals_brute_force)
 {
-    (void)state;
     compare_sets("star", brute_star, 2, 20, 2400, 1e-15);
     compare_sets("star", brute_star, 3, 9, 600, 1e-15);
 }
 
-static void extreme_equals_brute_force(void **state)
+TEST_CASE(extreme_equals_brute_force)
 {
-    (void)state;
     compare_sets("extreme", brute_extreme, 2, 8, 2000, 1e-15);
     compare_sets("extreme", brute_extreme, 3, 3, 150, 1e-15);
 }
 
-static void extreme_grid_equals_brute_force(void **state)
+TEST_CASE(extreme_grid_equals_brute_force)
 {
-    (void)state;
     compare_sets("extreme:grid=7", brute_grid7, 2, 12, 600, 1e-15);
     compare_sets("extreme:grid=4", brute_grid4, 2, 12, 1500, 1e-15);
 }
 
-static void star_grid_equals_brute_force(void **state)
+TEST_CASE(star_grid_equals_brute_force)
 {
-    (void)state;
     compare_sets("star:grid=9", brute_corners9, 2, 12, 600, 1e-15);
     compare_sets("star:grid=4", brute_corners4, 2, 12, 1500, 1e-15);
 }
 
-static void l2_star_equals_its_integral(void **state)
+TEST_CASE(l2_star_equals_its_integral)
 {
-    (void)state;
     compare_sets("l2-star", brute_l2_star, 2, 16, 2000, 1e-14);
     compare_sets("l2-star", brute_l2_star, 3, 8, 600, 1e-14);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(star_equals_brute_force),         cmocka_unit_test(extreme_equals_brute_force),
-        cmocka_unit_test(extreme_grid_equals_brute_force), cmocka_unit_test(star_grid_equals_brute_force),
-        cmocka_unit_test(l2_star_equals_its_integral),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static double packing_distance(size_t n, int dim)
     return 2 * pow(pow(2, -dim / 2.0) / sqrt(determinants[dim - 2]) / (double)n, 1.0 / dim);
 }
 
-static void distances_are_those_of_all_pairs(void **state)
+TEST_CASE(distances_are_those_of_all_pairs)
 {
-    (void)state;
     for (int t = 0; t < test_repeats(600, 120); t++) {
         const int dim = 2 + t % 9;
         const size_t n = 2 + (size_t)(t * t % 331);
@@ -55,9 +54,8 @@ static void distances_are_those_of_all_pairs(void **state)
 }
 
 /* Thousands of points, where most nodes of the tree are left out; and points in a corner, on a line, all at one place. */
-static void many_points_too(void **state)
+TEST_CASE(many_points_too)
 {
-    (void)state;
     static const char *const specs[] = {"random", "sobol", "halton"};
     for (int dim = 3; dim <= 6; dim++) {
         for (int s = 0; s < 3; s++) {
@@ -109,9 +107,8 @@ static koksma_points of_code(int dim, const unsigned *generators, int count, siz
     return p;
 }
 
-static void densest_lattices_have_one(void **state)
+TEST_CASE(densest_lattices_have_one)
 {
-    (void)state;
     static const unsigned even[] = {3, 6, 12, 24}; /* words of even weight */
     static const unsigned simplex[] = {0x55, 0x66, 0x78}, hamming[] = {0x55, 0x66, 0x78, 0xff};
     static const unsigned repeated[] = {15};
@@ -126,14 +123,4 @@ static void densest_lattices_have_one(void **state)
         assert_near(test_measure("relative-radius", &p).value, 1, 1e-14);
         koksma_points_fini(&p);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distances_are_those_of_all_pairs),
-        cmocka_unit_test(many_points_too),
-        cmocka_unit_test(densest_lattices_have_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

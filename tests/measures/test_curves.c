@@ -17,9 +17,8 @@ static koksma_spectrum spectrum_of(const koksma_points *p, int half, koksma_spec
     return s;
 }
 
-static void spectra_equal_the_definition(void **state)
+TEST_CASE(spectra_equal_the_definition)
 {
-    (void)state;
     static const int halves[] = {1, 5, 16, 37};
     for (int t = 0; t < 24; t++) {
         koksma_points p = sets_points(1 + 13 * (size_t)t, 2, t % SETS_KINDS, (uint64_t)t);
@@ -39,9 +38,8 @@ static void spectra_equal_the_definition(void **state)
     }
 }
 
-static void threads_change_no_bit(void **state)
+TEST_CASE(threads_change_no_bit)
 {
-    (void)state;
     koksma_points p = test_points("random", 300, 2, 1);
     for (int method = 0; method < 2; method++) {
         koksma_spectrum one = spectrum_of(&p, 50, (koksma_spectrum_method)method, 1);
@@ -56,9 +54,8 @@ static void threads_change_no_bit(void **state)
 }
 
 /* Random points have power 1 at every frequency; a jittered set of m x m cells 1 - sinc^2 sinc^2. */
-static void radial_means_have_known_values(void **state)
+TEST_CASE(radial_means_have_known_values)
 {
-    (void)state;
     enum { HALF = 12, SETS = 400 };
     for (int jittered = 0; jittered < 2; jittered++) {
         koksma_spectrum s;
@@ -97,9 +94,8 @@ static void radial_means_have_known_values(void **state)
 }
 
 /* Radial mean, error and anisotropy by the definitions, over all frequencies of both halves of the plane. */
-static void rings_equal_the_definition(void **state)
+TEST_CASE(rings_equal_the_definition)
 {
-    (void)state;
     enum { HALF = 9, SETS = 3 };
     for (int kind = 0; kind < SETS_KINDS; kind++) {
         koksma_points p[SETS];
@@ -147,9 +143,8 @@ static void rings_equal_the_definition(void **state)
     }
 }
 
-static void equal_sets_have_no_error(void **state)
+TEST_CASE(equal_sets_have_no_error)
 {
-    (void)state;
     koksma_points p = test_points("jittered", 100, 2, 3);
     koksma_spectrum s;
     koksma_ring rings[20];
@@ -167,9 +162,8 @@ static void equal_sets_have_no_error(void **state)
 
 /* A spectrum that ends early has the same effective Nyquist frequency as a large one, or none. That of the square
    lattice is half of the last frequency before its first peak, which is at sqrt(n). */
-static void nyquist_is_that_of_large_spectra(void **state)
+TEST_CASE(nyquist_is_that_of_large_spectra)
 {
-    (void)state;
     static const char *const patterns[] = {"regular", "random", "jittered", "poisson-disk-maximal"};
     for (int i = 0; i < 4; i++) {
         double expected = i ? 0 : 15 / 2.0;
@@ -193,9 +187,8 @@ static void nyquist_is_that_of_large_spectra(void **state)
 
 /* The size of a spectrum that is large enough changes no quality; smaller ones give none. Random points have no
    oscillation but noise, which more sets make smaller. */
-static void quality_does_not_depend_on_half(void **state)
+TEST_CASE(quality_does_not_depend_on_half)
 {
-    (void)state;
     static const int halves[] = {60, 112, 150, 260};
     static const char *const patterns[] = {"random", "jittered", "poisson-disk-maximal"};
     double oscillations[3] = {0};
@@ -233,9 +226,8 @@ static double distance_on_torus(const double *a, const double *b, bool torus)
     return hypot(dx, dy);
 }
 
-static void distances_equal_all_pairs(void **state)
+TEST_CASE(distances_equal_all_pairs)
 {
-    (void)state;
     enum { BINS = 20 };
     for (int t = 0; t < test_repeats(300, 60); t++) {
         koksma_points p = sets_points(1 + (size_t)t, 2, t % SETS_KINDS, (uint64_t)t);
@@ -273,9 +265,8 @@ static void distances_equal_all_pairs(void **state)
 }
 
 /* The sum over frequencies in closed form: n^2 (diaphony^2 + 1) = sum over pairs of prod (1 + 2 pi^2 B2({x - y})). */
-static void diaphony_equals_all_pairs(void **state)
+TEST_CASE(diaphony_equals_all_pairs)
 {
-    (void)state;
     for (int t = 0; t < test_repeats(120, 24); t++) {
         koksma_points p = sets_points(1 + (size_t)t / 2, 1 + t % 4, t % SETS_KINDS, (uint64_t)t);
         const size_t dim = (size_t)p.dim;
@@ -295,9 +286,8 @@ static void diaphony_equals_all_pairs(void **state)
     }
 }
 
-static void diaphony_has_known_values(void **state)
+TEST_CASE(diaphony_has_known_values)
 {
-    (void)state;
     /* the sum over frequencies up to 400; what is left out is below 2 (1 + pi^2/3) 2/400 */
     koksma_points p = sets_points(7, 2, 0, 4);
     double sum = -1;
@@ -313,9 +303,8 @@ static void diaphony_has_known_values(void **state)
     koksma_points_fini(&p);
 }
 
-static void t_has_known_values(void **state)
+TEST_CASE(t_has_known_values)
 {
-    (void)state;
     koksma_points p;
     assert_ok(koksma_points_init(&p, 64, 2));
     for (size_t i = 0; i < p.n; i++) {
@@ -343,9 +332,8 @@ static void t_has_known_values(void **state)
     koksma_points_fini(&p);
 }
 
-static void kernels_equal_reference(void **state)
+TEST_CASE(kernels_equal_reference)
 {
-    (void)state;
     enum { MAX = 128, LANES = 16 };
     static double re[2][LANES * MAX], im[2][LANES * MAX], spare[2][2][LANES * MAX], twiddles[2 * MAX];
     const koksma__kernel_table *ref = koksma__kernels_find("ref");
@@ -373,24 +361,4 @@ static void kernels_equal_reference(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spectra_equal_the_definition),
-
-        cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(radial_means_have_known_values),
-        cmocka_unit_test(distances_equal_all_pairs),
-        cmocka_unit_test(diaphony_has_known_values),
-        cmocka_unit_test(t_has_known_values),
-        cmocka_unit_test(kernels_equal_reference),
-        cmocka_unit_test(rings_equal_the_definition),
-        cmocka_unit_test(equal_sets_have_no_error),
-        cmocka_unit_test(nyquist_is_that_of_large_spectra),
-        cmocka_unit_test(quality_does_not_depend_on_half),
-        cmocka_unit_test(diaphony_equals_all_pairs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

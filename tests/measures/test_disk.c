@@ -80,9 +80,8 @@ static double brute(const koksma_points *p, long double r)
     return best;
 }
 
-static void equals_brute_force(void **state)
+TEST_CASE(equals_brute_force)
 {
-    (void)state;
     static const double radii[] = {0.25, 0.1, 0.375, 0.49};
     for (int s = 0; s < test_repeats(900, 90); s++) {
         char spec[32];
@@ -126,9 +125,8 @@ static double dense(const koksma_points *p, double r)
     return best;
 }
 
-static void agrees_with_a_dense_search(void **state)
+TEST_CASE(agrees_with_a_dense_search)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(24, 6); s++) {
         const double r = s % 2 ? 0.25 : 0.45;
         koksma_points p = sets_points(5 + (size_t)s * 2, 2, s % SETS_KINDS, (uint64_t)s);
@@ -153,9 +151,8 @@ static size_t count_in(const koksma_points *p, const koksma_witness *w)
 }
 
 /* Whoever counts the points in the witness finds the value; on any number of threads it is the same disk. */
-static void witness_shows_the_value(void **state)
+TEST_CASE(witness_shows_the_value)
 {
-    (void)state;
     koksma_spec spec;
     assert_ok(koksma_measure_spec("disk:r=0.3", &spec));
     for (int s = 0; s < test_repeats(120, 24); s++) {
@@ -176,9 +173,8 @@ static void witness_shows_the_value(void **state)
 }
 
 /* Squares of their differences are 0. */
-static void points_too_near_to_0(void **state)
+TEST_CASE(points_too_near_to_0)
 {
-    (void)state;
     double xs[] = {0, 0, 1e-170, 0, 0, 1e-300, 0.5, 0.5};
     koksma_points p = {4, 2, xs};
     koksma_spec spec;
@@ -190,9 +186,8 @@ static void points_too_near_to_0(void **state)
 }
 
 /* Points that are there several times do not change the value, but the method: branch and bound against all pairs. */
-static void branch_and_bound_agrees_with_all_pairs(void **state)
+TEST_CASE(branch_and_bound_agrees_with_all_pairs)
 {
-    (void)state;
     static const double radii[] = {0.25, 0.1, 0.375, 0.499};
     for (int s = 0; s < test_repeats(160, 32); s++) {
         char spec[32];
@@ -213,9 +208,8 @@ static void branch_and_bound_agrees_with_all_pairs(void **state)
     }
 }
 
-static void bounds_when_cut_short(void **state)
+TEST_CASE(bounds_when_cut_short)
 {
-    (void)state;
     koksma_spec spec;
     koksma_value v, one, three;
     koksma_points p = test_points("jittered", 900, 2, 1);
@@ -232,17 +226,4 @@ static void bounds_when_cut_short(void **state)
     v = test_measure("disk", &p);
     assert_true(!v.exact && v.lower == v.value && v.lower < v.upper);
     koksma_points_fini(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equals_brute_force),
-        cmocka_unit_test(agrees_with_a_dense_search),
-        cmocka_unit_test(witness_shows_the_value),
-        cmocka_unit_test(points_too_near_to_0),
-        cmocka_unit_test(branch_and_bound_agrees_with_all_pairs),
-        cmocka_unit_test(bounds_when_cut_short),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

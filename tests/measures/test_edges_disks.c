@@ -81,9 +81,8 @@ static double brute_edge(const koksma_points *s)
 
 /* Each fourth set is shrunk towards (0,0) by a power of two, down to numbers whose products are below all doubles; in
    each fortieth 40 points crowd in a place so small that others see them in nearly one direction. */
-static void edge_equals_brute_force(void **state)
+TEST_CASE(edge_equals_brute_force)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(3000, 300); s++) {
         const size_t n = 1 + (size_t)(s / SETS_KINDS) % 16, crowd = s % 40 == 7 ? 40 : 0;
         koksma_points p = sets_points(n + crowd, 2, s % SETS_KINDS, (uint64_t)s);
@@ -111,9 +110,8 @@ static void edge_equals_brute_force(void **state)
 }
 
 /* With all the time there is, the bounds close upon the value from both sides. */
-static void bounds_of_edge_hold(void **state)
+TEST_CASE(bounds_of_edge_hold)
 {
-    (void)state;
     static const koksma__domain square = {koksma__area_below_through, NULL, M_SQRT1_2};
     for (int s = 0; s < test_repeats(10, 3) * SETS_KINDS; s++) {
         koksma_points p = sets_points(1 + (size_t)s % 30, 2, s % SETS_KINDS, (uint64_t)s);
@@ -129,9 +127,8 @@ static void bounds_of_edge_hold(void **state)
     }
 }
 
-static void edge_obeys_its_time_limit(void **state)
+TEST_CASE(edge_obeys_its_time_limit)
 {
-    (void)state;
     koksma_points p = test_points("random", 2000, 2, 1);
     const double value = test_measure("edge", &p).value;
     koksma_spec edge;
@@ -147,9 +144,8 @@ static void edge_obeys_its_time_limit(void **state)
     koksma_points_fini(&p);
 }
 
-static void signs_are_exact(void **state)
+TEST_CASE(signs_are_exact)
 {
-    (void)state;
     for (uint64_t i = 0; i < test_repeats(20000, 2000); i++) {
         double v[8];
         for (uint64_t k = 0; k < 8; k++) {
@@ -166,9 +162,8 @@ static void signs_are_exact(void **state)
 }
 
 /* P and C by the midpoint rule on 400 x 400 and 40 x 40 squares. */
-static void potentials_are_integrals(void **state)
+TEST_CASE(potentials_are_integrals)
 {
-    (void)state;
     for (int law = 0; law < 2; law++) {
         static const double at[4][2] = {{0.3, 0.8}, {0, 1}, {0.5, 0.001}, {1, 0.4}};
         for (int i = 0; i < 4; i++) {
@@ -190,9 +185,8 @@ static void potentials_are_integrals(void **state)
 
 /* Exact values within five standard errors of sampled ones, whose lines and disks know nothing of the closed forms.
  */
-static void exact_agrees_with_sampled(void **state)
+TEST_CASE(exact_agrees_with_sampled)
 {
-    (void)state;
     static const char *const pairs[][2] = {
         {"l2-edge", "edge-sampled:lines=60000"},
         {"l2-edge:law=mitchell", "edge-sampled:lines=60000,law=mitchell"},
@@ -213,9 +207,8 @@ static void exact_agrees_with_sampled(void **state)
 }
 
 /* Every disk of a fine net of centres and radii, whose deviation no disk may beat; and close to the best of them. */
-static void disk_equals_fine_search(void **state)
+TEST_CASE(disk_equals_fine_search)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(18, 6); s++) {
         koksma_points p = sets_points(1 + (size_t)s / 2, 2, s % SETS_KINDS, (uint64_t)s);
         const koksma_value v = test_measure("disk:r=0.3", &p);
@@ -247,9 +240,8 @@ static void disk_equals_fine_search(void **state)
     }
 }
 
-static void kernels_equal_reference(void **state)
+TEST_CASE(kernels_equal_reference)
 {
-    (void)state;
     double x[200], y[200], a[16], b[16], c[16], counts[2][16];
     for (size_t i = 0; i < 200; i++) {
         x[i] = sets_unit(7, i);
@@ -276,10 +268,9 @@ static void kernels_equal_reference(void **state)
 /* The angle t between a line and the nearer axis, in bins of 1 degree. Mitchell's slope is that of a uniform point of a
    square, seen from its centre: below t lie tan t of them. Isotropic lines meet the square as often as it is wide,
    cos t + sin t: below t lie 1 + sin t - cos t. Chi-square with 44 degrees of freedom; the other law must fail. */
-static void angles_of_random_lines(void **state)
+TEST_CASE(angles_of_random_lines)
 {
     enum { LINES = 200000 };
-    (void)state;
     for (int law = 0; law < 2; law++) {
         double counts[45] = {0}, square[2] = {0};
         for (uint64_t i = 0; i < LINES; i++) {
@@ -299,16 +290,4 @@ static void angles_of_random_lines(void **state)
         assert_true(square[law] < 44 + 4 * sqrt(2 * 44));
         assert_true(square[!law] > 1000);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edge_equals_brute_force),   cmocka_unit_test(signs_are_exact),
-        cmocka_unit_test(potentials_are_integrals),  cmocka_unit_test(exact_agrees_with_sampled),
-        cmocka_unit_test(disk_equals_fine_search),   cmocka_unit_test(kernels_equal_reference),
-        cmocka_unit_test(angles_of_random_lines),    cmocka_unit_test(bounds_of_edge_hold),
-        cmocka_unit_test(edge_obeys_its_time_limit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -257,9 +257,8 @@ static void look_at_witness(const koksma_spec *spec, const koksma_points *points
 }
 
 /* Small sets, and those that are cut into blocks: with the n of a measure here, or 70. */
-static void values_do_not_depend_on_threads(void **state)
+TEST_CASE(values_do_not_depend_on_threads)
 {
-    (void)state;
     static const struct {
         const char *measure;
         int dim;
@@ -291,27 +290,23 @@ static void values_do_not_depend_on_threads(void **state)
     }
 }
 
-static void values_do_not_depend_on_order(void **state)
+TEST_CASE(values_do_not_depend_on_order)
 {
-    (void)state;
     walk(look_at_order);
 }
 
-static void values_do_not_depend_on_the_order_of_coordinates(void **state)
+TEST_CASE(values_do_not_depend_on_the_order_of_coordinates)
 {
-    (void)state;
     walk(look_at_coordinates);
 }
 
-static void bounds_enclose_values(void **state)
+TEST_CASE(bounds_enclose_values)
 {
-    (void)state;
     walk(look_at_bounds);
 }
 
-static void witnesses_give_their_values(void **state)
+TEST_CASE(witnesses_give_their_values)
 {
-    (void)state;
     walk(look_at_witness);
 }
 
@@ -319,9 +314,8 @@ static void witnesses_give_their_values(void **state)
 
 /* left <= factor^dim right, for all points: a root mean square is at most the supremum over the same regions,
    anchored boxes are boxes, and a box is an alternating sum of 2^dim anchored ones. */
-static void known_inequalities_hold(void **state)
+TEST_CASE(known_inequalities_hold)
 {
-    (void)state;
     static const struct {
         const char *left, *right;
         double factor;
@@ -352,9 +346,8 @@ static void known_inequalities_hold(void **state)
 }
 
 /* Moves that leave a measure as it is. */
-static void known_symmetries_hold(void **state)
+TEST_CASE(known_symmetries_hold)
 {
-    (void)state;
     static const struct {
         const char *measure;
         bool shift, reflect; /* on the torus; about 1/2 in the first coordinate */
@@ -401,9 +394,8 @@ static void looks_for_the_root(const koksma_spec *spec, const koksma_points *poi
     }
 }
 
-static void roots_are_called_so(void **state)
+TEST_CASE(roots_are_called_so)
 {
-    (void)state;
     walk(looks_for_the_root);
     const koksma_measure *m;
     for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
@@ -411,19 +403,4 @@ static void roots_are_called_so(void **state)
             fail_msg("%s: its title does not say that it is a root: %s", m->name, m->title);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_do_not_depend_on_threads),
-        cmocka_unit_test(values_do_not_depend_on_order),
-        cmocka_unit_test(values_do_not_depend_on_the_order_of_coordinates),
-        cmocka_unit_test(bounds_enclose_values),
-        cmocka_unit_test(witnesses_give_their_values),
-        cmocka_unit_test(known_inequalities_hold),
-        cmocka_unit_test(known_symmetries_hold),
-        cmocka_unit_test(roots_are_called_so),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

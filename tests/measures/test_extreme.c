@@ -9,9 +9,8 @@
 #include "measures/extreme/extreme.h"
 #include "sets.h"
 
-static void plane_equals_plain_search(void **state)
+TEST_CASE(plane_equals_plain_search)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(36, 12); s++) {
         koksma_points p = sets_points(20 + 2 * (size_t)s, 2, s % SETS_KINDS, (uint64_t)s);
         koksma_value plain = {.value = NAN};
@@ -23,9 +22,8 @@ static void plane_equals_plain_search(void **state)
 
 /* The sweep and the mixture of both ways, on sets with ties, repeats, points on a line and on the sides, against the
    plain search; what the witness holds is counted. */
-static void sweep_equals_plain_search(void **state)
+TEST_CASE(sweep_equals_plain_search)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(600, 120); s++) {
         koksma_points p = sets_points(1 + (size_t)s % 37, 2, s % SETS_KINDS, (uint64_t)s);
         koksma_value plain = {.value = NAN}, swept = {.value = NAN}, either = {.value = NAN};
@@ -50,9 +48,8 @@ static void sweep_equals_plain_search(void **state)
 }
 
 /* Sets on which bounding is slowest, larger than the plain search can do. */
-static void sweep_equals_bounding(void **state)
+TEST_CASE(sweep_equals_bounding)
 {
-    (void)state;
     static const char *const patterns[] = {"golden", "hammersley", "jittered", "regular", "random"};
     for (int i = 0; i < 5; i++) {
         koksma_points p = test_points(patterns[i], 256, 2, 5);
@@ -66,9 +63,8 @@ static void sweep_equals_bounding(void **state)
     }
 }
 
-static void strips_equal_reference(void **state)
+TEST_CASE(strips_equal_reference)
 {
-    (void)state;
     double x[200], y[200], sides[6][16], a[2][16], b[2][16];
     for (size_t i = 0; i < 200; i++) {
         x[i] = sets_unit(1, i);
@@ -112,9 +108,8 @@ static void expect_plain_value(const char *name, koksma_points *p)
 
 /* Points that are in all strips of a tile are bounded as runs only in sets larger than those above: all patterns of the
    table that make a plane set, and sets with repeats and with points on the sides, against the plain search. */
-static void runs_equal_plain_search(void **state)
+TEST_CASE(runs_equal_plain_search)
 {
-    (void)state;
     static const size_t sizes[] = {256, 289, 233, 343};
     const koksma_pattern *pattern;
     size_t made = 0;
@@ -179,9 +174,8 @@ static void expect_bounds(const koksma__run_list *all, const koksma__run_list *l
 
 /* Lists of narrower and narrower sets bound all their strips from above, and equal them where there is one width; the
    kernel equals its twin. */
-static void runs_bound_their_strips(void **state)
+TEST_CASE(runs_bound_their_strips)
 {
-    (void)state;
     enum { N = 3000 };
     static double x[N + 1], y[N + 1];
     koksma__run_place *places = malloc(3 * KOKSMA__RUN_CAPACITY * sizeof *places);
@@ -222,9 +216,8 @@ static void runs_bound_their_strips(void **state)
 }
 
 /* What the witness of a grid holds, counted in doubles as everywhere. */
-static void witness_of_a_grid(void **state)
+TEST_CASE(witness_of_a_grid)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(200, 60); s++) {
         koksma_points p = sets_points(1 + (size_t)s % 37, 2, s % SETS_KINDS, (uint64_t)s);
         char text[32];
@@ -245,9 +238,8 @@ static void witness_of_a_grid(void **state)
     }
 }
 
-static void short_time_gives_bounds(void **state)
+TEST_CASE(short_time_gives_bounds)
 {
-    (void)state;
     koksma_points p = test_points("jittered", 256, 2, 3);
     koksma_spec spec;
     koksma_value exact, cut;
@@ -268,9 +260,8 @@ static double ticking(void)
 }
 
 /* Sets that take minutes end in time, with bounds that say something. */
-static void large_sets_obey_the_time_limit(void **state)
+TEST_CASE(large_sets_obey_the_time_limit)
 {
-    (void)state;
     static const struct {
         const char *measure, *pattern;
         size_t n;
@@ -294,16 +285,4 @@ static void large_sets_obey_the_time_limit(void **state)
         assert_true(v.upper <= cases[c].upper);
         koksma_points_fini(&p);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plane_equals_plain_search), cmocka_unit_test(sweep_equals_plain_search),
-        cmocka_unit_test(sweep_equals_bounding),     cmocka_unit_test(strips_equal_reference),
-        cmocka_unit_test(short_time_gives_bounds),   cmocka_unit_test(large_sets_obey_the_time_limit),
-        cmocka_unit_test(witness_of_a_grid),         cmocka_unit_test(runs_equal_plain_search),
-        cmocka_unit_test(runs_bound_their_strips),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,9 +33,8 @@ static double sliced_volume(const double a[3], double c)
     return volume;
 }
 
-static void volumes_are_slices(void **state)
+TEST_CASE(volumes_are_slices)
 {
-    (void)state;
     for (uint64_t s = 0; s < 20000; s++) {
         double a[3], c = 0, turned[3], at[3];
         for (uint64_t k = 0; k < 3; k++) {
@@ -172,9 +171,8 @@ static void check_witness(const koksma_points *p, const koksma_value *v)
     assert_near(koksma__volume_below(v->witness.lo, v->witness.hi[0]), v->witness.volume, 1e-14);
 }
 
-static void edge_equals_search(void **state)
+TEST_CASE(edge_equals_search)
 {
-    (void)state;
     for (int s = 0; s < 6 * SETS_KINDS; s++) {
         koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS), 3, s % SETS_KINDS, (uint64_t)s);
         const koksma_value v = test_measure("edge", &p);
@@ -190,9 +188,8 @@ static void edge_equals_search(void **state)
 
 /* One point cuts off a corner, whose centroid it is; a wedge along an edge; or a slab, on an axis of the cube. The
    same in all 48 positions of the cube. */
-static void known_edges(void **state)
+TEST_CASE(known_edges)
 {
-    (void)state;
     static const double points[][4] = {
         {0.1, 0.2, 0.3, 1 - 4.5 * 0.1 * 0.2 * 0.3},
         {0.25, 0.25, 0.25, 1 - 4.5 / 64},
@@ -221,9 +218,8 @@ static void known_edges(void **state)
 }
 
 /* n points at one place are that place, and the plane of the n/3 at each of three places holds all. */
-static void repeats_and_larger_sets(void **state)
+TEST_CASE(repeats_and_larger_sets)
 {
-    (void)state;
     koksma_points p = test_points("random", 24, 3, 5), repeated = test_points("random", 72, 3, 5);
     for (size_t c = 0; c < 3 * repeated.n; c++) {
         repeated.xs[c] = p.xs[c / 9 * 3 + c % 3];
@@ -243,9 +239,8 @@ static void repeats_and_larger_sets(void **state)
     koksma_points_fini(&p);
 }
 
-static void edge_keeps_its_limits(void **state)
+TEST_CASE(edge_keeps_its_limits)
 {
-    (void)state;
     koksma_spec edge;
     koksma_value v, one;
     koksma_points p = test_points("random", 1025, 3, 1), small = test_points("random", 40, 3, 1);
@@ -267,9 +262,8 @@ static void edge_keeps_its_limits(void **state)
 }
 
 /* Mean square and its standard error over sets, and what the exact measure has for them. */
-static void exact_agrees_with_sampled(void **state)
+TEST_CASE(exact_agrees_with_sampled)
 {
-    (void)state;
     static const char *const pairs[][2] = {
         {"l2-edge", "edge-sampled:lines=20000"},
         {"l2-disk", "disk-sampled:disks=20000"},
@@ -293,9 +287,8 @@ static void exact_agrees_with_sampled(void **state)
 }
 
 /* The mean square of random sets is a constant over n; of one ball volume (1 - volume). */
-static void means_of_random_sets(void **state)
+TEST_CASE(means_of_random_sets)
 {
-    (void)state;
     const double v = 4 * M_PI / 3 / 8, quarter = v / 8;
     /* the mean distance of two points of the cube: .66170718 (Robbins 1978) */
     const struct {
@@ -327,9 +320,8 @@ static void means_of_random_sets(void **state)
 }
 
 /* The potential is the mean distance to the cube over 3, here by a fine grid with an error of its cell squared. */
-static void potential_is_an_integral(void **state)
+TEST_CASE(potential_is_an_integral)
 {
-    (void)state;
     enum { SIDE = 60 };
     for (int s = 0; s < SETS_KINDS; s++) {
         koksma_points p = sets_points(2, 3, s, (uint64_t)s);
@@ -346,9 +338,8 @@ static void potential_is_an_integral(void **state)
 }
 
 /* Balls are on the torus: a shift changes nothing. */
-static void balls_ignore_shifts(void **state)
+TEST_CASE(balls_ignore_shifts)
 {
-    (void)state;
     koksma_points p = test_points("random", 50, 3, 2), q = test_points("random", 50, 3, 2);
     for (size_t c = 0; c < 150; c++) {
         const double moved = p.xs[c] + 0.1 * (double)(1 + c % 3 * 3);
@@ -360,16 +351,4 @@ static void balls_ignore_shifts(void **state)
     }
     koksma_points_fini(&p);
     koksma_points_fini(&q);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(volumes_are_slices),    cmocka_unit_test(edge_equals_search),
-        cmocka_unit_test(known_edges),           cmocka_unit_test(repeats_and_larger_sets),
-        cmocka_unit_test(edge_keeps_its_limits), cmocka_unit_test(exact_agrees_with_sampled),
-        cmocka_unit_test(means_of_random_sets),  cmocka_unit_test(potential_is_an_integral),
-        cmocka_unit_test(balls_ignore_shifts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static koksma_points cluster(size_t n, int dim)
     return p;
 }
 
-static void every_measure_asks(void **state)
+TEST_CASE(every_measure_asks)
 {
-    (void)state;
     for (size_t i = 0; koksma_measure_at(i); i++) {
         const koksma_measure *m = koksma_measure_at(i);
         const int last = m->max_dim < 4 ? m->max_dim : 4;
@@ -72,9 +71,8 @@ static bool look(void *context, double fraction)
 }
 
 /* Measures that would take seconds to minutes, told to stop at the 20th question. */
-static void questions_are_near(void **state)
+TEST_CASE(questions_are_near)
 {
-    (void)state;
     static const struct {
         const char *measure;
         size_t n;
@@ -118,9 +116,8 @@ static bool stop_once(void *context, double fraction)
     return ++*(int *)context != 2;
 }
 
-static void one_false_stops(void **state)
+TEST_CASE(one_false_stops)
 {
-    (void)state;
     koksma_points p;
     koksma_spec spec;
     int asked = 0;
@@ -137,9 +134,8 @@ static bool stop_at_third(void *context, double fraction)
     return ++*(int *)context < 3;
 }
 
-static void a_file_that_is_stopped_is_as_before(void **state)
+TEST_CASE(a_file_that_is_stopped_is_as_before)
 {
-    (void)state;
     static const char *const endings[] = {"txt", "csv", "npy"};
     koksma_points p = test_points("random", 400000, 2, 1), few = test_points("random", 3, 2, 1), back;
     for (int e = 0; e < 3; e++) {
@@ -188,9 +184,8 @@ static void render_until_stopped(const char *pattern, int side, int spp, const k
 
 /* Patterns take seconds for a set of one pixel: they ask while they make it, on any thread but through the caller's.
    A picture of four pixels is one task, and asked a few times before. */
-static void pictures_ask_within_a_set(void **state)
+TEST_CASE(pictures_ask_within_a_set)
 {
-    (void)state;
     int asked = 0;
     const koksma_run run = {.threads = 2, .keep_going = stop_at_hundredth, .context = &asked};
     render_until_stopped("gaussian-blue-noise:steps=1000", 2, 16, &run);
@@ -198,9 +193,8 @@ static void pictures_ask_within_a_set(void **state)
 }
 
 /* Sets that take seconds to minutes, in each dimension that a pattern has up to 8, told to stop at the 20th question. */
-static void every_pattern_asks_often(void **state)
+TEST_CASE(every_pattern_asks_often)
 {
-    (void)state;
     const koksma_pattern *pattern;
     for (size_t i = 0; (pattern = koksma_pattern_at(i)); i++) {
         const int last = pattern->max_dim < 8 ? pattern->max_dim : 8;
@@ -226,25 +220,10 @@ static void every_pattern_asks_often(void **state)
 }
 
 /* The first set of each pattern, which is made to check it, is made under the caller's run too. */
-static void pictures_ask_within_the_first_set(void **state)
+TEST_CASE(pictures_ask_within_the_first_set)
 {
-    (void)state;
     watch w = {.asked = 0};
     const koksma_run run = {.threads = 2, .keep_going = look, .context = &w};
     render_until_stopped("best-candidate", 1, 65536, &run);
     assert_true(w.asked == 20 && w.longest_s < 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_measure_asks),
-        cmocka_unit_test(questions_are_near),
-        cmocka_unit_test(one_false_stops),
-        cmocka_unit_test(a_file_that_is_stopped_is_as_before),
-        cmocka_unit_test(pictures_ask_within_a_set),
-        cmocka_unit_test(every_pattern_asks_often),
-        cmocka_unit_test(pictures_ask_within_the_first_set),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,9 +68,8 @@ static double integral_of_kernel(int kind, double u)
     return sum;
 }
 
-static void table_is_consistent(void **state)
+TEST_CASE(table_is_consistent)
 {
-    (void)state;
     for (int kind = 0; kind < KOKSMA__L2_KINDS; kind++) {
         const koksma__l2_row *row = rows[kind];
         double c = 0;
@@ -195,9 +194,8 @@ static double square_1d(int kind, const koksma_points *p, int k)
     return sum;
 }
 
-static void values_are_the_integrals(void **state)
+TEST_CASE(values_are_the_integrals)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(180, 36); s++) {
         koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 5, 2, s % SETS_KINDS, (uint64_t)s);
         const double star = square_2d(KOKSMA__L2_STAR, &p), extreme = square_2d(KOKSMA__L2_EXTREME, &p);
@@ -251,9 +249,8 @@ static double literal_square(int kind, const koksma_points *p)
     return (double)(powl((long double)c, p->dim) - 2 * linear / n + pairs / n / n);
 }
 
-static void pairs_and_merging_equal_the_formula(void **state)
+TEST_CASE(pairs_and_merging_equal_the_formula)
 {
-    (void)state;
     for (int s = 0; s < 4 * 6 * 8 * 12; s++) {
         const int kind = s % KOKSMA__L2_KINDS, dim = 1 + s / 8 % 4;
         koksma_points p = sets_points(1 + (size_t)s / 190 * 9, dim, s / 32 % SETS_KINDS, (uint64_t)s);
@@ -296,9 +293,8 @@ static double quad_star(const koksma_points *p)
     return sqrt((double)((quad)1 / 9 - linear / (2 * n) + pairs / (n * n)));
 }
 
-static void halton_keeps_its_digits(void **state)
+TEST_CASE(halton_keeps_its_digits)
 {
-    (void)state;
     koksma_points p;
     assert_ok(koksma_points_init(&p, 2500, 2));
     for (size_t i = 0; i < p.n; i++) {
@@ -310,9 +306,8 @@ static void halton_keeps_its_digits(void **state)
 }
 
 /* Dividing against all pairs, in 3 and 4 dimensions, with ties and repeats; the number of products. */
-static void dividing_equals_pairs(void **state)
+TEST_CASE(dividing_equals_pairs)
 {
-    (void)state;
     static const int ranks[KOKSMA__L2_KINDS] = {
         [KOKSMA__L2_STAR] = 1,     [KOKSMA__L2_EXTREME] = 1,  [KOKSMA__L2_PERIODIC] = 3, [KOKSMA__L2_WRAPAROUND] = 3,
         [KOKSMA__L2_MODIFIED] = 1, [KOKSMA__L2_CENTERED] = 2, [KOKSMA__L2_MIXTURE] = 3,  [KOKSMA__L2_SYMMETRIC] = 2};
@@ -331,9 +326,8 @@ static void dividing_equals_pairs(void **state)
 
 /* 12,000 points in space, in two pieces: bits on any number of threads; digits of the first 2,500 against sums
    of 113 bits. */
-static void dividing_keeps_digits(void **state)
+TEST_CASE(dividing_keeps_digits)
 {
-    (void)state;
     koksma_points p = test_points("halton", 12000, 3, 0);
     double one, other;
     assert_ok(koksma__l2_by_dividing(rows[KOKSMA__L2_STAR], &p, &(koksma_run){.threads = 1}, &one));
@@ -398,9 +392,8 @@ static long double wide_square(int kind, const koksma_points *p)
 }
 
 /* The dimensions are those about which a square, a value or a term leaves the range of doubles. */
-static void hundreds_of_dimensions(void **state)
+TEST_CASE(hundreds_of_dimensions)
 {
-    (void)state;
     static const int dims[] = {150, 388, 389, 475, 900, 997, 1071, 1237, 1705, 2500, 3132, 4096};
     int in_range = 0, beyond = 0;
     for (int kind = 0; kind <= KOKSMA__L2_KINDS && sizeof(long double) > sizeof(double); kind++) {
@@ -437,9 +430,8 @@ static void hundreds_of_dimensions(void **state)
 }
 
 /* A double all the same, 2.75e-239: only the product over the first coordinates is none. */
-static void a_product_out_of_range(void **state)
+TEST_CASE(a_product_out_of_range)
 {
-    (void)state;
     koksma_points p;
     koksma_spec spec;
     koksma_value got;
@@ -453,20 +445,4 @@ static void a_product_out_of_range(void **state)
                                              "point is beyond the range of doubles; another order of the "
                                              "coordinates may work");
     koksma_points_fini(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table_is_consistent),
-        cmocka_unit_test(hundreds_of_dimensions),
-        cmocka_unit_test(a_product_out_of_range),
-        cmocka_unit_test(values_are_the_integrals),
-        cmocka_unit_test(pairs_and_merging_equal_the_formula),
-        cmocka_unit_test(halton_keeps_its_digits),
-
-        cmocka_unit_test(dividing_equals_pairs),
-        cmocka_unit_test(dividing_keeps_digits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

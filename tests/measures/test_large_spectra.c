@@ -6,9 +6,8 @@
 #include "sets.h"
 
 /* More points than a chunk has room for, and more rows than a band. */
-static void exact_spectra_of_many_chunks_and_bands(void **state)
+TEST_CASE(exact_spectra_of_many_chunks_and_bands)
 {
-    (void)state;
     static const struct {
         size_t n;
         int half;
@@ -30,9 +29,8 @@ static void exact_spectra_of_many_chunks_and_bands(void **state)
 
 /* Rings without power have no anisotropy, and rings of equal powers have none in dB; by both methods, whose rounding
    makes numbers of either. */
-static void anisotropy_of_nothing(void **state)
+TEST_CASE(anisotropy_of_nothing)
 {
-    (void)state;
     enum { HALF = 12 };
     for (int method = 0; method < 4; method++) {
         koksma_points p = test_points("regular", 36, 2, 0);
@@ -52,11 +50,4 @@ static void anisotropy_of_nothing(void **state)
         koksma_spectrum_fini(&s);
         koksma_points_fini(&p);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(exact_spectra_of_many_chunks_and_bands),
-                                       cmocka_unit_test(anisotropy_of_nothing)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,12 +23,11 @@ static double counted(const koksma_points *points, const double *x)
     return inside / (double)points->n - volume;
 }
 
-static void grids_are_corners_counted_one_by_one(void **state)
+TEST_CASE(grids_are_corners_counted_one_by_one)
 {
     enum { SIDE = 23 };
     static double grid[SIDE * SIDE];
     static const char *const patterns[] = {"random", "regular", "zaremba", "hammersley"};
-    (void)state;
     for (size_t p = 0; p < sizeof patterns / sizeof *patterns; p++) {
         koksma_points points = test_points(patterns[p], 64, 2, 5);
         assert_int_equal(koksma_local_discrepancy_grid(&points, SIDE, grid), KOKSMA_OK);
@@ -46,13 +45,12 @@ static void grids_are_corners_counted_one_by_one(void **state)
 }
 
 /* |D| never exceeds the star discrepancy, and its mean square over a fine grid is that of l2-star. */
-static void star_discrepancies_are_its_supremum_and_mean_square(void **state)
+TEST_CASE(star_discrepancies_are_its_supremum_and_mean_square)
 {
     enum { SIDE = 1024 };
     koksma_spec star, l2;
     koksma_value supremum, mean_square;
     double *grid = malloc(sizeof(double) * SIDE * SIDE), largest = 0, sum = 0;
-    (void)state;
     assert_non_null(grid);
     assert_int_equal(koksma_measure_spec("star", &star), KOKSMA_OK);
     assert_int_equal(koksma_measure_spec("l2-star", &l2), KOKSMA_OK);
@@ -70,11 +68,10 @@ static void star_discrepancies_are_its_supremum_and_mean_square(void **state)
     free(grid);
 }
 
-static void nonsense_is_refused(void **state)
+TEST_CASE(nonsense_is_refused)
 {
     double out[4];
     const double x[2] = {0.5, 1.5};
-    (void)state;
     koksma_points plane = test_points("random", 4, 2, 0), space = test_points("random", 4, 3, 0);
     assert_int_equal(koksma_local_discrepancy(&plane, x, out), KOKSMA_ARGUMENT);
     assert_int_equal(koksma_local_discrepancy(NULL, x, out), KOKSMA_ARGUMENT);
@@ -84,14 +81,4 @@ static void nonsense_is_refused(void **state)
     assert_int_equal(koksma_local_discrepancy_grid(&plane, KOKSMA_MAX_LOCAL_GRID + 1, out), KOKSMA_ARGUMENT);
     koksma_points_fini(&plane);
     koksma_points_fini(&space);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grids_are_corners_counted_one_by_one),
-        cmocka_unit_test(star_discrepancies_are_its_supremum_and_mean_square),
-        cmocka_unit_test(nonsense_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -130,9 +130,8 @@ static void random_net(fractions *f, int m)
     }
 }
 
-static void any_base_equals_the_definition(void **state)
+TEST_CASE(any_base_equals_the_definition)
 {
-    (void)state;
     static const unsigned long bases[] = {2, 3, 4, 5, 6, 7, 9, 10, 11, 13};
     int seen[8] = {0};
     for (size_t b = 0; b < sizeof bases / sizeof *bases; b++) {
@@ -165,9 +164,8 @@ static void any_base_equals_the_definition(void **state)
 }
 
 /* Every fraction with this many digits is in the interval that its digits name, in no other. */
-static void every_fraction_is_where_its_digits_say(void **state)
+TEST_CASE(every_fraction_is_where_its_digits_say)
 {
-    (void)state;
     for (unsigned long base = 2; base <= 50; base++) {
         for (int m = 1; power(base, m) <= 4096; m++) {
             koksma_points p;
@@ -196,9 +194,8 @@ static double work(double n, int m, int dim)
 }
 
 /* Faure 1982: the first b^m points, and each aligned block of as many, are (0,m,s)-nets for every s <= b. */
-static void faure_has_t_zero(void **state)
+TEST_CASE(faure_has_t_zero)
 {
-    (void)state;
     static const struct {
         unsigned long base;
         int least_dim;
@@ -220,9 +217,8 @@ static void faure_has_t_zero(void **state)
 
 /* i/n and the radical inverse in the base: Hammersley's points, t = 0. The inverses are those of the pattern halton,
    whose coordinate k is in the prime number k. */
-static void hammersley_of_each_prime_has_t_zero(void **state)
+TEST_CASE(hammersley_of_each_prime_has_t_zero)
 {
-    (void)state;
     static const unsigned long primes[] = {2, 3, 5, 7, 11, 13, 17, 19};
     enum { DIM = sizeof primes / sizeof *primes };
     koksma_points halton = test_points("halton", MAX_N, DIM, 0);
@@ -244,9 +240,8 @@ static void hammersley_of_each_prime_has_t_zero(void **state)
 }
 
 /* The detail of net-base-b lists t of the prefixes of b^m points: each is that of t-value. */
-static void verify_finds_the_same(void **state)
+TEST_CASE(verify_finds_the_same)
 {
-    (void)state;
     static const char *const patterns[] = {"faure", "halton", "sobol", "random", "n-rooks", "halton:scramble=owen"};
     for (size_t s = 0; s < sizeof patterns / sizeof *patterns; s++) {
         for (int dim = 2; dim <= 5; dim++) {
@@ -276,9 +271,8 @@ static void verify_finds_the_same(void **state)
     }
 }
 
-static void what_is_no_power_is_refused(void **state)
+TEST_CASE(what_is_no_power_is_refused)
 {
-    (void)state;
     koksma_spec spec;
     koksma_value value;
     double one[] = {0.3, 0.7}, ends[] = {0, 1, 0.5, 0.25};
@@ -299,17 +293,4 @@ static void what_is_no_power_is_refused(void **state)
     }
     assert_near(t_of(2, &(koksma_points){1, 2, one}), 0, 0);  /* m = 0 */
     assert_near(t_of(2, &(koksma_points){2, 2, ends}), 0, 0); /* a coordinate of 1 is in the last interval */
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_base_equals_the_definition),
-        cmocka_unit_test(every_fraction_is_where_its_digits_say),
-        cmocka_unit_test(faure_has_t_zero),
-        cmocka_unit_test(hammersley_of_each_prime_has_t_zero),
-        cmocka_unit_test(verify_finds_the_same),
-        cmocka_unit_test(what_is_no_power_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

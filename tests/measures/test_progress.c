@@ -39,7 +39,7 @@ static void assert_half(const char *what, const calls *c, double low, double hig
     }
 }
 
-static void test_measures(void **state)
+TEST_CASE(test_measures)
 {
     static const struct {
         const char *measure;
@@ -53,7 +53,6 @@ static void test_measures(void **state)
         {"star", 5, 60, 0.001, 0.6},
         {"l2-star", 5, 3000, 0.3, 0.8}, /* levels of the recursion, or rows of pairs */
         {"extreme", 2, 1000, 0.1, 0.9}};
-    (void)state;
     calls *c = malloc(sizeof *c);
     assert_non_null(c);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -74,12 +73,11 @@ static void test_measures(void **state)
 }
 
 /* A fast spectrum transforms columns, then rows. */
-static void test_spectrum(void **state)
+TEST_CASE(test_spectrum)
 {
     koksma_points points;
     koksma_spec pattern;
     koksma_spectrum spectrum;
-    (void)state;
     calls *c = malloc(sizeof *c);
     assert_non_null(c);
     const koksma_run run = {.threads = 1, .keep_going = keep_going, .context = c};
@@ -93,10 +91,4 @@ static void test_spectrum(void **state)
     koksma_spectrum_fini(&spectrum);
     koksma_points_fini(&points);
     free(c);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_measures), cmocka_unit_test(test_spectrum)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,8 @@
 
 #include "test.h"
 
-static void tally_by_hand(void **state)
+TEST_CASE(tally_by_hand)
 {
-    (void)state;
     static const double values[] = {1e9 + 1, 1e9 + 2, 1e9 + 3, 1e9 + 6};
     koksma_tally t = {0};
     assert_true(isnan(koksma_tally_sd(&t)));
@@ -20,9 +19,8 @@ static void tally_by_hand(void **state)
     assert_true(t.min == values[0] && t.max == values[3] && t.count == 4);
 }
 
-static void slopes_by_hand(void **state)
+TEST_CASE(slopes_by_hand)
 {
-    (void)state;
     double xs[6] = {1, 2, 4, 8, 16, 0}, ys[6];
     koksma_line line;
     for (int i = 0; i < 6; i++) {
@@ -45,9 +43,8 @@ static void slopes_by_hand(void **state)
     assert_true(isnan(line.slope));
 }
 
-static void prefixes_are_sets(void **state)
+TEST_CASE(prefixes_are_sets)
 {
-    (void)state;
     static const size_t sizes[] = {1, 7, 64, 100};
     koksma_points p = test_points("sobol", 100, 2, 0);
     koksma_spec measure;
@@ -70,9 +67,8 @@ static double rate_of(const char *pattern, const char *measure, int dim)
     return koksma_rate(&spec, koksma_measure_find(measure), dim);
 }
 
-static void rates_by_hand(void **state)
+TEST_CASE(rates_by_hand)
 {
-    (void)state;
     assert_near(rate_of("random", "star", 2), 0.5, 0);
     assert_near(rate_of("jittered", "l2-edge", 2), 0.75, 0);
     assert_near(rate_of("jittered", "l2-star", 3), 0.5 + 1.0 / 6, 1e-15);
@@ -115,9 +111,8 @@ static void assert_rate_is_met(const char *pattern, bool takes_path, const char 
     }
 }
 
-static void rates_are_met(void **state)
+TEST_CASE(rates_are_met)
 {
-    (void)state;
     static const char *const measures[] = {"l2-star", "star", "l2-extreme", "l2-edge", "l2-disk"};
     static const char *const narrow[] = {"jittered:columns=2",         "regular:columns=4",
                                          "multi-jittered:columns=2",   "half-jittered:columns=4",
@@ -130,13 +125,4 @@ static void rates_are_met(void **state)
             assert_rate_is_met(narrow[i], false, measures[m], m < 3);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tally_by_hand), cmocka_unit_test(slopes_by_hand), cmocka_unit_test(prefixes_are_sets),
-        cmocka_unit_test(rates_by_hand), cmocka_unit_test(rates_are_met),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,9 +35,8 @@ static double number(int kind, uint64_t seed, size_t i)
     return numbers[kind];
 }
 
-static void orders_as_qsort(void **state)
+TEST_CASE(orders_as_qsort)
 {
-    (void)state;
     static const size_t sizes[] = {1, 2, 31, 32, 33, 100, 4095, 4096, 40000, 70001};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         for (int kind = 0; kind < 6; kind++) {
@@ -65,10 +64,4 @@ static void orders_as_qsort(void **state)
             free(order);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(orders_as_qsort)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,8 @@
 #include "measures/star/star.h"
 #include "sets.h"
 
-static void sweep_equals_kinetic_tree(void **state)
+TEST_CASE(sweep_equals_kinetic_tree)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(3000, 300); s++) {
         const size_t n = 1 + (size_t)(s / SETS_KINDS) % 60;
         koksma_points p = sets_points(n, 2, s % SETS_KINDS, (uint64_t)s);
@@ -46,9 +45,8 @@ static double brute_1d(const koksma_points *p)
     return best;
 }
 
-static void line_equals_brute_force(void **state)
+TEST_CASE(line_equals_brute_force)
 {
-    (void)state;
     int reached = 0;
     for (int s = 0; s < test_repeats(1200, 150); s++) {
         koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 40, 1, s % SETS_KINDS, (uint64_t)s);
@@ -106,9 +104,8 @@ static double brute_4d(const koksma_points *p)
     return best;
 }
 
-static void four_dimensions_equal_brute_force(void **state)
+TEST_CASE(four_dimensions_equal_brute_force)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(120, 24); s++) {
         koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 9, 4, s % SETS_KINDS, (uint64_t)s);
         assert_near(test_measure("star", &p).value, brute_4d(&p), 1e-15);
@@ -117,9 +114,8 @@ static void four_dimensions_equal_brute_force(void **state)
 }
 
 /* The partition in two dimensions, which `star` does not use there, against the sweep. */
-static void partition_equals_sweep(void **state)
+TEST_CASE(partition_equals_sweep)
 {
-    (void)state;
     for (int s = 0; s < test_repeats(1200, 150); s++) {
         koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 50, 2, s % SETS_KINDS, (uint64_t)s);
         koksma_value v = {.value = -1};
@@ -131,9 +127,8 @@ static void partition_equals_sweep(void **state)
     }
 }
 
-static void short_time_gives_bounds(void **state)
+TEST_CASE(short_time_gives_bounds)
 {
-    (void)state;
     koksma_points p = test_points("random", 400, 4, 2);
     koksma_spec spec;
     koksma_value exact, cut;
@@ -146,9 +141,8 @@ static void short_time_gives_bounds(void **state)
 }
 
 /* Even when there is no time for a first look at anything, the bounds are those of some box. */
-static void no_time_gives_bounds(void **state)
+TEST_CASE(no_time_gives_bounds)
 {
-    (void)state;
     static const char *const names[] = {"star", "star-lower", "extreme"};
     for (int m = 0; m < 3; m++) {
         for (int s = 0; s < 40; s++) {
@@ -165,9 +159,8 @@ static void no_time_gives_bounds(void **state)
     }
 }
 
-static void search_is_a_lower_bound(void **state)
+TEST_CASE(search_is_a_lower_bound)
 {
-    (void)state;
     int reached = 0;
     for (int s = 0; s < test_repeats(60, 12); s++) {
         koksma_points p = sets_points(1 + (size_t)s / 2, 2 + s % 2, s % SETS_KINDS, (uint64_t)s);
@@ -181,9 +174,8 @@ static void search_is_a_lower_bound(void **state)
 }
 
 /* The default search against the exact value, over patterns and dimensions. */
-static void search_reaches_star(void **state)
+TEST_CASE(search_reaches_star)
 {
-    (void)state;
     static const char *const patterns[] = {"random",  "n-rooks",    "sobol",      "sobol:scramble=owen",
                                            "halton",  "faure",      "r-sequence", "lattice-rank1",
                                            "korobov", "hammersley", "regular",    "jittered"};
@@ -199,15 +191,4 @@ static void search_reaches_star(void **state)
             koksma_points_fini(&p);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sweep_equals_kinetic_tree),         cmocka_unit_test(line_equals_brute_force),
-        cmocka_unit_test(four_dimensions_equal_brute_force), cmocka_unit_test(partition_equals_sweep),
-        cmocka_unit_test(short_time_gives_bounds),           cmocka_unit_test(no_time_gives_bounds),
-        cmocka_unit_test(search_is_a_lower_bound),           cmocka_unit_test(search_reaches_star),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

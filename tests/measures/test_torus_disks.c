@@ -84,9 +84,8 @@ static const struct {
 };
 
 /* At r = 1/4, to the nine printed digits. */
-static void known_sets(void **state)
+TEST_CASE(known_sets)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
         koksma_points p;
         assert_ok(koksma_points_init(&p, known[k].n, 2));
@@ -133,9 +132,8 @@ static void monte_carlo(const koksma_points *p, int law, double top, uint64_t se
     *error = sqrt(fmax(squares - sum * sum, 0) / (SHIFTS - 1));
 }
 
-static void definition_by_monte_carlo(void **state)
+TEST_CASE(definition_by_monte_carlo)
 {
-    (void)state;
     static const struct {
         const char *spec;
         int law;
@@ -162,9 +160,8 @@ static void definition_by_monte_carlo(void **state)
 }
 
 /* Cells leave out only pairs that don't overlap. */
-static void cells_change_nothing(void **state)
+TEST_CASE(cells_change_nothing)
 {
-    (void)state;
     static const double radii[] = {0.03, 0.06, 0.1, 0.125};
     for (size_t c = 0; c < 4; c++) {
         char text[64];
@@ -187,9 +184,8 @@ static void cells_change_nothing(void **state)
 }
 
 /* The means of the square over random sets, within 4 standard errors. */
-static void random_sets(void **state)
+TEST_CASE(random_sets)
 {
-    (void)state;
     enum { SETS = 600, N = 12 };
     static const char *const specs[] = {"l2-disk", "l2-disk:law=radius", "l2-disk:law=area"};
     const double area = M_PI / 16;
@@ -208,9 +204,8 @@ static void random_sets(void **state)
 }
 
 /* Scores of the sampled form against the exact one spread as a unit normal does. */
-static void sampled_agrees(void **state)
+TEST_CASE(sampled_agrees)
 {
-    (void)state;
     static const char *const laws[] = {"law=fixed", "law=radius,r=0.4", "law=area"};
     double sum = 0, squares = 0;
     enum { RUNS = 90 };
@@ -229,14 +224,4 @@ static void sampled_agrees(void **state)
     }
     assert_near(sum, 0, 4 / sqrt(RUNS));
     assert_near(squares, 1, 4 * sqrt(2.0 / RUNS));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_sets),           cmocka_unit_test(definition_by_monte_carlo),
-        cmocka_unit_test(cells_change_nothing), cmocka_unit_test(random_sets),
-        cmocka_unit_test(sampled_agrees),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

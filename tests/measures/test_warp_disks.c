@@ -22,9 +22,8 @@ static double root_at_both_ends(double x, const void *context)
     return sqrt(x * (2 - x)) * log(x);
 }
 
-static void quadrature_and_elliptic_integrals(void **state)
+TEST_CASE(quadrature_and_elliptic_integrals)
 {
-    (void)state;
     /* the integral of sqrt(x (2-x)) ln x over (0,2), by substitution x = 1 - cos t: (pi/4)(1 - 2 ln 2) + pi/4 ln 2 */
     assert_near(koksma__integral(root_at_both_ends, NULL, 0, 2), M_PI / 4 - M_PI / 2 * log(2), 1e-14);
     assert_true(koksma__integral(root_at_both_ends, NULL, 1, 1) == 0);
@@ -46,9 +45,8 @@ static double potential_at(double z, const void *context)
            (*domain == KOKSMA_DOMAIN_HEMISPHERE_COSINE ? 2 * z : 1);
 }
 
-static void cap_potentials(void **state)
+TEST_CASE(cap_potentials)
 {
-    (void)state;
     const double pole[3] = {0, 0, 1}, rim[3] = {0.6, 0.8, 0};
     const koksma_warp_domain uniform = KOKSMA_DOMAIN_HEMISPHERE, cosine = KOKSMA_DOMAIN_HEMISPHERE_COSINE;
     assert_near(koksma__cap_potential(pole, uniform), 2 * sqrt(2) / 3, 1e-14);
@@ -60,9 +58,8 @@ static void cap_potentials(void **state)
 }
 
 /* The mean distance over a mapped lattice of the square: the map carries the measure, and P is right. */
-static void warps_carry_the_measure(void **state)
+TEST_CASE(warps_carry_the_measure)
 {
-    (void)state;
     static const char *const names[] = {"hemisphere", "concentric-hemisphere", "cosine-hemisphere", "sphere"};
     enum { GRID = 300 };
     for (int w = 0; w < 4; w++) {
@@ -81,9 +78,8 @@ static void warps_carry_the_measure(void **state)
 }
 
 /* Heitz's triangle: means of 1, x, y, x y over the triangle. */
-static void triangle_maps_keep_area(void **state)
+TEST_CASE(triangle_maps_keep_area)
 {
-    (void)state;
     static const char *const names[] = {"triangle", "triangle-heitz"};
     enum { GRID = 400 };
     for (int w = 0; w < 2; w++) {
@@ -102,9 +98,8 @@ static void triangle_maps_keep_area(void **state)
 }
 
 /* The closed form against random disks, over sets with ties and points on the rim. */
-static void disks_agree_with_random_disks(void **state)
+TEST_CASE(disks_agree_with_random_disks)
 {
-    (void)state;
     static const double radii[] = {0.25, 0.5, 1, 0.1};
     double squares = 0;
     enum { CASES = 48 };
@@ -125,9 +120,8 @@ static void disks_agree_with_random_disks(void **state)
 
 /* The error of one disk is unknown, that of two half of their squares' difference over twice the value; where nearly
    all squares are equal digits are not lost. */
-static void errors_of_few_disks(void **state)
+TEST_CASE(errors_of_few_disks)
 {
-    (void)state;
     koksma_points p = sets_points(9, 2, 0, 4);
     const koksma_value one = warped("polar-disk", "disk-sampled:disks=1", &p),
                        two = warped("polar-disk", "disk-sampled:disks=2", &p);
@@ -138,9 +132,8 @@ static void errors_of_few_disks(void **state)
 }
 
 /* Random caps against a fine mapped lattice as the measure of the domain. */
-static void caps_agree_with_random_caps(void **state)
+TEST_CASE(caps_agree_with_random_caps)
 {
-    (void)state;
     static const char *const names[] = {"hemisphere", "concentric-hemisphere", "cosine-hemisphere", "sphere"};
     enum { GRID = 100, CAPS = 4000, N = 16 };
     static double grid[3 * GRID * GRID];
@@ -174,9 +167,8 @@ static void caps_agree_with_random_caps(void **state)
 }
 
 /* Means of the square over random points: C/(8n) for caps. */
-static void random_points(void **state)
+TEST_CASE(random_points)
 {
-    (void)state;
     enum { SETS = 500, N = 8 };
     static const char *const names[] = {"hemisphere", "cosine-hemisphere", "sphere"};
     for (int w = 0; w < 3; w++) {
@@ -194,9 +186,8 @@ static void random_points(void **state)
 }
 
 /* docs/findings/disk-maps.md: jittered points lose less by the concentric map than by the polar one. */
-static void concentric_beats_polar(void **state)
+TEST_CASE(concentric_beats_polar)
 {
-    (void)state;
     static const char *const measures[] = {"l2-edge", "l2-disk", "edge"};
     enum { SETS = 200 };
     for (int c = 0; c < 6; c++) {
@@ -232,9 +223,8 @@ static double segment(double one_less_cosine)
 }
 
 /* Disks of radius 1 and r a distance 1 + r - e apart share two segments. Small and large e, down to rounding. */
-static void disks_that_touch(void **state)
+TEST_CASE(disks_that_touch)
 {
-    (void)state;
     for (int i = 0; i < 200; i++) {
         const double r = i % 4 == 0 ? 1 : 0.25 * (i % 4), distance = (1 + r) - 0.4 * r * pow(10, -0.08 * i);
         const double e = (1 + r) - distance; /* exact */
@@ -245,9 +235,8 @@ static void disks_that_touch(void **state)
 }
 
 /* Planes through the centre separate two points with the chance of their angle over pi: also of opposite ones. */
-static void points_that_are_opposite(void **state)
+TEST_CASE(points_that_are_opposite)
 {
-    (void)state;
     for (int i = 0; i < 160; i++) {
         const double angle = M_PI - pow(10, -0.1 * i), p[3] = {1, 0, 0}, q[3] = {cos(angle), 0, sin(angle)};
         assert_near(koksma__domain_separates(KOKSMA__HEMISPHERE, p, q), angle / M_PI, 3e-16);
@@ -257,9 +246,8 @@ static void points_that_are_opposite(void **state)
 
 /* Known exactly: a point; two opposite points, which every plane through the centre divides evenly; the six corners of an
    octahedron, with 12 distances sqrt 2 at right angles and 3 distances 2. */
-static void few_points_on_the_sphere(void **state)
+TEST_CASE(few_points_on_the_sphere)
 {
-    (void)state;
     static double xs[] = {0, 0, 1, 0.3, 0.5, 0, 0.5, 0.25, 0.5, 0.5, 0.5, 0.75};
     const koksma_points point = {1, 2, xs}, opposite = {2, 2, xs}, octahedron = {6, 2, xs};
     assert_near(warped("sphere", "l2-disk:law=area", &point).square, 1.0 / 6, 1e-15);
@@ -269,23 +257,4 @@ static void few_points_on_the_sphere(void **state)
     assert_near(warped("sphere", "l2-edge", &point).square, 0.25, 1e-15);
     assert_near(warped("sphere", "l2-edge", &opposite).square, 0, 1e-15);
     assert_near(warped("sphere", "l2-edge", &octahedron).square, 0.25 - (12 * 0.5 + 3) / 36, 1e-15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(disks_that_touch),
-        cmocka_unit_test(points_that_are_opposite),
-        cmocka_unit_test(quadrature_and_elliptic_integrals),
-        cmocka_unit_test(cap_potentials),
-        cmocka_unit_test(warps_carry_the_measure),
-        cmocka_unit_test(triangle_maps_keep_area),
-        cmocka_unit_test(disks_agree_with_random_disks),
-        cmocka_unit_test(errors_of_few_disks),
-        cmocka_unit_test(caps_agree_with_random_caps),
-        cmocka_unit_test(few_points_on_the_sphere),
-        cmocka_unit_test(random_points),
-        cmocka_unit_test(concentric_beats_polar),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

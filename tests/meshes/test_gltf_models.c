@@ -144,9 +144,8 @@ static void expect(const char *material, const char *image, const char *attribut
     unlink("my square.bin");
 }
 
-static void textures_are_multiplied_with_colours(void **state)
+TEST_CASE(textures_are_multiplied_with_colours)
 {
-    (void)state;
     need_meshes();
     write_image("texture.pfm", 1, (const float[]){0.5f});
     expect(plain, NULL, NULL, 1, 1, 1, "");
@@ -156,9 +155,8 @@ static void textures_are_multiplied_with_colours(void **state)
     unlink("texture.pfm");
 }
 
-static void names_of_files_are_decoded(void **state)
+TEST_CASE(names_of_files_are_decoded)
 {
-    (void)state;
     need_meshes();
     char path[KOKSMA__MAX_PATH];
     write_image("my texture.pfm", 1, (const float[]){0.5f});
@@ -184,9 +182,8 @@ static void names_of_files_are_decoded(void **state)
     rmdir("parts");
 }
 
-static void emission_is_multiplied_with_its_texture(void **state)
+TEST_CASE(emission_is_multiplied_with_its_texture)
 {
-    (void)state;
     need_meshes();
 #define GLOW "\"emissiveFactor\": [1, 1, 0.5], \"emissiveTexture\": {\"index\": 0}"
     write_image("texture.pfm", 1, (const float[]){0.25f});
@@ -202,9 +199,8 @@ static void emission_is_multiplied_with_its_texture(void **state)
 
 /* The light of an image whose halves add to 1 at every point, sampled from above its middle: half of the solid angle of a
    square (arcsines of its corners), and each sample has the density that a ray to its position gets. */
-static void glow_is_sampled_by_its_texture(void **state)
+TEST_CASE(glow_is_sampled_by_its_texture)
 {
-    (void)state;
     need_meshes();
     koksma_scene *scene;
     koksma__lights lights;
@@ -244,9 +240,8 @@ static void glow_is_sampled_by_its_texture(void **state)
 }
 
 /* KHR_texture_transform; the camera sees texture coordinates (1/2, 1/2). */
-static void textures_are_moved(void **state)
+TEST_CASE(textures_are_moved)
 {
-    (void)state;
     need_meshes();
     static const struct {
         const char *how;
@@ -268,9 +263,8 @@ static void textures_are_moved(void **state)
     unlink("texture.pfm");
 }
 
-static void alpha_below_the_cutoff_is_not_there(void **state)
+TEST_CASE(alpha_below_the_cutoff_is_not_there)
 {
-    (void)state;
     need_meshes();
     static const char *const materials[] = {TEXTURED("[1, 1, 1, 0.4]", "") ", \"alphaMode\": \"MASK\"",
                                             TEXTURED("[1, 1, 1, 0.6]", "") ", \"alphaMode\": \"MASK\"",
@@ -295,9 +289,8 @@ static void alpha_below_the_cutoff_is_not_there(void **state)
     unlink("texture.pfm");
 }
 
-static void what_is_not_read_is_said(void **state)
+TEST_CASE(what_is_not_read_is_said)
 {
-    (void)state;
     need_meshes();
     write_image("texture.pfm", 1, (const float[]){0.5f});
     expect(TEXTURED("[1, 1, 1, 1]", ", \"texCoord\": 1"), NULL, ", \"TEXCOORD_1\": 1", 0.5, 0.5, 0.5, "");
@@ -324,9 +317,8 @@ static double lit(const char *nodes, const char *roots, const char *material, co
     return rgb[0] * M_PI;
 }
 
-static void every_node_with_a_light_has_one(void **state)
+TEST_CASE(every_node_with_a_light_has_one)
 {
-    (void)state;
     need_meshes();
 #define SQUARE "{\"mesh\": 0}, "
 #define DARK "{\"type\": \"directional\", \"intensity\": 0}" /* so that there is no studio */
@@ -377,9 +369,8 @@ static void every_node_with_a_light_has_one(void **state)
 }
 
 /* Lights of a real scene, in candela: exposed so that white in the centre, which is 3 away, would be 1. */
-static void bright_lights_are_exposed(void **state)
+TEST_CASE(bright_lights_are_exposed)
 {
-    (void)state;
     need_meshes();
     double rgb[3];
     char warnings[2048];
@@ -395,9 +386,8 @@ static void bright_lights_are_exposed(void **state)
 }
 
 /* A node that swaps left and right leaves the front in front (glTF 2.0, 3.7.4). */
-static void mirrored_squares_glow_in_front(void **state)
+TEST_CASE(mirrored_squares_glow_in_front)
 {
-    (void)state;
     need_meshes();
     static const char *const scales[] = {"1, 1, 1", "-1, 1, 1", "1, -1, 1", "-1, -1, 1", "1, 1, -1"};
     static const double seen[] = {M_PI, M_PI, M_PI, M_PI, 0};
@@ -426,9 +416,8 @@ static void mirrored_squares_glow_in_front(void **state)
 /* Without doubleSided only front-facing triangles are seen, with it both sides are (glTF 2.0, section 3.9.6): of a
    square that emits 1, before one lit by a light and whose winding the node's scale, mirroring or not, decides (3.7.4).
    The camera sees through a back to what is behind. As instances of one mesh, and alone. */
-static void backs_are_seen_as_the_file_says(void **state)
+TEST_CASE(backs_are_seen_as_the_file_says)
 {
-    (void)state;
     need_meshes();
     static const struct {
         const char *node;
@@ -466,9 +455,8 @@ static void backs_are_seen_as_the_file_says(void **state)
 }
 
 /* A material of glTF that emits and is double-sided lights what is behind it as what is before it. */
-static void double_sided_glow_lights_both_sides(void **state)
+TEST_CASE(double_sided_glow_lights_both_sides)
 {
-    (void)state;
     need_meshes();
     double got[2][2];
     for (int two = 0; two < 2; two++) {
@@ -493,9 +481,8 @@ static void double_sided_glow_lights_both_sides(void **state)
 
 /* Triangles run counterclockwise about their normals, whatever the node's matrix, in a scene of the bare file (where
    the placement mirrors) and as one mesh (where the file's reader does). */
-static void mirrored_normals_stay_outside(void **state)
+TEST_CASE(mirrored_normals_stay_outside)
 {
-    (void)state;
     need_meshes();
     static const float square[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
     write_bytes("turn.bin", square, sizeof square);
@@ -541,24 +528,4 @@ static void mirrored_normals_stay_outside(void **state)
     }
     unlink("turn.gltf");
     unlink("turn.bin");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(textures_are_multiplied_with_colours),
-        cmocka_unit_test(names_of_files_are_decoded),
-        cmocka_unit_test(emission_is_multiplied_with_its_texture),
-        cmocka_unit_test(what_is_not_read_is_said),
-        cmocka_unit_test(every_node_with_a_light_has_one),
-        cmocka_unit_test(mirrored_squares_glow_in_front),
-        cmocka_unit_test(backs_are_seen_as_the_file_says),
-        cmocka_unit_test(double_sided_glow_lights_both_sides),
-        cmocka_unit_test(mirrored_normals_stay_outside),
-        cmocka_unit_test(textures_are_moved),
-        cmocka_unit_test(glow_is_sampled_by_its_texture),
-        cmocka_unit_test(alpha_below_the_cutoff_is_not_there),
-        cmocka_unit_test(bright_lights_are_exposed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

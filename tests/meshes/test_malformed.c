@@ -164,9 +164,8 @@ static void look_at_error(const char *name, koksma_status status, const char *re
     }
 }
 
-static void malformed_scenes_and_meshes(void **state)
+TEST_CASE(malformed_scenes_and_meshes)
 {
-    (void)state;
     assert_true(sizeof cases / sizeof *cases >= 50);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char path[32], name[64];
@@ -181,12 +180,4 @@ static void malformed_scenes_and_meshes(void **state)
         look_at_error(name, status, cases[i].reason);
         unlink(path);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(malformed_scenes_and_meshes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

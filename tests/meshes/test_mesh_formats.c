@@ -48,7 +48,7 @@ static void fan_out(const float (*places)[3], const int (*faces)[4], size_t n, f
 }
 
 /* Appendix B1, "Cube" and "Cube with negative reference numbers". */
-static void the_cubes_of_the_obj_manual(void **state)
+TEST_CASE(the_cubes_of_the_obj_manual)
 {
     static const float places[8][3] = {{0, 2, 2}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2},
                                        {0, 2, 0}, {0, 0, 0}, {2, 0, 0}, {2, 2, 0}};
@@ -56,7 +56,6 @@ static void the_cubes_of_the_obj_manual(void **state)
                                     {4, 0, 3, 7}, {4, 5, 1, 0}, {1, 5, 6, 2}};
     float corners[36][3];
     char text[4096] = "";
-    (void)state;
     fan_out(places, faces, 6, corners);
     for (int i = 0; i < 8; i++) {
         snprintf(text + strlen(text), 64, "v %.6f %.6f %.6f\n", (double)places[i][0], (double)places[i][1],
@@ -84,13 +83,12 @@ static void the_cubes_of_the_obj_manual(void **state)
 
 /* v/vt/vn in all four forms; numbers may point forward; weights divide; a mesh ends where a group or a material does.
  */
-static void corners_of_obj_name_three_things(void **state)
+TEST_CASE(corners_of_obj_name_three_things)
 {
     static const float places[12][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0},
                                         {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0.5f, 0.25f, 1}};
     static const float uvs[12][2] = {{0.25f, 0.5f}, {0.75f, 0}, {0.5f, 1}, {0, 0}, {0, 0}, {0, 0},
                                      {0.25f, 0.5f}, {0.75f, 0}, {0.5f, 1}, {0, 0}, {0, 0}, {0, 0}};
-    (void)state;
     write_text("three.obj",
                "f 1/1/1 2/2/1 3/3/2 # forward\nv 0 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 1 1 1\nvt .25 .5 9\nvt .75\n"
                "vt 5e-1 1\nvn 0 0 2\nvn 0 0 -1\nf 2//1 3//1 1//2\nf -1/-3 -3/-2 -2/-1\nl 1 2\np 3\n"
@@ -157,7 +155,7 @@ static size_t put(unsigned char *to, char type, double value, bool big)
 }
 
 /* The cube of Turk's paper, whose faces are of more properties here, as text and binary in both byte orders. */
-static void the_cube_of_turk(void **state)
+TEST_CASE(the_cube_of_turk)
 {
     static const float places[8][3] = {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0},
                                        {1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}};
@@ -165,7 +163,6 @@ static void the_cube_of_turk(void **state)
                                     {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
     static const char *const formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     float corners[36][3];
-    (void)state;
     fan_out(places, faces, 6, corners);
     for (int format = 0; format < 3; format++) {
         unsigned char file[8192];
@@ -243,12 +240,11 @@ static size_t write_many(bool big, const char *index_type, size_t bad, unsigned 
     return n;
 }
 
-static void many_faces_of_binary_ply(void **state)
+TEST_CASE(many_faces_of_binary_ply)
 {
     static unsigned char file[1 << 18];
     static float corners[3 * MANY_FACES + 64][3];
     size_t n_corners;
-    (void)state;
     for (int form = 0; form < 4; form++) {
         const size_t n = write_many(form & 1, form & 2 ? "int" : "uint", SIZE_MAX, file, corners, &n_corners);
         write_bytes("many.ply", file, n);
@@ -267,7 +263,7 @@ static void many_faces_of_binary_ply(void **state)
 }
 
 /* The header's counts fit the file, but a face takes more of it than it must. */
-static void a_ply_that_ends_among_its_vertices(void **state)
+TEST_CASE(a_ply_that_ends_among_its_vertices)
 {
     static const char text[] = "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar int "
                                "vertex_index\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -276,7 +272,6 @@ static void a_ply_that_ends_among_its_vertices(void **state)
                                     "property list uchar int vertex_index\nend_header\n\2\0\0\0";
     unsigned char file[sizeof text + 36] = {0};
     koksma__mesh mesh = {0};
-    (void)state;
     write_bytes("short.ply", no_vertex, sizeof no_vertex - 1);
     assert_int_equal(koksma__mesh_read("short.ply", KOKSMA__BY_FILE, NULL, &mesh), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "the file ends within element 'face' number 0 of 1"));
@@ -288,10 +283,9 @@ static void a_ply_that_ends_among_its_vertices(void **state)
 }
 
 /* MeshLab's texture coordinates of corners, and the texture's name. */
-static void wedges_of_ply_are_of_vertices(void **state)
+TEST_CASE(wedges_of_ply_are_of_vertices)
 {
     koksma__mesh_file file;
-    (void)state;
     write_text("wedge.ply",
                "ply\nformat ascii 1.0\ncomment TextureFile my wood.png\nelement vertex 3\nproperty float x\n"
                "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
@@ -305,12 +299,11 @@ static void wedges_of_ply_are_of_vertices(void **state)
 }
 
 /* Geomview's square pyramid of polygons with colours behind them, and comments. */
-static void a_pyramid_in_off(void **state)
+TEST_CASE(a_pyramid_in_off)
 {
     static const float places[5][3] = {{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, 1.5f}};
     static const int corners[18] = {3, 2, 1, 3, 1, 0, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
     float wanted[18][3];
-    (void)state;
     for (int i = 0; i < 18; i++) {
         memcpy(wanted[i], places[corners[i]], sizeof *wanted);
     }
@@ -323,7 +316,7 @@ static void a_pyramid_in_off(void **state)
 }
 
 /* Numbers of text are the nearest floats: beside libc's strtof, which is exact, at random and halfway between two. */
-static void decimals_are_the_nearest_floats(void **state)
+TEST_CASE(decimals_are_the_nearest_floats)
 {
     /* The last four are nearest to a double halfway between two floats, on the side of the odd one. */
     static const char *const hard[] = {"0",
@@ -359,7 +352,6 @@ static void decimals_are_the_nearest_floats(void **state)
                                        "0.1626541092991829",
                                        "0.03392431326210499",
                                        "0.000207741824851837"};
-    (void)state;
     for (size_t i = 0; i < 200000 + sizeof hard / sizeof *hard; i++) {
         char text[80];
         const char *at = text, *given = i < 200000 ? NULL : hard[i - 200000];
@@ -414,7 +406,7 @@ static void write_gltf(const void *bytes, size_t size, const char *nodes, const 
 #define VIEWS "{\"buffer\": 0, \"byteLength\": 60}, {\"buffer\": 0, \"byteOffset\": 60, \"byteLength\": 24}"
 
 /* Section 3.7.2.1: which vertices make triangles, for each mode and type of index, and without indices. */
-static void modes_of_gltf(void **state)
+TEST_CASE(modes_of_gltf)
 {
     static const float places[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 1}};
     static const int given[6] = {4, 0, 1, 2, 3, 3};
@@ -425,7 +417,6 @@ static void modes_of_gltf(void **state)
                  {5, 12, {0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 5}},
                  {6, 12, {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5}}};
     static const int types[] = {5121, 5123, 5125, 0};
-    (void)state;
     for (size_t i = 0; i < 12; i++) {
         const int type = types[i % 4], width = type == 5121 ? 1 : type == 5123 ? 2 : 4, mode = modes[i / 4].mode;
         unsigned char bytes[84] = {0};
@@ -456,11 +447,10 @@ static void modes_of_gltf(void **state)
 
 /* Sections 3.6.2.2 and 3.6.2.4: elements byteStride apart, and texture coordinates of integers; v goes down in glTF.
  */
-static void strided_and_normalised_accessors(void **state)
+TEST_CASE(strided_and_normalised_accessors)
 {
     static const float places[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                        normals[3][3] = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
-    (void)state;
     for (int type = 5121; type <= 5123; type += 2) {
         unsigned char bytes[96] = {0};
         char accessors[640];
@@ -493,7 +483,7 @@ static void strided_and_normalised_accessors(void **state)
 
 /* Section 3.5: a matrix by columns; translation, rotation by a quaternion, scale; children after their parents. A
    node that mirrors turns the corners round. */
-static void nodes_of_gltf_place_meshes(void **state)
+TEST_CASE(nodes_of_gltf_place_meshes)
 {
     static const float places[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 1}};
     /* a quarter turn about z, (x, y) -> (-y, x), of twice the size along x, moved by (1, 2, 3); then mirrored in z */
@@ -503,7 +493,6 @@ static void nodes_of_gltf_place_meshes(void **state)
         ("{\"children\": [1], \"translation\": [1, 2, 3]}, {\"children\": [2], \"rotation\": [0, 0, 1, 0]}, "
          "{\"mesh\": 0, \"scale\": [2, 1, 1]}"),
         "{\"mesh\": 0, \"matrix\": [-2, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 1, 2, 3, 1]}"};
-    (void)state;
     for (int i = 0; i < 4; i++) {
         float wanted[3][3];
         for (int k = 0; k < 3; k++) {
@@ -521,11 +510,10 @@ static void nodes_of_gltf_place_meshes(void **state)
 }
 
 /* One mesh more than all of a file's together may be: a short file that names an accessor often ends there. */
-static void meshes_of_a_file_are_limited_together(void **state)
+TEST_CASE(meshes_of_a_file_are_limited_together)
 {
     koksma__mesh_file file = {.path = "large.gltf", .n_vertices = KOKSMA__MAX_VERTICES - 3};
     koksma__mesh mesh = {0};
-    (void)state;
     assert_ok(koksma__mesh_init(3, 1, false, false, &mesh));
     assert_ok(koksma__file_take_mesh(&file, &mesh, 0));
     assert_ok(koksma__mesh_init(1, 1, false, false, &mesh));
@@ -572,12 +560,11 @@ static size_t put_serialized(unsigned char *file)
 
 /* Meshes of one file that are read one by one: each is its own triangle; all together may decompress to 2^30 bytes, of
    which a triangle takes 3 places and 3 indices of 12 bytes. */
-static void meshes_are_read_one_by_one(void **state)
+TEST_CASE(meshes_are_read_one_by_one)
 {
     unsigned char bytes[256];
     koksma__serialized file = {0};
     koksma__mesh mesh = {0};
-    (void)state;
     write_bytes("two.serialized", bytes, put_serialized(bytes));
     assert_ok(koksma__serialized_open("two.serialized", &file));
     for (long i = 2; i-- > 0;) {
@@ -606,24 +593,4 @@ static void meshes_are_read_one_by_one(void **state)
     koksma__mesh_fini(&mesh);
     koksma__serialized_close(&file);
     unlink("two.serialized");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_cubes_of_the_obj_manual),
-        cmocka_unit_test(corners_of_obj_name_three_things),
-        cmocka_unit_test(the_cube_of_turk),
-        cmocka_unit_test(many_faces_of_binary_ply),
-        cmocka_unit_test(a_ply_that_ends_among_its_vertices),
-        cmocka_unit_test(wedges_of_ply_are_of_vertices),
-        cmocka_unit_test(a_pyramid_in_off),
-        cmocka_unit_test(decimals_are_the_nearest_floats),
-        cmocka_unit_test(modes_of_gltf),
-        cmocka_unit_test(strided_and_normalised_accessors),
-        cmocka_unit_test(nodes_of_gltf_place_meshes),
-        cmocka_unit_test(meshes_of_a_file_are_limited_together),
-        cmocka_unit_test(meshes_are_read_one_by_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,9 +83,8 @@ static void write_cube(void)
     "\"material\": \"m\"},"
 #define TAIL ", \"material\": \"m\"}]}"
 
-static void a_cube_is_a_box(void **state)
+TEST_CASE(a_cube_is_a_box)
 {
-    (void)state;
     need_meshes();
     write_cube();
     /* The same samples see the same places: only rounding differs, which moves a few samples on edges. */
@@ -102,9 +101,8 @@ static void a_cube_is_a_box(void **state)
 
 /* Shapes of one file, under other names of it, share a mesh, and are what shapes of equal files are: each with its own
    placement, material and normals, and named by its own name. */
-static void a_file_is_one_mesh(void **state)
+TEST_CASE(a_file_is_one_mesh)
 {
-    (void)state;
     need_meshes();
     write_cube();
     assert_int_equal(rename("cube.obj", "copy.obj"), 0);
@@ -134,9 +132,8 @@ static void a_file_is_one_mesh(void **state)
     unlink("cube.obj");
 }
 
-static void an_instance_is_its_mesh_elsewhere(void **state)
+TEST_CASE(an_instance_is_its_mesh_elsewhere)
 {
-    (void)state;
     need_meshes();
     write_cube();
 #define FAR_OFF "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"name\": \"c\", \"translate\": [0, 0, 90]" TAIL
@@ -190,9 +187,8 @@ static void write_ball(int level)
 #define SPHERE HEAD "{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1" TAIL
 #define BALL(more) HEAD "{\"kind\": \"mesh\", \"file\": \"ball.obj\"" more TAIL
 
-static void a_fine_ball_is_a_sphere(void **state)
+TEST_CASE(a_fine_ball_is_a_sphere)
 {
-    (void)state;
     need_meshes();
     write_ball(3);
     const double coarse = difference(SPHERE, BALL(""));
@@ -207,9 +203,8 @@ static void a_fine_ball_is_a_sphere(void **state)
 }
 
 /* A scene in metres looks as in millimetres, a thousandth of it in size: numbers differ by powers of two alone. */
-static void normals_are_smooth_in_all_sizes(void **state)
+TEST_CASE(normals_are_smooth_in_all_sizes)
 {
-    (void)state;
     need_meshes();
     write_ball(2);
     koksma_image images[3];
@@ -242,9 +237,8 @@ static void normals_are_smooth_in_all_sizes(void **state)
 
 /* In a white furnace a convex white body is as bright as its surroundings: no ray that starts on it may meet it, be
    it small, large or far from the origin. */
-static void convex_bodies_do_not_shade_themselves(void **state)
+TEST_CASE(convex_bodies_do_not_shade_themselves)
 {
-    (void)state;
     need_meshes();
     write_ball(4);
     static const struct {
@@ -314,9 +308,8 @@ static double corner_factor(double a, double b)
     "\"radiance\": 2}], \"shapes\": [{\"kind\": \"mesh\", \"file\": \"square.ply\", \"scale\": 3, \"material\": "    \
     "\"m\"}"
 
-static void light_on_meshes_is_its_form_factor(void **state)
+TEST_CASE(light_on_meshes_is_its_form_factor)
 {
-    (void)state;
     need_meshes();
     write_square();
     const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
@@ -331,9 +324,8 @@ static void light_on_meshes_is_its_form_factor(void **state)
 }
 
 /* A black square passes before a white sky: it covers the point while |x + 4 t - 2| < 1. */
-static void motion_covers_its_share_of_time(void **state)
+TEST_CASE(motion_covers_its_share_of_time)
 {
-    (void)state;
     need_meshes();
     write_square();
 #define PASSING(shutter)                                                                                             \
@@ -349,9 +341,8 @@ static void motion_covers_its_share_of_time(void **state)
 
 /* A black half plane at the angles 90 to 270 degrees turns by 120 in its own plane before a white sky: it leaves the
    angle 90 + 120 s after the share s of the time and reaches 270 + 120 s. Of the whole turning disk it covers half. */
-static void rotation_covers_its_share_of_time(void **state)
+TEST_CASE(rotation_covers_its_share_of_time)
 {
-    (void)state;
     need_meshes();
     write_text("half.ply",
                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
@@ -381,9 +372,8 @@ static void rotation_covers_its_share_of_time(void **state)
 
 /* A matrix is its pose's again, and the pose's stretch is symmetric, of positive or, where the matrix mirrors, negative
    eigenvalues: that is the polar decomposition, and there is one only. */
-static void poses_are_polar_decompositions(void **state)
+TEST_CASE(poses_are_polar_decompositions)
 {
-    (void)state;
     for (uint64_t i = 0; i < 400; i++) {
         double m[12], back[12], largest = 0;
         koksma__pose pose[2];
@@ -414,9 +404,8 @@ static void poses_are_polar_decompositions(void **state)
 
 /* The poses at both ends have the matrices of their angles; half of the rotation twice is the whole one, and all
    positions between go straight. */
-static void poses_turn_evenly(void **state)
+TEST_CASE(poses_turn_evenly)
 {
-    (void)state;
     for (uint64_t i = 0; i < 200; i++) {
         double angles[2][3], at[2][3], scale[2][3], m[3][12], expected[12];
         koksma__pose poses[2];
@@ -465,9 +454,8 @@ static void poses_turn_evenly(void **state)
 
 /* A ball that turns about itself is a ball; one that is moved by `to` is one that is moved by `motion`, and instances
    and shadows do the same. */
-static void poses_are_placements(void **state)
+TEST_CASE(poses_are_placements)
 {
-    (void)state;
     need_meshes();
     write_ball(6);
     assert_true(difference(BALL(", \"smooth\": true, \"to\": {\"rotate_deg\": [30, 100, -20]}"),
@@ -488,9 +476,8 @@ static void poses_are_placements(void **state)
     unlink("ball.obj");
 }
 
-static void threads_and_modes_leave_no_trace(void **state)
+TEST_CASE(threads_and_modes_leave_no_trace)
 {
-    (void)state;
     need_meshes();
     write_ball(3);
     volatile float small = 1e-38f, scale = 0.125f;
@@ -520,9 +507,8 @@ static void *draw_picture(void *to)
 }
 
 /* A scene makes its tree once, for whoever comes first. */
-static void pictures_of_a_scene_share_its_tree(void **state)
+TEST_CASE(pictures_of_a_scene_share_its_tree)
 {
-    (void)state;
     need_meshes();
     enum { N = 4 };
     write_ball(3);
@@ -546,12 +532,11 @@ static void pictures_of_a_scene_share_its_tree(void **state)
 
 /* A soup of triangles whose corners lie on a grid around 0, some of them at -0: the normal of a corner is that of the sum
    of the areas of all triangles that have a corner there. */
-static void normals_are_those_of_all_triangles_at_a_place(void **state)
+TEST_CASE(normals_are_those_of_all_triangles_at_a_place)
 {
     enum { N = 300 };
     koksma__mesh mesh = {0};
     uint32_t random = 1;
-    (void)state;
     assert_ok(koksma__mesh_init(3 * N, N, false, false, &mesh));
     for (uint32_t i = 0; i < 9 * N; i++) {
         random = random * 1664525 + 1013904223;
@@ -587,7 +572,7 @@ static void normals_are_those_of_all_triangles_at_a_place(void **state)
 
 /* The normals of a corner of a tetrahedron, as Mitsuba 3.9.1 gives them for the same mesh (its vertex_normals), and of
    a cube's corner whose faces are cut so that one has two triangles there: its diagonal, whatever their areas. */
-static void normals_by_angles_are_those_of_mitsuba(void **state)
+TEST_CASE(normals_by_angles_are_those_of_mitsuba)
 {
     static const float places[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
                                        {1, 0, 0}, {0, 4, 0}, {0, 0, 1}, {1, 4, 0}};
@@ -598,7 +583,6 @@ static void normals_by_angles_are_those_of_mitsuba(void **state)
                                         {-0.27542147, 0.92102444, -0.27542147},
                                         {-0.27542147, -0.27542147, 0.92102444}};
     koksma__mesh mesh = {0};
-    (void)state;
     assert_ok(koksma__mesh_init(8, 7, false, false, &mesh));
     memcpy(mesh.vertices, places, sizeof places);
     memcpy(mesh.indices, corners, sizeof corners);
@@ -627,12 +611,11 @@ static void normals_by_angles_are_those_of_mitsuba(void **state)
 /* Loop's surface: each of a tetrahedron's corners, with three neighbours, has the limit (1 - 3 g) v + g N, g = 1 / (3 + 3 /
    (8 * 3/16)) = 1/5, at any level; numbers follow Euler's formula. On a plane of regular triangles the masks keep linear
    functions, so that inner vertices stay; the corners of a square's border have 3/5 v + 1/5 (p + q), at level 0. */
-static void loops_surface_has_its_limits(void **state)
+TEST_CASE(loops_surface_has_its_limits)
 {
     static const float places[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     static const uint32_t corners[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
     koksma__mesh mesh = {0}, fine = {0};
-    (void)state;
     assert_ok(koksma__mesh_init(4, 4, false, false, &mesh));
     memcpy(mesh.vertices, places, sizeof places);
     memcpy(mesh.indices, corners, sizeof corners);
@@ -676,28 +659,4 @@ static void loops_surface_has_its_limits(void **state)
         koksma__mesh_fini(&fine);
     }
     koksma__mesh_fini(&mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cube_is_a_box),
-        cmocka_unit_test(a_file_is_one_mesh),
-        cmocka_unit_test(an_instance_is_its_mesh_elsewhere),
-        cmocka_unit_test(a_fine_ball_is_a_sphere),
-        cmocka_unit_test(normals_are_smooth_in_all_sizes),
-        cmocka_unit_test(normals_are_those_of_all_triangles_at_a_place),
-        cmocka_unit_test(normals_by_angles_are_those_of_mitsuba),
-        cmocka_unit_test(loops_surface_has_its_limits),
-        cmocka_unit_test(convex_bodies_do_not_shade_themselves),
-        cmocka_unit_test(light_on_meshes_is_its_form_factor),
-        cmocka_unit_test(motion_covers_its_share_of_time),
-        cmocka_unit_test(rotation_covers_its_share_of_time),
-        cmocka_unit_test(poses_turn_evenly),
-        cmocka_unit_test(poses_are_polar_decompositions),
-        cmocka_unit_test(poses_are_placements),
-        cmocka_unit_test(threads_and_modes_leave_no_trace),
-        cmocka_unit_test(pictures_of_a_scene_share_its_tree),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,7 +17,7 @@
     "element face 2\nproperty list uchar int vertex_indices\nend_header\n" rest
 
 /* Ways to write the unit square's two triangles, each with the error that it must not be read as another mesh. */
-static void ways_to_write_a_mesh_are_one(void **state)
+TEST_CASE(ways_to_write_a_mesh_are_one)
 {
     static const struct {
         const char *file, *text;
@@ -35,7 +35,6 @@ static void ways_to_write_a_mesh_are_one(void **state)
         {"way.ply", UNIT_PLY("\n" UNIT_VERTICES "\n  3  0 1 2\n\t3 0 2 3")},
         {"way.ply", UNIT_PLY("0 0 0\n1e0 0.0 -0\r\n1 +1. 0\n.0 1 0\n3 0 1 2\n3 0 2 3\n")},
     };
-    (void)state;
     need_meshes();
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
         koksma_scene *scene;
@@ -87,9 +86,8 @@ static double first_red(const char *mtl)
     return red;
 }
 
-static void material_files_are_text_of_numbers(void **state)
+TEST_CASE(material_files_are_text_of_numbers)
 {
-    (void)state;
     need_meshes();
     assert_near(first_red("newmtl a b\nKd 0.25 0.5 0.5\n"), 0.25, 1e-7);
     assert_near(first_red("\357\273\277newmtl a b \r\n\tKd .25 .5 .5 # x\r\n"), 0.25, 1e-7);
@@ -105,12 +103,11 @@ static void material_files_are_text_of_numbers(void **state)
 
 /* A material file is read where it is first named, and once, however often and under whatever names: so the last of two
    different files that define a material counts. */
-static void a_material_file_is_read_once(void **state)
+TEST_CASE(a_material_file_is_read_once)
 {
     static const char *const lines[] = {"mtllib a.mtl\nmtllib b.mtl\nmtllib a.mtl\n", "mtllib a.mtl b.mtl a.mtl\n",
                                         "mtllib a.mtl b.mtl ./a.mtl\n", "mtllib a.mtl b.mtl link.mtl\n",
                                         "mtllib once.mtl b.mtl missing.mtl\n"};
-    (void)state;
     need_meshes();
     write_text("a.mtl", "newmtl m\nKd 0.25\n");
     write_text("b.mtl", "newmtl m\nKd 0.5\n");
@@ -132,9 +129,8 @@ static void a_material_file_is_read_once(void **state)
 }
 
 /* What can't be rendered is told when the scene is read, and where. */
-static void what_render_would_refuse_is_refused_at_once(void **state)
+TEST_CASE(what_render_would_refuse_is_refused_at_once)
 {
-    (void)state;
     static const char *const values[] = {"\0\0\200\177", "\0\0\300\177"};
     static const char *const parts[] = {
         "\"materials\": [], \"shapes\": [],\n\"lights\": [{\"kind\": \"environment\", \"image\": \"bad.pfm\"}]",
@@ -167,15 +163,4 @@ static void what_render_would_refuse_is_refused_at_once(void **state)
         unlink("bad.obj");
     }
     unlink("refused.json");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ways_to_write_a_mesh_are_one),
-        cmocka_unit_test(material_files_are_text_of_numbers),
-        cmocka_unit_test(a_material_file_is_read_once),
-        cmocka_unit_test(what_render_would_refuse_is_refused_at_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,9 +48,8 @@ static double corner_factor(double a, double b)
     "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}], \"shapes\": [" light                \
     "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}]}"
 
-static void luminous_meshes_have_their_form_factor(void **state)
+TEST_CASE(luminous_meshes_have_their_form_factor)
 {
-    (void)state;
     need_meshes();
     /* a rectangle of 2 x 1 of three triangles that face down, of very different areas */
     write_text("lamp.obj",
@@ -71,9 +70,8 @@ static void luminous_meshes_have_their_form_factor(void **state)
 }
 
 /* Over a large mesh, and far from the origin: the numbers are large, and the lamp is near. */
-static void luminous_meshes_light_meshes(void **state)
+TEST_CASE(luminous_meshes_light_meshes)
 {
-    (void)state;
     need_meshes();
     write_text("lamp.obj", "v -1 0 -0.5\nv 1 0 -0.5\nv 1 0 0.5\nv -1 0 0.5\nf 1 2 3 4\n");
     write_text("floor.obj", "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 4 3 2 1\n");
@@ -96,9 +94,8 @@ static void luminous_meshes_light_meshes(void **state)
     unlink("floor.obj");
 }
 
-static void images_are_albedos(void **state)
+TEST_CASE(images_are_albedos)
 {
-    (void)state;
     koksma_image image;
     assert_ok(koksma_image_init(&image, 2, 2, 1));
     const float values[4] = {0.1f, 0.2f, 0.3f, 0.4f}; /* the upper row first */
@@ -132,9 +129,8 @@ static void images_are_albedos(void **state)
 
 /* On each side of a box an image stands as one sees it from there: upright on the four that do, and with its upper
    edge to the box's own -z on top and bottom. */
-static void images_stand_upright_on_boxes(void **state)
+TEST_CASE(images_stand_upright_on_boxes)
 {
-    (void)state;
     static const double half[3] = {1, 1.5, 0.5}, values[4] = {0.1, 0.2, 0.3, 0.4};
     const double c = cos(M_PI / 6), s = sin(M_PI / 6), axes[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     koksma_image image;
@@ -206,9 +202,8 @@ static const char *const glowing =
     "{\"emissiveStrength\": "
     "9}}}]," SQUARE;
 
-static void bare_files_bring_or_get_cameras_and_lights(void **state)
+TEST_CASE(bare_files_bring_or_get_cameras_and_lights)
 {
-    (void)state;
     need_meshes();
     const float corners[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
     const uint16_t indices[6] = {0, 1, 2, 0, 2, 3};
@@ -229,9 +224,8 @@ static void bare_files_bring_or_get_cameras_and_lights(void **state)
 
 /* A square alone gets a ground, a key light and a sky; a white sky in their place, that half of it sees, shows its albedo,
    and white beside it. */
-static void bare_files_without_light_get_a_studio(void **state)
+TEST_CASE(bare_files_without_light_get_a_studio)
 {
-    (void)state;
     need_meshes();
     koksma_scene *scene;
     koksma_scene_part part;
@@ -276,9 +270,8 @@ static uint64_t hash_of(const char *path)
 }
 
 /* Rows of studies go by the scene's hash: another mesh, material or texture behind the same text is another scene. */
-static void hashes_cover_the_files_that_a_scene_names(void **state)
+TEST_CASE(hashes_cover_the_files_that_a_scene_names)
 {
-    (void)state;
     need_meshes();
     write_text("part.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");
     write_text("part.obj", "mtllib part.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
@@ -303,9 +296,8 @@ static void hashes_cover_the_files_that_a_scene_names(void **state)
 }
 
 /* A square with a texture looks as one in the texture's colour times the material's; what is no image leaves that. */
-static void textures_of_models_are_read(void **state)
+TEST_CASE(textures_of_models_are_read)
 {
-    (void)state;
     need_meshes();
 #define SQUARE_OBJ(mtl)                                                                                              \
     "mtllib " mtl "\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl a\n"             \
@@ -329,19 +321,4 @@ static void textures_of_models_are_read(void **state)
     unlink("plain.mtl");
     unlink("textured.mtl");
     unlink("texture.pfm");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(luminous_meshes_have_their_form_factor),
-        cmocka_unit_test(luminous_meshes_light_meshes),
-        cmocka_unit_test(images_are_albedos),
-        cmocka_unit_test(images_stand_upright_on_boxes),
-        cmocka_unit_test(bare_files_bring_or_get_cameras_and_lights),
-        cmocka_unit_test(bare_files_without_light_get_a_studio),
-        cmocka_unit_test(hashes_cover_the_files_that_a_scene_names),
-        cmocka_unit_test(textures_of_models_are_read),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

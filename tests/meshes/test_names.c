@@ -8,12 +8,11 @@
 #include "meshes/names.h"
 #include "test.h"
 
-static void names_are_found(void **state)
+TEST_CASE(names_are_found)
 {
     koksma__names names = {0};
     char name[32];
     size_t index;
-    (void)state;
     assert_false(koksma__names_find(&names, "", 0, &index));
     for (size_t round = 0; round < 2; round++) {
         for (size_t i = 0; i < 100000; i++) {
@@ -68,20 +67,12 @@ static size_t steps_of_alike(uint64_t mask, size_t n)
     return steps;
 }
 
-static void names_alike_take_few_steps(void **state)
+TEST_CASE(names_alike_take_few_steps)
 {
-    (void)state;
     /* 10 equal bits lengthen the ways of 2,000 names, which are 11 nodes at least, by 10 if the tree reads these bits */
     const size_t even = steps_of_alike(0, 2000), low = steps_of_alike(1023, 2000);
     assert_in_range(even, 11, 30);
     assert_in_range(low, 21, 40);
     assert_in_range(steps_of_alike((uint64_t)1023 << 54, 2000), 11, 30);
     assert_in_range(steps_of_alike((uint64_t)1023 << 1, 2000), 20, 40);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(names_are_found),
-                                       cmocka_unit_test(names_alike_take_few_steps)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

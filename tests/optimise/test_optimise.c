@@ -96,9 +96,8 @@ static void expect_differences_of_projections(const koksma_spec *measure, int di
     koksma_points_fini(&points);
 }
 
-static void gradients_are_differences(void **state)
+TEST_CASE(gradients_are_differences)
 {
-    (void)state;
     each_gradient(expect_differences);
     each_gradient(expect_differences_of_projections);
 }
@@ -131,9 +130,8 @@ static double power_square(const double *power, int rings, const koksma_points *
     return square / weights;
 }
 
-static void gradients_of_powers_are_differences(void **state)
+TEST_CASE(gradients_of_powers_are_differences)
 {
-    (void)state;
     enum { MOST = 19, RINGS = 9 };
     static const char *const targets[] = {"step", "gaussian", "latin-hypercube"};
     static const char *const patterns[] = {"random", "regular", "gaussian-blue-noise"};
@@ -179,9 +177,8 @@ static void expect_torus(const koksma_spec *measure, int dim)
     koksma_points_fini(&points);
 }
 
-static void torus_is_where_it_is_said(void **state)
+TEST_CASE(torus_is_where_it_is_said)
 {
-    (void)state;
     each_gradient(expect_torus);
 }
 
@@ -244,9 +241,8 @@ static const struct {
 };
 
 /* A grid hides the lower bound of all boxes: 16 points, one in each cell, have no discrepancy on it. */
-static void lower_bounds_hold(void **state)
+TEST_CASE(lower_bounds_hold)
 {
-    (void)state;
     static const char *const measures[] = {"extreme", "extreme:grid=4", "star"};
     for (int m = 0; m < 3; m++) {
         koksma_points from = test_points("jittered", 16, 2, 0);
@@ -271,9 +267,8 @@ static bool count_calls(void *context, double fraction)
 }
 
 /* A step is a fixed amount of work also with few points, whose gradients are short: a single point's is 0. */
-static void steps_of_few_points_are_short(void **state)
+TEST_CASE(steps_of_few_points_are_short)
 {
-    (void)state;
     static const koksma_spec to_power = {.measure = &koksma__measure_radial_power};
     for (size_t n = 1; n <= 4; n++) {
         enum { RINGS = 4 };
@@ -346,9 +341,8 @@ static void expect_kept(const koksma_points *before, const koksma_points *after,
     }
 }
 
-static void methods_gain_and_keep(void **state)
+TEST_CASE(methods_gain_and_keep)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
         const koksma_keep keep = searches[i].keep;
         const char *pattern = keep == KOKSMA_KEEP_NET || keep == KOKSMA_KEEP_SEQUENCE ? "sobol" : "latin-hypercube";
@@ -387,9 +381,8 @@ static void methods_gain_and_keep(void **state)
 
 /* Latin hypercubes of both sizes, with stored kernels and too large for them, lose a good part of their discrepancy
    and keep their coordinates. */
-static void latin_hypercubes_of_all_sizes(void **state)
+TEST_CASE(latin_hypercubes_of_all_sizes)
 {
-    (void)state;
     static const struct {
         size_t n;
         int dim;
@@ -419,9 +412,8 @@ static void latin_hypercubes_of_all_sizes(void **state)
 }
 
 /* Nothing is below: tools/prove_star.c proves it, and the test star_optima checks its proofs for up to 12 points. */
-static void optima_of_the_star_discrepancy(void **state)
+TEST_CASE(optima_of_the_star_discrepancy)
 {
-    (void)state;
     static const double optima[] = {0.6180339887, 0.3660254038, 0.2847006554, 1.0 / 4, 1.0 / 5,      1.0 / 6,
                                     3.0 / 20,     17.0 / 128,   10.0 / 81,    1.0 / 9, 0.1030276927, 2.0 / 21};
     for (size_t n = 1; n <= sizeof optima / sizeof *optima; n += test_repeats(1, 7)) {
@@ -432,9 +424,8 @@ static void optima_of_the_star_discrepancy(void **state)
 }
 
 /* The value over projections, and what net-file reads of the matrices. */
-static void sequences_of_projections(void **state)
+TEST_CASE(sequences_of_projections)
 {
-    (void)state;
     enum { N = 32 };
     const uint64_t pairs[] = {3, 6};
     const char path[] = "optimised-net.txt";
@@ -474,9 +465,8 @@ static void sequences_of_projections(void **state)
 }
 
 /* The root of the weighted mean of the squares in the projections, by hand; with a gradient and without. */
-static void values_of_projections(void **state)
+TEST_CASE(values_of_projections)
 {
-    (void)state;
     enum { N = 8 };
     static const struct {
         const char *measure, *method;
@@ -534,9 +524,8 @@ static double distance_to(const double *power, int rings, const koksma_points *p
 }
 
 /* The value is the distance by definition, for any number of threads; descents nearly reach targets that exist. */
-static void target_powers(void **state)
+TEST_CASE(target_powers)
 {
-    (void)state;
     enum { N = 24, RINGS = 10 };
     static const char *const targets[] = {"step", "gaussian", "latin-hypercube"};
     double power[RINGS];
@@ -561,9 +550,8 @@ static void target_powers(void **state)
 }
 
 /* Named targets are their formulas, a file's lines are joined by lines, a pattern's is the mean of its spectra. */
-static void profiles_of_targets(void **state)
+TEST_CASE(profiles_of_targets)
 {
-    (void)state;
     enum { N = 16, RINGS = 8 };
     double power[RINGS];
     const char path[] = "profile.txt";
@@ -638,9 +626,8 @@ static bool never(void *context, double fraction)
     return false;
 }
 
-static void ends_when_asked(void **state)
+TEST_CASE(ends_when_asked)
 {
-    (void)state;
     koksma_spec star;
     koksma_optimum seen, best;
     koksma_optimise_options options = {.n = 8, .dim = 2, .progress = stop_at_once, .context = &seen};
@@ -691,9 +678,8 @@ static bool until_steps(void *context, double fraction)
 
 /* Every method, interrupted within a step, leaves a set that is at least as good as the one of the steps before, which is
    the same if nothing was gained since. */
-static void a_step_that_is_interrupted_loses_nothing(void **state)
+TEST_CASE(a_step_that_is_interrupted_loses_nothing)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
         asker caller = {.steps = 1, .calls = 3};
         koksma_spec spec;
@@ -736,9 +722,8 @@ static bool until_calls(void *context, double fraction)
 
 /* Every method, interrupted after k questions for growing k, returns a set with the structure of the first one that is
    never worse, and better before the search is over. */
-static void interrupted_searches_return_what_they_have(void **state)
+TEST_CASE(interrupted_searches_return_what_they_have)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
         const koksma_keep keep = searches[i].keep;
         const char *pattern = keep == KOKSMA_KEEP_NET || keep == KOKSMA_KEEP_SEQUENCE ? "sobol" : "latin-hypercube";
@@ -803,9 +788,8 @@ static void expect_no_better_pattern(const koksma_measure *m, size_t n, int dim)
     koksma_points_fini(&points);
 }
 
-static void no_listed_pattern_is_better(void **state)
+TEST_CASE(no_listed_pattern_is_better)
 {
-    (void)state;
     static const size_t sizes[] = {16, 9, 8};
     size_t n = 0;
     for (size_t i = 0; koksma_measure_at(i); i++) {
@@ -834,9 +818,8 @@ static const struct {
 };
 
 /* One is ended by the caller, who is asked within the step, and one by the time limit, in the first step: both soon. */
-static void steps_end_when_asked(void **state)
+TEST_CASE(steps_end_when_asked)
 {
-    (void)state;
     double power[100];
     assert_ok(koksma_radial_power("step", 4000, 100, NULL, power));
     for (size_t i = 0; i < sizeof long_steps / sizeof *long_steps; i++) {
@@ -873,28 +856,4 @@ static void steps_end_when_asked(void **state)
         }
         koksma_points_fini(&from);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gradients_are_differences),
-        cmocka_unit_test(gradients_of_powers_are_differences),
-        cmocka_unit_test(torus_is_where_it_is_said),
-        cmocka_unit_test(methods_gain_and_keep),
-        cmocka_unit_test(latin_hypercubes_of_all_sizes),
-        cmocka_unit_test(optima_of_the_star_discrepancy),
-        cmocka_unit_test(lower_bounds_hold),
-        cmocka_unit_test(steps_of_few_points_are_short),
-        cmocka_unit_test(sequences_of_projections),
-        cmocka_unit_test(values_of_projections),
-        cmocka_unit_test(target_powers),
-        cmocka_unit_test(profiles_of_targets),
-        cmocka_unit_test(ends_when_asked),
-        cmocka_unit_test(a_step_that_is_interrupted_loses_nothing),
-        cmocka_unit_test(interrupted_searches_return_what_they_have),
-        cmocka_unit_test(no_listed_pattern_is_better),
-        cmocka_unit_test(steps_end_when_asked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

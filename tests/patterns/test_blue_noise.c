@@ -43,9 +43,8 @@ static void nearest(const double *xs, size_t n, double *least, double *mean)
 }
 
 /* Mean relative radius of SETS sets of 1,024 points in its band; each blue-noise pattern is in the table. */
-static void relative_radii_are_those_of_the_table(void **state)
+TEST_CASE(relative_radii_are_those_of_the_table)
 {
-    (void)state;
     enum { SETS = 2 };
     static const struct {
         const char *spec;
@@ -89,9 +88,8 @@ static void relative_radii_are_those_of_the_table(void **state)
 }
 
 /* Yuksel 2015: the radii of the weight function and its limit. */
-static void elimination_has_the_papers_formulas(void **state)
+TEST_CASE(elimination_has_the_papers_formulas)
 {
-    (void)state;
     assert_near(koksma__elimination_radius(1000, 1), 1e-3, 1e-15);
     assert_near(koksma__elimination_radius(1000, 2), sqrt(2 / (sqrt(3) * 1000)), 1e-15);
     assert_near(koksma__elimination_radius(1000, 3), 2 * pow(1 / (4 * sqrt(2) * 1000), 1.0 / 3), 1e-15);
@@ -165,9 +163,8 @@ static void assert_heaviest_go(size_t count, size_t keep, int dim, bool nearest)
 }
 
 /* In 4 to 8 dimensions d_max is above 1/2 here, and all images within it count; in fewer there is one. */
-static void elimination_takes_the_heaviest(void **state)
+TEST_CASE(elimination_takes_the_heaviest)
 {
-    (void)state;
     for (int dim = 1; dim <= 7; dim++) {
         assert_heaviest_go(ELIMINATED, 30, dim, false);
     }
@@ -176,9 +173,8 @@ static void elimination_takes_the_heaviest(void **state)
 }
 
 /* The mean relative radius of 1,024 of 5,120 uniform points, with a limit and without. */
-static void limited_weights_keep_points_apart(void **state)
+TEST_CASE(limited_weights_keep_points_apart)
 {
-    (void)state;
     enum { N = 1024, ALL = 5 * N };
     static uint32_t order[ALL];
     static double kept[2 * N];
@@ -199,9 +195,8 @@ static void limited_weights_keep_points_apart(void **state)
 
 /* The first half, quarter, .. are blue noise, which those of the set in the order of drawing are not; another n is
    the same sequence, and more than `length` points are refused. */
-static void prefixes_of_progressive_elimination(void **state)
+TEST_CASE(prefixes_of_progressive_elimination)
 {
-    (void)state;
     const koksma_points ordered = test_points("progressive-elimination", 1024, 2, 1);
     const koksma_points drawn = test_points("sample-elimination", 1024, 2, 1);
     for (size_t n = 64; n < 1024; n = n * 3 / 2) {
@@ -224,9 +219,8 @@ static void prefixes_of_progressive_elimination(void **state)
 }
 
 /* The gain over pmj02 holds at every power of 4, places within strata of 1/n are uniform, and it is pmj02's net. */
-static void pmj02bn_keeps_apart_at_all_sizes(void **state)
+TEST_CASE(pmj02bn_keeps_apart_at_all_sizes)
 {
-    (void)state;
     enum { N = 16384, BINS = 10 };
     koksma_points plain = test_points("pmj02", N, 2, 2), blue = test_points("pmj02bn", N, 2, 2);
     for (size_t n = 256; n <= N; n *= 4) {
@@ -288,9 +282,8 @@ static double low_power(const koksma_points *points)
 }
 
 /* By its criterion the descent leaves what 2,000 steps without it used to leave: a sixth of what 400 did. */
-static void gaussian_blue_noise_has_converged(void **state)
+TEST_CASE(gaussian_blue_noise_has_converged)
 {
-    (void)state;
     koksma_points done = test_points("gaussian-blue-noise", 1024, 2, 0);
     koksma_points early = test_points("gaussian-blue-noise:steps=128", 1024, 2, 0);
     const double converged = low_power(&done), before = low_power(&early);
@@ -309,9 +302,8 @@ static bool stop_at_once(void *context, double fraction)
 }
 
 /* What would take minutes or longer asks whether to go on. */
-static void long_searches_ask(void **state)
+TEST_CASE(long_searches_ask)
 {
-    (void)state;
     static const struct {
         const char *spec;
         size_t n;
@@ -346,19 +338,4 @@ static void long_searches_ask(void **state)
         }
         koksma_points_fini(&points);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(relative_radii_are_those_of_the_table),
-        cmocka_unit_test(elimination_has_the_papers_formulas),
-        cmocka_unit_test(elimination_takes_the_heaviest),
-        cmocka_unit_test(limited_weights_keep_points_apart),
-        cmocka_unit_test(prefixes_of_progressive_elimination),
-        cmocka_unit_test(pmj02bn_keeps_apart_at_all_sizes),
-        cmocka_unit_test(gaussian_blue_noise_has_converged),
-        cmocka_unit_test(long_searches_ask),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

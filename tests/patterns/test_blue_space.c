@@ -43,9 +43,8 @@ static void assert_maximal(const koksma_points *p, double d)
 /* The share of the volume of balls of diameter d is that of saturated random sequential addition: Zhang & Torquato
    2013, Physical Review E 88, 053312. Its spread is that of the sets. A set that is not maximal, or not of uniform
    darts, has another. */
-static void counts_are_those_of_saturated_packings(void **state)
+TEST_CASE(counts_are_those_of_saturated_packings)
 {
-    (void)state;
     enum { SETS = test_repeats(12, 2) };
     static const struct {
         int dim;
@@ -78,9 +77,8 @@ static void counts_are_those_of_saturated_packings(void **state)
     }
 }
 
-static void sets_by_number_are_maximal(void **state)
+TEST_CASE(sets_by_number_are_maximal)
 {
-    (void)state;
     static const size_t counts[] = {1, 2, 3, 5, 8, 30, 64, 100};
     for (int dim = 3; dim <= 6; dim++) {
         for (size_t c = 0; c < sizeof counts / sizeof *counts && counts[c] <= test_repeats(dim < 6 ? 100 : 30, 8);
@@ -95,9 +93,8 @@ static void sets_by_number_are_maximal(void **state)
 }
 
 /* Words of a wrong number of points, and of more points than the memory of the cover allows. */
-static void limits_are_said(void **state)
+TEST_CASE(limits_are_said)
 {
-    (void)state;
     static const struct {
         const char *spec, *said;
         size_t n;
@@ -122,9 +119,8 @@ static void limits_are_said(void **state)
 }
 
 /* Forces against sums over all images within 12 s. Up to s = 1/10 the cut-off leaves out less than 1e-3 of a force. */
-static void forces_are_sums_over_images(void **state)
+TEST_CASE(forces_are_sums_over_images)
 {
-    (void)state;
     static const struct {
         int dim;
         size_t n;
@@ -188,9 +184,8 @@ static double power_within(const koksma_points *p, double radius)
 }
 
 /* Independent points have a power of 1; docs/findings/blue-noise.md has the means of more sets. */
-static void low_frequencies_are_weak_in_space(void **state)
+TEST_CASE(low_frequencies_are_weak_in_space)
 {
-    (void)state;
     enum { N = 343 }; /* n^(1/3) = 7 */
     static const struct {
         const char *spec;
@@ -217,9 +212,8 @@ static void low_frequencies_are_weak_in_space(void **state)
 }
 
 /* Yuksel's 2 r_max is the distance of the densest packing in 3D; the relative radius of his sets is about .7. */
-static void relative_radii_in_space(void **state)
+TEST_CASE(relative_radii_in_space)
 {
-    (void)state;
     static const struct {
         const char *spec;
         double low, high;
@@ -252,9 +246,8 @@ static double mean_smallest(const char *spec, size_t n, int dim, uint64_t sets)
 
 /* In 2 to 8 dimensions every pattern that claims blue noise keeps points twice as far apart as random ones are. n grows
    where the patterns of that dimension allow it: of few points in many dimensions random ones are far apart, too. */
-static void blue_noise_keeps_apart_in_all_dimensions(void **state)
+TEST_CASE(blue_noise_keeps_apart_in_all_dimensions)
 {
-    (void)state;
     const size_t counts[] = {0, 0, 200, 100, 100, 64, 64, 300, 500};
     for (int dim = 2; dim <= 8; dim++) {
         const size_t n = TEST_SANITIZED ? 40 : counts[dim];
@@ -281,9 +274,8 @@ static void blue_noise_keeps_apart_in_all_dimensions(void **state)
    radii of .63 to .65 for eighths, quarters and halves. Spheres of the densest known packings (fcc, D4, D5, E6), n a unit
    of volume, have the radius (filled / (ball n))^(1/dim), ball the volume of the unit ball. Random points have .3 and
    less. */
-static void prefixes_are_blue_in_space(void **state)
+TEST_CASE(prefixes_are_blue_in_space)
 {
-    (void)state;
     static const double ball[] = {4.18879020478639, 4.93480220054468, 5.26378901391432, 5.16771278004997};
     static const double filled[] = {0.740480489693061, 0.616850275068085, 0.465257613309259, 0.372947545582064};
     for (int dim = 3; dim <= 6; dim++) {
@@ -298,19 +290,4 @@ static void prefixes_are_blue_in_space(void **state)
         }
         koksma_points_fini(&all);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(counts_are_those_of_saturated_packings),
-        cmocka_unit_test(sets_by_number_are_maximal),
-        cmocka_unit_test(limits_are_said),
-        cmocka_unit_test(forces_are_sums_over_images),
-        cmocka_unit_test(low_frequencies_are_weak_in_space),
-        cmocka_unit_test(relative_radii_in_space),
-        cmocka_unit_test(blue_noise_keeps_apart_in_all_dimensions),
-        cmocka_unit_test(prefixes_are_blue_in_space),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

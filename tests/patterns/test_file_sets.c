@@ -77,9 +77,8 @@ static void *many_sets(void *unused)
     return unused;
 }
 
-static void threads_share_the_sets(void **state)
+TEST_CASE(threads_share_the_sets)
 {
-    (void)state;
     enum { THREADS = 4 };
     pthread_t threads[THREADS];
     write_file(0.125, 1000);
@@ -96,9 +95,8 @@ static void threads_share_the_sets(void **state)
 }
 
 /* A file that has changed is read anew, of equal size and name, too; other n and dimensions are other sets. */
-static void changed_files_are_read_anew(void **state)
+TEST_CASE(changed_files_are_read_anew)
 {
-    (void)state;
     const koksma_spec spec = spec_of(false);
     double xs[64];
     for (int k = 1; k < 5; k++) {
@@ -128,9 +126,8 @@ static void changed_files_are_read_anew(void **state)
 }
 
 /* More sets than are kept, and more coordinates: each is right, whichever are kept. */
-static void the_table_is_bounded(void **state)
+TEST_CASE(the_table_is_bounded)
 {
-    (void)state;
     enum { LONG = 1 << 19 };
     const koksma_spec spec = spec_of(false);
     double *xs = malloc(8 * LONG * sizeof *xs);
@@ -173,21 +170,9 @@ static size_t reads_of_a_picture(int side)
     return asked;
 }
 
-static void pictures_read_a_file_once(void **state)
+TEST_CASE(pictures_read_a_file_once)
 {
-    (void)state;
     assert_in_range(reads_of_a_picture(8), 1, 8);
     assert_in_range(reads_of_a_picture(64), 1, 8);
     assert_int_equal(remove(path), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(threads_share_the_sets),
-        cmocka_unit_test(changed_files_are_read_anew),
-        cmocka_unit_test(the_table_is_bounded),
-        cmocka_unit_test(pictures_read_a_file_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

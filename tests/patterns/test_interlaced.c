@@ -10,9 +10,8 @@ static unsigned digit_of(double x, int digit)
     return (unsigned)(ldexp(x, digit) - 2 * floor(ldexp(x, digit - 1)));
 }
 
-static void digits_alternate(void **state)
+TEST_CASE(digits_alternate)
 {
-    (void)state;
     for (int order = 1; order <= 5; order++) {
         char text[64];
         snprintf(text, sizeof text, "interlaced-sobol:order=%d", order);
@@ -54,9 +53,8 @@ static double rmse(const char *text, size_t n, int dim, int seeds)
 }
 
 /* The least squares slope from 2^5 to 2^13 points. In more dimensions powers of log n hide it for more points. */
-static void errors_have_their_order(void **state)
+TEST_CASE(errors_have_their_order)
 {
-    (void)state;
     static const struct {
         const char *text;
         int dim, seeds;
@@ -119,9 +117,8 @@ static int counted_t(const koksma_points *points, int m, int order)
    t + (order - 1) (dim order / 2 - 1): rows l_r of the coordinates r = 1 .. order become rows order (l_r - 1) + r of
    one, so that a dependent set of the weight W, the sum of its largest l_r, of which each net has W > m - t, has a
    weight of at least order W - (order - r) summed over all r and coordinates. */
-static void nets_are_of_higher_order(void **state)
+TEST_CASE(nets_are_of_higher_order)
 {
-    (void)state;
     static const struct {
         int order, dim, most;
     } rows[] = {{1, 2, 8}, {2, 1, 8}, {2, 2, 5}, {3, 1, 6}, {3, 2, 3}, {4, 1, 4}, {5, 1, 3}};
@@ -146,14 +143,4 @@ static void nets_are_of_higher_order(void **state)
     koksma_points points = test_points("sobol", 32, 2, 0);
     assert_true(counted_t(&points, 5, 2) > 2);
     koksma_points_fini(&points);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(digits_alternate),
-        cmocka_unit_test(errors_have_their_order),
-        cmocka_unit_test(nets_are_of_higher_order),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

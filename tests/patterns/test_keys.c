@@ -10,9 +10,8 @@
 
 enum { WIDTH = 64, PIXELS = WIDTH * WIDTH, INTEGRANDS = 6 };
 
-static void the_header_has_the_patterns_points(void **state)
+TEST_CASE(the_header_has_the_patterns_points)
 {
-    (void)state;
     static const struct {
         const char *spec;
         int width, dim;
@@ -40,9 +39,8 @@ static void the_header_has_the_patterns_points(void **state)
     }
 }
 
-static void pixels_have_nets(void **state)
+TEST_CASE(pixels_have_nets)
 {
-    (void)state;
     for (size_t spp = 1; spp <= 512; spp *= 2) {
         koksma_points tile = test_points("ranking-keys:width=5", 25 * spp, 6, spp);
         for (int k = 0; k < 6; k += 2) {
@@ -62,9 +60,8 @@ static void pixels_have_nets(void **state)
 }
 
 /* The pixels of a cell are those with equal seeds. There are 1,024, and all their points are a net. */
-static void cells_have_nets(void **state)
+TEST_CASE(cells_have_nets)
 {
-    (void)state;
     enum { AROUND = 3 * KOKSMA_KEYS_SIZE, CELL = KOKSMA_KEYS_SIZE * KOKSMA_KEYS_SIZE };
     static double xs[2 * CELL * 64];
     for (uint32_t spp = 1; spp <= 64; spp *= 2) {
@@ -184,9 +181,8 @@ static double kolmogorov_smirnov(double *a, double *b, size_t n)
 /* Owen scrambling that the seed draws makes a pixel's points those of an independently scrambled pixel: over the seeds
    the error has mean 0, and the distribution of koksma_sobol_2d's. Two samples of SEEDS errors differ by more than 2.2
    sqrt(2 / SEEDS) with probability 1.3e-4 (Smirnov). */
-static void a_pixel_has_the_distribution_of_independent_pixels(void **state)
+TEST_CASE(a_pixel_has_the_distribution_of_independent_pixels)
 {
-    (void)state;
     enum { SEEDS = 3000, N_SPP = 13 };
     static const uint32_t spps[N_SPP] = {1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 32, 64, 100};
     static double own[INTEGRANDS][SEEDS], others[INTEGRANDS][SEEDS];
@@ -251,9 +247,8 @@ static void mean_squares_of_tiles(uint32_t spp, bool independent, double mean[2]
 
 /* Plain errors are no larger than those of independent pixels, within four standard errors; blurred ones are smaller.
    RATIOS=1 in the environment prints the ratios. */
-static void errors_are_blue_and_small(void **state)
+TEST_CASE(errors_are_blue_and_small)
 {
-    (void)state;
     static const uint32_t spps[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 100};
     for (size_t t = 0; t < sizeof spps / sizeof *spps; t++) {
         double mean[2][2][INTEGRANDS], error[2][2][INTEGRANDS];
@@ -286,9 +281,8 @@ static void errors_are_blue_and_small(void **state)
 
 /* Heitz & others 2019: a ranking key permutes the samples of its pixel. With 2^m samples its lower m bits change their
    order alone: the set of all is the same for any of them, and the first sample is another one. */
-static void ranking_permutes_samples(void **state)
+TEST_CASE(ranking_permutes_samples)
 {
-    (void)state;
     for (uint32_t m = 0; m <= 6; m++) {
         for (uint32_t p = 0; p < PIXELS; p += 61) {
             const koksma_keys keys = koksma_keys_of(3, p % WIDTH, p / WIDTH, 0, 1u << m);
@@ -310,9 +304,8 @@ static void ranking_permutes_samples(void **state)
 
 /* They rank for all powers of two at once: the first 1, 2, 4, ... of 64 samples have blue errors, too. Blurred mean squares
    over those of independent pixels; docs/findings/screen-noise.md has the low frequencies. */
-static void prefixes_are_blue(void **state)
+TEST_CASE(prefixes_are_blue)
 {
-    (void)state;
     enum { TILES = test_repeats(4, 1) };
     for (uint32_t spp = 1; spp <= 64; spp *= 2) {
         double sums[2][INTEGRANDS] = {{0}};
@@ -359,9 +352,8 @@ static void mean_products(uint64_t seed, uint32_t spp, uint32_t distance, double
 
 /* Errors at a distance of one, two and three cells are uncorrelated: over the seeds the mean product is 0 within 4.5
    standard errors. */
-static void cells_are_independent(void **state)
+TEST_CASE(cells_are_independent)
 {
-    (void)state;
     enum { SEEDS = 200 };
     for (uint32_t cells = 1; cells <= 3; cells++) {
         for (uint32_t spp = 1; spp <= 16; spp *= 4) {
@@ -386,9 +378,8 @@ static void cells_are_independent(void **state)
 
 /* u of one pair and v of another: the RMS error of the mean of (u - 1/2)(v - 1/2) beside that of random numbers,
    1 / (12 sqrt(N)). Padding by nested shuffles has 1.26 times as much. */
-static void pairs_are_independent(void **state)
+TEST_CASE(pairs_are_independent)
 {
-    (void)state;
     for (uint32_t spp = 4; spp <= 256; spp *= 4) {
         for (uint32_t other = 1; other < 4; other++) {
             double square = 0;
@@ -413,20 +404,4 @@ static void pairs_are_independent(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_header_has_the_patterns_points),
-        cmocka_unit_test(pixels_have_nets),
-        cmocka_unit_test(cells_have_nets),
-        cmocka_unit_test(a_pixel_has_the_distribution_of_independent_pixels),
-        cmocka_unit_test(errors_are_blue_and_small),
-        cmocka_unit_test(ranking_permutes_samples),
-        cmocka_unit_test(prefixes_are_blue),
-        cmocka_unit_test(cells_are_independent),
-        cmocka_unit_test(pairs_are_independent),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,9 +63,8 @@ static double dual_p2(size_t n, const size_t *z, int dim, double weight)
     return sum - 1;
 }
 
-static void error_is_that_of_the_dual_lattice(void **state)
+TEST_CASE(error_is_that_of_the_dual_lattice)
 {
-    (void)state;
     for (size_t n = 2; n <= 24; n++) {
         for (int dim = 1; dim <= (n <= 12 ? 4 : 3); dim++) {
             size_t z[4];
@@ -95,9 +94,8 @@ static double sum_of(size_t n, size_t z, const double *product)
 }
 
 /* Each value is the sum, but for a constant, within half of the bound that the search takes for it. */
-static void sums_are_those_of_the_definition(void **state)
+TEST_CASE(sums_are_those_of_the_definition)
 {
-    (void)state;
     for (size_t c = 0; c < N_KINDS; c++) {
         const size_t n = kinds[c];
         koksma__unit_sums *sums;
@@ -126,9 +124,8 @@ static void sums_are_those_of_the_definition(void **state)
 }
 
 /* The construction by the definition: every unit is tried, for the products of the coordinates before. */
-static void components_are_the_best_of_all(void **state)
+TEST_CASE(components_are_the_best_of_all)
 {
-    (void)state;
     enum { DIM = 5 };
     for (size_t c = 0; c < N_KINDS; c++) {
         const size_t n = kinds[c];
@@ -173,9 +170,8 @@ static const size_t published[PUBLISHED][10] = {
 };
 
 /* P_2 of the first vector as others computed it. */
-static void published_errors_are_found(void **state)
+TEST_CASE(published_errors_are_found)
 {
-    (void)state;
     static const struct {
         int bits;
         double error;
@@ -207,9 +203,8 @@ static double p2_of_pairs(size_t n, const size_t *z, int dim, double weight)
 
 /* Order-2 weights are what the first published vector was made for: order=2 is below it and the others at each n, and
    below the lattice for projections of all orders. */
-static void order_two_is_no_worse_than_others(void **state)
+TEST_CASE(order_two_is_no_worse_than_others)
 {
-    (void)state;
     for (int bits = 8; bits <= MOST_BITS; bits += 2) {
         const size_t n = (size_t)1 << bits;
         size_t z[10], all[10];
@@ -229,9 +224,8 @@ static void order_two_is_no_worse_than_others(void **state)
     }
 }
 
-static void search_is_no_worse_than_others(void **state)
+TEST_CASE(search_is_no_worse_than_others)
 {
-    (void)state;
     static const size_t others[] = {30,   60,   100,   1000,  1009,  1155,  2187,
                                     3000, 6561, 10007, 30030, 59049, 65537, 131071};
     double before = HUGE_VAL, korobov_before = HUGE_VAL;
@@ -286,9 +280,8 @@ static void p2_of_prefixes(size_t n, const size_t *z, int dim, double *errors)
 /* What it costs to be good for all powers of two at once, for each of them and each dimension that
    docs/findings/lattices.md names: the largest ratio is 1.53 as stated there, no more and no less. Cools, Kuo & Nuyens
    2006 report worst-case errors, roots of P_2, of at most 1.6 times those of lattices made for one n. */
-static void embedded_lattices_cost_little(void **state)
+TEST_CASE(embedded_lattices_cost_little)
 {
-    (void)state;
     enum { DIM = 10 };
     size_t sequence[DIM], z[DIM], own[DIM];
     double embedded[DIM + 1], single[DIM + 1], largest = 0;
@@ -314,9 +307,8 @@ static void embedded_lattices_cost_little(void **state)
 
 /* The pairs of coordinates, too, are far from a diagonal, whose P_2 doesn't fall: of its order n^-2 they have 2
  * to 27. */
-static void worst_pairs_fall(void **state)
+TEST_CASE(worst_pairs_fall)
 {
-    (void)state;
     for (int bits = 8; bits <= MOST_BITS && bits <= 18; bits += 2) {
         const size_t n = (size_t)1 << bits;
         size_t z[10];
@@ -356,9 +348,8 @@ static double shifted_error(const size_t *z, size_t n)
     return sqrt(squares);
 }
 
-static void shifted_lattices_converge(void **state)
+TEST_CASE(shifted_lattices_converge)
 {
-    (void)state;
     double before = HUGE_VAL;
     for (int bits = 10; bits <= MOST_BITS && bits <= 20; bits += 2) {
         const size_t n = (size_t)1 << bits;
@@ -374,9 +365,8 @@ static void shifted_lattices_converge(void **state)
 }
 
 /* In the plane korobov searches all, too, and none is better than the lattices of Fibonacci. */
-static void plane(void **state)
+TEST_CASE(plane)
 {
-    (void)state;
     double before = HUGE_VAL;
     for (size_t n = 8, last = 5; n >> 17 == 0 && n >> MOST_BITS == 0; n += last, last = n - last) {
         size_t z[2], other[2];
@@ -398,9 +388,8 @@ static bool count_down(void *context, double done)
 }
 
 /* The search is asked again and again whether to go on, and ends at any of these. */
-static void search_is_interrupted(void **state)
+TEST_CASE(search_is_interrupted)
 {
-    (void)state;
     koksma_spec spec;
     koksma_points points;
     int asked = 0;
@@ -414,22 +403,4 @@ static void search_is_interrupted(void **state)
     }
     assert_true(asked > 100);
     koksma_points_fini(&points);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(error_is_that_of_the_dual_lattice),
-        cmocka_unit_test(sums_are_those_of_the_definition),
-        cmocka_unit_test(components_are_the_best_of_all),
-        cmocka_unit_test(published_errors_are_found),
-        cmocka_unit_test(search_is_no_worse_than_others),
-        cmocka_unit_test(order_two_is_no_worse_than_others),
-        cmocka_unit_test(embedded_lattices_cost_little),
-        cmocka_unit_test(worst_pairs_fall),
-        cmocka_unit_test(shifted_lattices_converge),
-        cmocka_unit_test(plane),
-        cmocka_unit_test(search_is_interrupted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

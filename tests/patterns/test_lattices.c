@@ -48,9 +48,8 @@ static long double least_error(size_t n, const size_t *z, int k)
     return least;
 }
 
-static void components_are_the_best(void **state)
+TEST_CASE(components_are_the_best)
 {
-    (void)state;
     for (size_t n = 5; n <= 80; n += n < 40 ? 1 : 5) {
         size_t z[8];
         lattices_multipliers("lattice-rank1", n, 8, z);
@@ -63,9 +62,8 @@ static void components_are_the_best(void **state)
 }
 
 /* In 256 dimensions the origin's term is 10^13, and all others together about n. */
-static void powers_are_the_best(void **state)
+TEST_CASE(powers_are_the_best)
 {
-    (void)state;
     static const int dims[] = {2, 3, 5, 12, 60, 256};
     for (size_t n = 29; n <= 61; n += 16) {
         for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
@@ -85,9 +83,8 @@ static void powers_are_the_best(void **state)
 }
 
 /* The mean over i of those products, the origin's too, less 1 is the square of l2-wraparound over (4/3)^dim. */
-static void error_is_wraparound(void **state)
+TEST_CASE(error_is_wraparound)
 {
-    (void)state;
     for (int dim = 1; dim <= 6; dim++) {
         size_t z[6];
         koksma_points points = test_points("lattice-rank1", 55, dim, 0);
@@ -101,9 +98,8 @@ static void error_is_wraparound(void **state)
 
 /* None comes twice, as itself or mirrored, while there are others: phi(n)/2 of them. No rule says so: with the
    weights of this criterion a diagonal is never the least bad. */
-static void multipliers_are_distinct(void **state)
+TEST_CASE(multipliers_are_distinct)
 {
-    (void)state;
     static const struct {
         const char *pattern;
         size_t n;
@@ -144,9 +140,8 @@ static double mean_of_pairs(const koksma_points *points, const double *shift)
 }
 
 /* Random points have the variance pairs / 144 n. */
-static void many_dimensions_are_better_than_random(void **state)
+TEST_CASE(many_dimensions_are_better_than_random)
 {
-    (void)state;
     static const char *const patterns[] = {"lattice-rank1", "korobov"};
     static const struct {
         size_t n;
@@ -173,9 +168,8 @@ static void many_dimensions_are_better_than_random(void **state)
 }
 
 /* In the plane many multipliers are equally good; which of them is taken is part of the points. */
-static void planar_multipliers_stay(void **state)
+TEST_CASE(planar_multipliers_stay)
 {
-    (void)state;
     static const size_t rows[][2] = {{12, 7},     {20, 11},    {57, 16},    {64, 27},      {1021, 374},
                                      {1024, 275}, {1999, 872}, {2048, 857}, {10136, 3921}, {19897, 7554}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -188,9 +182,8 @@ static void planar_multipliers_stay(void **state)
 }
 
 /* The first 2^m points are {i z / 2^m}; none of the multipliers comes twice. */
-static void embedded_lattices(void **state)
+TEST_CASE(embedded_lattices)
 {
-    (void)state;
     const int dim = koksma_pattern_find("lattice-sequence")->max_dim;
     size_t z[MAX_DIM];
     lattices_sequence_multipliers(dim, z);
@@ -216,9 +209,8 @@ static void embedded_lattices(void **state)
 }
 
 /* What being good for all powers of two costs, against the best for each alone. */
-static void embedded_lattices_are_good(void **state)
+TEST_CASE(embedded_lattices_are_good)
 {
-    (void)state;
     static const int dims[] = {2, 3, 5, 10};
     for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
         for (size_t n = 16; n <= 4096; n *= 2) {
@@ -235,9 +227,8 @@ static void embedded_lattices_are_good(void **state)
     }
 }
 
-static void vectors_of_specs(void **state)
+TEST_CASE(vectors_of_specs)
 {
-    (void)state;
     koksma_points points = test_points("lattice-vector:1:182667:0:77", 55, 4, 0);
     static const size_t z[] = {1, 182667, 0, 77};
     for (size_t c = 0; c < 4 * 55; c++) {
@@ -280,9 +271,8 @@ static long double error_of_order(size_t n, const size_t *z, int dim, int order)
     return sum;
 }
 
-static void components_of_an_order_are_the_best(void **state)
+TEST_CASE(components_of_an_order_are_the_best)
 {
-    (void)state;
     static const size_t counts[] = {5, 16, 31, 64, 67, 80, 101};
     for (int order = 2; order <= 3; order++) {
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
@@ -332,9 +322,8 @@ static long double error_of_weights(size_t n, const size_t *z, int dim, const do
 
 /* Each component is the best of all, with the weights of Cools, Kuo & Nuyens 2006 by order, as LatNet Builder writes them
    (order-dependent:0:1,0.1,0.01): falling, equal, rising, and some 0. */
-static void components_of_weights_are_the_best(void **state)
+TEST_CASE(components_of_weights_are_the_best)
 {
-    (void)state;
     enum { DIM = 5 };
     static const struct {
         const char *spec;
@@ -369,9 +358,8 @@ static void components_of_weights_are_the_best(void **state)
 }
 
 /* The defaults are powers of 3 / (8 pi^2), and weights without effect are refused. */
-static void weights_of_orders(void **state)
+TEST_CASE(weights_of_orders)
 {
-    (void)state;
     static const char *const wrong[] = {"gamma2=1", "order=2,gamma3=0.1", "order=3,gamma2=0,gamma3=0",
                                         "order=2,gamma2=0", "order=2,gamma2=-0.5"};
     size_t own[6], other[6];
@@ -390,23 +378,4 @@ static void weights_of_orders(void **state)
         assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_ARGUMENT);
         koksma_points_fini(&points);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(components_are_the_best),
-        cmocka_unit_test(powers_are_the_best),
-        cmocka_unit_test(error_is_wraparound),
-        cmocka_unit_test(multipliers_are_distinct),
-        cmocka_unit_test(many_dimensions_are_better_than_random),
-        cmocka_unit_test(planar_multipliers_stay),
-        cmocka_unit_test(embedded_lattices),
-        cmocka_unit_test(embedded_lattices_are_good),
-        cmocka_unit_test(vectors_of_specs),
-        cmocka_unit_test(components_of_an_order_are_the_best),
-        cmocka_unit_test(components_of_weights_are_the_best),
-        cmocka_unit_test(weights_of_orders),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

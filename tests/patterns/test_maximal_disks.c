@@ -8,9 +8,8 @@
 #include "patterns/spacing/spacing.h"
 #include "test.h"
 
-static void exactly_n_points(void **state)
+TEST_CASE(exactly_n_points)
 {
-    (void)state;
     static const size_t counts[] = {1, 2, 3, 4, 5, 6, 7, 10, 13, 33, 100, 317, 1000, 1001};
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
         for (uint64_t seed = 0; seed < 8; seed++) {
@@ -28,9 +27,8 @@ static void exactly_n_points(void **state)
 
 /* Of a set like this there is one in twenty thousand: where the search had found more than 16 points, 15 others leave
    no room for another. */
-static void searches_start_again(void **state)
+TEST_CASE(searches_start_again)
 {
-    (void)state;
     koksma_points p = test_points("poisson-disk-maximal", 16, 2, 24996);
     double d;
     assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
@@ -38,9 +36,8 @@ static void searches_start_again(void **state)
     koksma_points_fini(&p);
 }
 
-static void by_distance(void **state)
+TEST_CASE(by_distance)
 {
-    (void)state;
     static const double distances[] = {0.5, 0.3, 0.1, 0.05, 0.02};
     for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
         char text[64];
@@ -72,9 +69,8 @@ static void by_distance(void **state)
 
 /* Cells are a little smaller than the distance asks for, so that points of cells that touch at a corner's corner can
    be too near: one set in thousands shows it. */
-static void many_small_sets_keep_their_distance(void **state)
+TEST_CASE(many_small_sets_keep_their_distance)
 {
-    (void)state;
     static const double distances[] = {0.6, 0.3, 0.29, 0.21};
     for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
         char text[64];
@@ -95,9 +91,8 @@ static void many_small_sets_keep_their_distance(void **state)
 /* Sets of more than 128 x 128 cells are thrown tile by tile, here 2 x 2 tiles of 65 x 65 cells. Points are as many
    near the tiles' borders as elsewhere, and as many as on grids of one tile. If darts did not wait for earlier ones
    that wait, there would be 6 % fewer. */
-static void tiles_leave_no_trace(void **state)
+TEST_CASE(tiles_leave_no_trace)
 {
-    (void)state;
     enum { SETS = 24, SIDE = 65, CELLS = 2 * SIDE };
     const double d = 0.0109, fraction = 1 - (SIDE - 4.0) * (SIDE - 4.0) / SIDE / SIDE;
     double sum = 0, squares = 0, points = 0;
@@ -124,9 +119,8 @@ static void tiles_leave_no_trace(void **state)
 }
 
 /* Darts at a grid of several tiles stop at the n-th of a round by time, wherever it is. */
-static void tiles_end_at_n(void **state)
+TEST_CASE(tiles_end_at_n)
 {
-    (void)state;
     static const char *const specs[] = {"dart-throwing", "dart-throwing:f=0.5", "poisson-disk-maximal"};
     for (size_t i = 0; i < sizeof specs / sizeof *specs; i++) {
         koksma_points p = test_points(specs[i], 12345, 2, 9);
@@ -143,9 +137,8 @@ static void tiles_end_at_n(void **state)
 }
 
 /* More points than 256 are thrown by another method; the first 256 are the same darts. */
-static void grids_change_no_points(void **state)
+TEST_CASE(grids_change_no_points)
 {
-    (void)state;
     static const char *const specs[] = {"poisson-disk:d=0.045", "poisson-disk:d=0.044,torus=1", "poisson-disk:d=0"};
     for (size_t i = 0; i < sizeof specs / sizeof *specs; i++) {
         for (uint64_t seed = 0; seed < 4; seed++) {
@@ -157,9 +150,8 @@ static void grids_change_no_points(void **state)
     }
 }
 
-static void fractions_of_the_densest(void **state)
+TEST_CASE(fractions_of_the_densest)
 {
-    (void)state;
     static const double fractions[] = {0.01, 0.1, 0.39, 0.4, 0.7};
     static const size_t counts[] = {1, 2, 3, 10, 1000, 20000};
     for (size_t i = 0; i < sizeof fractions / sizeof *fractions; i++) {
@@ -177,9 +169,8 @@ static void fractions_of_the_densest(void **state)
     }
 }
 
-static void files_are_patterns(void **state)
+TEST_CASE(files_are_patterns)
 {
-    (void)state;
     static const char *const endings[] = {"txt", "csv", "npy"};
     koksma_points p = test_points("random", 20, 3, 1);
     for (int e = 0; e < 3; e++) {
@@ -227,20 +218,4 @@ static void files_are_patterns(void **state)
     koksma_points_fini(&some);
     remove("test_disks_points.txt");
     koksma_points_fini(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exactly_n_points),
-        cmocka_unit_test(by_distance),
-        cmocka_unit_test(grids_change_no_points),
-        cmocka_unit_test(fractions_of_the_densest),
-        cmocka_unit_test(searches_start_again),
-        cmocka_unit_test(tiles_leave_no_trace),
-        cmocka_unit_test(tiles_end_at_n),
-        cmocka_unit_test(files_are_patterns),
-        cmocka_unit_test(many_small_sets_keep_their_distance),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,9 +66,8 @@ static const struct scrambled *of_name(const char *name)
     return NULL;
 }
 
-static void all_that_scramble_are_tested(void **state)
+TEST_CASE(all_that_scramble_are_tested)
 {
-    (void)state;
     const koksma_pattern *p;
     size_t found = 0;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
@@ -184,9 +183,8 @@ static void check_digits(const struct scrambled *p, int dim, int k)
     assert_uniform(deep, PLACES, p->name, k);
 }
 
-static void permutations_are_uniform_and_independent(void **state)
+TEST_CASE(permutations_are_uniform_and_independent)
 {
-    (void)state;
     for (size_t i = 0; i < N_PATTERNS; i++) {
         const int most = koksma_pattern_find(patterns[i].name)->max_dim < 4 ? 2 : 4;
         for (int k = 0; k < most; k++) {
@@ -211,9 +209,8 @@ static koksma_points plane_of(const koksma_points *points, size_t first, size_t 
 }
 
 /* Every aligned block of b^m points of faure is a net in all dimensions; in bases 11 and 13 each pair of some. */
-static void blocks_are_nets(void **state)
+TEST_CASE(blocks_are_nets)
 {
-    (void)state;
     static const int dims[] = {1, 2, 3, 5, 7};
     static const size_t most[] = {1024, 4096, 2187, 3125, 343};
     for (size_t d = 0; d < 5; d++) {
@@ -252,9 +249,8 @@ static void blocks_are_nets(void **state)
 }
 
 /* With any number of points, i/n is scrambled within its stratum. */
-static void other_counts_are_stratified(void **state)
+TEST_CASE(other_counts_are_stratified)
 {
-    (void)state;
     static const char *const planar[] = {"hammersley", "zaremba", "larcher-pillichshammer"};
     static const size_t counts[] = {3, 12, 100, 999};
     for (size_t p = 0; p < 3; p++) {
@@ -268,9 +264,8 @@ static void other_counts_are_stratified(void **state)
 }
 
 /* The bits of a point do not depend on how many there are. */
-static void prefixes_are_the_sets(void **state)
+TEST_CASE(prefixes_are_the_sets)
 {
-    (void)state;
     static const int dims[] = {2, 3, 17, 60};
     for (size_t d = 0; d < 4; d++) {
         koksma_points all = scrambled_points("faure", 20000, dims[d], 4);
@@ -338,9 +333,8 @@ static void evaluate(const koksma_points *points, const double *xs, double f[INT
 
 /* Mean squares of errors over seeds agree within 4 standard errors, and means are 0. That of a coordinate alone is
    1 / (12 n^3) exactly: n points in strata of 1/n each. */
-static void variances_are_owens(void **state)
+TEST_CASE(variances_are_owens)
 {
-    (void)state;
     enum { SEEDS = 600 };
     static const struct {
         int dim, depth;
@@ -380,17 +374,4 @@ static void variances_are_owens(void **state)
         free(xs);
         koksma_points_fini(&plain);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_that_scramble_are_tested),
-        cmocka_unit_test(permutations_are_uniform_and_independent),
-        cmocka_unit_test(blocks_are_nets),
-        cmocka_unit_test(other_counts_are_stratified),
-        cmocka_unit_test(prefixes_are_the_sets),
-        cmocka_unit_test(variances_are_owens),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,9 +34,8 @@ static int compare_points(const void *a, const void *b)
 }
 
 /* The first n = b^k points of a lattice sequence are {i z / n}; the numbers of points in a file without a head are 2^k. */
-static void lattices_are_their_multiples(void **state)
+TEST_CASE(lattices_are_their_multiples)
 {
-    (void)state;
     static const struct {
         const char *text;
         uint64_t z[2], base, most;
@@ -76,9 +75,8 @@ static void lattices_are_their_multiples(void **state)
 }
 
 /* u = b^-r sum_l b^(r-l) (sum_c C[l][c] a_c mod b) for random matrices: the definition, digit by digit. */
-static void nets_are_matrices_times_digits(void **state)
+TEST_CASE(nets_are_matrices_times_digits)
 {
-    (void)state;
     static const struct {
         uint64_t base;
         int columns, rows;
@@ -164,9 +162,8 @@ static void coefficients(uint64_t value, uint64_t b, uint64_t *out)
     }
 }
 
-static void polynomial_lattices_are_quotients(void **state)
+TEST_CASE(polynomial_lattices_are_quotients)
 {
-    (void)state;
     static const struct {
         uint64_t b;
         int m;
@@ -210,9 +207,8 @@ static void polynomial_lattices_are_quotients(void **state)
 }
 
 /* The first dimensions of Joe and Kuo's new-joe-kuo-6.21201, in both forms, are those of `sobol`. */
-static void sobol_numbers_give_sobol_points(void **state)
+TEST_CASE(sobol_numbers_give_sobol_points)
 {
-    (void)state;
     static const char lines[] =
         "2 1 0 1\n3 2 1 1 3\n4 3 1 1 3 1\n5 3 2 1 1 1\n6 4 1 1 1 3 3\n7 4 4 1 3 5 13\n8 5 2 1 1 5 5 17\n";
     static const char *const heads[] = {"d       s       a       m_i\n", "# soboljk\n# c_j p_j m_j,c\n"};
@@ -232,10 +228,9 @@ static void sobol_numbers_give_sobol_points(void **state)
 }
 
 /* Joe and Kuo's a has the inner coefficients of a polynomial: of degree s, s - 1 bits. */
-static void sobol_numbers_have_their_bits(void **state)
+TEST_CASE(sobol_numbers_have_their_bits)
 {
     static const char *const lines[] = {"3 2 3 1 3", "3 2 2 1 3", "3 2 18446744073709551615 1 3", "3 1 1 1"};
-    (void)state;
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         char text[80];
         koksma_points points;
@@ -301,9 +296,8 @@ static const char sobol_short[] =
     "# m_{j,c}, starting from the second coordinate\n1\n1 1\n1 3 1\n1 1 7\n1 3 1 15\n1 3 1 15\n1 3 3 1 9\n1 1 3 7 3\n"
     "1 3 7 15 11";
 
-static void latnet_builders_forms_agree(void **state)
+TEST_CASE(latnet_builders_forms_agree)
 {
-    (void)state;
     static const struct {
         const char *net, *other;
         size_t n;
@@ -331,9 +325,8 @@ static void latnet_builders_forms_agree(void **state)
 }
 
 /* Its ordinary lattices are the multiples of the vector, embedded or not. */
-static void latnet_builders_lattices_are_read(void **state)
+TEST_CASE(latnet_builders_lattices_are_read)
 {
-    (void)state;
     koksma_points points;
     write_file(
         "lattice.txt",
@@ -350,9 +343,8 @@ static void latnet_builders_lattices_are_read(void **state)
 
 /* The digits of an interlaced coordinate are those of its components in turn (Dick 2008): its example of a net of two
    dimensions with the factor 2. */
-static void latnet_builders_interlaced_nets_are_interlaced(void **state)
+TEST_CASE(latnet_builders_interlaced_nets_are_interlaced)
 {
-    (void)state;
     static const char text[] =
         "# Merit: 37.2087\n# Parameters for a digital net in base 2\n2    # 2 dimensions\n2    # Interlacing factor\n"
         "4    # Number of components = interlacing factor x dimension\n10   # k = 10,  n = 2^10 = 1024 points\n"
@@ -399,9 +391,8 @@ static void latnet_builders_interlaced_nets_are_interlaced(void **state)
 }
 
 /* Each file is refused, and the message names the file, the line and what is wrong. */
-static void bad_files_are_refused(void **state)
+TEST_CASE(bad_files_are_refused)
 {
-    (void)state;
     static const struct {
         const char *pattern, *text, *says;
         koksma_status status;
@@ -449,20 +440,4 @@ static void bad_files_are_refused(void **state)
     koksma_points points;
     assert_int_equal(points_of("net-file:nosuch.txt", 2, 2, &points), KOKSMA_MISSING);
     koksma_points_fini(&points);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lattices_are_their_multiples),
-        cmocka_unit_test(nets_are_matrices_times_digits),
-        cmocka_unit_test(polynomial_lattices_are_quotients),
-        cmocka_unit_test(sobol_numbers_give_sobol_points),
-        cmocka_unit_test(sobol_numbers_have_their_bits),
-        cmocka_unit_test(latnet_builders_forms_agree),
-        cmocka_unit_test(latnet_builders_lattices_are_read),
-        cmocka_unit_test(latnet_builders_interlaced_nets_are_interlaced),
-        cmocka_unit_test(bad_files_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,9 +56,8 @@ static void errors_of(const char *spec, double errors[N + 1][FUNCTIONS])
     }
 }
 
-static void errors_fall_as_published(void **state)
+TEST_CASE(errors_fall_as_published)
 {
-    (void)state;
     static const char *const specs[] = {"pmj02", "pmj02:shuffle=1", "pmj02bn:levels=4"};
     static double errors[N + 1][FUNCTIONS], random[N + 1][FUNCTIONS];
     errors_of("random", random);
@@ -87,12 +86,4 @@ static void errors_fall_as_published(void **state)
             assert_true(errors[n][FUNCTIONS - 1] < 1 / (double)n);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_fall_as_published),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

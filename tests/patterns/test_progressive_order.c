@@ -44,9 +44,8 @@ static koksma_points in_order(const char *pattern, const char *order, size_t n, 
     return test_points(text, n, dim, seed);
 }
 
-static void the_points_are_those_of_the_plain_order(void **state)
+TEST_CASE(the_points_are_those_of_the_plain_order)
 {
-    (void)state;
     for (size_t p = 0; p < PATTERNS; p++) {
         for (int dim = LEAST_DIM; dim <= MOST_DIM; dim++) {
             for (size_t n = 1; n <= 90; n = 3 * n - (n > 1)) { /* 1, 3, 8, 23, 68 */
@@ -66,9 +65,8 @@ static void the_points_are_those_of_the_plain_order(void **state)
 }
 
 /* By distance, too: the number of points follows from d. */
-static void sets_by_distance_are_ordered(void **state)
+TEST_CASE(sets_by_distance_are_ordered)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         koksma_spec spec;
         koksma_points plain, ordered;
@@ -88,9 +86,8 @@ static void sets_by_distance_are_ordered(void **state)
     }
 }
 
-static void seeds_and_threads(void **state)
+TEST_CASE(seeds_and_threads)
 {
-    (void)state;
     for (size_t p = 0; p < PATTERNS; p++) {
         for (int dim = 2; dim <= 4; dim += 2) {
             koksma_spec spec;
@@ -120,9 +117,8 @@ static bool call_off(void *context, double done)
     return false;
 }
 
-static void a_long_order_is_interrupted(void **state)
+TEST_CASE(a_long_order_is_interrupted)
 {
-    (void)state;
     koksma_spec spec;
     koksma_points points;
     assert_ok(koksma_pattern_spec("poisson-disk-maximal:order=progressive", &spec));
@@ -209,9 +205,8 @@ static look look_at(const char *pattern, bool progressive, int dim)
 
 /* Yuksel 2015: in the plane prefixes of his program have relative radii of .63 to .65; the same is asked here of all
    dimensions. Below reach n^(1/dim) random points have the power 1. */
-static void prefixes_are_blue_noise(void **state)
+TEST_CASE(prefixes_are_blue_noise)
 {
-    (void)state;
     int failed = 0;
     for (size_t p = 0; p < PATTERNS; p++) {
         for (int dim = LEAST_DIM; dim <= test_repeats(MOST_DIM, LEAST_DIM); dim++) {
@@ -232,16 +227,4 @@ static void prefixes_are_blue_noise(void **state)
         }
     }
     assert_int_equal(failed, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_points_are_those_of_the_plain_order),
-        cmocka_unit_test(sets_by_distance_are_ordered),
-        cmocka_unit_test(seeds_and_threads),
-        cmocka_unit_test(a_long_order_is_interrupted),
-        cmocka_unit_test(prefixes_are_blue_noise),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,9 +23,8 @@ static void write_file(const char *name, const char *text)
 /* P_2 with product weights 0.7 of three lattices, as Lattice Builder prints it (umontreal-simul/latnetbuilder: its
    tests, and the output of the tutorial's FilteredRCBC): the mean of prod_k (1 + 0.7 2 pi^2 B_2(x_k)), less 1. 256
    points are a lattice sequence in the file, 257 are not. */
-static void lattices_have_the_printed_merits(void **state)
+TEST_CASE(lattices_have_the_printed_merits)
 {
-    (void)state;
     static const struct {
         const char *file;
         size_t n;
@@ -56,9 +55,8 @@ static void lattices_have_the_printed_merits(void **state)
 /* LatNet Builder's examples/examples-IO/test_l_polynomial_lat: -t lattice -c polynomial -s 2^10 -d 10 -f CU:P2 -q 2 -w
    product:0.1. For digital nets in base 2 P_2 has 12 (1/6 - 2^(e-1)), 2^e <= x < 2^(e+1), in place of 2 pi^2 B_2(x); 2
    for x = 0 (Dick, Kuo, Pillichshammer & Sloan 2005). */
-static void polynomial_lattices_have_the_printed_merit(void **state)
+TEST_CASE(polynomial_lattices_have_the_printed_merit)
 {
-    (void)state;
     write_file("published.txt", "# Merit: 0.000818148\n# Parameters for a polynomial lattice rule in base 2\n"
                                 "10       # 10 dimensions\n10      # k = 10, n = 2^10 = 1024 points\n"
                                 "1033   # polynomial modulus\n1\n800\n839\n753\n622\n150\n827\n676\n108\n970\n");
@@ -165,9 +163,8 @@ static int largest_quality(const net *a)
 
 /* LatNet Builder's examples/examples-IO/test_sobol_sob and test_n_polynomial_lat: -s 2^16 -d 10 -f projdep:t-value -q
    inf -w order-dependent:0:0,1,1. */
-static void nets_have_the_printed_t_values(void **state)
+TEST_CASE(nets_have_the_printed_t_values)
 {
-    (void)state;
     write_file("published.txt", "# Merit: 5\n# Parameters m_{j,c} for Sobol points\n10    # 10 dimensions\n1\n1 1\n"
                                 "1 3 1\n1 1 7\n1 3 1 15\n1 3 1 15\n1 3 3 1 9\n1 1 3 7 3\n1 3 7 15 11\n");
     const net sobol = net_of("net-file:published.txt", 16, 10);
@@ -225,9 +222,8 @@ static int largest_of(int of_points, int t)
     return t > of_points ? t : of_points;
 }
 
-static void sequences_have_the_published_t_values(void **state)
+TEST_CASE(sequences_have_the_published_t_values)
 {
-    (void)state;
     static const int use[] = {0, 1, 2, 3, 4, 5, 6}, sobol[] = {0, 0, 1, 3, 5, 8, 11};
     int t[2] = {0, 0};
     for (int m = 2; m <= 16; m++) {
@@ -253,9 +249,8 @@ static void sequences_have_the_published_t_values(void **state)
 
 /* Powers of Pascal's matrix modulo a prime b give sequences with t = 0 in b dimensions (Faure 1982): entry (r, c) of
    power k is binomial(c, r) k^(c - r). */
-static void faures_matrices_give_nets(void **state)
+TEST_CASE(faures_matrices_give_nets)
 {
-    (void)state;
     static const struct {
         uint64_t base;
         int columns;
@@ -293,16 +288,4 @@ static void faures_matrices_give_nets(void **state)
         }
         koksma_points_fini(&points);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lattices_have_the_printed_merits),
-        cmocka_unit_test(polynomial_lattices_have_the_printed_merit),
-        cmocka_unit_test(nets_have_the_printed_t_values),
-        cmocka_unit_test(sequences_have_the_published_t_values),
-        cmocka_unit_test(faures_matrices_give_nets),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,9 +12,8 @@ enum { N = 1000 };
 
 static uint32_t cmj_rows; /* of the grid of 25 columns that cmj draws from */
 
-static void words_are_the_librarys(void **state)
+TEST_CASE(words_are_the_librarys)
 {
-    (void)state;
     for (uint32_t i = 0; i < 100; i++) {
         uint32_t words[4];
         const uint64_t key = 0x123456789abcdefu * i;
@@ -53,9 +52,8 @@ static void r(koksma_domain domain, uint32_t i, double *xs)
     koksma_r_2d(domain, i, xs);
 }
 
-static void samples_are_the_librarys(void **state)
+TEST_CASE(samples_are_the_librarys)
 {
-    (void)state;
     static const struct {
         const char *pattern;
         int dim;
@@ -85,9 +83,8 @@ static void samples_are_the_librarys(void **state)
 }
 
 /* r-sequence and koksma_r_2d are the same also beyond point 2^32, where each part has another order. */
-static void late_samples_are_the_librarys(void **state)
+TEST_CASE(late_samples_are_the_librarys)
 {
-    (void)state;
     static const uint64_t firsts[] = {((uint64_t)1 << 32) - 300, ((uint64_t)7 << 40) + 12345, KOKSMA_MAX_INDEX - N};
     const koksma_domain domain = koksma_domain_of_pixel(9, 3, 4);
     koksma_points points = test_points("r-sequence:shuffle=1,shift=1", N, 2, 0);
@@ -104,9 +101,8 @@ static void late_samples_are_the_librarys(void **state)
     koksma_points_fini(&points);
 }
 
-static void z_ranks_are_a_permutation(void **state)
+TEST_CASE(z_ranks_are_a_permutation)
 {
-    (void)state;
     unsigned char seen[32 * 32] = {0};
     const koksma_domain domain = {77};
     for (uint32_t y = 0; y < 32; y++) {
@@ -119,9 +115,8 @@ static void z_ranks_are_a_permutation(void **state)
     }
 }
 
-static void permutations_are_permutations(void **state)
+TEST_CASE(permutations_are_permutations)
 {
-    (void)state;
     for (uint32_t n = 1; n < 300; n += 1 + n / 8) {
         unsigned char seen[300] = {0};
         for (uint32_t i = 0; i < n; i++) {
@@ -158,9 +153,8 @@ static void permutations_are_permutations(void **state)
 }
 
 /* Over keys, the places of two elements are nearly uniform: what is above the noise is below 2 % for few elements. */
-static void pairs_of_places_are_nearly_uniform(void **state)
+TEST_CASE(pairs_of_places_are_nearly_uniform)
 {
-    (void)state;
     enum { KEYS = 100000, MOST = 9 };
     for (uint32_t n = 3; n <= MOST; n++) {
         static int counts[MOST][MOST][MOST][MOST];
@@ -187,9 +181,8 @@ static void pairs_of_places_are_nearly_uniform(void **state)
     }
 }
 
-static void floats_stay_below_one(void **state)
+TEST_CASE(floats_stay_below_one)
 {
-    (void)state;
     assert_true(koksma_to_float(1 - 0x1p-53) < 1.0f);
     assert_true(koksma_to_float(0.75) == 0.75f);
     assert_true((float)(1 - 0x1p-53) == 1.0f);
@@ -211,9 +204,8 @@ static void assert_in_unit(const double *xs, int count)
 }
 
 /* Whatever the index, the pixel and the grid are. */
-static void all_arguments_serve(void **state)
+TEST_CASE(all_arguments_serve)
 {
-    (void)state;
     for (uint32_t i = 0; i < 20000; i++) {
         const koksma_domain pixel = koksma_domain_of_pixel(i, of_any_size(i, 0, 32), of_any_size(i, 1, 32));
         const koksma_domain domain = koksma_domain_of_use(pixel, of_any_size(i, 2, 32));
@@ -237,9 +229,8 @@ static void all_arguments_serve(void **state)
 }
 
 /* The lower half of the ranks is spread: each pixel of rank below a tenth keeps its distance. */
-static void masks_are_permutations(void **state)
+TEST_CASE(masks_are_permutations)
 {
-    (void)state;
     enum { SIZE = 16 };
     uint32_t ranks[SIZE * SIZE];
     unsigned char seen[SIZE * SIZE] = {0};
@@ -249,20 +240,4 @@ static void masks_are_permutations(void **state)
         seen[ranks[i]] = 1;
     }
     assert_int_equal(koksma_mask_void_and_cluster(3, 3, NULL, ranks), KOKSMA_ARGUMENT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_are_the_librarys),
-        cmocka_unit_test(samples_are_the_librarys),
-        cmocka_unit_test(late_samples_are_the_librarys),
-        cmocka_unit_test(z_ranks_are_a_permutation),
-        cmocka_unit_test(permutations_are_permutations),
-        cmocka_unit_test(all_arguments_serve),
-        cmocka_unit_test(floats_stay_below_one),
-        cmocka_unit_test(masks_are_permutations),
-        cmocka_unit_test(pairs_of_places_are_nearly_uniform),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

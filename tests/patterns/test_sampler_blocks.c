@@ -59,9 +59,8 @@ static void assert_block_is_net(const char *name, sample f, size_t dim, uint32_t
     assert_is_net(name, xs, dim, first, n);
 }
 
-static void aligned_blocks_are_nets(void **state)
+TEST_CASE(aligned_blocks_are_nets)
 {
-    (void)state;
     for (uint32_t n = 1; n <= BLOCK; n *= 2) {
         const uint32_t firsts[] = {0, n, 5 * n, 11 * n, 1u << 31, 0x12345600u & (0u - n), 0u - n};
         for (size_t b = 0; b < sizeof firsts / sizeof *firsts; b++) {
@@ -73,9 +72,8 @@ static void aligned_blocks_are_nets(void **state)
 }
 
 /* The Z-curve gives each quad of 4^k pixels consecutive ranks: the samples of its pixels are a net. */
-static void quads_of_an_image_are_nets(void **state)
+TEST_CASE(quads_of_an_image_are_nets)
 {
-    (void)state;
     enum { LEVELS = 4, SIDE = 1 << LEVELS, SPP = 4 };
     const koksma_domain image = koksma_domain_of_pixel(7, 0, 0);
     for (uint32_t side = 1; side * side * SPP <= BLOCK; side *= 2) {
@@ -93,9 +91,8 @@ static void quads_of_an_image_are_nets(void **state)
 }
 
 /* The forms for fewer dimensions, floats, loops over one domain and lanes have the numbers of koksma_sobol_4d. */
-static void all_forms_are_equal(void **state)
+TEST_CASE(all_forms_are_equal)
 {
-    (void)state;
     enum { LANES = 1000 };
     static koksma_domain domains[LANES];
     static uint32_t indices[LANES];
@@ -150,9 +147,8 @@ static void all_forms_are_equal(void **state)
 }
 
 /* The forms of white noise have the numbers of koksma_white_4d, and koksma_keys_2f those of koksma_keys_2d. */
-static void forms_of_other_draws_are_equal(void **state)
+TEST_CASE(forms_of_other_draws_are_equal)
 {
-    (void)state;
     for (uint32_t i = 0; i < 1000; i++) {
         const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(7, i, 1), i);
         const koksma_keys pixel = koksma_keys_of(7, i, 2 * i, i % 3, 64);
@@ -172,9 +168,8 @@ static void forms_of_other_draws_are_equal(void **state)
 }
 
 /* Parts of samples: those of one sample, and of all samples of an aligned block, are nets. */
-static void parts_of_samples_are_nets(void **state)
+TEST_CASE(parts_of_samples_are_nets)
 {
-    (void)state;
     enum { SAMPLES = 32, PARTS = 8 };
     const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(7, 5, 6), 2);
     static double xs[2 * SAMPLES * PARTS];
@@ -188,14 +183,4 @@ static void parts_of_samples_are_nets(void **state)
         assert_is_net("the domain of a sample", alone, 2, 0, PARTS);
     }
     assert_is_net("all parts", xs, 2, 0, SAMPLES * PARTS);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(aligned_blocks_are_nets),   cmocka_unit_test(quads_of_an_image_are_nets),
-        cmocka_unit_test(all_forms_are_equal),       cmocka_unit_test(forms_of_other_draws_are_equal),
-        cmocka_unit_test(parts_of_samples_are_nets),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -228,9 +228,8 @@ static void assert_independent(const char *what, double n)
 }
 
 /* Three uses of a pixel. The error falls as N^-1/2, and the pairs fill the square. */
-static void uses_are_independent(void **state)
+TEST_CASE(uses_are_independent)
 {
-    (void)state;
     static const uint32_t counts[] = {2, 8, 16, 64, 256, 1024, MOST};
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
         const uint32_t n = counts[c], sets = test_repeats(n < 256 ? 1u << 14 : 1u << 16, 1u << 12) / n;
@@ -392,9 +391,8 @@ static couple keys_of_one_bit(uint32_t i)
     return c;
 }
 
-static void domains_that_are_alike_are_independent(void **state)
+TEST_CASE(domains_that_are_alike_are_independent)
 {
-    (void)state;
     enum { SETS = test_repeats(64, 8), N = 256 };
     static const struct {
         const char *name;
@@ -431,13 +429,4 @@ static void domains_that_are_alike_are_independent(void **state)
         }
         assert_independent(relations[r].name, N);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uses_are_independent),
-        cmocka_unit_test(domains_that_are_alike_are_independent),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -234,9 +234,8 @@ static void compare(size_t f, const relation *r, uint32_t i)
     }
 }
 
-static void draws_are_independent(void **state)
+TEST_CASE(draws_are_independent)
 {
-    (void)state;
     static const relation relations[] = {
         {"uses", {.use = 1}, false},     {"columns", {.x = 1}, true},   {"rows", {.y = 1}, true},
         {"frames", {.frame = 1}, false}, {"seeds", {.seed = 1}, false},
@@ -266,9 +265,8 @@ static bool in_table(const char *name)
 }
 
 /* A public function is a line KOKSMA_INLINE TYPE koksma_NAME(...; those of the library begin with koksma__. */
-static void the_tables_have_all_functions(void **state)
+TEST_CASE(the_tables_have_all_functions)
 {
-    (void)state;
     static const char *const headers[] = {"sampler.h", "keys.h", "mask.h"};
     size_t found = 0;
     for (size_t h = 0; h < 3; h++) {
@@ -295,13 +293,4 @@ static void the_tables_have_all_functions(void **state)
         fclose(file);
     }
     assert_int_equal(found, FUNCTIONS + PARTS);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_are_independent),
-        cmocka_unit_test(the_tables_have_all_functions),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,9 +26,8 @@ static moments moments_of(const char *pattern, size_t n)
     return (moments){mean, m2, sqrt(m2 / SEEDS), sqrt((m4 - m2 * m2) / SEEDS)};
 }
 
-static void hashed_owen_is_as_good_as_exact(void **state)
+TEST_CASE(hashed_owen_is_as_good_as_exact)
 {
-    (void)state;
     static const size_t counts[] = {16, 64, 256};
     static const char *const hashed[] = {"sobol:scramble=hash-owen", "sobol:scramble=hash-owen,shuffle=1"};
     for (size_t c = 0; c < 3; c++) {
@@ -42,21 +41,11 @@ static void hashed_owen_is_as_good_as_exact(void **state)
 }
 
 /* Exact nested scrambling, its definition bit by bit, has the same moments. */
-static void stochastic_generation_is_owens(void **state)
+TEST_CASE(stochastic_generation_is_owens)
 {
-    (void)state;
     const moments grown = moments_of("sobol:scramble=owen", 32), jittered = moments_of("jittered:columns=8", 32);
     assert_true(grown.mean < jittered.mean);
     /* E(S^2) of a scrambled (0,m,2)-net is that of any other: pmj02 */
     const moments other = moments_of("pmj02", 32);
     assert_near(other.mean, grown.mean, 3.5 * hypot(other.mean_error, grown.mean_error));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hashed_owen_is_as_good_as_exact),
-        cmocka_unit_test(stochastic_generation_is_owens),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

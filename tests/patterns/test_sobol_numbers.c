@@ -30,9 +30,8 @@ static int degree_of(unsigned polynomial)
 }
 
 /* Column i is m_i 2^(32 - i) with m_i = 2 a_1 m_(i-1) ^ ... ^ 2^s m_(i-s) ^ m_(i-s), in whole numbers of 64 bits. */
-static void columns_follow_from_primitive_polynomials(void **state)
+TEST_CASE(columns_follow_from_primitive_polynomials)
 {
-    (void)state;
     unsigned polynomial = 1;
     assert_int_equal(koksma__sobol_dim(KOKSMA__GROUPS), DIM);
     for (int k = 1; k < DIM; k++) {
@@ -58,9 +57,8 @@ static void columns_follow_from_primitive_polynomials(void **state)
     }
 }
 
-static void coordinates_are_permutations(void **state)
+TEST_CASE(coordinates_are_permutations)
 {
-    (void)state;
     static unsigned char seen[MOST_N];
     koksma_points points = test_points("sobol:numbers=groups", MOST_N, DIM, 0);
     for (size_t n = 1; n <= MOST_N; n *= 2) {
@@ -136,9 +134,8 @@ static void sum_of_t(const koksma_points *points, int m, int dims, int *sum, int
 }
 
 /* Over the 64 pairs and 32 quadruples of 128 dimensions, for 2^4 .. 2^12 points. */
-static void groups_have_small_t(void **state)
+TEST_CASE(groups_have_small_t)
 {
-    (void)state;
     static const struct {
         int dims, sums[MOST_M - LEAST_M + 1], worst[MOST_M - LEAST_M + 1];
     } cases[] = {{2, {36, 43, 50, 56, 64, 64, 68, 90, 94}, {2, 2, 2, 2, 2, 2, 3, 3, 3}},
@@ -157,14 +154,4 @@ static void groups_have_small_t(void **state)
     }
     koksma_points_fini(&ours);
     koksma_points_fini(&theirs);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_follow_from_primitive_polynomials),
-        cmocka_unit_test(coordinates_are_permutations),
-        cmocka_unit_test(groups_have_small_t),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

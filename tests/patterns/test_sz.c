@@ -90,34 +90,30 @@ static void blocks_are_nets(const char *pattern, size_t base, int most, int dim)
     }
 }
 
-static void pairs_are_sequences_in_base_2(void **state)
+TEST_CASE(pairs_are_sequences_in_base_2)
 {
-    (void)state;
     blocks_are_nets("sz", 2, 9, 64);
     blocks_are_nets("sz:owen=1", 2, 5, 16);
 }
 
-static void quadruples_are_sequences_in_base_4(void **state)
+TEST_CASE(quadruples_are_sequences_in_base_4)
 {
-    (void)state;
     blocks_are_nets("sz", 4, 4, 64);
     blocks_are_nets("sz:owen=1", 4, 3, 16);
     assert_net("sz", 0, 4, 5, 0, 4);
     assert_net("sz", (uint64_t)5 << 32, 4, 4, 4, 8); /* beyond 2^32 */
 }
 
-static void sixteen_are_sequences_in_base_16(void **state)
+TEST_CASE(sixteen_are_sequences_in_base_16)
 {
-    (void)state;
     blocks_are_nets("sz", 16, 2, 64);
     blocks_are_nets("sz:owen=1", 16, 2, 16);
 }
 
 /* 256 points fill 256 strata of each coordinate; 65,536 points the 256 x 256 cells of two coordinates, which is tried for
    those at distances of powers of two. */
-static void all_are_a_sequence_in_base_256(void **state)
+TEST_CASE(all_are_a_sequence_in_base_256)
 {
-    (void)state;
     enum { BASE = 256, N = BASE * BASE, PAIRS = 64 };
     assert_net("sz", 0, BASE, 1, 0, BASE);
     assert_net("sz", 7 * BASE, BASE, 1, 0, BASE);
@@ -134,15 +130,4 @@ static void all_are_a_sequence_in_base_256(void **state)
     }
     free(seen);
     koksma_points_fini(&points);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pairs_are_sequences_in_base_2),
-        cmocka_unit_test(quadruples_are_sequences_in_base_4),
-        cmocka_unit_test(sixteen_are_sequences_in_base_16),
-        cmocka_unit_test(all_are_a_sequence_in_base_256),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

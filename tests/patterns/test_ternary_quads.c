@@ -78,9 +78,8 @@ static void assert_t(int k, int count, int t, int m)
     }
 }
 
-static void pairs_have_t_zero(void **state)
+TEST_CASE(pairs_have_t_zero)
 {
-    (void)state;
     for (int k = 0; k < DIM; k += 2) {
         for (int m = 1; m <= DIGITS; m++) {
             assert_t(k, 2, 0, m);
@@ -88,9 +87,8 @@ static void pairs_have_t_zero(void **state)
     }
 }
 
-static void quadruples_have_t_one(void **state)
+TEST_CASE(quadruples_have_t_one)
 {
-    (void)state;
     for (int k = 0; k < DIM; k += 4) {
         const int most = k == 0 || k + 4 == DIM ? DIGITS : 10;
         for (int m = 1; m <= most; m++) {
@@ -100,9 +98,8 @@ static void quadruples_have_t_one(void **state)
 }
 
 /* The first three coordinates of a group are a (0,3)-sequence, as faure in three dimensions, which the first are. */
-static void triples_have_t_zero(void **state)
+TEST_CASE(triples_have_t_zero)
 {
-    (void)state;
     for (int k = 0; k < DIM; k += 4) {
         for (int m = 1; m <= 12; m++) {
             assert_t(k, 3, 0, m);
@@ -116,9 +113,8 @@ static void triples_have_t_zero(void **state)
 
 /* Pairs of different groups, in 729 points: t on average over all pairs of 48 coordinates is a smaller share of m than
    that of Joe & Kuo's numbers in 256 (docs/findings/pairs-and-quadruples.md: 2.26 of 8). */
-static void other_pairs_are_even(void **state)
+TEST_CASE(other_pairs_are_even)
 {
-    (void)state;
     static const unsigned char none[DIGITS][DIGITS];
     enum { MOST = 48, M = 6 };
     double total = 0, pairs = 0;
@@ -142,9 +138,8 @@ static void other_pairs_are_even(void **state)
 
 /* Beyond 3^20 points, too: of independent random matrices m - t rows in m + 1 splits are dependent with probability
    about (m + 1) 3^-t / 2, so that t is about log_3(m + 1) = 3.2 and 95 % are at most 6. */
-static void other_pairs_are_even_far_out(void **state)
+TEST_CASE(other_pairs_are_even_far_out)
 {
-    (void)state;
     static const unsigned char none[DIGITS][DIGITS];
     enum { MOST = 40 };
     for (int m = 19; m <= DIGITS; m += 7) {
@@ -166,14 +161,4 @@ static void other_pairs_are_even_far_out(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pairs_have_t_zero),
-        cmocka_unit_test(quadruples_have_t_one),
-        cmocka_unit_test(triples_have_t_zero),
-        cmocka_unit_test(other_pairs_are_even),
-        cmocka_unit_test(other_pairs_are_even_far_out),
-    };
-    return cmocka_run_group_tests(tests, read_matrices, NULL);
-}
+TEST_GROUP(read_matrices, NULL)

@@ -39,9 +39,8 @@ static void assert_holds(const koksma__torus_rows *rows, const koksma_points *po
     free(runs);
 }
 
-static void all_within_the_radius(void **state)
+TEST_CASE(all_within_the_radius)
 {
-    (void)state;
     for (size_t c = 0; c < N_COUNTS; c++) {
         koksma_points points = test_points("random", counts[c], 2, c), places = test_points("random", 50, 2, 100 + c);
         koksma__torus_rows rows;
@@ -60,9 +59,8 @@ static void all_within_the_radius(void **state)
     }
 }
 
-static void force_of_all_pairs(void **state)
+TEST_CASE(force_of_all_pairs)
 {
-    (void)state;
     const double radius = 0.3, scale = -11 / (radius * radius);
     koksma_points points = test_points("random", 300, 2, 5);
     koksma__torus_rows rows;
@@ -87,13 +85,4 @@ static void force_of_all_pairs(void **state)
     }
     koksma__torus_rows_fini(&rows);
     koksma_points_fini(&points);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_within_the_radius),
-        cmocka_unit_test(force_of_all_pairs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

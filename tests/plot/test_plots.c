@@ -22,9 +22,8 @@ static koksma_status scatter(const koksma_points *points, const koksma_scatter_o
     return status;
 }
 
-static void sizes_and_grids(void **state)
+TEST_CASE(sizes_and_grids)
 {
-    (void)state;
     const koksma_points p = {2, 2, xs};
     static const double odd[] = {-5, NAN, INFINITY, 1e9, 1e-9, 15};
     assert_ok(scatter(&p, NULL, KOKSMA_PLOT_SVG));
@@ -39,9 +38,8 @@ static void sizes_and_grids(void **state)
     assert_int_equal(scatter(&p, NULL, 77), KOKSMA_ARGUMENT);
 }
 
-static void points_of_the_unit_square(void **state)
+TEST_CASE(points_of_the_unit_square)
 {
-    (void)state;
     double nan[] = {0.5, NAN};
     assert_int_equal(scatter(&(koksma_points){1, 2, nan}, NULL, 0), KOKSMA_ARGUMENT);
     assert_int_equal(scatter(&(koksma_points){0, 2, xs}, NULL, 0), KOKSMA_ARGUMENT);
@@ -63,9 +61,8 @@ static int count(const char *text, const char *what)
 }
 
 /* Needless splits are black boxes and needed ones circles; without splits there is neither. */
-static void splits_are_marked(void **state)
+TEST_CASE(splits_are_marked)
 {
-    (void)state;
     static const char black[] = "fill=\"#000000\"", green[] = "stroke=\"#008033\"";
     const koksma_stratum strata[] = {{0, 0, 0.5, 1, {0.2, 0.2}, 0.3, 0}, {0.5, 0, 0.5, 1, {0.7, 0.2}, 0.9, 0}};
     const koksma_split splits[] = {{0, 0, 0.5, 1, 0, true}, {0.5, 0, 0.5, 1, 0, false}, {0.5, 0, 0.1, 0.1, 1, false}};
@@ -84,9 +81,8 @@ static void splits_are_marked(void **state)
     }
 }
 
-static void charts_without_labels(void **state)
+TEST_CASE(charts_without_labels)
 {
-    (void)state;
     unsigned char *bytes;
     size_t size;
     koksma_chart chart = {0};
@@ -128,11 +124,10 @@ static void last_style(const char *svg, char *out, size_t size)
 }
 
 /* Each of 32 curves has its own colour or its own dashes. */
-static void thirty_two_curves_differ(void **state)
+TEST_CASE(thirty_two_curves_differ)
 {
     enum { CURVES = 32 };
     char styles[CURVES][256];
-    (void)state;
     for (size_t c = 0; c < CURVES; c++) {
         const koksma_curve curve = {.label = "a", .n = 4, .xs = (double[]){1, 2, 3, 4}, .ys = xs, .colour = c};
         char *svg = chart_text(&(koksma_chart){.curves = &curve, .n_curves = 1});
@@ -146,9 +141,8 @@ static void thirty_two_curves_differ(void **state)
 }
 
 /* A point between two that are not finite has a mark; the others are a line. */
-static void isolated_points_are_marked(void **state)
+TEST_CASE(isolated_points_are_marked)
 {
-    (void)state;
     const double ys[] = {1, NAN, 3, NAN, 2, 2};
     const koksma_curve curve = {.n = 6, .xs = (double[]){1, 2, 3, 4, 5, 6}, .ys = ys};
     char *svg = chart_text(&(koksma_chart){.curves = &curve, .n_curves = 1});
@@ -158,9 +152,8 @@ static void isolated_points_are_marked(void **state)
 
 /* Every pattern has a colour of the palette, the same alone and beside any other family; up to COLOURS specs of a picture
    have different colours, and no two look alike as long as there are styles. */
-static void patterns_have_colours(void **state)
+TEST_CASE(patterns_have_colours)
 {
-    (void)state;
     const koksma_pattern *pattern;
     const char *names[64];
     size_t all[64], n = 0;
@@ -197,9 +190,8 @@ static void patterns_have_colours(void **state)
 }
 
 /* A name in the palette that no pattern has would be of no use: the words of palette.def are the table's names. */
-static void the_palette_names_patterns(void **state)
+TEST_CASE(the_palette_names_patterns)
 {
-    (void)state;
     static const char *const lists[] = {
 #define COLOUR(light, dark, patterns) patterns,
 #include "plot/palette.def"
@@ -229,9 +221,8 @@ static bool stop(void *context, double fraction)
 }
 
 /* A figure asks whether to go on in every panel of many points, and leaves no bytes when it is stopped. */
-static void figures_can_be_stopped(void **state)
+TEST_CASE(figures_can_be_stopped)
 {
-    (void)state;
     koksma_points points = test_points("random", 20000, 3, 7);
     const koksma_panel panel = {.points = &points};
     const koksma_cell cells[] = {{.panel = &panel}, {.panel = &panel}};
@@ -252,9 +243,8 @@ static void figures_can_be_stopped(void **state)
 }
 
 /* A figure of everything, in each format, twice in a process: the same bytes. */
-static void bytes_are_the_same_again(void **state)
+TEST_CASE(bytes_are_the_same_again)
 {
-    (void)state;
     koksma_points points = test_points("random", 9, 2, 7), solid = test_points("sobol", 8, 5, 7);
     const koksma_value value = test_measure("star", &points);
     koksma_spectrum spectrum;
@@ -287,16 +277,4 @@ static void bytes_are_the_same_again(void **state)
     koksma_spectrum_fini(&spectrum);
     koksma_points_fini(&points);
     koksma_points_fini(&solid);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_and_grids),          cmocka_unit_test(points_of_the_unit_square),
-        cmocka_unit_test(splits_are_marked),        cmocka_unit_test(charts_without_labels),
-        cmocka_unit_test(thirty_two_curves_differ), cmocka_unit_test(isolated_points_are_marked),
-        cmocka_unit_test(patterns_have_colours),    cmocka_unit_test(the_palette_names_patterns),
-        cmocka_unit_test(bytes_are_the_same_again), cmocka_unit_test(figures_can_be_stopped),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,9 +52,8 @@ static koksma_layers render(const koksma_scene *scene, const char *method, doubl
     return layers;
 }
 
-static void every_method_is_tried(void **state)
+TEST_CASE(every_method_is_tried)
 {
-    (void)state;
     for (size_t i = 0; koksma_adaptive_at(i); i++) {
         const char *name = koksma_adaptive_at(i)->name;
         bool tried = false;
@@ -67,9 +66,8 @@ static void every_method_is_tried(void **state)
     }
 }
 
-static void same_bits_for_any_number_of_threads(void **state)
+TEST_CASE(same_bits_for_any_number_of_threads)
 {
-    (void)state;
     koksma_scene *scene = shipped("all");
     for (size_t m = 0; m < 2 * N_METHODS; m++) {
         const double budget = m % 2 ? 0 : 21.5;
@@ -91,9 +89,8 @@ static void same_bits_for_any_number_of_threads(void **state)
 
 /* A grey sky: each pixel is exactly it, and costs the first samples; two-stage and fresh must draw those that count.
  */
-static void constant_pictures_cost_the_first_samples(void **state)
+TEST_CASE(constant_pictures_cost_the_first_samples)
 {
-    (void)state;
     koksma_scene *scene = scene_of(SKY_ALONE("0.3"));
     for (size_t m = 0; m < 2 * N_METHODS; m++) {
         const char *method = methods[m / 2];
@@ -123,9 +120,8 @@ static double limit_of(const koksma_adaptive_options *a)
     return a->params[2] == 1 ? 4 * (pow(4, a->params[0] + 1) - 1) / 3 : a->params[2] == 2 ? 2 * leaves : leaves;
 }
 
-static void limits_and_budgets_are_kept(void **state)
+TEST_CASE(limits_and_budgets_are_kept)
 {
-    (void)state;
     koksma_scene *scene = shipped("all");
     for (size_t m = 0; m < 2 * N_METHODS; m++) {
         const double budget = m % 2 ? 0 : 16.25;
@@ -150,9 +146,8 @@ static void limits_and_budgets_are_kept(void **state)
 /* One pixel is half black, half white, and its edge runs along strata of all levels: a stratum on either side has a
    constant value, so any subdivision gives exactly 1/2. With the edge inside of strata the finest strata bound the
    error: the edge crosses 4 2^levels of them, each of area 1 / (4 2^levels)^2 and wrong by 1 at most. */
-static void strata_weigh_their_volume(void **state)
+TEST_CASE(strata_weigh_their_volume)
 {
-    (void)state;
     static const char *const forms[] = {
         "hierarchical:threshold=0.5,levels=%d,reuse=kept", "hierarchical:threshold=0.5,levels=%d,reuse=renewed",
         "hierarchical:threshold=0.5,levels=%d,reuse=fresh", "hierarchical:threshold=0.5,levels=%d,pairing=shuffled",
@@ -200,9 +195,8 @@ static double needless(const koksma_scene *scene, const char *method)
     return (double)report.needless / (double)report.splits;
 }
 
-static void shuffled_strata_are_split_needlessly(void **state)
+TEST_CASE(shuffled_strata_are_split_needlessly)
 {
-    (void)state;
     koksma_scene *scene = shipped("ball");
     const double aligned = needless(scene, "hierarchical:levels=1");
     const double shuffled = needless(scene, "hierarchical:levels=1,pairing=shuffled");
@@ -214,9 +208,8 @@ static void shuffled_strata_are_split_needlessly(void **state)
 }
 
 /* Copies of samples that only fill lanes are no rays. */
-static void rays_are_counted_once(void **state)
+TEST_CASE(rays_are_counted_once)
 {
-    (void)state;
     koksma_scene *scene =
         scene_of("{'camera': {'eye': [0, 1, 4], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', "
                  "'kind': 'lambert', 'albedo': 0.9}], 'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': "
@@ -233,9 +226,8 @@ static void rays_are_counted_once(void **state)
 }
 
 /* The strata of a pixel are a partition of the square, with each sample in its own; their values are the pixel. */
-static void shown_strata_are_a_partition(void **state)
+TEST_CASE(shown_strata_are_a_partition)
 {
-    (void)state;
     static const char *const forms[] = {"hierarchical:levels=3,threshold=0",
                                         "hierarchical:levels=3,threshold=0,pairing=shuffled,reuse=fresh",
                                         "selective:levels=2,below=2,threshold=0"};
@@ -299,9 +291,8 @@ static bool stop_later(void *context, double fraction)
 
 /* Wherever a render is stopped, also between the samples that decide and those that count: a pixel that had samples
    shows them, the others are black. */
-static void a_pixel_that_had_samples_is_never_black(void **state)
+TEST_CASE(a_pixel_that_had_samples_is_never_black)
 {
-    (void)state;
     koksma_scene *scene = scene_of(SKY_ALONE("0.3"));
     for (size_t m = 0; m < N_METHODS; m++) {
         int stopped = 0;
@@ -332,9 +323,8 @@ static bool stop_within_a_task(void *context, double fraction)
 }
 
 /* One task of 128 pixels, which a thread asks before and several times within: the picture is left unfinished. */
-static void an_interruption_ends_a_task(void **state)
+TEST_CASE(an_interruption_ends_a_task)
 {
-    (void)state;
     koksma_layers layers;
     int looks = 0;
     const koksma_run run = {.threads = 1, .keep_going = stop_within_a_task, .context = &looks};
@@ -351,9 +341,8 @@ static void an_interruption_ends_a_task(void **state)
     koksma_scene_close(scene);
 }
 
-static void errors_are_said(void **state)
+TEST_CASE(errors_are_said)
 {
-    (void)state;
     koksma_adaptive_options adaptive;
     koksma_layers layers;
     const koksma_run run = {.keep_going = stop_at_once};
@@ -380,22 +369,4 @@ static void errors_are_said(void **state)
     adaptive.probes = 4;
     assert_int_equal(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_method_is_tried),
-        cmocka_unit_test(same_bits_for_any_number_of_threads),
-        cmocka_unit_test(constant_pictures_cost_the_first_samples),
-        cmocka_unit_test(limits_and_budgets_are_kept),
-        cmocka_unit_test(strata_weigh_their_volume),
-        cmocka_unit_test(shuffled_strata_are_split_needlessly),
-        cmocka_unit_test(shown_strata_are_a_partition),
-        cmocka_unit_test(rays_are_counted_once),
-        cmocka_unit_test(a_pixel_that_had_samples_is_never_black),
-        cmocka_unit_test(an_interruption_ends_a_task),
-        cmocka_unit_test(errors_are_said),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

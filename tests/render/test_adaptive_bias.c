@@ -34,9 +34,8 @@ static double deviation(const moments *reference, const moments *few, bool biase
 
 /* The deviation's own spread is about sqrt(2 / pixels with noise), 0.13. Of 12 seeds its mean is 11/9, as that of the
    square of Student's t, and its spread 0.22; only the optimised run has enough of them to see a bias. */
-static void bias_is_where_it_must_be(void **state)
+TEST_CASE(bias_is_where_it_must_be)
 {
-    (void)state;
     static const struct {
         const char *method;
         double budget;
@@ -105,9 +104,8 @@ static double mean_over_pixels(const moments *m, double *square_error)
     return sum;
 }
 
-static void what_decided_is_not_met_again(void **state)
+TEST_CASE(what_decided_is_not_met_again)
 {
-    (void)state;
     static const char *const methods[] = {"hierarchical:pairing=shuffled,reuse=fresh",
                                           "hierarchical:phase=folded,reuse=fresh",
                                           "hierarchical:phase=shifted,reuse=fresh", "selective:reuse=fresh"};
@@ -124,11 +122,4 @@ static void what_decided_is_not_met_again(void **state)
         }
     }
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bias_is_where_it_must_be),
-                                       cmocka_unit_test(what_decided_is_not_met_again)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static const char *const splitting[] = {"hierarchical:levels=1", "hierarchical:l
                                         "hierarchical:levels=2,pairing=shuffled,reuse=fresh", "selective:levels=1"};
 
 /* The rectangle's left side is at 3.25 / 8 of the one pixel, in focus for every place on the lens. */
-static void needless_splits_miss_an_edge_in_the_pixel(void **state)
+TEST_CASE(needless_splits_miss_an_edge_in_the_pixel)
 {
-    (void)state;
     koksma_scene *scene = scene_of(
         "{'camera': {'eye': [0, 0, 4], 'target': [0, 0, 0], 'fov_deg': 90, 'lens_radius': 0.1, 'focus_distance': "
         "4},'ambient': 0.8, 'background': 0, 'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 1}],'shapes': "
@@ -61,9 +60,8 @@ static void needless_splits_miss_an_edge_in_the_pixel(void **state)
 
 /* The blocker hides the light's left up to 3.25 / 8 of its width from a ground of almost one point; the first
    coordinate on a light that looks down runs to the left. */
-static void needless_splits_miss_an_edge_in_the_light(void **state)
+TEST_CASE(needless_splits_miss_an_edge_in_the_light)
 {
-    (void)state;
     koksma_scene *scene =
         scene_of("{'camera': {'eye': [0, 1, 4], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', "
                  "'kind': 'lambert', 'albedo': 0.9}], 'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': "
@@ -74,13 +72,4 @@ static void needless_splits_miss_an_edge_in_the_light(void **state)
         check_marks(scene, splitting[i], "light", 0, 1 - 3.25 / 8);
     }
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(needless_splits_miss_an_edge_in_the_pixel),
-        cmocka_unit_test(needless_splits_miss_an_edge_in_the_light),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static void assert_sum(const koksma_layers *layers, const koksma_aovs *aovs, int
 
 /* Both divisions of the light add up, by every integrator and filter, with and without the clamp, and the picture is
    that of a render without them but for rounding. */
-static void parts_add_up(void **state)
+TEST_CASE(parts_add_up)
 {
-    (void)state;
     static const char *const texts[] = {EVERYTHING(""), EVERYTHING("'clamp': 0.5, ")};
     static const char names[] = "direct,indirect,bounce:0,bounce:1,bounce:2,bounce:3,bounce:4,bounce:5,bounce:6";
     for (size_t t = 0; t < 2; t++) {
@@ -79,9 +78,8 @@ static void parts_add_up(void **state)
 
 /* In a diffuse sphere of radius 1 and albedo a with a point light of intensity I in its centre every place gets the
    irradiance I, and light that was reflected r times has the radiance a^r I / pi everywhere. */
-static void bounces_follow_the_integrating_sphere(void **state)
+TEST_CASE(bounces_follow_the_integrating_sphere)
 {
-    (void)state;
     koksma_scene *scene = scene_of(
         "{'camera': {'eye': [0.3, 0.1, 0.2], 'target': [0, 0, -1], 'fov_deg': 90}, 'materials': [{'name': 'm', "
         "'kind': 'lambert', 'albedo': 0.6}], 'shapes': [{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1, "
@@ -106,9 +104,8 @@ static void bounces_follow_the_integrating_sphere(void **state)
 
 /* Objects are those of koksma_scene_part_at: each pixel's is one whose part of the image covers it, and 0 is the sky.
    Half of a pixel's samples and the other half make the picture. */
-static void objects_and_halves(void **state)
+TEST_CASE(objects_and_halves)
 {
-    (void)state;
     koksma_scene *scene = scene_of(EVERYTHING(""));
     bool seen[16] = {false};
     for (int spp = 1; spp <= 5; spp += 2) {
@@ -179,9 +176,8 @@ static void assert_halves(const koksma_layers *layers, const koksma_image *even,
 
 /* With every method and both kinds of filters the parts add up to the picture, though samples weigh differently and pilots
    do not count, and halves of samples make it. Two sets of 9 samples: even ones are odd ones of the next set. */
-static void adaptive_parts_add_up(void **state)
+TEST_CASE(adaptive_parts_add_up)
 {
-    (void)state;
     static const char names[] = "direct,half,indirect,id,bounce:0,bounce:1,bounce:2,bounce:3,bounce:4,bounce:5";
     koksma_scene *scene = scene_of(EVERYTHING(""));
     for (size_t i = 0; koksma_adaptive_at(i); i++) {
@@ -215,9 +211,8 @@ static void adaptive_parts_add_up(void **state)
 /* A wall of radiance 1 before a wall of radiance 0: in a pixel that the edge divides, strata are split, and the half of the
    strata, which is divided by its own volume, is as bright as the whole but for the noise of strata; where all is equal, it
    is equal. Two quarters of the film see the wall, so that its id is there. */
-static void adaptive_halves_are_halves(void **state)
+TEST_CASE(adaptive_halves_are_halves)
 {
-    (void)state;
     koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 40}, 'materials': "
                                    "[], 'shapes': [], 'lights': [{'kind': 'rectangle', 'centre': [-4.93, 0, 0], "
                                    "'normal': [0, 0, 1], 'half': [5, 50], 'radiance': 1, 'visible': true}]}");
@@ -246,9 +241,8 @@ static void adaptive_halves_are_halves(void **state)
     koksma_scene_close(scene);
 }
 
-static void wrong_lists_are_refused(void **state)
+TEST_CASE(wrong_lists_are_refused)
 {
-    (void)state;
     static const char *const wrong[] = {"",          "glow",      "direct,",       "bounce:66",        "bounce:-1",
                                         "bounce:01", "id,id",     "half,half:odd", "bounce:",          "bounce:+1",
                                         "bounce: 1", "bounce:1x", "bounce",        "bounce:4294967297"};
@@ -265,17 +259,4 @@ static void wrong_lists_are_refused(void **state)
     assert_non_null(strstr(koksma_error_text(), "not splatted"));
     koksma_aovs_fini(&aovs);
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_add_up),
-        cmocka_unit_test(bounces_follow_the_integrating_sphere),
-        cmocka_unit_test(objects_and_halves),
-        cmocka_unit_test(adaptive_parts_add_up),
-        cmocka_unit_test(adaptive_halves_are_halves),
-        cmocka_unit_test(wrong_lists_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

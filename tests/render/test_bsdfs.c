@@ -204,9 +204,8 @@ static void check_density(const koksma__surface *s, unsigned lobes, uint64_t str
     free(t.cells);
 }
 
-static void densities_are_those_of_the_samples(void **state)
+TEST_CASE(densities_are_those_of_the_samples)
 {
-    (void)state;
     for (size_t b = 0; koksma__bsdfs[b]; b++) {
         const koksma__bsdf *bsdf = koksma__bsdfs[b];
         for (uint64_t trial = 0; trial < TRIALS; trial++) {
@@ -300,9 +299,8 @@ static void check_specular(const koksma__surface *s, const koksma__scatter *out,
     }
 }
 
-static void no_energy_is_gained_at_any_angle(void **state)
+TEST_CASE(no_energy_is_gained_at_any_angle)
 {
-    (void)state;
     for (size_t b = 0; koksma__bsdfs[b]; b++) {
         const koksma__bsdf *bsdf = koksma__bsdfs[b];
         for (uint64_t trial = 0; trial < ANGLES; trial++) {
@@ -333,13 +331,4 @@ static void no_energy_is_gained_at_any_angle(void **state)
             koksma_scene_close(scene);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(densities_are_those_of_the_samples),
-        cmocka_unit_test(no_energy_is_gained_at_any_angle),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

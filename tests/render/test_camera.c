@@ -9,9 +9,8 @@ enum { LENS_SAMPLES = test_repeats(4096, 1024) };
 
 /* A light that is small and out of focus shows the lens, a disk or a polygon whose corner 0 is at the angle from the right,
    of radius lens (d - f) / d on the plane of focus: evenly lit, its light over the lens's area. */
-static void lenses_blur_to_their_shapes(void **state)
+TEST_CASE(lenses_blur_to_their_shapes)
 {
-    (void)state;
     static const struct {
         const char *lens;
         int blades, angle_deg;
@@ -67,9 +66,8 @@ static void lenses_blur_to_their_shapes(void **state)
 
 /* The map from the square to a lens with blades has a constant Jacobian, the polygon's area, by both maps to the disk;
    points lie inside all edges and reach the corners. With four blades and the concentric map it is a similarity. */
-static void blades_keep_ratios_of_areas(void **state)
+TEST_CASE(blades_keep_ratios_of_areas)
 {
-    (void)state;
     for (int blades = 3; blades <= 9; blades++) {
         for (int polar = 0; polar < 2; polar++) {
             const double angle = 0.3 * blades, area = blades / 2.0 * sin(2 * M_PI / blades), h = 1.0 / 512;
@@ -118,9 +116,8 @@ static void blades_keep_ratios_of_areas(void **state)
 
 /* Parallel rays: a black ball of radius 1/2 before a white sky covers pi / 4 of the 4 x 4 that the image shows, wherever it
    is, by every integrator (to ambient occlusion it is white and sees the whole sky). */
-static void orthographic_images_have_their_scale(void **state)
+TEST_CASE(orthographic_images_have_their_scale)
 {
-    (void)state;
     for (int far = 1; far <= 100; far *= 10) {
         for (size_t i = 0; koksma_integrator_at(i); i++) {
             char text[512];
@@ -140,9 +137,8 @@ static void orthographic_images_have_their_scale(void **state)
 }
 
 /* A ball of radius 1/2 that moves by 4 covers a place in its path for 1/4 of the time, on the axis. */
-static void shutter_sees_the_time(void **state)
+TEST_CASE(shutter_sees_the_time)
 {
-    (void)state;
     koksma_scene *scene =
         scene_of("{'camera': {'eye': [0, 0, 50], 'target': [0, 0, 0], 'fov_deg': 0.01, 'shutter': [0, 1]},'ambient': "
                  "1, 'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 1}], 'shapes': [{'kind': 'sphere', "
@@ -166,9 +162,8 @@ static void shutter_sees_the_time(void **state)
 
 /* ---- Patterns, pairings, scopes, filters -------------------------------------------------------------------- */
 
-static void every_way_of_sampling_has_the_same_mean(void **state)
+TEST_CASE(every_way_of_sampling_has_the_same_mean)
 {
-    (void)state;
     koksma_scene *scene = shipped("all");
     scene->clamp = INFINITY;
     const double base_error = 0.0015; /* of 147,456 random samples of standard deviation about 0.3, twice */
@@ -192,9 +187,8 @@ static void every_way_of_sampling_has_the_same_mean(void **state)
 /* A constant picture stays constant, by every filter, drawn or splatted, in each pixel and by either pipeline (path:
    wavefront.c), also by patterns that have a point at 0; test_adaptive has it of
    adaptive methods. */
-static void filters_keep_a_constant(void **state)
+TEST_CASE(filters_keep_a_constant)
 {
-    (void)state;
     static const char *const patterns[] = {"random", "n-rooks", "sobol", "hammersley", "regular"};
     static const int spps[] = {1, 2, 4, 16, 64};
     koksma_scene *scene = scene_of(SKY_ALONE("0.75"));
@@ -223,9 +217,8 @@ static void filters_keep_a_constant(void **state)
 }
 
 /* A million samples in a pixel, of a value that floats can't sum: 2^20 x 0.7 would be 1 % too much. */
-static void many_splats_are_summed(void **state)
+TEST_CASE(many_splats_are_summed)
 {
-    (void)state;
     koksma_scene *scene = scene_of(SKY_ALONE("0.7"));
     koksma_render_options options = options_of(scene, "regular", "distribution", 1 << 20, 1);
     options.splat = true;
@@ -234,9 +227,8 @@ static void many_splats_are_summed(void **state)
 }
 
 /* Filters are even, and 0 beyond their radius. */
-static void filters_are_what_they_say(void **state)
+TEST_CASE(filters_are_what_they_say)
 {
-    (void)state;
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
         for (double x = 0; x < f->radius; x += 0.01) {
@@ -247,9 +239,8 @@ static void filters_are_what_they_say(void **state)
 }
 
 /* A half-plane's edge across a pixel: the filtered value is the integral of the filter up to the edge. */
-static void filters_weigh_an_edge(void **state)
+TEST_CASE(filters_weigh_an_edge)
 {
-    (void)state;
     koksma_scene *scene =
         scene_of("{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 90}, 'ambient': 1,'materials': "
                  "[{'name': 'm', 'kind': 'lambert', 'albedo': 1}], 'shapes': [{'kind': 'rectangle', 'centre': "
@@ -278,9 +269,8 @@ static void filters_weigh_an_edge(void **state)
 
 /* ---- Layers --------------------------------------------------------------------------------------------- */
 
-static void layers_show_what_is_seen(void **state)
+TEST_CASE(layers_show_what_is_seen)
 {
-    (void)state;
     koksma_scene *scene =
         scene_of("{'camera': {'eye': [0, 0, 3], 'target': [0, 0, 0], 'fov_deg': 0.01}, 'ambient': 0.5,'materials': "
                  "[{'name': 'm', 'kind': 'lambert', 'albedo': [0.2, 0.4, 0.8]}], 'shapes': [{'kind': 'sphere', "
@@ -301,21 +291,4 @@ static void layers_show_what_is_seen(void **state)
     assert_int_equal(layers.rays, 9);
     koksma_layers_fini(&layers);
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lenses_blur_to_their_shapes),
-        cmocka_unit_test(blades_keep_ratios_of_areas),
-        cmocka_unit_test(orthographic_images_have_their_scale),
-        cmocka_unit_test(shutter_sees_the_time),
-        cmocka_unit_test(every_way_of_sampling_has_the_same_mean),
-        cmocka_unit_test(filters_keep_a_constant),
-        cmocka_unit_test(many_splats_are_summed),
-        cmocka_unit_test(filters_are_what_they_say),
-        cmocka_unit_test(filters_weigh_an_edge),
-        cmocka_unit_test(layers_show_what_is_seen),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,9 +64,8 @@ static int pixel_along(const koksma__shading_light *e, float x, float y, float z
 }
 
 /* Row 0 is up; the middle of a row is along -z, and what is right of it, seen from inside, is along +x. */
-static void pixels_are_where_they_should_be(void **state)
+TEST_CASE(pixels_are_where_they_should_be)
 {
-    (void)state;
     koksma_image image = numbered();
     koksma__shading_light e = opened(&image, 1, 0);
     assert_int_equal(pixel_along(&e, 0.001f, 1, -0.01f) / WIDTH, 0);
@@ -88,9 +87,8 @@ static void pixels_are_where_they_should_be(void **state)
 }
 
 /* Ways that are chosen have the density that is told, and give the integral of the radiance. */
-static void choosing_is_unbiased(void **state)
+TEST_CASE(choosing_is_unbiased)
 {
-    (void)state;
     enum { SIDE = 512 };
     koksma_image image = numbered();
     koksma__shading_light e = opened(&image, 0.5, 1);
@@ -119,9 +117,8 @@ static void choosing_is_unbiased(void **state)
 }
 
 /* The density integrates to 1 over all ways, also where no light comes from. */
-static void density_is_a_density(void **state)
+TEST_CASE(density_is_a_density)
 {
-    (void)state;
     enum { ROWS = 400, COLUMNS = 800 };
     koksma_image image = numbered();
     memset(image.pixels, 0, 3 * WIDTH * sizeof *image.pixels);
@@ -141,9 +138,8 @@ static void density_is_a_density(void **state)
 }
 
 /* Negative radiance is dark, and an image without any light is black and not NaN; what has no value is refused. */
-static void odd_pixels_are_dark_or_refused(void **state)
+TEST_CASE(odd_pixels_are_dark_or_refused)
 {
-    (void)state;
     static const float odd[] = {-1, -INFINITY, 0, -0.0f, -FLT_MAX, 0};
     static const float bad[] = {NAN, INFINITY, FLT_MAX};
     koksma_image image;
@@ -176,9 +172,8 @@ static void odd_pixels_are_dark_or_refused(void **state)
 
 /* Only the row at the zenith shines, however narrow it is: ways are chosen with their density, and met there. Its
    light on a surface that faces it is the integral of the cosine, pi sin^2 of the row's angle. */
-static void a_row_at_the_pole_is_whole(void **state)
+TEST_CASE(a_row_at_the_pole_is_whole)
 {
-    (void)state;
     enum { SIDE = 256 };
     for (int height = 256; height <= 4096; height *= 4) {
         for (int pole = 0; pole < 2; pole++) {
@@ -204,9 +199,8 @@ static void a_row_at_the_pole_is_whole(void **state)
 }
 
 /* A floor of albedo 0.9 under a sky of two halves: 0.9 times the mean of the radiances, by symmetry. */
-static void floor_is_lit_by_an_image(void **state)
+TEST_CASE(floor_is_lit_by_an_image)
 {
-    (void)state;
     koksma_image image;
     assert_ok(koksma_image_init(&image, 32, 16, 1));
     for (size_t i = 0; i < 32 * 16; i++) {
@@ -228,17 +222,4 @@ static void floor_is_lit_by_an_image(void **state)
         assert_true(error < 2e-3);
     }
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pixels_are_where_they_should_be),
-        cmocka_unit_test(choosing_is_unbiased),
-        cmocka_unit_test(density_is_a_density),
-        cmocka_unit_test(odd_pixels_are_dark_or_refused),
-        cmocka_unit_test(a_row_at_the_pole_is_whole),
-        cmocka_unit_test(floor_is_lit_by_an_image),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

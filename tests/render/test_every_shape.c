@@ -247,9 +247,8 @@ static void check_closest(const koksma__shape *shape, uint64_t stream, const kok
     }
 }
 
-static void hits_are_those_of_the_equation(void **state)
+TEST_CASE(hits_are_those_of_the_equation)
 {
-    (void)state;
     for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
         tally sum = {0};
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
@@ -277,9 +276,8 @@ static void hits_are_those_of_the_equation(void **state)
 }
 
 /* Rays that start where others hit, in any direction. */
-static void starts_are_not_met_again(void **state)
+TEST_CASE(starts_are_not_met_again)
 {
-    (void)state;
     for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
         tally sum = {0};
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
@@ -314,9 +312,8 @@ static void starts_are_not_met_again(void **state)
 }
 
 /* Between a position in space and one beyond the shape; half of them from and to the shape's surface are left out. */
-static void shadows_are_those_of_the_equation(void **state)
+TEST_CASE(shadows_are_those_of_the_equation)
 {
-    (void)state;
     for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
         int dark = 0, rays_in_all = 0, unclear = 0;
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
@@ -407,9 +404,8 @@ static void check_moved_lanes(const koksma_scene *scene, const koksma__rays *ray
 }
 
 /* Every instruction set, and a lane moved to another lane of the block. */
-static void lanes_are_alike(void **state)
+TEST_CASE(lanes_are_alike)
 {
-    (void)state;
     for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
             koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial, "");
@@ -445,9 +441,8 @@ static void lanes_are_alike(void **state)
 
 /* The geometry that Embree makes, with a mesh out of the way; and what a geometry leaves out of shadows (shapes that
    lie beside all others) is dark nowhere between shapes and lights. */
-static void geometries_agree(void **state)
+TEST_CASE(geometries_agree)
 {
-    (void)state;
     static const char *const file = "koksma-test-shape.off";
     FILE *mesh = fopen(file, "w");
     assert_non_null(mesh);
@@ -497,9 +492,8 @@ static void geometries_agree(void **state)
 }
 
 /* Fields: every kind, compounds too, is read from what it declares and refuses one that it doesn't. */
-static void kinds_refuse_unknown_fields(void **state)
+TEST_CASE(kinds_refuse_unknown_fields)
 {
-    (void)state;
     for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
         const koksma__shape_type *type = koksma__shape_types[kind];
         char fields[1024], text[4096];
@@ -520,17 +514,4 @@ static void kinds_refuse_unknown_fields(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_are_those_of_the_equation),
-        cmocka_unit_test(starts_are_not_met_again),
-        cmocka_unit_test(shadows_are_those_of_the_equation),
-        cmocka_unit_test(lanes_are_alike),
-        cmocka_unit_test(geometries_agree),
-        cmocka_unit_test(kinds_refuse_unknown_fields),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,9 +30,8 @@ static int steps_of(const koksma_image *samples, const int *columns, int x, int 
 
 /* One column of the picture has samples, at least one a row: the others are the means of their neighbours that are a
    step nearer to it; and it does not take for ever. */
-static void wide_gaps_are_filled_from_their_sides(void **state)
+TEST_CASE(wide_gaps_are_filled_from_their_sides)
 {
-    (void)state;
     enum { WIDTH = 240, HEIGHT = 180 };
     koksma_scene *scene = fading();
     koksma_render_options options = options_of(scene, "regular:columns=1", "distribution", 1, WIDTH);
@@ -107,9 +106,8 @@ static void render_half(const koksma_scene *scene, koksma_render_options *option
 
 /* Pixels that are done have their colour, the sky's, those that are not are black and have no samples; however the
    samples come to the pixels. */
-static void what_is_not_rendered_stays_black(void **state)
+TEST_CASE(what_is_not_rendered_stays_black)
 {
-    (void)state;
     koksma_scene *scene = scene_of(SKY_ALONE("0.75"));
     static const struct {
         bool image, splat;
@@ -138,9 +136,8 @@ static void what_is_not_rendered_stays_black(void **state)
 /* A ball that is before everything half of the time makes every sample 0 or 1, wherever it lies; then pixels have the
    variance that their layer says, by every filter, splatted or not, down to a sample a pixel; borders apart, where
    splatted pixels have fewer. */
-static void variance_is_told(void **state)
+TEST_CASE(variance_is_told)
 {
-    (void)state;
     enum { SIDE = 64, EDGE = 3, SEEDS = 8 };
     static const struct {
         const char *filter;
@@ -175,14 +172,4 @@ static void variance_is_told(void **state)
         }
     }
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wide_gaps_are_filled_from_their_sides),
-        cmocka_unit_test(what_is_not_rendered_stays_black),
-        cmocka_unit_test(variance_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

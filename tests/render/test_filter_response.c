@@ -31,9 +31,8 @@ static double cubic(double w)
     return w == 0 ? 1 : 3 / (q * q) * (s * s - sinc(2 * w));
 }
 
-static void responses_are_the_transforms(void **state)
+TEST_CASE(responses_are_the_transforms)
 {
-    (void)state;
     for (int i = 0; i < 40; i++) {
         const double w = 0.171 * i, s = sinc(w);
         assert_near(koksma_filter_response(koksma_filter_find("box"), w), s, 1e-9);
@@ -45,9 +44,8 @@ static void responses_are_the_transforms(void **state)
 }
 
 /* Shifted copies add up to 1 exactly when the transform is 0 at all whole frequencies but 0 (Poisson's formula). */
-static void partitions_of_unity_vanish_at_whole_frequencies(void **state)
+TEST_CASE(partitions_of_unity_vanish_at_whole_frequencies)
 {
-    (void)state;
     for (size_t i = 0; koksma_filter_at(i); i++) {
         const koksma_filter *filter = koksma_filter_at(i);
         const bool unity = strcmp(filter->name, "gaussian") != 0 && strcmp(filter->name, "blackman-harris") != 0;
@@ -65,9 +63,8 @@ static void partitions_of_unity_vanish_at_whole_frequencies(void **state)
 
 /* Of the box: 1 - (2 / pi) (Si(pi) - 2 / pi). The others by a sum over frequencies beyond 1/2, up to where all have
    died away but the box. */
-static void leakage_is_the_squared_response_beyond_nyquist(void **state)
+TEST_CASE(leakage_is_the_squared_response_beyond_nyquist)
 {
-    (void)state;
     const double si_pi = 1.851937051982466;
     assert_near(koksma_filter_leakage(koksma_filter_find("box")), 1 - 2 / M_PI * (si_pi - 2 / M_PI), 1e-7);
     for (size_t i = 1; koksma_filter_at(i); i++) {
@@ -79,14 +76,4 @@ static void leakage_is_the_squared_response_beyond_nyquist(void **state)
         }
         assert_near(koksma_filter_leakage(filter), outside / (inside + outside), 1e-4);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(responses_are_the_transforms),
-        cmocka_unit_test(partitions_of_unity_vanish_at_whole_frequencies),
-        cmocka_unit_test(leakage_is_the_squared_response_beyond_nyquist),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static void film_of_ramp(const koksma_scene *scene, const koksma_render_options 
 
 /* Filters are even, and so a ramp keeps its value at the pixel's middle: where the samples are even about it, too,
    with 4 of them already; in the mean over seeds with any samples. */
-static void filters_keep_a_ramp(void **state)
+TEST_CASE(filters_keep_a_ramp)
 {
-    (void)state;
     enum { SEEDS = 8 };
     static const char *const patterns[] = {"regular", "random", "n-rooks", "sobol:scramble=owen"};
     static const int spps[] = {4, 16, 64};
@@ -92,9 +91,8 @@ static void filters_keep_a_ramp(void **state)
 
 /* Few independent samples drawn from a filter leave no bias: the mean of many pictures of an edge is the filter's
    integral up to it, also in the lobes, where most pictures have no sample. */
-static void few_draws_have_no_bias(void **state)
+TEST_CASE(few_draws_have_no_bias)
 {
-    (void)state;
     enum { SEEDS = test_repeats(100, 20), HEIGHT = 9 };
     koksma_scene *scene =
         scene_of("{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 90}, 'ambient': 1,'materials': "
@@ -145,9 +143,8 @@ static double rms(const koksma_image *a, const koksma_image *b)
 /* Drawn samples are a pixel's own, splatted ones those of all pixels around: they leave less error, and the more the
    wider the filter. Of a real picture it is up to three times less by filters without negative lobes (2.9 b-spline),
    and no more by those with them (2.8 mitchell, where it was 8 when weights were not balanced). */
-static void drawing_is_near_splatting(void **state)
+TEST_CASE(drawing_is_near_splatting)
 {
-    (void)state;
     koksma_scene *scene = shipped("ball");
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
@@ -178,9 +175,8 @@ static void drawing_is_near_splatting(void **state)
 
 /* A method that asks for nothing more has the picture and the variance of as many samples without it: weights are
    balanced over all samples that a pixel has. */
-static void rounds_weigh_as_one_picture(void **state)
+TEST_CASE(rounds_weigh_as_one_picture)
 {
-    (void)state;
     koksma_scene *scene = shipped("balls");
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
@@ -202,15 +198,4 @@ static void rounds_weigh_as_one_picture(void **state)
         koksma_layers_fini(&rounds);
     }
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(filters_keep_a_ramp),
-        cmocka_unit_test(few_draws_have_no_bias),
-        cmocka_unit_test(drawing_is_near_splatting),
-        cmocka_unit_test(rounds_weigh_as_one_picture),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -159,9 +159,8 @@ static void try_worlds(double offset, double height, tally *sum)
     }
 }
 
-static void hidden_shapes_are_not_met(void **state)
+TEST_CASE(hidden_shapes_are_not_met)
 {
-    (void)state;
     tally near = {0}, far = {0};
     try_worlds(0, 0, &near);
     try_worlds(1000, 0, &far);
@@ -171,9 +170,8 @@ static void hidden_shapes_are_not_met(void **state)
 }
 
 /* Grazing: where rounding moves places by more than a shape's size. */
-static void grazing_shapes_are_not_forgotten(void **state)
+TEST_CASE(grazing_shapes_are_not_forgotten)
 {
-    (void)state;
     tally sum = {0};
     for (double height = 1e-1; height > 1e-8; height /= 10) {
         try_worlds(0, height, &sum);
@@ -227,9 +225,8 @@ static void check_shadows(const koksma__frustum_cull *sight, const koksma__batch
     }
 }
 
-static void clear_shapes_cast_no_shadow(void **state)
+TEST_CASE(clear_shapes_cast_no_shadow)
 {
-    (void)state;
     static const double offsets[] = {0, 0, 30, 1000};
     for (int o = 0; o < 4; o++) {
         tally sum = {0};
@@ -249,14 +246,4 @@ static void clear_shapes_cast_no_shadow(void **state)
         assert_true(sum.missed > 3 * ROUNDS);
         assert_true(offsets[o] > 100 || sum.hidden > sum.missed / 2); /* most are known to be clear */
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clear_shapes_cast_no_shadow),
-        cmocka_unit_test(hidden_shapes_are_not_met),
-        cmocka_unit_test(grazing_shapes_are_not_forgotten),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,12 +21,11 @@ static double picture(const char *text, const koksma_integrator *in, int depth, 
 }
 
 /* A ball of albedo 1/2, with ambient light 1/4 of the sky's. */
-static void convex_bodies_reflect_the_sky(void **state)
+TEST_CASE(convex_bodies_reflect_the_sky)
 {
     static const char *const text =
         "{" CAMERA ", 'ambient': 0.25, 'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 0.5}],'shapes': "
         "[{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1, 'material': 'm'}]," SKY "}";
-    (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         double error;
@@ -40,7 +39,7 @@ static void convex_bodies_reflect_the_sky(void **state)
 }
 
 /* A white corner of three walls: every path ends in the sky. Without light between surfaces it is darker. */
-static void closed_furnaces_are_white(void **state)
+TEST_CASE(closed_furnaces_are_white)
 {
     static const char *const text =
         "{'camera': {'eye': [3, 3, 3], 'target': [0.3, 0.3, 0.3], 'fov_deg': 10}, " WHITE
@@ -48,7 +47,6 @@ static void closed_furnaces_are_white(void **state)
         "'m'},{'kind': 'rectangle', 'centre': [1, 1, 0], 'normal': [0, 0, 1], 'half': [1, 1], 'material': "
         "'m'},{'kind': 'rectangle', 'centre': [0, 1, 1], 'normal': [1, 0, 0], 'half': [1, 1], 'material': 'm'}]," SKY
         "}";
-    (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         double error;
@@ -62,13 +60,12 @@ static void closed_furnaces_are_white(void **state)
 
 /* Inside a ball of radius 1 and albedo 0.8, with a point light of intensity 1 in its centre. Every wall gets 1
    directly, and all walls the same from each other, so the radiance is 0.8 / pi (1 + 0.8 + 0.8^2 + ...) = 4 / pi. */
-static void closed_balls_add_up_all_bounces(void **state)
+TEST_CASE(closed_balls_add_up_all_bounces)
 {
     static const char *const text =
         "{'camera': {'eye': [0.3, 0.2, 0.4], 'target': [0, 1, -0.2], 'fov_deg': 20}, 'materials': [{'name': 'm', "
         "'kind': 'lambert', 'albedo': 0.8}], 'shapes': [{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1, "
         "'material': 'm'}], 'lights': [{'kind': 'point', 'centre': [0, 0, 0], 'intensity': 1}]}";
-    (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         double error;
@@ -84,10 +81,9 @@ static void closed_balls_add_up_all_bounces(void **state)
 }
 
 /* Mirrors and glass show the sky to integrators that follow them; others see black. */
-static void specular_bodies_show_the_sky(void **state)
+TEST_CASE(specular_bodies_show_the_sky)
 {
     static const char *const materials[] = {"'kind': 'mirror', 'reflectance': 1", "'kind': 'dielectric', 'ior': 1.5"};
-    (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         for (size_t m = 0; m < 2; m++) {
@@ -178,9 +174,8 @@ static double floor_by(const char *rest, const char *integrator, int depth, doub
     return picture(text, koksma_integrator_find(integrator), depth, 1024, error);
 }
 
-static void direct_light_is_the_form_factor(void **state)
+TEST_CASE(direct_light_is_the_form_factor)
 {
-    (void)state;
     double error;
     for (int depth = -1; depth <= 20; depth += 7) { /* no diffuse bounce, whatever the depth */
         const double alone = floor_by(LIT, "direct", depth, &error);
@@ -192,9 +187,8 @@ static void direct_light_is_the_form_factor(void **state)
 
 /* The sky but for the disk, which is a surface or a light; lights, the sky's radiance, ambient light, materials and the
    limit of samples count for nothing. At the edge of a wall without end half the sky is left. */
-static void ambient_occlusion_is_the_rest_of_the_sky(void **state)
+TEST_CASE(ambient_occlusion_is_the_rest_of_the_sky)
 {
-    (void)state;
     static const char *const disks[] = {
         LIT, ", {" DISK "'normal': [0, -1, 0], 'material': 'm'}]",
         ", {" DISK "'normal': [0, 1, 0], 'material': 'm'}], 'lights': [{'kind': 'environment', 'radiance': 7, "
@@ -213,9 +207,8 @@ static void ambient_occlusion_is_the_rest_of_the_sky(void **state)
 }
 
 /* Ambient occlusion needs no light, so that a scene without any is as intended. */
-static void warnings_of_light_are_for_integrators_with_light(void **state)
+TEST_CASE(warnings_of_light_are_for_integrators_with_light)
 {
-    (void)state;
     koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 4], 'target': [0, 0, 0], 'fov_deg': 30}, 'materials': "
                                    "[{'name': 'm', 'kind': 'mirror', 'reflectance': 1}], 'shapes': [{'kind': "
                                    "'sphere', 'centre': [0, 0, 0], 'radius': 1, 'material': 'm'}]}");
@@ -265,10 +258,9 @@ static koksma_scene *disk_of(const koksma__bsdf *bsdf, int variant)
 }
 
 /* All pipelines that take a picture agree but for rounding: of all shipped scenes, and of all materials. */
-static void pipelines_agree(void **state)
+TEST_CASE(pipelines_agree)
 {
     size_t compared = 0;
-    (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         for (size_t s = 0; koksma_scene_name_at(s); s++) {
             koksma_scene *scene;
@@ -316,11 +308,10 @@ static void compare_pictures(const koksma_scene *scene, size_t i, const koksma_i
 
 /* What a scene keeps from one image to the next is its own: of all shipped scenes, every integrator renders the same
    picture after any other one as it does in a scene opened for it. */
-static void order_does_not_matter(void **state)
+TEST_CASE(order_does_not_matter)
 {
     enum { MOST = 64 };
     size_t scenes = 0;
-    (void)state;
     for (size_t s = 0; koksma_scene_name_at(s); s++) {
         const char *name = koksma_scene_name_at(s);
         koksma_scene *scene;
@@ -349,20 +340,4 @@ static void order_does_not_matter(void **state)
         scenes++;
     }
     assert_true(scenes > 10);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(convex_bodies_reflect_the_sky),
-        cmocka_unit_test(closed_furnaces_are_white),
-        cmocka_unit_test(closed_balls_add_up_all_bounces),
-        cmocka_unit_test(specular_bodies_show_the_sky),
-        cmocka_unit_test(direct_light_is_the_form_factor),
-        cmocka_unit_test(ambient_occlusion_is_the_rest_of_the_sky),
-        cmocka_unit_test(warnings_of_light_are_for_integrators_with_light),
-        cmocka_unit_test(pipelines_agree),
-        cmocka_unit_test(order_does_not_matter),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

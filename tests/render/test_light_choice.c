@@ -44,9 +44,8 @@ static double contribution(const koksma__shading_light *l, const float p[3], con
     return cosine > 0 ? (double)(cosine * beam.value[0]) : 0;
 }
 
-static void probabilities_add_to_one(void **state)
+TEST_CASE(probabilities_add_to_one)
 {
-    (void)state;
     koksma_scene *scene = shipped("many-lights");
     for (int selection = KOKSMA_LIGHTS_ONE; selection <= KOKSMA_LIGHTS_AUTO; selection++) {
         const koksma_render_options options = options_by(scene, (koksma_light_selection)selection);
@@ -76,10 +75,9 @@ static void probabilities_add_to_one(void **state)
     koksma_scene_close(scene);
 }
 
-static void choices_have_their_probabilities(void **state)
+TEST_CASE(choices_have_their_probabilities)
 {
     static _Alignas(64) float estimates[KOKSMA__MAX_BATCH_LIGHTS][KOKSMA__BLOCK];
-    (void)state;
     koksma_scene *scene = shipped("many-lights");
     const koksma_render_options options = options_by(scene, KOKSMA_LIGHTS_ONE);
     koksma__frame frame;
@@ -146,9 +144,8 @@ static void choices_have_their_probabilities(void **state)
     koksma_scene_close(scene);
 }
 
-static void one_of_many_has_the_mean_of_all(void **state)
+TEST_CASE(one_of_many_has_the_mean_of_all)
 {
-    (void)state;
     double errors[2], means[2];
     koksma_scene *scene = shipped("many-lights");
     for (int i = 0; i < 2; i++) {
@@ -163,7 +160,7 @@ static void one_of_many_has_the_mean_of_all(void **state)
     koksma_scene_close(scene);
 }
 
-static void automatic_selection(void **state)
+TEST_CASE(automatic_selection)
 {
     static const struct {
         const char *scene, *integrator;
@@ -173,7 +170,6 @@ static void automatic_selection(void **state)
                 {"many-lights", "whitted", KOKSMA_LIGHTS_ALL},
                 {"cornell", "path", KOKSMA_LIGHTS_ALL},
                 {"balls", "path", KOKSMA_LIGHTS_ALL}};
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         koksma_image images[2];
         koksma_scene *scene = shipped(rows[i].scene);
@@ -194,9 +190,8 @@ static void automatic_selection(void **state)
 /* A small disk overhead and another light, which reflect the same: pi 10^-4 L / pi is intensity / pi, irradiance
    / pi, or the radiance of the sky. By power the disk's is pi A L, a point's 4 pi I and a sphere's 4 pi times that of
    the disk that it shows, which are four times as much; one that is far away has the power of what it reflects. */
-static void choices_are_in_proportion(void **state)
+TEST_CASE(choices_are_in_proportion)
 {
-    (void)state;
     static const struct {
         const char *light;
         double by_power;
@@ -235,14 +230,4 @@ static void choices_are_in_proportion(void **state)
         assert_near(mean, 0.2, 4 * error + 1e-3);
         koksma_scene_close(scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(probabilities_add_to_one),        cmocka_unit_test(choices_have_their_probabilities),
-        cmocka_unit_test(one_of_many_has_the_mean_of_all), cmocka_unit_test(automatic_selection),
-        cmocka_unit_test(choices_are_in_proportion),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,9 +52,8 @@ static double twin(const koksma__batch_lights *l, int i, const float p[3], const
     return (seen ? here : 0) + (double)l->far[i] * fmax(away, 0) + (double)l->fixed[i];
 }
 
-static void estimates_equal_twin(void **state)
+TEST_CASE(estimates_equal_twin)
 {
-    (void)state;
     static koksma__batch_lights lamps;
     for (int round = 0; round < 300; round++) {
         const float p[3] = {uniform(-3, 3), uniform(-3, 3), uniform(-3, 3)};
@@ -83,9 +82,8 @@ static void estimates_equal_twin(void **state)
 
 /* Shadow rays that pass a small sphere far away at 0.98 or 1.02 of its radius, or end before it: at distance D floats
    know a place to some D / 10^7. */
-static void small_spheres_far_away_shade(void **state)
+TEST_CASE(small_spheres_far_away_shade)
 {
-    (void)state;
     for (int round = 0; round < 300; round++) {
         const koksma__shape unit = {.type = &KOKSMA__SHAPE(sphere), .half = {1, 1}, .material = -1};
         koksma__batch_shape sphere = koksma__batch_shape_of(&unit, 7);
@@ -129,13 +127,4 @@ static void small_spheres_far_away_shade(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(estimates_equal_twin),
-        cmocka_unit_test(small_spheres_far_away_shade),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -256,9 +256,8 @@ static void open_geometry(const koksma_scene *scene, koksma__geometry *out)
     }
 }
 
-static void samples_are_those_of_the_density(void **state)
+TEST_CASE(samples_are_those_of_the_density)
 {
-    (void)state;
     for (size_t k = 0; koksma__light_types[k]; k++) {
         for (uint64_t trial = 0; trial < TRIALS && koksma__light_types[k]->pdf; trial++) {
             koksma_scene *scene = scene_with(koksma__light_types[k], 100 * k + trial, false, true, "");
@@ -307,9 +306,8 @@ static double power_of(const koksma__shading_light *l, double scale, uint64_t st
     return sum;
 }
 
-static void powers_are_what_is_emitted(void **state)
+TEST_CASE(powers_are_what_is_emitted)
 {
-    (void)state;
     for (size_t k = 0; koksma__light_types[k]; k++) {
         for (uint64_t trial = 0; trial < TRIALS; trial++) {
             koksma_scene *scene = scene_with(koksma__light_types[k], 500 + 100 * k + trial, false, false, "");
@@ -342,11 +340,10 @@ static double picture(const koksma_scene *scene, const char *integrator, koksma_
     return mean_of(scene, &options, error);
 }
 
-static void ways_of_choosing_agree(void **state)
+TEST_CASE(ways_of_choosing_agree)
 {
     static const char *const more = ", {'kind': 'disk', 'centre': [1, 1, 1], 'facing': [1, -2, 1], 'radius': 0.4, "
                                     "'radiance': 1},{'kind': 'point', 'centre': [2, 0, 0], 'intensity': 0.5}";
-    (void)state;
     for (size_t k = 0; koksma__light_types[k]; k++) {
         for (uint64_t trial = 0; trial < PICTURES; trial++) {
             koksma_scene *scene = scene_with(koksma__light_types[k], 800 + 100 * k + trial, true, true, more);
@@ -385,12 +382,4 @@ static int end(void **state)
     return remove(tetrahedron);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_are_those_of_the_density),
-        cmocka_unit_test(powers_are_what_is_emitted),
-        cmocka_unit_test(ways_of_choosing_agree),
-    };
-    return cmocka_run_group_tests(tests, begin, end);
-}
+TEST_GROUP(begin, end)

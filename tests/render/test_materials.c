@@ -8,9 +8,8 @@
 
 /* D / (4 n.out) and no more, seen straight on, of a facet whose slope is within twice the roughness: relative errors
    in the mean. Walter et al. 2007, equation 33. */
-static void sharp_highlights_have_their_height(void **state)
+TEST_CASE(sharp_highlights_have_their_height)
 {
-    (void)state;
     static const struct {
         double roughness, error;
     } cases[] = {{0.001, 0.05}, {0.003, 5e-3}, {0.01, 5e-4}, {0.0125, 3e-4}, {0.03, 1e-4}, {0.1, 1e-5}, {0.7, 2e-6}};
@@ -57,10 +56,9 @@ static void sharp_highlights_have_their_height(void **state)
 
 /* Fresnel's amplitudes with a complex index N and the complex cosine C inside: rs = (c - N C) / (c + N C), rp = (N c - C) /
    (N c + C); the reflectance is the mean of their squares. */
-static void conductors_reflect_by_fresnels_equations(void **state)
+TEST_CASE(conductors_reflect_by_fresnels_equations)
 {
     static const double cosines[] = {1, 0.9, 0.5, 1.0 / 7, 0.01};
-    (void)state;
     for (size_t i = 0; i < 500; i++) {
         koksma__material smooth = {.bsdf = &koksma__bsdf_conductor};
         for (int k = 0; k < 3; k++) {
@@ -89,9 +87,8 @@ static void conductors_reflect_by_fresnels_equations(void **state)
 
 /* A point light on the mirrored way, at 45 degrees: D = 1 / (pi a^2), G2 = 1 / (2 lambda + 1). The geometry is exact
    in floats but for the camera's rounding, and the middle of the pixel is its only sample. */
-static void pictures_of_highlights(void **state)
+TEST_CASE(pictures_of_highlights)
 {
-    (void)state;
     static const double roughness[] = {0.02, 0.03, 0.05, 0.3};
     for (size_t i = 0; i < 4; i++) {
         char text[1024];
@@ -111,9 +108,8 @@ static void pictures_of_highlights(void **state)
 }
 
 /* Every roughness that is accepted gives finite pixels; in a white world no more than 1. */
-static void every_roughness_is_finite(void **state)
+TEST_CASE(every_roughness_is_finite)
 {
-    (void)state;
     static const double roughness[] = {0.001, 0.003, 0.01, 0.0125, 0.02, 0.03};
     for (size_t i = 0; i < 12; i++) {
         char text[1024];
@@ -130,15 +126,4 @@ static void every_roughness_is_finite(void **state)
         assert_mean(mean, error, 1);
         koksma_scene_close(scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sharp_highlights_have_their_height),
-        cmocka_unit_test(conductors_reflect_by_fresnels_equations),
-        cmocka_unit_test(pictures_of_highlights),
-        cmocka_unit_test(every_roughness_is_finite),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

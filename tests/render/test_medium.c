@@ -47,9 +47,8 @@ static void render_means(const koksma_scene *scene, const koksma_render_options 
 
 /* A medium that only absorbs leaves exp(-sigma_a d) of the light of an emitter, a point and the sky, without noise: d is
    the length inside the box, from the eye to the surface, and again from there to the light. */
-static void absorption_is_exponential(void **state)
+TEST_CASE(absorption_is_exponential)
 {
-    (void)state;
     static const double sigma[3] = {0.3, 0.7, 0};
     static const struct {
         const char *what, *box, *scene;
@@ -113,9 +112,8 @@ static void absorption_is_exponential(void **state)
 
 /* Of an emitter behind a medium that scatters, too, the light that was not scattered is exp(-(sigma_a + sigma_s) d) in each
    channel. */
-static void unscattered_light_is_exponential(void **state)
+TEST_CASE(unscattered_light_is_exponential)
 {
-    (void)state;
     koksma_scene *scene = scene_of(EYE("0.01") "'medium': {'sigma_a': [0.1, 0, 0.2], 'sigma_s': [0.2, 0.05, 0], "
                                                "'low': [-9, -9, 1], 'high': [9, 9, 4]}, " NOTHING
                                                ", 'lights': [{'kind': 'rectangle', 'centre': [0, 0, 0], 'normal': "
@@ -159,9 +157,8 @@ static double scattered_once(double absorption, double scattering, double g)
 }
 
 /* With depth 0 light is scattered once. By every integrator, pairing and scope, for three phase functions, in colour. */
-static void single_scattering_is_its_integral(void **state)
+TEST_CASE(single_scattering_is_its_integral)
 {
-    (void)state;
     static const double gs[] = {-0.5, 0, 0.7}, a[3] = {0.05, 0, 0.2}, b[3] = {0.1, 0.3, 0.02};
     static const struct {
         const char *pattern;
@@ -201,9 +198,8 @@ static void single_scattering_is_its_integral(void **state)
 
 /* Beyond a wall that has the light on its other side haze is dark, although nothing else is there for a shadow; and beside
    the same wall it is as bright as without. The ray of scattered_once() runs along -z at x = y = 0. */
-static void haze_lies_in_the_shadow_of_a_wall(void **state)
+TEST_CASE(haze_lies_in_the_shadow_of_a_wall)
 {
-    (void)state;
     static const struct {
         double height; /* of the wall, between the ray and the light */
         bool lit;
@@ -231,9 +227,8 @@ static void haze_lies_in_the_shadow_of_a_wall(void **state)
 /* For any weights of a path: of the rays of length 3 the mean weight of those that pass is the transmittance, that of
    those that are scattered the part b / (a + b) of the rest, and that before the length 1 likewise; and the sum of the
    path's weights never grows. */
-static void samples_are_unbiased_for_any_weights(void **state)
+TEST_CASE(samples_are_unbiased_for_any_weights)
 {
-    (void)state;
     static const double a[3] = {0, 0.3, 0.05}, b[3] = {1.5, 0.4, 0};
     static const float betas[][3] = {{1, 1, 1}, {0.9f, 0.05f, 0.4f}, {0, 0, 2}, {1e-6f, 3, 0}, {0, 1, 0.01f}};
     static const float o[3] = {0, 0, 0}, d[3] = {0, 0, 2};
@@ -270,9 +265,8 @@ static void samples_are_unbiased_for_any_weights(void **state)
 
 /* Where nothing absorbs, every path that leaves brings the same light, so that all samples are 1, in each channel's mean
    too: a grey medium around white surfaces exactly, by whatever path. */
-static void white_furnaces_are_white(void **state)
+TEST_CASE(white_furnaces_are_white)
 {
-    (void)state;
     static const double gs[] = {-0.5, 0, 0.7};
     for (size_t c = 0; c < 3; c++) {
         char text[1024];
@@ -299,9 +293,8 @@ static void white_furnaces_are_white(void **state)
 /* Between walls that emit 1, on all sides of a medium that scatters differently in each channel, radiance is 1
    everywhere. By light sampling alone the variance is infinite, for the light of a wall's position grows as 1 /
    distance^2. */
-static void emitting_enclosures_are_white(void **state)
+TEST_CASE(emitting_enclosures_are_white)
 {
-    (void)state;
     static const double gs[] = {-0.5, 0, 0.7};
     for (size_t c = 0; c < 3; c++) {
         char text[4096], walls[2048] = "";
@@ -339,9 +332,8 @@ static void emitting_enclosures_are_white(void **state)
 
 /* All strategies and all ways to choose among lights of all distances, some of them beside, behind and within the
    medium, have the same mean as the other ones. */
-static void strategies_agree(void **state)
+TEST_CASE(strategies_agree)
 {
-    (void)state;
     koksma_scene *scene =
         scene_of(EYE("30") "'medium': {'sigma_a': 0.1, 'sigma_s': [0.3, 0.4, 0.2], 'g': 0.6, 'low': [-2, -2, -2], "
                            "'high': [2, 2, 4]}, " LAMBERT
@@ -380,9 +372,8 @@ static void strategies_agree(void **state)
 
 /* By its definition: the integral over the sphere is 1, the mean cosine g, exchanged directions give the same value;
    samples have weight 1, the density that value() says, mean cosine g and no preferred side. */
-static void phase_function_is_as_defined(void **state)
+TEST_CASE(phase_function_is_as_defined)
 {
-    (void)state;
     static const double gs[] = {-0.999, -0.5, -1e-5, 0, 1e-5, 0.3, 0.7, 0.95, 0.999};
     for (size_t c = 0; c < sizeof gs / sizeof *gs; c++) {
         const double none[3] = {0, 0, 0}, one[3] = {1, 1, 1}, g = gs[c];
@@ -436,9 +427,8 @@ static void phase_function_is_as_defined(void **state)
 /* ---- The same bits, and refusals ------------------------------------------------------------------------------ */
 
 /* Integrators without media name those that have them; ambient occlusion depends on shapes alone. */
-static void other_integrators_refuse_media(void **state)
+TEST_CASE(other_integrators_refuse_media)
 {
-    (void)state;
     koksma_scene *scene = scene_of(EYE("30") "'medium': {'sigma_s': 5}, " NOTHING "}");
     size_t refused = 0;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
@@ -464,9 +454,8 @@ static void other_integrators_refuse_media(void **state)
     koksma_scene_close(scene);
 }
 
-static void wrong_media_are_refused(void **state)
+TEST_CASE(wrong_media_are_refused)
 {
-    (void)state;
     static const struct {
         const char *medium, *rest, *message;
     } bad[] = {
@@ -493,22 +482,4 @@ static void wrong_media_are_refused(void **state)
             fail_msg("%s: %s", bad[i].medium, koksma_error_text());
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(absorption_is_exponential),
-        cmocka_unit_test(unscattered_light_is_exponential),
-        cmocka_unit_test(single_scattering_is_its_integral),
-        cmocka_unit_test(haze_lies_in_the_shadow_of_a_wall),
-        cmocka_unit_test(samples_are_unbiased_for_any_weights),
-        cmocka_unit_test(white_furnaces_are_white),
-        cmocka_unit_test(emitting_enclosures_are_white),
-        cmocka_unit_test(strategies_agree),
-        cmocka_unit_test(phase_function_is_as_defined),
-        cmocka_unit_test(other_integrators_refuse_media),
-        cmocka_unit_test(wrong_media_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

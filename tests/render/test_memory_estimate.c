@@ -90,9 +90,8 @@ static void expect_size(const char *what, long long before, uint64_t told, doubl
 
 /* Grey and coloured scenes, with layers and without, splatted and not. Splats of the rows that are at work are beside
    those of the picture, an eighth of these. */
-static void films_take_what_is_told(void **state)
+TEST_CASE(films_take_what_is_told)
 {
-    (void)state;
     static const char *const scenes[] = {"ball", "balls"};
     for (int c = 0; c < 8; c++) {
         koksma_layers layers;
@@ -117,9 +116,8 @@ static void films_take_what_is_told(void **state)
 }
 
 /* A pattern over the whole image, in each pairing. */
-static void samples_take_what_is_told(void **state)
+TEST_CASE(samples_take_what_is_told)
 {
-    (void)state;
     static const koksma_pairing pairings[] = {KOKSMA_PAIRING_SHUFFLED, KOKSMA_PAIRING_ALIGNED, KOKSMA_PAIRING_NATIVE};
     koksma_scene *scene = shipped("all");
     for (int p = 0; p < 3; p++) {
@@ -139,9 +137,8 @@ static void samples_take_what_is_told(void **state)
 }
 
 /* Every method, which asks for nothing after its first round: beside the pixels some keep a little more. */
-static void methods_take_what_is_told(void **state)
+TEST_CASE(methods_take_what_is_told)
 {
-    (void)state;
     koksma_scene *scene = shipped("ball");
     const koksma_adaptive *method;
     for (size_t i = 0; (method = koksma_adaptive_at(i)); i++) {
@@ -159,14 +156,4 @@ static void methods_take_what_is_told(void **state)
         koksma_layers_fini(&layers);
     }
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(films_take_what_is_told),
-        cmocka_unit_test(samples_take_what_is_told),
-        cmocka_unit_test(methods_take_what_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,9 +41,8 @@ static void assert_chi_square(const char *what, size_t n, double chi_square, dou
 
 /* ---- Orders --------------------------------------------------------------------------------------------------- */
 
-static void orders_are_permutations(void **state)
+TEST_CASE(orders_are_permutations)
 {
-    (void)state;
     static uint16_t order[KOKSMA__ORDERED + 64];
     static bool seen[KOKSMA__ORDERED];
     for (size_t n = 1; n <= KOKSMA__ORDERED; n = n < 300 ? n + 1 : n < 60000 ? n * 3 / 2 : n + 1500) {
@@ -58,9 +57,8 @@ static void orders_are_permutations(void **state)
 }
 
 /* Each of the n! orders of few is as likely. */
-static void few_are_in_every_order(void **state)
+TEST_CASE(few_are_in_every_order)
 {
-    (void)state;
     for (size_t n = 2; n <= 5; n++) {
         double counts[3125] = {0}, chi_square = 0, orders = 1;
         for (uint64_t trial = 0; trial < 5 * TRIALS; trial++) {
@@ -88,9 +86,8 @@ static void few_are_in_every_order(void **state)
 
 /* Each position has each value as often; two positions i - j apart have values that are k apart as often for each k,
    on the ring and, for powers of two, by exclusive or, which is what linear maps would keep. */
-static void orders_have_no_structure(void **state)
+TEST_CASE(orders_have_no_structure)
 {
-    (void)state;
     static const size_t sizes[] = {16, 25, 33, 36, 49, 64, 81, 100, 128};
     static double values[128][128], rings[128][128], xors[128][128];
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
@@ -181,9 +178,8 @@ static void assert_boxes(const char *name, const float *pairs, size_t n, size_t 
 }
 
 /* As floats, with no tolerance, in every use: a group's sets lose nothing by their order. */
-static void sets_keep_their_strata(void **state)
+TEST_CASE(sets_keep_their_strata)
 {
-    (void)state;
     static const size_t sizes[] = {1, 4, 9, 16, 36, 49, 64, 100, 225, 256};
     static const uint32_t uses[] = {KOKSMA__USE_PIXEL, KOKSMA__USE_LENS, KOKSMA__USE_LIGHT + 1};
     size_t forms = 0;
@@ -236,9 +232,8 @@ static void powers_of(const double *xs, size_t n, double out[4])
 }
 
 /* Means and variances of four estimates over many sets are those of koksma_generate's sets. */
-static void sets_have_the_law_of_their_pattern(void **state)
+TEST_CASE(sets_have_the_law_of_their_pattern)
 {
-    (void)state;
     static const size_t sizes[] = {9, 16, 64, 100};
     for (size_t form = 0; koksma__float_set_name(form); form++) {
         const char *name = koksma__float_set_name(form);
@@ -312,9 +307,8 @@ static void assert_independent(const char *what, const char *name, size_t n, dou
     }
 }
 
-static void uses_pixels_and_seeds_are_independent(void **state)
+TEST_CASE(uses_pixels_and_seeds_are_independent)
 {
-    (void)state;
     static const size_t sizes[] = {16, 64};
     static const struct {
         const char *what;
@@ -362,9 +356,8 @@ static void uses_pixels_and_seeds_are_independent(void **state)
 
 /* Random words: each of 8 parts of a word as often, for all four words, and successive counters in all 64 pairs of
    parts. */
-static void words_are_random(void **state)
+TEST_CASE(words_are_random)
 {
-    (void)state;
     enum { COUNT = 1 << 16 };
     static uint32_t words[COUNT + 32];
     for (uint32_t lane = 0; lane < 6; lane++) {
@@ -387,9 +380,8 @@ static void words_are_random(void **state)
 
 /* ---- Bits -------------------------------------------------------------------------------------------------------- */
 
-static void every_instruction_set_gives_the_same_bits(void **state)
+TEST_CASE(every_instruction_set_gives_the_same_bits)
 {
-    (void)state;
     static const size_t sizes[] = {1, 2, 3, 7, 16, 31, 32, 33, 63, 64, 65, 100, 127, 128, 200, 255, 256};
     static const float scale[2] = {0x1p-27f, 0x1.8p-26f}, offset[2] = {3, 5};
     uint32_t partners[2][32];
@@ -429,19 +421,4 @@ static void every_instruction_set_gives_the_same_bits(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(orders_are_permutations),
-        cmocka_unit_test(few_are_in_every_order),
-        cmocka_unit_test(orders_have_no_structure),
-        cmocka_unit_test(sets_keep_their_strata),
-        cmocka_unit_test(sets_have_the_law_of_their_pattern),
-        cmocka_unit_test(uses_pixels_and_seeds_are_independent),
-        cmocka_unit_test(words_are_random),
-        cmocka_unit_test(every_instruction_set_gives_the_same_bits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

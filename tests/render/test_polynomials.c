@@ -7,9 +7,8 @@
 
 #define PI_L 3.141592653589793238462643383279502884L
 
-static void sines_and_cosines(void **state)
+TEST_CASE(sines_and_cosines)
 {
-    (void)state;
     long double worst = 0;
     for (int32_t i = -(1 << 20); i <= 1 << 20; i++) {
         const float turns = (float)i * 0x1.8p-19f; /* -3 to 3, with all multiples of 1/8 */
@@ -32,9 +31,8 @@ static void sines_and_cosines(void **state)
     assert_near((double)cosine, 0, KOKSMA__SINE_ERROR);
 }
 
-static void arcs(void **state)
+TEST_CASE(arcs)
 {
-    (void)state;
     long double worst = 0;
     for (int i = 0; i < 2000; i++) {
         for (int j = 0; j < 500; j++) {
@@ -51,9 +49,8 @@ static void arcs(void **state)
     assert_float_equal(koksma__arc_turns(-1, 0), -0.25f, 0);
 }
 
-static void powers(void **state)
+TEST_CASE(powers)
 {
-    (void)state;
     long double worst = 0;
     for (int i = 0; i <= 4000; i++) {
         /* close to 1 in half of them, where large exponents are */
@@ -73,14 +70,4 @@ static void powers(void **state)
     assert_float_equal(koksma__power(1, 1e6f), 1, 0);
     assert_float_equal(koksma__power(0, 0), 1, 0);
     assert_float_equal(koksma__power(0, 1), 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sines_and_cosines),
-        cmocka_unit_test(arcs),
-        cmocka_unit_test(powers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

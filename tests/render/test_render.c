@@ -5,9 +5,8 @@
 #include "rendering.h"
 
 /* Every way in which threads share work: pixels, records that are entered in order, and splats; also without layers. */
-static void same_bits_for_any_number_of_threads(void **state)
+TEST_CASE(same_bits_for_any_number_of_threads)
 {
-    (void)state;
     static const struct {
         const char *scene, *integrator, *pattern;
         int spp;
@@ -64,9 +63,8 @@ static double corner_factor(double a, double b)
     "2}]"
 
 /* Reflected radiance is albedo x radiance x form factor. 64 x 64 strata make the error about 1e-5. */
-static void light_is_its_form_factor(void **state)
+TEST_CASE(light_is_its_form_factor)
 {
-    (void)state;
     koksma_scene *scene = scene_of("{" PATCH "'shapes': [" FLOOR "]," LAMP("0") "}");
     const double centred = 4 * corner_factor(0.5, 0.25);
     assert_near(pixel(scene, "jittered", 4096), 0.9 * 2 * centred, 1e-4);
@@ -79,9 +77,8 @@ static void light_is_its_form_factor(void **state)
 }
 
 /* A screen over half of the lamp takes half of its light; over all of it, all; a ball around the patch too. */
-static void shadows_take_light(void **state)
+TEST_CASE(shadows_take_light)
 {
-    (void)state;
     const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
     static const struct {
         const char *shape;
@@ -135,9 +132,8 @@ static bool stop_the_other(void *context, double fraction)
 }
 
 /* Two rows of so many samples that each is a task of a thread: a thread does not finish its row before it stops. */
-static void an_interruption_stops_every_thread(void **state)
+TEST_CASE(an_interruption_stops_every_thread)
 {
-    (void)state;
     koksma_render_options options;
     koksma_layers layers;
     double before = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - cpu_s(CLOCK_THREAD_CPUTIME_ID);
@@ -162,9 +158,8 @@ static bool count_looks(void *context, double fraction)
 
 /* A pattern may take long for each of its sets without asking keep_going, and the sets of a row are drawn together. The
    renderer asks between sets: here, where it would else ask once for the image, 8 times or more. */
-static void keep_going_is_asked_between_sets(void **state)
+TEST_CASE(keep_going_is_asked_between_sets)
 {
-    (void)state;
     koksma_render_options options;
     koksma_image image;
     size_t looks = 0;
@@ -181,9 +176,8 @@ static void keep_going_is_asked_between_sets(void **state)
     koksma_scene_close(scene);
 }
 
-static void errors_are_said(void **state)
+TEST_CASE(errors_are_said)
 {
-    (void)state;
     koksma_render_options options;
     koksma_image image;
     koksma_scene *scene = shipped("ball");
@@ -221,17 +215,4 @@ static void errors_are_said(void **state)
     assert_int_equal(koksma_render(scene, &options, &run, &image), KOKSMA_INTERRUPTED);
     assert_null(image.pixels);
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_bits_for_any_number_of_threads),
-        cmocka_unit_test(light_is_its_form_factor),
-        cmocka_unit_test(shadows_take_light),
-        cmocka_unit_test(an_interruption_stops_every_thread),
-        cmocka_unit_test(keep_going_is_asked_between_sets),
-        cmocka_unit_test(errors_are_said),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

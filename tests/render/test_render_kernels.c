@@ -64,9 +64,8 @@ static void make_world(world *w, uint64_t round)
 
 /* A ray's hit with many shapes is the nearest of those with each of them, and a shadow ray is dark where one of them
    blocks it, to the last bit. test_every_shape checks each against its equation. */
-static void lists_are_as_their_shapes_one_by_one(void **state)
+TEST_CASE(lists_are_as_their_shapes_one_by_one)
 {
-    (void)state;
     const koksma__batch_table *batch = koksma__batch();
     int lanes = 0, hit = 0, dark = 0;
     for (uint64_t round = 0; round < ROUNDS; round++) {
@@ -158,9 +157,8 @@ static void run_all(const koksma__batch_table *batch, world *w, float out[3][KOK
     *mean = batch->mean(out[2], (size_t)n - 3);
 }
 
-static void same_bits_for_every_instruction_set(void **state)
+TEST_CASE(same_bits_for_every_instruction_set)
 {
-    (void)state;
     for (uint64_t round = 0; round < 60; round++) {
         static world first;
         float first_out[3][KOKSMA__BLOCK] = {{0}};
@@ -193,9 +191,8 @@ static void same_bits_for_every_instruction_set(void **state)
 }
 
 /* A point is never outside its pixel, even where 1 - 2^-53 rounds up; a shuffle loses no pair. */
-static void places_and_shuffles(void **state)
+TEST_CASE(places_and_shuffles)
 {
-    (void)state;
     enum { N = 101 };
     double xs[2 * N];
     uint32_t words[N];
@@ -218,14 +215,4 @@ static void places_and_shuffles(void **state)
         moved += from != i;
     }
     assert_true(moved > N / 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lists_are_as_their_shapes_one_by_one),
-        cmocka_unit_test(same_bits_for_every_instruction_set),
-        cmocka_unit_test(places_and_shuffles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,9 +32,8 @@ static void compare(const char *name, const char *pattern, int spp, const moment
     }
 }
 
-static void few_samples_are_right_in_the_mean(void **state)
+TEST_CASE(few_samples_are_right_in_the_mean)
 {
-    (void)state;
     static const char *const scenes[] = {"ball", "checker-45"};
     static const struct {
         const char *pattern;
@@ -86,9 +85,8 @@ static double mean_error(const char *name, const char *pattern, koksma_pairing p
     return sum;
 }
 
-static void better_patterns_err_less(void **state)
+TEST_CASE(better_patterns_err_less)
 {
-    (void)state;
     static const char *const scenes[] = {"checker", "checker-45", "ball"};
     for (size_t s = 0; s < 3; s++) {
         const double random = mean_error(scenes[s], "random", KOKSMA_PAIRING_SHUFFLED);
@@ -100,13 +98,4 @@ static void better_patterns_err_less(void **state)
     }
     assert_true(mean_error("ball", "jittered", KOKSMA_PAIRING_ALIGNED) !=
                 mean_error("ball", "jittered", KOKSMA_PAIRING_SHUFFLED));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(few_samples_are_right_in_the_mean),
-        cmocka_unit_test(better_patterns_err_less),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,9 +5,8 @@
 /* Where nothing absorbs, every path that leaves brings the same light, and roulette has nothing to end: all pixels of
    white bodies before a white sky are 1, by every integrator that plays it, however many vertices paths have. Glass
    keeps most of what goes round in it, corners send paths from side to side. */
-static void white_furnaces_do_not_vary(void **state)
+TEST_CASE(white_furnaces_do_not_vary)
 {
-    (void)state;
     static const char corner[] =
         "{'kind': 'rectangle', 'centre': [0, 0, 0], 'normal': [0, 1, 0], 'half': [1, 1], 'material': 'm'}, {'kind': "
         "'rectangle', 'centre': [0, 1, -1], 'normal': [0, 0, 1], 'half': [1, 1], 'material': 'm'}, {'kind': "
@@ -47,9 +46,8 @@ static void white_furnaces_do_not_vary(void **state)
 }
 
 /* What absorbs ends paths, and the mean stays that of an integrator which ends none: mirrors face to face. */
-static void roulette_keeps_the_mean(void **state)
+TEST_CASE(roulette_keeps_the_mean)
 {
-    (void)state;
     static const char *const materials[] = {"'kind': 'mirror', 'reflectance': 0.9",
                                             "'kind': 'phong', 'reflectance': 0.95, 'exponent': 300",
                                             "'kind': 'ggx', 'reflectance': [0.97, 0.8, 0.6], 'roughness': 0.2",
@@ -74,13 +72,4 @@ static void roulette_keeps_the_mean(void **state)
         }
         koksma_scene_close(scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(white_furnaces_do_not_vary),
-        cmocka_unit_test(roulette_keeps_the_mean),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,9 +33,8 @@ static void write_two(const char *path)
     koksma_image_fini(&image);
 }
 
-static void a_file_is_read_once_for_each_use(void **state)
+TEST_CASE(a_file_is_read_once_for_each_use)
 {
-    (void)state;
     koksma_scene scene = {.n_images = 0};
     koksma_image *plain, *again, *tinted, *turned;
     koksma__image_use use = KOKSMA__PLAIN_IMAGE;
@@ -65,9 +64,8 @@ static void a_file_is_read_once_for_each_use(void **state)
 }
 
 /* A failure is remembered, whatever the tint; one of opening is not. */
-static void a_damaged_file_is_read_once(void **state)
+TEST_CASE(a_damaged_file_is_read_once)
 {
-    (void)state;
     koksma_scene scene = {.n_images = 0};
     koksma_image *image;
     koksma__image_use use = KOKSMA__PLAIN_IMAGE;
@@ -86,9 +84,8 @@ static void a_damaged_file_is_read_once(void **state)
 }
 
 /* What was decoded before a failure counts, for each part: here one pixel and the bytes of the file. */
-static void failures_count(void **state)
+TEST_CASE(failures_count)
 {
-    (void)state;
     koksma_scene scene = {.n_images = 0};
     koksma_image *image;
     static const unsigned char infinite[] = "Pf\n1 1 -1\n\0\0\x80\x7F";
@@ -106,9 +103,8 @@ static void failures_count(void **state)
 }
 
 /* Bytes within a model count once, however the images in them overlap. */
-static void bytes_of_files_count_once(void **state)
+TEST_CASE(bytes_of_files_count_once)
 {
-    (void)state;
     koksma_scene scene = {.n_images = 0};
     koksma_image *image;
     unsigned char bytes[34] = "Pf\n1 1 -1\n....Pf\n1 1 -1\n....", more[14];
@@ -128,9 +124,8 @@ static void bytes_of_files_count_once(void **state)
 }
 
 /* An image that nothing uses any more is freed; its bytes no longer count. */
-static void unused_images_are_dropped(void **state)
+TEST_CASE(unused_images_are_dropped)
 {
-    (void)state;
     koksma__light light = {.image = NULL};
     koksma_scene scene = {.n_lights = 1, .lights = &light};
     koksma_image made, *kept;
@@ -146,16 +141,4 @@ static void unused_images_are_dropped(void **state)
     assert_int_equal(scene.n_images, 0);
     assert_int_equal(scene.image_bytes, 0);
     koksma__scene_images_fini(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_file_is_read_once_for_each_use),
-        cmocka_unit_test(a_damaged_file_is_read_once),
-        cmocka_unit_test(failures_count),
-        cmocka_unit_test(bytes_of_files_count_once),
-        cmocka_unit_test(unused_images_are_dropped),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

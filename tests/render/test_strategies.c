@@ -33,14 +33,13 @@ static double mean_by(const char *text, const char *integrator, int depth, koksm
 }
 
 /* A background is no light, and a ray past the depth limit doesn't see it; a point light no ray meets. */
-static void all_leave_out_the_same(void **state)
+TEST_CASE(all_leave_out_the_same)
 {
     static const char *const text =
         "{'camera': {'eye': [0, 3, 0], 'target': [0, 0, 0], 'up': [0, 0, 1], 'fov_deg': 0.02}, 'background': 9, "
         "'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 0.5}], 'shapes': [{'kind': 'plane', 'centre': [0, "
         "0, 0], 'normal': [0, 1, 0], 'material': 'm'}], 'lights': [{'kind': 'point', 'centre': [0, 2, 0], "
         "'intensity': 4}]}";
-    (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         for (int depth = 0; follows_paths(koksma_integrator_at(i)) && depth < 2; depth++) {
             double error;
@@ -51,10 +50,9 @@ static void all_leave_out_the_same(void **state)
 }
 
 /* Under two visible balls, a hidden rectangle and an even sky, a plate of every material before a wall, at three depths. */
-static void means_agree(void **state)
+TEST_CASE(means_agree)
 {
     static const koksma_light_selection selections[] = {KOKSMA_LIGHTS_ALL, KOKSMA_LIGHTS_ONE, KOKSMA_LIGHTS_POWER};
-    (void)state;
     for (size_t b = 0; koksma__bsdfs[b]; b++) {
         char fields[1024], text[3072];
         const unsigned forms = koksma__bsdfs[b]->diffuse;
@@ -108,9 +106,8 @@ static double error_by(const char *integrator, const char *roughness, const char
     return error;
 }
 
-static void heuristics_are_near_the_better_strategy(void **state)
+TEST_CASE(heuristics_are_near_the_better_strategy)
 {
-    (void)state;
     const double smooth_light = error_by("path-light", "0.1", "0.8"),
                  smooth_bsdf = error_by("path-bsdf", "0.1", "0.8");
     const double rough_light = error_by("path-light", "0.7", "0.02"),
@@ -122,14 +119,4 @@ static void heuristics_are_near_the_better_strategy(void **state)
         assert_true(error_by(mixed[i], "0.1", "0.8") < 0.05 * smooth_light);
         assert_true(error_by(mixed[i], "0.7", "0.02") < 0.05 * rough_bsdf);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_leave_out_the_same),
-        cmocka_unit_test(means_agree),
-        cmocka_unit_test(heuristics_are_near_the_better_strategy),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

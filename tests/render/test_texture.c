@@ -10,14 +10,13 @@
 
 #include "test.h"
 
-static void every_coordinate_has_a_pixel(void **state)
+TEST_CASE(every_coordinate_has_a_pixel)
 {
     static const float all[] = {
         0,     -0.0f,  1,       -1e-9f,   0.49999997f, 1e6f,      -1e6f, 16777216, 2147483648.f, -2147483648.f,
         1e30f, -1e30f, FLT_MAX, -FLT_MAX, INFINITY,    -INFINITY, NAN};
     static const koksma__wrap wraps[] = {KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR};
     static const int widths[] = {1, 2, 3, 37, 65536};
-    (void)state;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         for (size_t w = 0; w < 3 * sizeof widths / sizeof *widths; w++) {
             const int n = widths[w / 3];
@@ -32,11 +31,10 @@ static void every_coordinate_has_a_pixel(void **state)
 }
 
 /* The largest coordinates under the largest transform overflow, and their differences are NaN. */
-static void transforms_may_overflow(void **state)
+TEST_CASE(transforms_may_overflow)
 {
     float pixels[] = {0.25f, 0.5f, 0.25f, 0.5f}, rgb[3];
     const koksma_image image = {2, 2, 1, pixels};
-    (void)state;
     for (int wrap = 0; wrap < 3; wrap++) {
         const koksma__mapping m = {.moved = true,
                                    .matrix = {1e6f, -1e6f, 0, 1e6f, 1e6f, 0},
@@ -46,13 +44,4 @@ static void transforms_may_overflow(void **state)
             assert_true(rgb[k] >= 0.25f && rgb[k] <= 0.5f);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_coordinate_has_a_pixel),
-        cmocka_unit_test(transforms_may_overflow),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

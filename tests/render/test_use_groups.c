@@ -50,9 +50,8 @@ static void assert_point(const char *name, const double *x, double a, double b, 
 
 /* Every pattern that has three dimensions: pixel and time of sample i are point i, in every pixel, in whichever order
    pixels and uses are asked for; and in the order of the names. */
-static void samples_are_the_points_of_one_set(void **state)
+TEST_CASE(samples_are_the_points_of_one_set)
 {
-    (void)state;
     size_t tried = 0;
     for (size_t p = 0; koksma_pattern_at(p); p++) {
         const koksma_pattern *pattern = koksma_pattern_at(p);
@@ -125,9 +124,8 @@ static size_t boxes_with_one(const double xyz[][3], size_t n)
     return good;
 }
 
-static void stratification_in_all_dimensions_is_kept(void **state)
+TEST_CASE(stratification_in_all_dimensions_is_kept)
 {
-    (void)state;
     static const struct {
         const char *text;
         uint32_t two, one;
@@ -173,9 +171,8 @@ static void stratification_in_all_dimensions_is_kept(void **state)
 }
 
 /* Two groups of one pattern are paired at random, and differently from pixel to pixel. */
-static void groups_are_shuffled_as_a_whole(void **state)
+TEST_CASE(groups_are_shuffled_as_a_whole)
 {
-    (void)state;
     koksma_render_options options = options_for("pixel+time=hammersley;lens+light=hammersley", N);
     koksma__sampler sampler;
     koksma__sample_scratch room;
@@ -199,9 +196,8 @@ static void groups_are_shuffled_as_a_whole(void **state)
 }
 
 /* Over the image: the triples of all pixels are the points of one set of spp x pixels. */
-static void over_the_image_too(void **state)
+TEST_CASE(over_the_image_too)
 {
-    (void)state;
     static const char *const texts[] = {"pixel+time=hammersley", "pixel+time=scan-time", "pixel+lens=hammersley"};
     for (size_t k = 0; k < 3; k++) {
         koksma_render_options options = options_for(texts[k], N);
@@ -268,9 +264,8 @@ static const moments *over_seeds(const koksma_scene *scene, koksma_render_option
 }
 
 /* Groups of every kind of pattern show the ball's coverage over time, through both pipelines and over the image. */
-static void pictures_are_right_in_the_mean(void **state)
+TEST_CASE(pictures_are_right_in_the_mean)
 {
-    (void)state;
     static const char *const texts[] = {
         "random;pixel+time=random",
         "random;pixel+time=scan-time",
@@ -301,9 +296,8 @@ static void pictures_are_right_in_the_mean(void **state)
 
 /* Random points in a group are as good as in separate uses: the variance of pixels is the same. About 40 pixels vary,
    each over 40 seeds: the ratio has a standard deviation of about sqrt(2 * 2 / 1600) = 0.05. */
-static void a_random_group_is_independent_random(void **state)
+TEST_CASE(a_random_group_is_independent_random)
 {
-    (void)state;
     koksma_scene *scene = scene_of("{'materials': [" BLACK "], " MOVING_BALL "}");
     const double alone = over_seeds(scene, options_for("random", N), NULL)->variance;
     const double together = over_seeds(scene, options_for("random;pixel+time=random", N), NULL)->variance;
@@ -315,9 +309,8 @@ static void a_random_group_is_independent_random(void **state)
 /* ---- Texts and errors -------------------------------------------------------------------------------------------
  */
 
-static void texts_have_a_canonical_form(void **state)
+TEST_CASE(texts_have_a_canonical_form)
 {
-    (void)state;
     static const char *const texts[][2] = {
         {"jittered", "jittered"},
         {"pixel+time=scan-time", "random;pixel+time=scan-time"},
@@ -339,9 +332,8 @@ static void texts_have_a_canonical_form(void **state)
     }
 }
 
-static void texts_that_are_wrong_say_so(void **state)
+TEST_CASE(texts_that_are_wrong_say_so)
 {
-    (void)state;
     static const struct {
         const char *text;
         koksma_status status;
@@ -378,9 +370,8 @@ static void texts_that_are_wrong_say_so(void **state)
     assert_int_equal(koksma_render_patterns(NULL, &options), KOKSMA_ARGUMENT);
 }
 
-static void groups_that_cannot_be_are_refused(void **state)
+TEST_CASE(groups_that_cannot_be_are_refused)
 {
-    (void)state;
     koksma_scene *scene = scene_of("{'materials': [" BLACK "], " MOVING_BALL "}");
     koksma_render_options good = options_for("random;pixel+time=scan-time", N), bad;
     koksma_image image;
@@ -420,20 +411,4 @@ static void groups_that_cannot_be_are_refused(void **state)
     assert_int_equal(koksma_render_adaptive(scene, &bad, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
     assert_non_null(strstr(koksma_error_text(), "all sets of pattern zaremba are the same; with shift=1"));
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_are_the_points_of_one_set),
-        cmocka_unit_test(stratification_in_all_dimensions_is_kept),
-        cmocka_unit_test(groups_are_shuffled_as_a_whole),
-        cmocka_unit_test(over_the_image_too),
-        cmocka_unit_test(pictures_are_right_in_the_mean),
-        cmocka_unit_test(a_random_group_is_independent_random),
-        cmocka_unit_test(texts_have_a_canonical_form),
-        cmocka_unit_test(texts_that_are_wrong_say_so),
-        cmocka_unit_test(groups_that_cannot_be_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

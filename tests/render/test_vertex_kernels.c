@@ -174,9 +174,8 @@ static void check_block(const koksma__frame *f, int same, bool goes_on)
     assert_int_equal(found.lit, lit);
 }
 
-static void lanes_equal_rays(void **state)
+TEST_CASE(lanes_equal_rays)
 {
-    (void)state;
     koksma_scene *scene = every_kind();
     koksma_render_options options;
     koksma__frame frame;
@@ -190,10 +189,4 @@ static void lanes_equal_rays(void **state)
     }
     koksma__frame_close(&frame);
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lanes_equal_rays)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,9 +11,8 @@
 /* Under light that is the same from everywhere, seen straight on, a convex body shows the share that it reflects.
    That of GGX is (2 pi / 4) times the integral of D(theta / 2) / (1 + lambda(theta)) sin(theta): 1 - ln 2 for a = 1,
    and by quadrature 0.915812 for a = 1/4. */
-static void furnace_shows_the_albedo(void **state)
+TEST_CASE(furnace_shows_the_albedo)
 {
-    (void)state;
     static const struct {
         const char *material;
         double reflected;
@@ -46,9 +45,8 @@ static void furnace_shows_the_albedo(void **state)
     "'m'}]"
 
 /* What a patch of albedo 0.9 reflects under one light. */
-static void lights_are_their_form_factors(void **state)
+TEST_CASE(lights_are_their_form_factors)
 {
-    (void)state;
     static const struct {
         const char *light;
         double reflected;
@@ -82,9 +80,8 @@ static void lights_are_their_form_factors(void **state)
 
 /* A light that is seen does not stand in its own light, be it small and far or all of it far from the origin,
    where places are known to a thousandth. */
-static void seen_lights_do_not_shade_themselves(void **state)
+TEST_CASE(seen_lights_do_not_shade_themselves)
 {
-    (void)state;
     static const struct {
         double x;
         const char *light; /* for x, x */
@@ -116,9 +113,8 @@ static void seen_lights_do_not_shade_themselves(void **state)
 
 /* A light that is seen gives the same light, sampled, met by chance, or both, on a diffuse and on a glossy floor.
  */
-static void seen_lights_give_the_same(void **state)
+TEST_CASE(seen_lights_give_the_same)
 {
-    (void)state;
     static const char *const materials[] = {"'kind': 'lambert', 'albedo': 0.9",
                                             "'kind': 'phong', 'reflectance': 0.9, 'exponent': 8",
                                             "'kind': 'utah', 'albedo': 0.5, 'reflectance': 0.4, 'exponent': 30",
@@ -175,9 +171,8 @@ static double closed_room(const char *integrator, int spp, double *total_error)
     return sum / 6;
 }
 
-static void paths_of_every_length_count(void **state)
+TEST_CASE(paths_of_every_length_count)
 {
-    (void)state;
     const double expected = 10 * 0.16 / 24;
     double error;
     const double paths = closed_room("path", 64, &error);
@@ -188,9 +183,8 @@ static void paths_of_every_length_count(void **state)
 
 /* A scene in other units, a power of two as large, is the same picture: no rounding is another one, and only records
    are found in other cells, and so added in another order. */
-static void cache_knows_no_units(void **state)
+TEST_CASE(cache_knows_no_units)
 {
-    (void)state;
     koksma_image images[3];
     for (int i = 0; i < 3; i++) {
         char text[1024];
@@ -219,9 +213,8 @@ static void cache_knows_no_units(void **state)
 
 /* A lamp that shines up at a mirror alone: what lights the floor and the wall comes by that mirror, which is left
    out, whichever rays of a record find the lamp. */
-static void cache_leaves_out_what_mirrors_throw(void **state)
+TEST_CASE(cache_leaves_out_what_mirrors_throw)
 {
-    (void)state;
     koksma_scene *scene = scene_of(
         "{'camera': {'eye': [0, 1, 6], 'target': [0, 0, 0], 'fov_deg': 20},'materials': [{'name': 'm', 'kind': "
         "'lambert', 'albedo': 0.9},{'name': 'mirror', 'kind': 'mirror', 'reflectance': 0.9}], 'shapes': [{'kind': "
@@ -240,9 +233,8 @@ static void cache_leaves_out_what_mirrors_throw(void **state)
 }
 
 /* Without bounces there is no light between surfaces, with either integrator. */
-static void cache_has_the_depth_of_paths(void **state)
+TEST_CASE(cache_has_the_depth_of_paths)
 {
-    (void)state;
     koksma_image images[2];
     koksma_scene *scene = shipped("cornell");
     for (int i = 0; i < 2; i++) {
@@ -254,19 +246,4 @@ static void cache_has_the_depth_of_paths(void **state)
     koksma_image_fini(&images[0]);
     koksma_image_fini(&images[1]);
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(furnace_shows_the_albedo),
-        cmocka_unit_test(lights_are_their_form_factors),
-        cmocka_unit_test(seen_lights_do_not_shade_themselves),
-        cmocka_unit_test(seen_lights_give_the_same),
-        cmocka_unit_test(paths_of_every_length_count),
-        cmocka_unit_test(cache_knows_no_units),
-        cmocka_unit_test(cache_leaves_out_what_mirrors_throw),
-        cmocka_unit_test(cache_has_the_depth_of_paths),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,9 +3,8 @@
 #include "rendering.h"
 
 /* A patch of albedo 0.9 under radiance 2 from a small area A at distance d and cosines c: 0.9 / pi 2 A c c' / d^2. */
-static void lights_are_points_at_their_centres(void **state)
+TEST_CASE(lights_are_points_at_their_centres)
 {
-    (void)state;
     static const struct {
         const char *light;
         double reflected;
@@ -35,9 +34,8 @@ static void lights_are_points_at_their_centres(void **state)
 /* Straight through a ball of glass, R = ((n - 1) / (n + 1))^2 = 0.04 at each of its sides: rays see the white around
    it after a reflection, after the two refractions, and after these with reflections inside, each of which takes a
    bounce. */
-static void glass_sends_rays_both_ways(void **state)
+TEST_CASE(glass_sends_rays_both_ways)
 {
-    (void)state;
     static const char scene[] =
         "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', 'kind': "
         "'dielectric', 'ior': 1.5}],'shapes': [{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1, 'material': "
@@ -53,9 +51,8 @@ static void glass_sends_rays_both_ways(void **state)
 }
 
 /* A light that is chosen stands for all of them, and has no place on it to draw. */
-static void one_light_stands_for_all(void **state)
+TEST_CASE(one_light_stands_for_all)
 {
-    (void)state;
     koksma_scene *scene = scene_of(
         "{'camera': {'eye': [0, 3, 4], 'target': [0, 0, 0], 'fov_deg': 30},'materials': [{'name': 'm', 'kind': "
         "'lambert', 'albedo': 0.9}],'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': [0, 1, 0], "
@@ -78,9 +75,8 @@ static void one_light_stands_for_all(void **state)
 }
 
 /* An environment has no centre: rays and mirrors see it, and no surface has light from it, whichever way it faces. */
-static void environments_are_seen_and_light_nothing(void **state)
+TEST_CASE(environments_are_seen_and_light_nothing)
 {
-    (void)state;
     static const char *const ways[] = {"0, 1, 0", "1, 0, 0", "0, 0, 1", "0, 0, -1"};
     for (size_t i = 0; i < 8; i++) {
         char text[1024];
@@ -92,15 +88,4 @@ static void environments_are_seen_and_light_nothing(void **state)
                  ways[i / 2]);
         assert_near(mean_of_text(text, "regular", "whitted", 2, 4, 2, NULL), i % 2 ? 1 : 0, 1e-6);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_light_stands_for_all),
-        cmocka_unit_test(lights_are_points_at_their_centres),
-        cmocka_unit_test(glass_sends_rays_both_ways),
-        cmocka_unit_test(environments_are_seen_and_light_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

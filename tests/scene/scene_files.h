@@ -52,23 +52,26 @@ static inline bool can_read(const char *name)
     return status != KOKSMA_UNSUPPORTED;
 }
 
-/* Runs the tests with a folder, which is removed with all that they left in it. */
-static inline int run_in_folder(const struct CMUnitTest *tests, size_t n)
+static int make_folder(void **state)
 {
-    char path[512];
+    (void)state;
     strcpy(folder, "/tmp/koksma-scenes-XXXXXX");
-    if (!mkdtemp(folder)) {
-        return 1;
-    }
-    const int failed = _cmocka_run_group_tests("scenes", tests, n, NULL, NULL);
+    return !mkdtemp(folder);
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char path[512];
     DIR *all = opendir(folder);
     for (const struct dirent *file; all && (file = readdir(all));) {
         snprintf(path, sizeof path, "%s/%s", folder, file->d_name);
         unlink(path);
     }
     closedir(all);
-    rmdir(folder);
-    return failed;
+    return rmdir(folder);
 }
+
+TEST_GROUP(make_folder, remove_folder)
 
 #endif

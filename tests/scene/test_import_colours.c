@@ -71,7 +71,7 @@ static void reflectance_of(const koksma_scene *scene, double rgb[3])
 
 /* Mitsuba 3.9.1 gives these samples of gold the colours below (traverse() in scalar_rgb); the fit of the observer is off by
    up to 1.2 % of the largest channel. */
-static void metals_are_the_same_in_all_forms(void **state)
+TEST_CASE(metals_are_the_same_in_all_forms)
 {
     static const struct {
         const char *name, *text;
@@ -116,7 +116,6 @@ static void metals_are_the_same_in_all_forms(void **state)
          true}};
     static const double eta[] = {0.0759351, 0.517804, 1.50785}, k[] = {3.60454, 2.31725, 1.78986};
     double expected[3], rgb[3];
-    (void)state;
     fresnel(eta, k, expected);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         if (can_read(cases[i].name)) {
@@ -130,12 +129,11 @@ static void metals_are_the_same_in_all_forms(void **state)
 }
 
 /* The reflectance of eta or k of any size: it tends to 1. */
-static void extreme_metals_are_mirrors(void **state)
+TEST_CASE(extreme_metals_are_mirrors)
 {
     static const char *const texts[] = {METAL("<float name=\"eta\" value=\"1e300\"/>"),
                                         METAL("<float name=\"eta\" value=\"1\"/><float name=\"k\" value=\"1e300\"/>"),
                                         METAL("<float name=\"eta\" value=\"0\"/><float name=\"k\" value=\"0\"/>")};
-    (void)state;
     for (size_t i = 0; can_read("a.xml") && i < sizeof texts / sizeof *texts; i++) {
         koksma_scene *scene = opened("a.xml", texts[i]);
         double rgb[3];
@@ -146,7 +144,7 @@ static void extreme_metals_are_mirrors(void **state)
 }
 
 /* A texture on a metal shows as its mean, which a metal's own reflectance multiplies. */
-static void textured_metals_have_their_mean(void **state)
+TEST_CASE(textured_metals_have_their_mean)
 {
 #define SQUARES(name)                                                                                                \
     "<texture type=\"checkerboard\" name=\"" name "\"><rgb name=\"color0\" value=\"1 0 .5\"/>"                       \
@@ -157,7 +155,6 @@ static void textured_metals_have_their_mean(void **state)
     static const char *const forms[][2] = {
         {METAL(SQUARES("specular_reflectance") "%s"), METAL(MEAN_OF_SQUARES("specular_reflectance") "%s")},
         {METALLIC(SQUARES("base_color") "%.0s"), METALLIC(MEAN_OF_SQUARES("base_color") "%.0s")}};
-    (void)state;
     for (size_t i = 0; can_read("a.xml") && i < 4; i++) {
         double reflectances[2][3];
         koksma_scene *scenes[2];
@@ -175,13 +172,12 @@ static void textured_metals_have_their_mean(void **state)
 }
 
 /* So does one of a light. */
-static void textured_lights_have_their_mean(void **state)
+TEST_CASE(textured_lights_have_their_mean)
 {
     static const char *const text = MITSUBA(
         "", "<shape type=\"rectangle\"><emitter type=\"area\"><texture type=\"checkerboard\" "
             "name=\"radiance\"><rgb name=\"color0\" value=\"1 0 .5\"/><rgb name=\"color1\" value=\".5 1 .5\"/>"
             "</texture></emitter></shape>");
-    (void)state;
     if (can_read("a.xml")) {
         koksma_scene *scene = opened("a.xml", text);
         assert_int_equal(scene->n_unknown, 1);
@@ -197,7 +193,7 @@ static void textured_lights_have_their_mean(void **state)
     PBRT("MakeNamedMedium \"m\" \"string type\" \"homogeneous\" " parameters " MediumInterface \"\" \"m\"", "")
 
 /* The absorption 2 in all forms, without scattering. */
-static void media_are_the_same_in_all_forms(void **state)
+TEST_CASE(media_are_the_same_in_all_forms)
 {
     static const struct {
         const char *name, *text;
@@ -222,7 +218,6 @@ static void media_are_the_same_in_all_forms(void **state)
          PBRT_FOG("\"spectrum sigma_s\" [360 0 830 0] \"spectrum sigma_a\" [360 .1 830 .1] \"float scale\" 20")},
         {"a.pbrt", PBRT_FOG("\"rgb sigma_s\" [0 0 0] \"float scale\" 2")}, /* without sigma_a it is 1 */
     };
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         if (can_read(cases[i].name)) {
             koksma_scene *scene = opened(cases[i].name, cases[i].text);
@@ -240,11 +235,10 @@ static void media_are_the_same_in_all_forms(void **state)
 }
 
 /* A negative coefficient, which pbrt refuses, is none here; a huge one is as large as numbers of scenes may be. */
-static void coefficients_are_finite(void **state)
+TEST_CASE(coefficients_are_finite)
 {
     static const char *const bad[] = {PBRT_FOG("\"rgb sigma_a\" [-1 0 0]"), PBRT_FOG("\"rgb sigma_s\" [0 0 -1]"),
                                       PBRT_FOG("\"float scale\" -1")};
-    (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         koksma_scene *scene = NULL;
         const koksma_status status = open_as("a.pbrt", bad[i], &scene);
@@ -261,7 +255,7 @@ static void coefficients_are_finite(void **state)
 
 /* Daylight is white. Samples within it are its factors: those of 3 everywhere make it three times as bright. Outside it
    the same samples are an emission, whose luminance is 3. */
-static void daylight_is_white(void **state)
+TEST_CASE(daylight_is_white)
 {
 #define LIGHT(spectrum) MITSUBA("", "<emitter type=\"constant\">" spectrum "</emitter>")
 #define DAYLIGHT(inside) LIGHT("<spectrum type=\"d65\" name=\"radiance\">" inside "</spectrum>")
@@ -284,7 +278,6 @@ static void daylight_is_white(void **state)
     static const char *const reddish[] = {LIGHT("<spectrum name=\"radiance\" value=\"360:3,830:3\"/>"),
                                           LIGHT(IRREGULAR("name=\"radiance\"", "360 830", "3 3")),
                                           LIGHT(REGULAR("name=\"radiance\"", "lambda", "360", "830", "3 3"))};
-    (void)state;
     if (!can_read("a.xml")) {
         return;
     }
@@ -316,7 +309,7 @@ static void daylight_is_white(void **state)
 #define NODE(scale, child) "{\"scale\":" scale ",\"children\":[" child "]},"
 
 /* A direction is the same at any length. */
-static void directions_have_no_length(void **state)
+TEST_CASE(directions_have_no_length)
 {
     static const struct {
         const char *name, *text;
@@ -335,7 +328,6 @@ static void directions_have_no_length(void **state)
                             "LightSource \"distant\" \"point3 to\" [3e37 0 -4e37] Identity")},
         {"a.gltf", GLTF("[1,1,1]")},
         {"a.gltf", GLTF("[1e30,1e30,1e30]")}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         if (can_read(cases[i].name)) {
             koksma_scene *scene = opened(cases[i].name, cases[i].text);
@@ -348,7 +340,7 @@ static void directions_have_no_length(void **state)
 /* ---- Coats --------------------------------------------------------------------------------------------------- */
 
 /* A coat reflects ((n - 1) / (n + 1))^2 along the normal: the same for n and 1 / n, and at most that of n = 10. */
-static void coats_are_finite(void **state)
+TEST_CASE(coats_are_finite)
 {
     static const struct {
         const char *name, *text;
@@ -375,7 +367,6 @@ static void coats_are_finite(void **state)
         {"a.xml", PLASTIC("1", "0"), -1},
         {"a.xml", BALL("<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"-1\"/></bsdf>"), -1},
         {"a.xml", BALL("<bsdf type=\"principled\"><float name=\"eta\" value=\"-1\"/></bsdf>"), -1}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         koksma_scene *scene = NULL;
         if (!can_read(cases[i].name)) {
@@ -419,7 +410,7 @@ static void check_said(const koksma_scene *scene, const char *text, const char *
 
 /* Textures of spectra and of numbers have separate names. A product is that of the colours, in either order; where a
    texture within another leaves space for one colour only, it is the mean. */
-static void textures_combine(void **state)
+TEST_CASE(textures_combine)
 {
     static const struct {
         const char *text;
@@ -503,7 +494,6 @@ static void textures_combine(void **state)
          NULL}};
     char path[128];
     koksma_image grey;
-    (void)state;
     snprintf(path, sizeof path, "%s/grey.pfm", folder);
     assert_ok(koksma_image_init(&grey, 2, 1, 1));
     grey.pixels[0] = .2f;
@@ -528,7 +518,7 @@ static void textures_combine(void **state)
 /* A texture whose value is the name of a spectrum is that spectrum; a metal has no textures. The CIE's illuminant A has
    the chromaticity .44757, .40745 (CIE 15), which is 1.845, .826, .233 in linear sRGB of luminance 1, and is a black body
    of 2856 K. */
-static void names_of_spectra_are_read(void **state)
+TEST_CASE(names_of_spectra_are_read)
 {
 #define NAMED(name) CONSTANT("spectrum", "t", "\"spectrum value\" \"" name "\"")
 #define GOLD_K "\"spectrum k\" \"metal-Au-k\""
@@ -560,7 +550,6 @@ static void names_of_spectra_are_read(void **state)
                   {"\"spectrum L\" \"stdillum-D65\"", {1, 1, 1}, NULL},
                   {"\"spectrum L\" \"stdillum-F1\"", {1, 1, 1}, "spectrum 'stdillum-F1' is replaced by white"}};
     char text[1024];
-    (void)state;
     for (size_t i = 0; i < sizeof metals / sizeof *metals; i++) {
         koksma_scene *scenes[2];
         for (int k = 0; k < 2; k++) {
@@ -581,20 +570,4 @@ static void names_of_spectra_are_read(void **state)
         check_said(scene, text, lights[i].said);
         koksma_scene_close(scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(metals_are_the_same_in_all_forms),
-                                       cmocka_unit_test(extreme_metals_are_mirrors),
-                                       cmocka_unit_test(textured_metals_have_their_mean),
-                                       cmocka_unit_test(textured_lights_have_their_mean),
-                                       cmocka_unit_test(media_are_the_same_in_all_forms),
-                                       cmocka_unit_test(coefficients_are_finite),
-                                       cmocka_unit_test(daylight_is_white),
-                                       cmocka_unit_test(directions_have_no_length),
-                                       cmocka_unit_test(coats_are_finite),
-                                       cmocka_unit_test(textures_combine),
-                                       cmocka_unit_test(names_of_spectra_are_read)};
-    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }

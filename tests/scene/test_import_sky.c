@@ -75,9 +75,8 @@ static double expected(const koksma_image *from, bool octahedral, const double i
 }
 
 /* 70 and 600 are no multiples of a tile's side. The second matrix rotates, mirrors and scales. */
-static void environments_are_turned(void **state)
+TEST_CASE(environments_are_turned)
 {
-    (void)state;
     static const double matrices[][12] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
                                           {0.6, 0.8, 0, 1, -1.6, 1.2, 0.5, 2, 0, 0.3, -0.7, 3}};
     static const int sizes[][3] = {{70, 70, 1}, {70, 70, 3}, {1200, 600, 1}, {40, 20, 3}};
@@ -102,12 +101,4 @@ static void environments_are_turned(void **state)
         koksma_image_fini(&from);
         koksma_image_fini(&to);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(environments_are_turned),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,9 +47,8 @@ static const struct {
     {2, {{360, 3}, {830, 3}}, KOKSMA__UNBOUNDED, {2.99696, 2.99662, 2.9964}},
 };
 
-static void colours_are_those_of_the_tables(void **state)
+TEST_CASE(colours_are_those_of_the_tables)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         koksma__sampled_spectrum s = {0};
         double rgb[3];
@@ -65,9 +64,8 @@ static void colours_are_those_of_the_tables(void **state)
 }
 
 /* A perfect white is 1, however it is cut in pieces, between whole nanometres too; a line of 1 nm counts where it lies. */
-static void sums_are_complete(void **state)
+TEST_CASE(sums_are_complete)
 {
-    (void)state;
     koksma__sampled_spectrum two = {0}, many = {0}, narrow = {0};
     double rgb[3], other[3];
     assert_true(koksma__sampled_spectrum_add(&two, 300, 1) && koksma__sampled_spectrum_add(&two, 900, 1));
@@ -100,13 +98,4 @@ static void sums_are_complete(void **state)
     assert_false(koksma__sampled_spectrum_add(&narrow, 557, 1));
     assert_false(koksma__sampled_spectrum_add(&narrow, 500, 1));
     assert_false(koksma__sampled_spectrum_add(&narrow, 600, (double)NAN));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(colours_are_those_of_the_tables),
-        cmocka_unit_test(sums_are_complete),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -98,11 +98,10 @@ static size_t damage_element(const char *name, const char *tag)
     return n;
 }
 
-static void values_of_mitsuba_are_whole(void **state)
+TEST_CASE(values_of_mitsuba_are_whole)
 {
     static const char *const seeds[] = {"parameters.xml", "older.xml", "orthographic.xml", "spectra.xml"};
     size_t n = 0;
-    (void)state;
     if (open_bytes("probe.xml", "<scene version=\"3.0.0\"/>") == KOKSMA_UNSUPPORTED) {
         return; /* a build without expat */
     }
@@ -126,7 +125,7 @@ static void values_of_mitsuba_are_whole(void **state)
     GREY("type=\"irregular\"><string name=\"wavelengths\" value=\"" wavelengths                                      \
          "\"/><string name=\"values\" value=\"" values "\"/></spectrum>")
 
-static void odd_elements_of_mitsuba_are_refused(void **state)
+TEST_CASE(odd_elements_of_mitsuba_are_refused)
 {
     static const struct {
         const char *text, *reason;
@@ -209,7 +208,6 @@ static void odd_elements_of_mitsuba_are_refused(void **state)
         {"<scene><sensor type=\"perspective\"><film type=\"f\"><float name=\"width\" "
          "value=\"8.5\"/></film></sensor></scene>",
          "a film of 8.5 x 576"}};
-    (void)state;
     if (open_bytes("probe.xml", "<scene version=\"3.0.0\"/>") == KOKSMA_UNSUPPORTED) {
         return;
     }
@@ -261,13 +259,12 @@ static const char *damage_parameter(const char *name, const char *at, bool passe
     return to;
 }
 
-static void values_of_pbrt_are_whole(void **state)
+TEST_CASE(values_of_pbrt_are_whole)
 {
     static const char *const seeds[] = {"parameters.pbrt", "orthographic.pbrt"};
     static const char *const unread = "disablepixeljitter xradius yradius pixelsamples maxdepth amount iso k "
                                       "reflectance";
     size_t n = 0;
-    (void)state;
     for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
         read_seed(seeds[i]);
         assert_ok(open_bytes(seeds[i], text));
@@ -286,7 +283,7 @@ static void values_of_pbrt_are_whole(void **state)
 
 #define PBRT(inner) "Camera \"perspective\"\nWorldBegin\n" inner
 
-static void odd_directives_of_pbrt_are_refused(void **state)
+TEST_CASE(odd_directives_of_pbrt_are_refused)
 {
     static const struct {
         const char *text, *reason;
@@ -309,7 +306,6 @@ static void odd_directives_of_pbrt_are_refused(void **state)
         {PBRT("Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" \"\""), "(filename) is missing or empty"},
         {PBRT("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0]"),
          ":3: indices: 4 numbers, but each face has 3"}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const koksma_status status = open_bytes("odd.pbrt", cases[i].text);
         if (koksma_status_exit_code(status) != 3 || !strstr(koksma_error_text(), cases[i].reason)) {
@@ -322,12 +318,4 @@ static void odd_directives_of_pbrt_are_refused(void **state)
         opened("two.pbrt", PBRT("") "Film \"rgb\" \"integer xresolution\" 8 \"integer xresolution\" 9");
     assert_int_equal(scene->width, 9);
     koksma_scene_close(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_of_mitsuba_are_whole), cmocka_unit_test(odd_elements_of_mitsuba_are_refused),
-        cmocka_unit_test(values_of_pbrt_are_whole), cmocka_unit_test(odd_directives_of_pbrt_are_refused)};
-    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }

@@ -71,13 +71,12 @@ static koksma_layers first_hits(const koksma_scene *scene)
     return layers;
 }
 
-static void one_scene_is_one_picture(void **state)
+TEST_CASE(one_scene_is_one_picture)
 {
     static const char *const names[] = {"one.json", "one.pbrt", "one.xml"};
     const char *const texts[] = {as_json, as_pbrt, as_mitsuba};
     koksma_layers expected = {0};
     double mean = 0, error = 0;
-    (void)state;
     for (size_t i = 0; i < 3; i++) {
         if (i == 2 ? !can_read("probe.xml") : i && !koksma_mesh_tracer()) {
             continue;
@@ -117,7 +116,7 @@ static void one_scene_is_one_picture(void **state)
 
 /* A square of side 1 at (1.5, 0), 5 before a camera that shows 4 x 3: it covers pixels 30 to 39 of 40 and 10 to 19
    of 30, rows downwards, at any distance. Both formats scale the camera by its matrix. */
-static void orthographic_cameras_show_their_height(void **state)
+TEST_CASE(orthographic_cameras_show_their_height)
 {
     static const struct {
         const char *name, *text;
@@ -143,7 +142,6 @@ static void orthographic_cameras_show_their_height(void **state)
          "<integer name=\"width\" value=\"40\"/><integer name=\"height\" value=\"30\"/></film></sensor>"
          "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.5\"/><translate x=\"1.5\"/>"
          "</transform><emitter type=\"area\"><rgb name=\"radiance\" value=\"2\"/></emitter></shape></scene>"}};
-    (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         if (strstr(scenes[i].name, ".xml") ? !can_read("probe.xml") : i && !koksma_mesh_tracer()) {
             continue;
@@ -181,7 +179,7 @@ static double linear_in_angle(double cosine)
 
 /* A floor of albedo 1/2 under such a spot of intensity 6 at (0.5, 0, 2), which shines down: the radiance is albedo / pi *
    intensity * falloff * cos / d^2. */
-static void spots_light_a_circle(void **state)
+TEST_CASE(spots_light_a_circle)
 {
     static const struct {
         const char *name;
@@ -203,7 +201,6 @@ static void spots_light_a_circle(void **state)
          "up=\"0, 1, 0\"/></transform><rgb name=\"intensity\" value=\"6\"/><float name=\"cutoff_angle\" "
          "value=\"20\"/><float name=\"beam_width\" value=\"8\"/></emitter><shape type=\"rectangle\"><transform "
          "name=\"to_world\"><scale value=\"4\"/></transform><bsdf type=\"diffuse\"/></shape></scene>"}};
-    (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         if (strstr(scenes[i].name, ".xml") ? !can_read("probe.xml") : !koksma_mesh_tracer()) {
             continue;
@@ -229,7 +226,7 @@ static void spots_light_a_circle(void **state)
 
 /* A closed room whose every wall emits 1 and reflects one half is everywhere as bright as 1 + 1/2 + 1/4 + ...; cut after
    `--depth d` bounces, and the light that the last vertex gets from the lights, d + 2 terms are left. */
-static void a_luminous_room_is_a_geometric_series(void **state)
+TEST_CASE(a_luminous_room_is_a_geometric_series)
 {
     static const char *const names[] = {"one.pbrt", "one.xml"};
     static const char *const texts[] = {
@@ -242,7 +239,6 @@ static void a_luminous_room_is_a_geometric_series(void **state)
         "</sensor><shape type=\"cube\"><boolean name=\"flip_normals\" value=\"true\"/><bsdf type=\"diffuse\"><rgb "
         "name=\"reflectance\" value=\"0.5\"/></bsdf><emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/>"
         "</emitter></shape></scene>"};
-    (void)state;
     for (size_t i = 0; koksma_mesh_tracer() && i < 2; i++) {
         if (i == 1 && !can_read("probe.xml")) {
             continue;
@@ -263,7 +259,7 @@ static void a_luminous_room_is_a_geometric_series(void **state)
 /* The camera looks along -z at two luminous squares, of radiance 7 at distance 4 and 3 at distance 6, and at a sky of
    radiance 1: it sees the first thing between its planes, and no light at all if it hides them. max_depth counts segments
    of paths, of which two are those without a bounce. */
-static void mitsubas_cameras_see_what_they_may(void **state)
+TEST_CASE(mitsubas_cameras_see_what_they_may)
 {
     static const struct {
         const char *sensor, *integrator;
@@ -276,7 +272,6 @@ static void mitsubas_cameras_see_what_they_may(void **state)
                   "<integer name=\"maxDepth\" value=\"-1\"/>", 1, KOKSMA_MAX_DEPTH},
                  {"", "<boolean name=\"hide_emitters\" value=\"true\"/>", 0, KOKSMA_MAX_DEPTH},
                  {"", "<boolean name=\"hideEmitters\" value=\"false\"/>", 7, KOKSMA_MAX_DEPTH}};
-    (void)state;
     for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[2048];
         koksma_render_options options;
@@ -314,7 +309,7 @@ static void mitsubas_cameras_see_what_they_may(void **state)
 
 /* Behind an absorbing shape a light of radiance 3 is seen through exp(-chord / 2): the middle of a ball of radius .5, of
    one that is twice as long along z, and of a cube that is turned by 45 degrees. */
-static void media_fill_the_shapes_of_mitsuba(void **state)
+TEST_CASE(media_fill_the_shapes_of_mitsuba)
 {
     static const struct {
         const char *shape;
@@ -324,7 +319,6 @@ static void media_fill_the_shapes_of_mitsuba(void **state)
         {"<shape type=\"sphere\"><transform name=\"to_world\"><scale x=\"0.5\" y=\"0.5\" z=\"1\"/></transform>", 2},
         {"<shape type=\"cube\"><transform name=\"to_world\"><rotate y=\"1\" angle=\"45\"/></transform>",
          2.8284271247461901}};
-    (void)state;
     for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[2048];
         koksma_render_options options;
@@ -356,7 +350,7 @@ static void media_fill_the_shapes_of_mitsuba(void **state)
 
 /* The vertical angle is that of the screen window's height at the distance where pbrt's fov spans -1 to 1 (Pharr, Jakob
    and Humphreys 2023, section 5.2.2): with fov 90, 2 atan(half the height). */
-static void the_screen_window_sets_the_angle(void **state)
+TEST_CASE(the_screen_window_sets_the_angle)
 {
     static const struct {
         const char *camera;
@@ -365,7 +359,6 @@ static void the_screen_window_sets_the_angle(void **state)
                  {"\"float fov\" 90 \"float screenwindow\" [-1 1 -0.75 0.75]", 0.75},
                  {"\"float fov\" 60 \"float screenwindow\" [-2 2 -1.5 1.5]", 0.86602540378443865},
                  {"\"float fov\" 90 \"float frameaspectratio\" 1.3333333", 1}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[512];
         snprintf(text, sizeof text,
@@ -380,7 +373,7 @@ static void the_screen_window_sets_the_angle(void **state)
 
 /* A light whose shape has alpha 0 shines, and no ray meets it; a shape with alpha 0 is not there. Below the centre of a
    disk of radius r and radiance L at distance d the irradiance is pi L r^2 / (r^2 + d^2). */
-static void alpha_zero_hides_a_shape_but_not_its_light(void **state)
+TEST_CASE(alpha_zero_hides_a_shape_but_not_its_light)
 {
     static const char *const text =
         "LookAt 0 0 1  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 2 Film \"rgb\" " SIZE " WorldBegin\n"
@@ -390,7 +383,6 @@ static void alpha_zero_hides_a_shape_but_not_its_light(void **state)
         "Shape \"disk\" \"float alpha\" [0] \"float radius\" 0.5 AttributeEnd\n";
     koksma_scene *scene = opened("a.pbrt", text);
     double error;
-    (void)state;
     assert_int_equal(scene->n_unknown, 0);
     koksma_render_options options = options_of(scene, "random", "direct", 256, 40);
     const double mean = mean_of(scene, &options, &error);
@@ -400,10 +392,9 @@ static void alpha_zero_hides_a_shape_but_not_its_light(void **state)
 
 /* Mitsuba's texture coordinates, as its ray_intersect gives them: of a sphere the angle about z and that from +z, of a
    disk the radius and the angle, as fractions. */
-static void round_shapes_have_mitsubas_coordinates(void **state)
+TEST_CASE(round_shapes_have_mitsubas_coordinates)
 {
     static const char *const shapes[] = {"sphere", "disk"};
-    (void)state;
     for (int i = 0; i < 2 && can_read("probe.xml") && koksma_mesh_tracer(); i++) {
         char text[1024];
         snprintf(
@@ -494,9 +485,8 @@ static void check_motion(const char *moving, const char *still)
     }
 }
 
-static void shapes_move_as_in_pbrt(void **state)
+TEST_CASE(shapes_move_as_in_pbrt)
 {
-    (void)state;
     for (size_t i = 0; koksma_mesh_tracer() && i < sizeof motions / sizeof *motions; i++) {
         for (size_t k = 0; k < sizeof moved_shapes / sizeof *moved_shapes; k++) {
             char texts[2][2][1024];
@@ -519,13 +509,12 @@ static void shapes_move_as_in_pbrt(void **state)
 }
 
 /* A camera that only moves; and a shutter that is open before the motion begins, when all stands as at its start. */
-static void cameras_move_as_in_pbrt(void **state)
+TEST_CASE(cameras_move_as_in_pbrt)
 {
     static const char *const form = "%s LookAt 0.3 0.2 5  0 0 0  0 1 0 %s Camera \"perspective\" \"float fov\" 30 "
                                     "\"float shutteropen\" %g \"float "
                                     "shutterclose\" %g Film \"rgb\" " SIZE " WorldBegin Shape \"sphere\"";
     char texts[2][1024];
-    (void)state;
     static const char *const move = "ActiveTransform EndTime Translate 0.8 0.4 1 ActiveTransform All";
     koksma__snprintf(texts[0], sizeof texts[0], form, "", move, 0.25, 0.25);
     koksma__snprintf(texts[1], sizeof texts[1], form, "", "Translate 0.2 0.1 0.25", 0.0, 1.0);
@@ -540,9 +529,8 @@ static void cameras_move_as_in_pbrt(void **state)
 
 /* A motion that fills the middle half of the shutter's time: a light square of side 1 stands for a quarter of it at each
    end of a way of 2, and its picture, 4 wide, has on the left and right what a quarter and, between, what the way gives. */
-static void shutters_outlast_motions(void **state)
+TEST_CASE(shutters_outlast_motions)
 {
-    (void)state;
     if (!koksma_mesh_tracer()) {
         return;
     }
@@ -599,9 +587,8 @@ static void check_medium(const char *text, const double absorption[3], const dou
 
 /* Mitsuba's defaults are the albedo .75 and the extinction 1; a scale multiplies the extinction. The medium of a cube is
    between its sides. */
-static void media_of_mitsuba_are_read(void **state)
+TEST_CASE(media_of_mitsuba_are_read)
 {
-    (void)state;
     if (!can_read("probe.xml")) {
         return;
     }
@@ -636,7 +623,7 @@ static void media_of_mitsuba_are_read(void **state)
 
 /* pbrt-v4's UVMapping looks an image up at (su u + du, sv v + dv), beyond its edges by the wrap mode (Pharr, Jakob and
    Humphreys 2023, sections 10.2 and 10.4.2): an image of four columns on a square under parallel light. */
-static void images_are_mapped_as_in_pbrt(void **state)
+TEST_CASE(images_are_mapped_as_in_pbrt)
 {
     static const struct {
         const char *parameters;
@@ -648,7 +635,6 @@ static void images_are_mapped_as_in_pbrt(void **state)
                  {"\"float udelta\" 0.3 \"string wrap\" \"repeat\"", 1, 0.3, false}};
     char path[128];
     koksma_image columns, image;
-    (void)state;
     assert_ok(koksma_image_init(&columns, 4, 2, 1));
     for (int i = 0; i < 8; i++) {
         columns.pixels[i] = 0.125f + 0.25f * (float)(i % 4);
@@ -688,7 +674,7 @@ static void images_are_mapped_as_in_pbrt(void **state)
 
 /* The environments of pbrt-v4 are square, of any size; it ends with another. Mitsuba's may be of any shape, but narrow
    rows would become an image that is much larger. A matrix may make the directions to its pixels overflow. */
-static void environments_have_a_shape(void **state)
+TEST_CASE(environments_have_a_shape)
 {
     static const struct {
         const char *name, *text, *reason; /* NULL: it is accepted */
@@ -722,7 +708,6 @@ static void environments_have_a_shape(void **state)
          "/a.xml:2: the matrix of an environment, or its inverse, has an entry beyond 1e9", 64, 32}};
     char path[128];
     const bool xml = can_read("probe.xml");
-    (void)state;
     snprintf(path, sizeof path, "%s/sky.pfm", folder);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         koksma_image sky;
@@ -747,7 +732,7 @@ static void environments_have_a_shape(void **state)
 
 /* pbrt looks up a checkerboard at (su u, sv v), whose squares are 1 wide; turned by 180 degrees they are where they
    were. */
-static void checkerboards_are_scaled_as_in_pbrt(void **state)
+TEST_CASE(checkerboards_are_scaled_as_in_pbrt)
 {
     static const struct {
         double scale, period;
@@ -757,7 +742,6 @@ static void checkerboards_are_scaled_as_in_pbrt(void **state)
                  {1e-5, 1e5, ""},
                  {-1e-7, 1e6, ":1: a checkerboard's uscale of -1e-07 is replaced by 1e-6"},
                  {0, 1e6, ":1: a checkerboard's uscale of 0 is replaced by 1e-6"}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[512], warning[256] = "";
         snprintf(text, sizeof text,
@@ -777,9 +761,8 @@ static void checkerboards_are_scaled_as_in_pbrt(void **state)
 /* ---- Lights with two sides ------------------------------------------------------------------------------------------ */
 
 /* A square light, with a surface that reflects or without, seen from behind. */
-static void lights_of_pbrt_may_have_two_sides(void **state)
+TEST_CASE(lights_of_pbrt_may_have_two_sides)
 {
-    (void)state;
     for (int i = 0; koksma_mesh_tracer() && i < 4; i++) {
         const bool both = i & 1;
         char text[1024];
@@ -803,10 +786,9 @@ static void lights_of_pbrt_may_have_two_sides(void **state)
 /* What its back lights: a floor at distance 1 behind a square of side 2, by samples of the light alone, by rays alone,
    and by both. The configuration factor of a quarter from below its corner, with X = Y = 1, is
        1 / (2 pi) (X / sqrt(1 + X^2) atan(Y / sqrt(1 + X^2)) + the same with X and Y swapped). */
-static void both_sides_light_alike(void **state)
+TEST_CASE(both_sides_light_alike)
 {
     static const char *const ways[] = {"path", "path-light", "path-bsdf", "path-balance", "direct"};
-    (void)state;
     for (int i = 0; koksma_mesh_tracer() && i < 10; i++) {
         char text[1024];
         /* the camera is between the light at z = 0 and the floor at z = -1 */
@@ -1116,10 +1098,9 @@ static void write_white(void)
     koksma_image_fini(&white);
 }
 
-static void unknown_things_are_named(void **state)
+TEST_CASE(unknown_things_are_named)
 {
     const bool xml = can_read("probe.xml");
-    (void)state;
     write_white();
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         char text[256] = "", warning[256];
@@ -1147,7 +1128,7 @@ static void unknown_things_are_named(void **state)
 
 /* A <ref> is one more of the object that it leads to, as Mitsuba 3.9.1 renders it: a film, a part of a group, a light and a
    shape of the scene. An <alias> is none. An included file is the children of a <scene>, or another object. */
-static void references_and_includes_are_objects(void **state)
+TEST_CASE(references_and_includes_are_objects)
 {
     static const struct {
         const char *text, *included;
@@ -1167,7 +1148,6 @@ static void references_and_includes_are_objects(void **state)
         {CAMERA, "<shape version=\"3.0.0\" type=\"sphere\"><float name=\"radius\" value=\"2\"/></shape>", 768, 1, 0},
         {CAMERA "<shape type=\"sphere\"><ref id=\"b\"/></shape>",
          "<bsdf version=\"3.0.0\" type=\"diffuse\" id=\"b\"/>", 768, 1, 0}};
-    (void)state;
     for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[1024];
         write_file("o.xml", cases[i].included);
@@ -1185,7 +1165,7 @@ static void references_and_includes_are_objects(void **state)
 
 /* Mitsuba 3 looks an image up at its `to_uv` of (u, v, 0), without the third row and column of that: those numbers of a
    <matrix> of nine which would move the image if it were one of the plane do nothing (3.9.1, eval() of a bitmap). */
-static void images_are_mapped_as_in_mitsuba(void **state)
+TEST_CASE(images_are_mapped_as_in_mitsuba)
 {
     static const struct {
         const char *to_uv;
@@ -1195,7 +1175,6 @@ static void images_are_mapped_as_in_mitsuba(void **state)
                  {"<translate y=\"0.25\"/><rotate z=\"1\" angle=\"90\"/>", {0, -1, -0.25F, 1, 0, 0}},
                  {"<matrix value=\"1 2 3 4 5 6 7 8 9\"/>", {1, 2, 0, 4, 5, 0}},
                  {"<matrix value=\"1 2 3 4 5 6 7 8 9 10 11 12 0 0 0 1\"/>", {1, 2, 4, 5, 6, 8}}};
-    (void)state;
     for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[1024];
         snprintf(text, sizeof text, IMAGE("<transform name=\"to_uv\">%s</transform>"), cases[i].to_uv);
@@ -1213,7 +1192,7 @@ static void images_are_mapped_as_in_mitsuba(void **state)
 
 /* In Mitsuba the square of (u, v) is found by to_uv, and has sides of one half; Mitsuba 3 makes a to_uv of the four numbers
    of Mitsuba 0.6, which moves before it scales. */
-static void checkerboards_are_mapped_as_in_mitsuba(void **state)
+TEST_CASE(checkerboards_are_mapped_as_in_mitsuba)
 {
     static const struct {
         const char *text;
@@ -1226,7 +1205,6 @@ static void checkerboards_are_mapped_as_in_mitsuba(void **state)
                          "name=\"uscale\" value=\"8\"/><float name=\"vscale\" value=\"4\"/><float name=\"uoffset\" "
                          "value=\"0.5\"/><float name=\"voffset\" value=\"0.25\"/></texture>"),
                   {8, 0, 4, 0, 4, 1}}};
-    (void)state;
     for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         koksma_scene *scene = opened("a.xml", cases[i].text);
         const koksma__material *m = &scene->materials[0];
@@ -1252,7 +1230,7 @@ static void write_two(const float pixels[12], char path[128])
 }
 
 /* A colour of a checkerboard can't be a texture: its mean is taken, of an image's pixels clamped to [0, 1]. */
-static void textures_in_checkerboards_are_their_means(void **state)
+TEST_CASE(textures_in_checkerboards_are_their_means)
 {
     static const struct {
         const char *inner;
@@ -1271,7 +1249,6 @@ static void textures_in_checkerboards_are_their_means(void **state)
                   {0.25, 0.1875, 0.0625}}};
     static const float pixels[] = {1, 0.5F, 0.25F, 0, 0.25F, 0, 9, 0.5F, 0.25F, 0, 0.25F, 0};
     char path[128];
-    (void)state;
     write_two(pixels, path);
     for (size_t i = 0; can_read("probe.xml") && i < 2 * sizeof cases / sizeof *cases; i++) {
         const int which = (int)(i % 2);
@@ -1298,7 +1275,7 @@ static void textures_in_checkerboards_are_their_means(void **state)
 
 /* A light that is no surface has one colour: the mean of its image, of all its levels, times the scale of a spectrum around
    it; a surface shows the image itself, times that scale. */
-static void images_of_lights_are_their_means(void **state)
+TEST_CASE(images_of_lights_are_their_means)
 {
 #define TWO "<texture name=\"%s\" type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture>"
     static const struct {
@@ -1316,7 +1293,6 @@ static void images_of_lights_are_their_means(void **state)
 #undef TWO
     static const float pixels[] = {5, 0.5F, 0.25F, 15, 0.5F, 0.25F, 5, 0.5F, 0.25F, 15, 0.5F, 0.25F};
     char path[128];
-    (void)state;
     write_two(pixels, path);
     for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[2048], of[3][512];
@@ -1350,7 +1326,7 @@ static void images_of_lights_are_their_means(void **state)
 /* A sky of radiance 1 is all the light. What covers the whole picture is black and meets half of it: .5 remains, of an
    image with the levels 0 and 1 as of a constant; a blend of Lambert surfaces has the blended albedo, by each level of
    an image. */
-static void masks_and_blends_are_exact(void **state)
+TEST_CASE(masks_and_blends_are_exact)
 {
 #define BEFORE(bsdf)                                                                                                 \
     MITSUBA("<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"40\"/><translate "                \
@@ -1364,7 +1340,6 @@ static void masks_and_blends_are_exact(void **state)
     static const float pixels[] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1};
     char path[128];
     double error;
-    (void)state;
     write_two(pixels, path);
     for (size_t i = 0; can_read("probe.xml") && koksma_mesh_tracer() && i < 2; i++) {
         koksma_scene *scene = opened("a.xml", masks[i]);
@@ -1396,7 +1371,7 @@ static void masks_and_blends_are_exact(void **state)
 
 /* The texture coordinates that a triangle has without any: of pbrt (0, 0), (1, 0), (1, 1), of Mitsuba the barycentric
    ones. */
-static void files_without_uv_have_their_peers(void **state)
+TEST_CASE(files_without_uv_have_their_peers)
 {
     static const char *const names[] = {"a.pbrt", "a.xml"};
     static const char *const texts[] = {
@@ -1405,7 +1380,6 @@ static void files_without_uv_have_their_peers(void **state)
         MITSUBA("<shape type=\"ply\"><string name=\"filename\" value=\"one.ply\"/><bsdf type=\"twosided\"><bsdf "
                 "type=\"diffuse\"><texture name=\"reflectance\" type=\"checkerboard\"/></bsdf></bsdf></shape>")};
     static const float expected[2][6] = {{0, 0, 1, 0, 1, 1}, {0, 0, 1, 0, 0, 1}};
-    (void)state;
     write_file("one.ply",
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
                "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 "
@@ -1423,7 +1397,7 @@ static void files_without_uv_have_their_peers(void **state)
 
 /* The spectra of Mitsuba 3 as a light's intensity and as a reflectance. Numbers: those of Mitsuba 3.9.1 (traverse() in
    scalar_rgb) for the same texts; for samples, those of the same pairs in a <spectrum value="...">. */
-static void spectra_of_mitsuba_are_read(void **state)
+TEST_CASE(spectra_of_mitsuba_are_read)
 {
 #define SAMPLES 0.0865332, 0.246733, 0.128916
     static const struct {
@@ -1458,7 +1432,6 @@ static void spectra_of_mitsuba_are_read(void **state)
          0.005}};
 #undef SAMPLES
     double pairs[3] = {0};
-    (void)state;
     for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
         char text[1024];
         snprintf(
@@ -1484,9 +1457,8 @@ static void spectra_of_mitsuba_are_read(void **state)
 }
 
 /* Of a light of pbrt-v4 with a sampled spectrum only the colour counts: it has luminance 1. */
-static void lights_of_pbrt_have_luminance_1(void **state)
+TEST_CASE(lights_of_pbrt_have_luminance_1)
 {
-    (void)state;
     koksma_scene *scene =
         opened("a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 0 500 80 600 156 700 184]");
     const double *rgb = scene->lights[0].radiance;
@@ -1496,9 +1468,8 @@ static void lights_of_pbrt_have_luminance_1(void **state)
 }
 
 /* The camera's medium of pbrt-v4 is the scene's, everywhere. */
-static void the_cameras_medium_is_read(void **state)
+TEST_CASE(the_cameras_medium_is_read)
 {
-    (void)state;
     koksma_scene *scene = opened("fog.pbrt", FOG "Shape \"sphere\"");
     const koksma__medium *m = &scene->medium;
     assert_true(m->is_there);
@@ -1515,9 +1486,8 @@ static void the_cameras_medium_is_read(void **state)
 }
 
 /* Points of the medium do not glow where the first triangle does: a light 1,000 away through fog shows nothing. */
-static void fog_does_not_glow(void **state)
+TEST_CASE(fog_does_not_glow)
 {
-    (void)state;
     koksma_scene *scene =
         opened("dark.pbrt", FOG "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Shape \"trianglemesh\" "
                                 "\"integer indices\" [0 1 2] \"point3 P\" [0 0 1000  0 1 1000  1 0 1000]");
@@ -1618,11 +1588,10 @@ static const struct {
      "textures are nested more than 16 deep"},
 };
 
-static void malformed_and_hostile_texts_are_refused(void **state)
+TEST_CASE(malformed_and_hostile_texts_are_refused)
 {
     char outside[80], path[128];
     const bool xml = can_read("probe.xml");
-    (void)state;
     snprintf(outside, sizeof outside, "%s.pbrt", folder); /* beside the folder */
     snprintf(path, sizeof path, "%s/link.pbrt", folder);
     FILE *file = fopen(outside, "w");
@@ -1652,11 +1621,10 @@ static void malformed_and_hostile_texts_are_refused(void **state)
 }
 
 /* Every beginning of a whole text is a scene or an error, and nothing else. */
-static void cut_texts_are_survived(void **state)
+TEST_CASE(cut_texts_are_survived)
 {
     static const char *const names[] = {"c.pbrt", "c.xml"};
     const char *const texts[] = {as_pbrt, as_mitsuba};
-    (void)state;
     for (size_t i = 0; i < 2; i++) {
         char text[4096];
         for (size_t n = 0; n < strlen(texts[i]); n += 7) {
@@ -1667,43 +1635,4 @@ static void cut_texts_are_survived(void **state)
             koksma_scene_close(scene);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_scene_is_one_picture),
-        cmocka_unit_test(orthographic_cameras_show_their_height),
-        cmocka_unit_test(spots_light_a_circle),
-        cmocka_unit_test(mitsubas_cameras_see_what_they_may),
-        cmocka_unit_test(media_fill_the_shapes_of_mitsuba),
-        cmocka_unit_test(the_screen_window_sets_the_angle),
-        cmocka_unit_test(alpha_zero_hides_a_shape_but_not_its_light),
-        cmocka_unit_test(round_shapes_have_mitsubas_coordinates),
-        cmocka_unit_test(a_luminous_room_is_a_geometric_series),
-        cmocka_unit_test(shapes_move_as_in_pbrt),
-        cmocka_unit_test(cameras_move_as_in_pbrt),
-        cmocka_unit_test(shutters_outlast_motions),
-        cmocka_unit_test(media_of_mitsuba_are_read),
-        cmocka_unit_test(images_are_mapped_as_in_pbrt),
-        cmocka_unit_test(checkerboards_are_scaled_as_in_pbrt),
-        cmocka_unit_test(environments_have_a_shape),
-        cmocka_unit_test(lights_of_pbrt_may_have_two_sides),
-        cmocka_unit_test(both_sides_light_alike),
-        cmocka_unit_test(lights_of_pbrt_have_luminance_1),
-        cmocka_unit_test(spectra_of_mitsuba_are_read),
-        cmocka_unit_test(unknown_things_are_named),
-        cmocka_unit_test(references_and_includes_are_objects),
-        cmocka_unit_test(images_are_mapped_as_in_mitsuba),
-        cmocka_unit_test(checkerboards_are_mapped_as_in_mitsuba),
-        cmocka_unit_test(textures_in_checkerboards_are_their_means),
-        cmocka_unit_test(images_of_lights_are_their_means),
-        cmocka_unit_test(masks_and_blends_are_exact),
-        cmocka_unit_test(files_without_uv_have_their_peers),
-        cmocka_unit_test(the_cameras_medium_is_read),
-        cmocka_unit_test(fog_does_not_glow),
-        cmocka_unit_test(malformed_and_hostile_texts_are_refused),
-        cmocka_unit_test(cut_texts_are_survived),
-    };
-    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }

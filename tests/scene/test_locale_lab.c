@@ -116,12 +116,12 @@ static void make_models(FILE *out)
     take_picture(out, "model.obj"); /* an error */
 }
 
-static void scenes_and_images_are_read(void **state)
+TEST_CASE(scenes_and_images_are_read)
 {
     test_same_with_comma(*state, make_scenes);
 }
 
-static void models_are_read(void **state)
+TEST_CASE(models_are_read)
 {
     if (!koksma_mesh_tracer()) {
         print_message("[  REASON  ] no Embree in this build\n");
@@ -162,7 +162,7 @@ static void make_plots(FILE *out)
     koksma_points_fini(&points);
 }
 
-static void plots_are_drawn(void **state)
+TEST_CASE(plots_are_drawn)
 {
     test_same_with_comma(*state, make_plots);
 }
@@ -227,24 +227,14 @@ static void make_report(FILE *out)
     test_take_file(out, path);
 }
 
-static void studies_have_the_same_rows(void **state)
+TEST_CASE(studies_have_the_same_rows)
 {
     test_same_with_comma(*state, make_study);
 }
 
-static void reports_are_written(void **state)
+TEST_CASE(reports_are_written)
 {
     test_same_with_comma(*state, make_report);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scenes_and_images_are_read),
-        cmocka_unit_test(models_are_read),
-        cmocka_unit_test(plots_are_drawn),
-        cmocka_unit_test(studies_have_the_same_rows),
-        cmocka_unit_test(reports_are_written),
-    };
-    return cmocka_run_group_tests(tests, test_comma_begin, test_comma_end);
-}
+TEST_GROUP(test_comma_begin, test_comma_end)

@@ -114,9 +114,14 @@ static void check_normals(const koksma_scene *scene, bool seam)
 
 static const char *const formats[] = {"obj", "ply", "serialized"};
 
-static void meshes_without_normals_are_smooth(void **state)
+TEST_CASE(files_are_written)
 {
-    (void)state;
+    write_ply();
+    write_serialized();
+}
+
+TEST_CASE(meshes_without_normals_are_smooth)
+{
     for (int i = 0; reads_them() && i < 5; i++) {
         const bool seam = i == 3 || i == 4;
         write_obj(i == 1 || i == 4, seam);
@@ -128,9 +133,8 @@ static void meshes_without_normals_are_smooth(void **state)
     }
 }
 
-static void facets_have_no_normals(void **state)
+TEST_CASE(facets_have_no_normals)
 {
-    (void)state;
     write_obj(false, false);
     for (size_t f = 0; reads_them() && f < 3; f++) {
         koksma_scene *scene = shown(formats[f], "<boolean name=\"face_normals\" value=\"true\"/>", 0);
@@ -140,11 +144,10 @@ static void facets_have_no_normals(void **state)
 }
 
 /* Mitsuba's lights follow the interpolated normals, ours the triangles, which is said where these differ. */
-static void smooth_lights_are_named(void **state)
+TEST_CASE(smooth_lights_are_named)
 {
     static const char *const rules[] = {"<emitter type=\"area\"/><boolean name=\"face_normals\" value=\"true\"/>",
                                         "<emitter type=\"area\"/>"};
-    (void)state;
     write_obj(false, false);
     for (size_t i = 0; reads_them() && i < 6; i++) {
         koksma_scene *scene = shown(formats[i % 3], rules[i / 3], i / 3);
@@ -152,11 +155,10 @@ static void smooth_lights_are_named(void **state)
     }
 }
 
-static void texture_coordinates_are_turned(void **state)
+TEST_CASE(texture_coordinates_are_turned)
 {
     static const char *const rules[] = {"", "<boolean name=\"flip_tex_coords\" value=\"true\"/>",
                                         "<boolean name=\"flipTexCoords\" value=\"false\"/>"};
-    (void)state;
     for (size_t i = 0; reads_them() && i < 9; i++) {
         const bool turned = i / 3 == 0 ? i % 3 == 0 : i / 3 == 1;
         koksma_scene *scene = shown(formats[i % 3], rules[i / 3], 0);
@@ -168,20 +170,4 @@ static void texture_coordinates_are_turned(void **state)
         }
         koksma_scene_close(scene);
     }
-}
-
-static void files_are_written(void **state)
-{
-    (void)state;
-    write_ply();
-    write_serialized();
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(files_are_written), cmocka_unit_test(meshes_without_normals_are_smooth),
-        cmocka_unit_test(facets_have_no_normals), cmocka_unit_test(smooth_lights_are_named),
-        cmocka_unit_test(texture_coordinates_are_turned)};
-    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }

@@ -84,7 +84,7 @@ static void check_all(const twins *all, size_t n)
     }
 }
 
-static void lights_have_their_power(void **state)
+TEST_CASE(lights_have_their_power)
 {
     const double inner = 25 * M_PI / 180, outer = 40 * M_PI / 180;
     const double cone = 2 * M_PI * ((1 - cos(inner)) + (cos(inner) - cos(outer)) / 2), pi2 = M_PI * M_PI;
@@ -142,7 +142,6 @@ static void lights_have_their_power(void **state)
     };
     koksma_image even;
     char path[128];
-    (void)state;
     snprintf(path, sizeof path, "%s/even.pfm", folder);
     assert_ok(koksma_image_init(&even, 4, 4, 3));
     for (int i = 0; i < 48; i++) {
@@ -154,7 +153,7 @@ static void lights_have_their_power(void **state)
     unlink(path);
 }
 
-static void films_have_their_exposure(void **state)
+TEST_CASE(films_have_their_exposure)
 {
 #define EXPOSED(camera, film, factor)                                                                                \
     {                                                                                                                \
@@ -169,12 +168,11 @@ static void films_have_their_exposure(void **state)
                                 EXPOSED("", " \"float iso\" 200 \"float exposuretime\" 0.25", 0.5),
                                 EXPOSED("\"float shutteropen\" 0.5 \"float shutterclose\" 0.75 ", "", 0.25),
                                 EXPOSED("\"float shutterclose\" 2 ", " \"float iso\" 300", 6)};
-    (void)state;
     check_all(all, sizeof all / sizeof *all);
 }
 
 /* Attributes are parameters that directives have unless they give their own, until the AttributeEnd. */
-static void attributes_are_parameters(void **state)
+TEST_CASE(attributes_are_parameters)
 {
 #define SAME(text, twin)                                                                                             \
     {                                                                                                                \
@@ -202,12 +200,11 @@ static void attributes_are_parameters(void **state)
         SAME("Attribute \"texture\" \"rgb value\" [0.1 0.7 0.3] Texture \"t\" \"spectrum\" \"constant\" Material "
              "\"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\"",
              "Material \"diffuse\" \"rgb reflectance\" [0.1 0.7 0.3] Shape \"sphere\"")};
-    (void)state;
     check_all(all, sizeof all / sizeof *all);
 }
 
 /* (1 - amount) first + amount second, of materials and of textures. */
-static void mixes_are_means(void **state)
+TEST_CASE(mixes_are_means)
 {
 #define NAMED(name, rest) "MakeNamedMaterial \"" name "\" \"string type\" " rest " "
 #define MIXED(amount) "Material \"mix\" \"string materials\" [\"a\" \"b\"] " amount " Shape \"sphere\""
@@ -233,7 +230,6 @@ static void mixes_are_means(void **state)
         SAME("Texture \"c\" \"float\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 4 " MIX(
                  "\"rgb tex1\" [0.1 0.2 0.9] \"rgb tex2\" [0.5 0.2 0.1] \"texture amount\" \"c\"") SHOW,
              CHECKS("t", "[0.5 0.2 0.1]", "[0.1 0.2 0.9]") SHOW)};
-    (void)state;
     check_all(all, koksma_mesh_tracer() ? sizeof all / sizeof *all : 0);
 }
 
@@ -279,7 +275,7 @@ static double to_linear(double level)
     return level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
 }
 
-static void images_have_their_levels(void **state)
+TEST_CASE(images_have_their_levels)
 {
     static const unsigned char coded[3 * SIDE * SIDE] = {20, 200, 128, 255, 0, 64, 90, 180, 30, 10, 250, 140};
 #define TWIN "\"twin.pfm\" \"string wrap\" \"clamp\""
@@ -314,7 +310,6 @@ static void images_have_their_levels(void **state)
              MIX("\"texture tex2\" \"i\" \"rgb tex1\" [0.4 0.4 0.4] \"float amount\" 0.25"),
          LEVELS, false, 0.25, 0.3, 1}};
     float linear[3 * SIDE * SIDE], levels[3 * SIDE * SIDE];
-    (void)state;
     for (int i = 0; i < 3 * SIDE * SIDE; i++) {
         levels[i] = (float)coded[i] / 255;
         linear[i] = (float)to_linear((double)levels[i]);
@@ -334,7 +329,7 @@ static void images_have_their_levels(void **state)
 }
 
 /* A mesh without uv has (0, 0), (1, 0), (1, 1) at each triangle, a patch (0, 0), (1, 0), (0, 1), (1, 1). */
-static void meshes_have_default_coordinates(void **state)
+TEST_CASE(meshes_have_default_coordinates)
 {
 #define TEXTURED(shape)                                                                                              \
     CHECKS("t", "[0.9 0.2 0.1]", "[0.1 0.2 0.9]") "Material \"diffuse\" \"texture reflectance\" \"t\" " shape
@@ -342,7 +337,6 @@ static void meshes_have_default_coordinates(void **state)
         SAME(TEXTURED("Shape \"trianglemesh\" " SQUARE), TEXTURED("Shape \"trianglemesh\" " APART)),
         SAME(TEXTURED("Shape \"bilinearmesh\" " PATCH),
              TEXTURED("Shape \"bilinearmesh\" " PATCH "\"point2 uv\" [0 0  1 0  0 1  1 1]"))};
-    (void)state;
     check_all(all, koksma_mesh_tracer() ? sizeof all / sizeof *all : 0);
 }
 
@@ -350,7 +344,7 @@ static void meshes_have_default_coordinates(void **state)
 
 /* A crop is that part of the whole picture: of the sensor, of an off-centre window, of parallel rays, of a lens, which
    does not blur a disk at its distance of focus. */
-static void crops_are_parts(void **state)
+TEST_CASE(crops_are_parts)
 {
     static const struct {
         const char *camera, *crop, *world;
@@ -374,7 +368,6 @@ static void crops_are_parts(void **state)
                 FLOOR,
                 {2, 1},
                 {9, 5}}};
-    (void)state;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         koksma_image images[2];
         for (int k = 0; k < 2; k++) {
@@ -412,10 +405,9 @@ static void crops_are_parts(void **state)
 
 /* Off-centre windows of a perspective camera show that part of the image plane: the middle of the window [1, 3] x
    [-1, 1] at 90 degrees is seen along (2, 0, 1), 45 degrees times 2 to the right. */
-static void windows_may_be_off_centre(void **state)
+TEST_CASE(windows_may_be_off_centre)
 {
     static const char *const places[] = {"4 0 2", "-4 0 2", "0 0 2"};
-    (void)state;
     for (int i = 0; i < 3; i++) {
         char whole[1024];
         koksma_layers layers;
@@ -435,14 +427,4 @@ static void windows_may_be_off_centre(void **state)
         koksma_layers_fini(&layers);
         koksma_scene_close(scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lights_have_their_power),   cmocka_unit_test(films_have_their_exposure),
-        cmocka_unit_test(attributes_are_parameters), cmocka_unit_test(mixes_are_means),
-        cmocka_unit_test(images_have_their_levels),  cmocka_unit_test(meshes_have_default_coordinates),
-        cmocka_unit_test(crops_are_parts),           cmocka_unit_test(windows_may_be_off_centre)};
-    return run_in_folder(tests, sizeof tests / sizeof *tests);
 }

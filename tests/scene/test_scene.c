@@ -79,9 +79,8 @@ static const struct {
     {SCENE(SPHERE, "7"), "line 5: lights[0]: it takes an object"},
 };
 
-static void errors_name_line_and_reason(void **state)
+TEST_CASE(errors_name_line_and_reason)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof malformed / sizeof *malformed; i++) {
         char expected[256];
         koksma_scene scene = {0};
@@ -95,9 +94,8 @@ static void errors_name_line_and_reason(void **state)
     }
 }
 
-static void shipped_scenes_open(void **state)
+TEST_CASE(shipped_scenes_open)
 {
-    (void)state;
     koksma_scene *scene;
     size_t n = 0;
     uint64_t hashes = 0;
@@ -128,9 +126,8 @@ static void shipped_scenes_open(void **state)
 }
 
 /* Truncated and changed texts never crash the reader. */
-static void reader_survives(void **state)
+TEST_CASE(reader_survives)
 {
-    (void)state;
     static const char text[] = SCENE(SPHERE, LIGHT("\"facing\": [0, 0, 0], \"half\": [1, 1], \"strength\": 1"));
     for (size_t i = 0; i < sizeof text - 1; i++) {
         char copy[sizeof text];
@@ -142,14 +139,4 @@ static void reader_survives(void **state)
             koksma__scene_fini(&scene);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_name_line_and_reason),
-        cmocka_unit_test(shipped_scenes_open),
-        cmocka_unit_test(reader_survives),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

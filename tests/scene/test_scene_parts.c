@@ -63,9 +63,8 @@ static void assert_region(const char *text, double spare)
 }
 
 /* spare: a ball leaves the corners of its box empty. */
-static void pictures_are_in_their_regions(void **state)
+TEST_CASE(pictures_are_in_their_regions)
 {
-    (void)state;
     static const struct {
         const char *text;
         double spare;
@@ -107,9 +106,8 @@ static void pictures_are_in_their_regions(void **state)
     }
 }
 
-static void meshes_are_in_their_regions(void **state)
+TEST_CASE(meshes_are_in_their_regions)
 {
-    (void)state;
     need_meshes();
     write_text("cube.obj", "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
                            "f 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 4 3 7 8\nf 1 4 8 5\nf 2 3 7 6\n");
@@ -129,9 +127,8 @@ static void meshes_are_in_their_regions(void **state)
 
 /* Boxes have closed forms: a needle that turns by a right angle reaches its length along both axes; while the shutter is
    open for a moment only, the box is that of this moment. */
-static void boxes_are_of_all_times(void **state)
+TEST_CASE(boxes_are_of_all_times)
 {
-    (void)state;
     const struct {
         const char *text;
         double low[2], high[2];
@@ -157,9 +154,8 @@ static void boxes_are_of_all_times(void **state)
 }
 
 /* Parts beside or behind the camera are not seen, unless it moves or its lens is wide. */
-static void unseen_parts_are_said_to_be(void **state)
+TEST_CASE(unseen_parts_are_said_to_be)
 {
-    (void)state;
     const char *const shapes[] = {"\"sphere\", \"centre\": [9, 1, 0], \"radius\": 1",
                                   "\"sphere\", \"centre\": [0, 1, 9], \"radius\": 1"};
     for (int i = 0; i < 2; i++) {
@@ -177,15 +173,4 @@ static void unseen_parts_are_said_to_be(void **state)
             koksma_scene_close(scene);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_are_in_their_regions),
-        cmocka_unit_test(meshes_are_in_their_regions),
-        cmocka_unit_test(boxes_are_of_all_times),
-        cmocka_unit_test(unseen_parts_are_said_to_be),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,9 +28,8 @@ static double normal(uint64_t seed, uint64_t i)
 
 /* p.adjust(c(.01, .04, .03, .005), "holm") in R: .03 .06 .06 .02. The four tests of the example in Wikipedia's
    "Holm-Bonferroni method" (2024): at 5 % the first and the fourth are rejected. */
-static void holm_by_hand(void **state)
+TEST_CASE(holm_by_hand)
 {
-    (void)state;
     double p[] = {0.01, 0.04, 0.03, 0.005};
     const double adjusted[] = {0.03, 0.06, 0.06, 0.02};
     assert_ok(koksma__holm(p, 4));
@@ -46,9 +45,8 @@ static void holm_by_hand(void **state)
 
 /* Holm's procedure is the closed test of Bonferroni's: a test's adjusted p is the largest, over all sets of tests
    that have it, of the set's size times its smallest p. */
-static void holm_is_the_closed_test(void **state)
+TEST_CASE(holm_is_the_closed_test)
 {
-    (void)state;
     for (uint64_t t = 0; t < 100; t++) {
         double p[7], adjusted[7];
         for (uint64_t i = 0; i < 7; i++) {
@@ -72,9 +70,8 @@ static void holm_is_the_closed_test(void **state)
     }
 }
 
-static void p_of_resamples(void **state)
+TEST_CASE(p_of_resamples)
 {
-    (void)state;
     const double values[] = {1, 2, -1, 3, NAN, 4, 5, 6, 7, 8}, same[] = {1, 2, -1, 3, 0, 4, 5, 6, 7, 8};
     assert_near(koksma__resampled_p(values, 1, NULL, 0, 10), 2 * (1 + 1) / 10.0, 1e-15); /* 1 of 9 below 0 */
     assert_near(koksma__resampled_p(values, -1, NULL, 0, 10), 2 * (1 + 1) / 10.0, 1e-15);
@@ -126,9 +123,8 @@ static bool better(const koksma__rho_means *s, const koksma__rho_jackknife *j, c
 }
 
 /* C is surely worse than A over all scenes and surely better than B, but only because of s3 and of the others. */
-static void headline_without_one_scene(void **state)
+TEST_CASE(headline_without_one_scene)
 {
-    (void)state;
     const double rho[MEASURES][SCENES] = {
         {.92, .92, .92, .92}, {.5, .5, .5, .5}, {.9, .9, .9, -.4}, {.05, -.05, .05, -.05}};
     koksma__rho_means s;
@@ -160,9 +156,8 @@ static void headline_without_one_scene(void **state)
 }
 
 /* Y comes first over all scenes, and X without s3. */
-static void headline_that_depends_on_a_scene(void **state)
+TEST_CASE(headline_that_depends_on_a_scene)
 {
-    (void)state;
     const double rho[MEASURES][SCENES] = {{.95, .95, .95, -.5}, {.6, .6, .6, .6}};
     koksma__rho_means s;
     koksma__rho_jackknife j;
@@ -183,9 +178,8 @@ static void headline_that_depends_on_a_scene(void **state)
 }
 
 /* Each statement over all scenes is one again of means that never had a scene, whichever it is. */
-static void statements_survive_any_scene(void **state)
+TEST_CASE(statements_survive_any_scene)
 {
-    (void)state;
     int stated = 0, dropped = 0;
     for (uint64_t t = 0; t < 8; t++) {
         double rho[MEASURES][SCENES];
@@ -223,9 +217,8 @@ static void statements_survive_any_scene(void **state)
 }
 
 /* A group's mean is over its scenes' cases, a size's over its; one scene alone is no jackknife. */
-static void means_of_parts(void **state)
+TEST_CASE(means_of_parts)
 {
-    (void)state;
     const double rho[MEASURES][SCENES] = {{.9, .5, .3, .1}, {.2, .4, .6, .8}};
     const bool first_two[SCENES] = {true, true, false, false};
     koksma__rho_means s;
@@ -274,9 +267,8 @@ static void set_data(data *d, uint64_t seed, size_t n_cases, size_t n_scenes, si
 
 /* One measure that is the error's order, or its reverse, in all scenes but s: s is predicted with the others' sign.
  */
-static void single_with_its_sign(void **state)
+TEST_CASE(single_with_its_sign)
 {
-    (void)state;
     data d;
     koksma__held_out out[5];
     set_data(&d, 3, 4, 4, 3);
@@ -293,19 +285,4 @@ static void single_with_its_sign(void **state)
     }
     assert_int_equal(out[4].cases, 0);
     assert_int_equal(koksma__rank_regression(d.cases, 2, 3, 5, NULL, out), KOKSMA_ARGUMENT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(holm_by_hand),
-        cmocka_unit_test(holm_is_the_closed_test),
-        cmocka_unit_test(p_of_resamples),
-        cmocka_unit_test(headline_without_one_scene),
-        cmocka_unit_test(headline_that_depends_on_a_scene),
-        cmocka_unit_test(statements_survive_any_scene),
-        cmocka_unit_test(means_of_parts),
-        cmocka_unit_test(single_with_its_sign),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,8 @@
 
 /* Abramowitz & Stegun 1964, tables 26.8 and 26.10; and in closed form: t with 1 degree is Cauchy's, chi-squared with
    2 is exponential. */
-static void quantiles_are_the_published(void **state)
+TEST_CASE(quantiles_are_the_published)
 {
-    (void)state;
     assert_near(koksma__student_quantile(0.975, 1), tan(M_PI * 0.475), 1e-8);
     assert_near(koksma__student_quantile(0.975, 10), 2.228138852, 1e-8);
     assert_near(koksma__student_quantile(0.95, 30), 1.697260887, 1e-8);
@@ -20,9 +19,8 @@ static void quantiles_are_the_published(void **state)
 }
 
 /* Its expansion in 1 / degrees and the continued fraction agree where they meet, and nothing is lost beyond. */
-static void student_of_many_degrees(void **state)
+TEST_CASE(student_of_many_degrees)
 {
-    (void)state;
     const double z = 1.959963984540054;
     assert_near(koksma_student_975(999999), z + z * (1 + z * z) / 4e6, 2e-9);
     assert_near(koksma_student_975(1000001), z + z * (1 + z * z) / 4e6, 1e-11);
@@ -38,21 +36,10 @@ static void student_of_many_degrees(void **state)
 }
 
 /* lgamma's sign is the program's: threads that ask for quantiles would write it at once. */
-static void no_variable_of_the_program_is_written(void **state)
+TEST_CASE(no_variable_of_the_program_is_written)
 {
-    (void)state;
     signgam = 7;
     koksma_student_975(5);
     koksma__chi_squared_quantile(0.9, 3);
     assert_int_equal(signgam, 7);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quantiles_are_the_published),
-        cmocka_unit_test(student_of_many_degrees),
-        cmocka_unit_test(no_variable_of_the_program_is_written),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

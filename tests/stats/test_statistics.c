@@ -34,9 +34,8 @@ static koksma__trend trend_of(size_t count, const double *y, const double *sigma
     return koksma__trend_of(n, means, count);
 }
 
-static void slope_by_hand(void **state)
+TEST_CASE(slope_by_hand)
 {
-    (void)state;
     const double y[] = {1, 3, 5, 7}, one[] = {1, 1, 1, 1}, bent[] = {0, 1, 1, 0};
     koksma__estimate e = trend_of(4, y, one, 4).slope;
     assert_near(e.value, 2, 1e-14);
@@ -52,9 +51,8 @@ static void slope_by_hand(void **state)
     assert_true(isnan(trend_of(1, y, one, 4).slope.value) && isnan(trend_of(0, y, one, 4).slope.value));
 }
 
-static void slope_of_two_points(void **state)
+TEST_CASE(slope_of_two_points)
 {
-    (void)state;
     const double n[] = {1, exp(2)}, y[] = {1, 3}, sigma[] = {0.3, 0.4};
     koksma__summary means[2];
     for (size_t i = 0; i < 2; i++) {
@@ -73,9 +71,8 @@ static void slope_of_two_points(void **state)
 }
 
 /* Means of 8 pictures each, a little off a line: the interval is as narrow as the means are sure. */
-static void slope_of_a_curve(void **state)
+TEST_CASE(slope_of_a_curve)
 {
-    (void)state;
     const double n[] = {256, 1024, 4096}, mean[] = {4.8e-4, 1.7e-4, 7.22e-5}, off = log(4.8e-4 / 7.22e-5) / log(16);
     koksma__summary means[3];
     for (size_t i = 0; i < 3; i++) {
@@ -119,9 +116,8 @@ static rates rates_of(size_t n, size_t trials, double bend, double spread)
     return found;
 }
 
-static void slope_covers(void **state)
+TEST_CASE(slope_covers)
 {
-    (void)state;
     static const size_t sizes[] = {3, 4, 8}, trials[] = {3, 8, 100};
     for (size_t i = 0; i < 9; i++) {
         const size_t n = sizes[i % 3], t = trials[i / 3];
@@ -136,9 +132,8 @@ static void slope_covers(void **state)
 }
 
 /* The mean of values that can't be negative is not negative; other intervals keep their low end, and nothing else moves. */
-static void intervals_of_sizes_begin_at_0(void **state)
+TEST_CASE(intervals_of_sizes_begin_at_0)
 {
-    (void)state;
     const double far[] = {0.1, 0.9}, near[] = {1, 1.1}, one[] = {0.5};
     const koksma__summary signs = koksma__summarize(far, 2, 1), sizes = koksma__summarize_sizes(far, 2, 1);
     assert_true(signs.low < 0 && sizes.low == 0);
@@ -149,9 +144,8 @@ static void intervals_of_sizes_begin_at_0(void **state)
 }
 
 /* Values that are equal but for rounding vary by nothing, are ties, and weigh what they should. */
-static void rounding_is_no_variation(void **state)
+TEST_CASE(rounding_is_no_variation)
 {
-    (void)state;
     const double tiny = 0x1p-52, a[] = {1, 1 + tiny, 1, 1 - tiny}, b[] = {1, 1, 1 + tiny, 1},
                  c[] = {1, 2, 1 + 1e-9, 3};
     koksma__summary s = koksma__summarize(a, 4, 1);
@@ -180,9 +174,8 @@ static void rounding_is_no_variation(void **state)
     assert_true(t.slope.high > t.slope.value + 0.1 && !t.off_line);
 }
 
-static void correlations_by_hand(void **state)
+TEST_CASE(correlations_by_hand)
 {
-    (void)state;
     const double x[] = {1, 2, 3, 4, 5}, y[] = {2, 1, 4, 3, 5}, tied[] = {1, 1, 2, 2, 3}, flat[] = {1, 1, 1, 1, 1};
     assert_near(koksma__spearman(x, y, 5), 1 - 6 * 4.0 / (5 * 24), 1e-15); /* 1 - 6 sum d^2 / n (n^2 - 1) */
     assert_near(koksma__kendall(x, y, 5), (8 - 2) / 10.0, 1e-15);
@@ -193,9 +186,8 @@ static void correlations_by_hand(void **state)
 }
 
 /* The mean of the correlations over all orders is 0, of their squares 1/(n-1) and 2(2n+5)/(9n(n-1)). */
-static void correlations_over_all_orders(void **state)
+TEST_CASE(correlations_over_all_orders)
 {
-    (void)state;
     const double x[] = {1, 2, 3, 4, 5};
     double sums[4] = {0};
     int orders = 0;
@@ -222,9 +214,8 @@ static void correlations_over_all_orders(void **state)
     assert_near(sums[3] / 120, 2.0 * 15 / (9 * 5 * 4), 1e-12);
 }
 
-static void bootstrap_intervals(void **state)
+TEST_CASE(bootstrap_intervals)
 {
-    (void)state;
     double values[400], y[400];
     const koksma__means x = {values, NULL, 0}, of_y = {y, NULL, 0};
     koksma__estimate e, again;
@@ -245,9 +236,8 @@ static void bootstrap_intervals(void **state)
 }
 
 /* Means that are not sure of their order have no sure correlation; equal seeds draw equal noise. */
-static void bootstrap_redraws_means(void **state)
+TEST_CASE(bootstrap_redraws_means)
 {
-    (void)state;
     double mean[9], wide[9], narrow[9], values[500], again[500];
     for (size_t i = 0; i < 9; i++) {
         mean[i] = (double)i;
@@ -267,9 +257,8 @@ static void bootstrap_redraws_means(void **state)
 }
 
 /* Two measures of which one has the order of the errors, the other two neighbours exchanged, or half of it. */
-static void correlations_told_apart(void **state)
+TEST_CASE(correlations_told_apart)
 {
-    (void)state;
     double errors[16], near[16], far[16], draws[3][500];
     koksma__estimate rho[3], e;
     for (size_t i = 0; i < 16; i++) {
@@ -291,9 +280,8 @@ static void correlations_told_apart(void **state)
 }
 
 /* Of 10 pairs without correlation the interval excludes 0 in about 5 % of cases. */
-static void bootstrap_covers(void **state)
+TEST_CASE(bootstrap_covers)
 {
-    (void)state;
     int excluded = 0;
     for (uint64_t t = 0; t < 400; t++) {
         double x[10], y[10];
@@ -309,9 +297,8 @@ static void bootstrap_covers(void **state)
     assert_in_range(excluded, 4, 44);
 }
 
-static void paired_differences(void **state)
+TEST_CASE(paired_differences)
 {
-    (void)state;
     const double a[] = {3, 5, 8}, b[] = {1, 2, 4};
     const koksma__summary s = koksma__paired(a, b, 3, 1);
     assert_near(s.mean, 3, 0);
@@ -342,9 +329,8 @@ static int changes_covered(double change, double common)
     return covered;
 }
 
-static void relative_changes(void **state)
+TEST_CASE(relative_changes)
 {
-    (void)state;
     const double a[] = {3, 5, 8}, b[] = {1, 2, 4}, none[] = {0, 0, 0};
     const koksma__estimate e = koksma__relative_change(a, b, 3); /* 16/7; what is left of a: 5/7, 3/7, -8/7 */
     assert_near(e.value, 9.0 / 7, 1e-15);
@@ -359,9 +345,8 @@ static void relative_changes(void **state)
 }
 
 /* Errors 1 / sqrt n: 0.25 is reached by 16. */
-static void samples_for_an_error(void **state)
+TEST_CASE(samples_for_an_error)
 {
-    (void)state;
     const double n[] = {4, 64, 256}, mean[] = {0.5, 0.125, 0.0625}, error[] = {0.01, 0.0025, 0.001};
     const koksma__convergence p = {n, mean, error, 3};
     bool outside;
@@ -375,26 +360,4 @@ static void samples_for_an_error(void **state)
     const double rising[] = {0.5, 0.6, 0.7};
     const koksma__convergence bad = {n, rising, error, 3};
     assert_true(isnan(koksma__samples_for(&bad, 0.1, 0, &outside).value));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slope_by_hand),
-        cmocka_unit_test(slope_of_two_points),
-        cmocka_unit_test(slope_of_a_curve),
-        cmocka_unit_test(slope_covers),
-        cmocka_unit_test(intervals_of_sizes_begin_at_0),
-        cmocka_unit_test(rounding_is_no_variation),
-        cmocka_unit_test(correlations_by_hand),
-        cmocka_unit_test(correlations_over_all_orders),
-        cmocka_unit_test(bootstrap_intervals),
-        cmocka_unit_test(bootstrap_redraws_means),
-        cmocka_unit_test(correlations_told_apart),
-        cmocka_unit_test(bootstrap_covers),
-        cmocka_unit_test(paired_differences),
-        cmocka_unit_test(relative_changes),
-        cmocka_unit_test(samples_for_an_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,9 +18,8 @@
 #include "study/store/store.h"
 #include "test.h"
 
-static void summary_by_hand(void **state)
+TEST_CASE(summary_by_hand)
 {
-    (void)state;
     const double values[] = {1, 9, 2, 9, 3, 9, 6, 9};
     const koksma__summary s = koksma__summarize(values, 4, 2);
     assert_near(s.mean, 3, 0);
@@ -29,18 +28,16 @@ static void summary_by_hand(void **state)
     assert_near(s.high - s.mean, 3.182446 * s.sd / 2, 0.02 * s.sd);
 }
 
-static void student_table(void **state)
+TEST_CASE(student_table)
 {
-    (void)state;
     assert_near(koksma_student_975(1), 12.7062, 1e-3);
     assert_near(koksma_student_975(5), 2.5706, 0.005);
     assert_near(koksma_student_975(30), 2.0423, 1e-4);
     assert_near(koksma_student_975(99), 1.9842, 1e-4);
 }
 
-static void largest_of_blocks(void **state)
+TEST_CASE(largest_of_blocks)
 {
-    (void)state;
     const double values[] = {1, 5, 2, 3, 9, 4, 100};
     double mean, sd;
     koksma__largest_of(values, 7, 1, 3, &mean, &sd);
@@ -55,9 +52,8 @@ static void largest_of_blocks(void **state)
 }
 
 /* A printed number of JSON is as precise as the same number as text. */
-static void printed_digits(void **state)
+TEST_CASE(printed_digits)
 {
-    (void)state;
     static const char text[] = "{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], "
                                "\"measures\": [\"star\"], "
                                "\"n\": [4], \"trials\": 1}], \"tables\": [{\"id\": \"t\", \"title\": \"t\", "
@@ -86,9 +82,8 @@ static void wrong_plan(const char *text, const char *reason)
     }
 }
 
-static void wrong_plans(void **state)
+TEST_CASE(wrong_plans)
 {
-    (void)state;
     wrong_plan("{\"name\": \"a\", \"title\": \"b\"}",
                "plan 'p': line 1: the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
     wrong_plan("{\n\"name\": \"a\",\n\"nome\": 1}", "plan 'p': line 3: nome: unknown field; did you mean 'name'?");
@@ -156,9 +151,8 @@ static void wrong_question(const char *fields, const char *reason)
 
 #define CORRELATION "\"kind\": \"correlation\", \"discrepancies\": \"d\",\n"
 
-static void wrong_groups(void **state)
+TEST_CASE(wrong_groups)
 {
-    (void)state;
     wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scenes\": [\"ball\",\n\"checker\"]}]",
                    "plan 'p': line 5: questions[0].groups[0].scenes[1]: no block of images 'i' has the scene "
                    "'checker'");
@@ -185,9 +179,8 @@ static void wrong_metric(const char *members, const char *reason)
     wrong_plan(text, reason);
 }
 
-static void wrong_ids(void **state)
+TEST_CASE(wrong_ids)
 {
-    (void)state;
     static const char *const lists[] = {
         ("tables\": [{\"id\": \"a\", \"title\": \"t\", \"measure\": \"star\", \"n\": [4], \"rows\": [{\"pattern\": "
          "\"random\", \"label\": \"r\", \"published\": [1]}]"),
@@ -207,9 +200,8 @@ static void wrong_ids(void **state)
     }
 }
 
-static void wrong_metrics(void **state)
+TEST_CASE(wrong_metrics)
 {
-    (void)state;
     wrong_metric(
         "\"metric\": \"relmsee\"",
         "plan 'p': line 2: metric: no metric 'relmsee'; did you mean 'relmse'? 'koksma list metrics' names them");
@@ -254,9 +246,8 @@ static void detail_is_of_the_figure(const koksma__plan *plan, const char *id, co
     assert_null(part->adaptive);
 }
 
-static void shipped_plans_parse(void **state)
+TEST_CASE(shipped_plans_parse)
 {
-    (void)state;
     size_t size;
     koksma__plan plan;
     const koksma__plan_trials seven = {.trials = 7};
@@ -303,9 +294,8 @@ static koksma__store *new_store(char folder[sizeof STORE_FOLDER], char path[64])
     return store;
 }
 
-static void store_keeps_rows(void **state)
+TEST_CASE(store_keeps_rows)
 {
-    (void)state;
     char folder[] = STORE_FOLDER, path[64];
     const koksma__series series = one_series;
     koksma__store *store = new_store(folder, path), *second;
@@ -354,9 +344,8 @@ static koksma_status count_row(void *context, const koksma__series *series, cons
 }
 
 /* More rows than are gathered at a time, of two series, the first with every second trial and out of order. */
-static void store_keeps_many_rows(void **state)
+TEST_CASE(store_keeps_many_rows)
 {
-    (void)state;
     char folder[] = STORE_FOLDER, path[64];
     koksma__series series = one_series;
     koksma__store *store = new_store(folder, path);
@@ -392,9 +381,8 @@ static void store_keeps_many_rows(void **state)
 
 /* Errors of images are of luminance, and so is a reference's own: of one channel its weight, of equal replicates 0.
  */
-static void own_error_of_a_reference(void **state)
+TEST_CASE(own_error_of_a_reference)
 {
-    (void)state;
     static const double weights[] = {0.2126, 0.7152, 0.0722};
     for (size_t c = 0; c < 4; c++) { /* 3: grey */
         koksma__replicates s = {0};
@@ -421,9 +409,8 @@ static void own_error_of_a_reference(void **state)
 }
 
 /* What is counted as sure is what is shown with an interval that excludes 0. */
-static void correlations_as_shown(void **state)
+TEST_CASE(correlations_as_shown)
 {
-    (void)state;
     static const struct {
         koksma__estimate rho;
         size_t n_patterns;
@@ -452,9 +439,8 @@ static void correlations_as_shown(void **state)
     koksma__json_writer_fini(&words.json);
 }
 
-static void study_without_folder(void **state)
+TEST_CASE(study_without_folder)
 {
-    (void)state;
     const char *plans[] = {"shirley1991"};
     const koksma_study_options options = {.plans = plans, .n_plans = 1};
     koksma_study *study;
@@ -470,9 +456,8 @@ static void study_without_folder(void **state)
 }
 
 /* Room for the trials is taken at once. */
-static void rankings_have_eight_trials_or_more(void **state)
+TEST_CASE(rankings_have_eight_trials_or_more)
 {
-    (void)state;
     const char *patterns[] = {"random", "n-rooks"};
     const long long refused[] = {-1, 1, 7, KOKSMA_MAX_RANK_TRIALS + 1, 1LL << 62};
     koksma_rank_row rows[2];
@@ -496,9 +481,8 @@ static void count_difference(void *context, const char *text)
 
 /* 18 rows: three patterns, two measures, three trials. The limit of Clopper & Pearson by hand: with none of 10 wrong it
    is 1 - 0.05^(1/10), and of all rows the part itself. */
-static void folder_is_read_and_audited(void **state)
+TEST_CASE(folder_is_read_and_audited)
 {
-    (void)state;
     char folder[] = "/tmp/koksma-audit-XXXXXX", path[64], command[256];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/p.json", folder);
@@ -571,9 +555,8 @@ static bool see_fraction(void *context, double fraction)
 }
 
 /* An audit of one row renders the reference again, in three tiles of 2^19 samples, which are nearly all of its work. */
-static void audit_reports_progress(void **state)
+TEST_CASE(audit_reports_progress)
 {
-    (void)state;
     char folder[] = "/tmp/koksma-progress-XXXXXX", path[64], command[256];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/p.json", folder);
@@ -604,28 +587,4 @@ static void audit_reports_progress(void **state)
     assert_true(seen.last > 0.9);
     snprintf(command, sizeof command, "rm -r %s", folder);
     assert_int_equal(system(command), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summary_by_hand),
-        cmocka_unit_test(student_table),
-        cmocka_unit_test(largest_of_blocks),
-        cmocka_unit_test(printed_digits),
-        cmocka_unit_test(wrong_plans),
-        cmocka_unit_test(wrong_groups),
-        cmocka_unit_test(wrong_ids),
-        cmocka_unit_test(wrong_metrics),
-        cmocka_unit_test(shipped_plans_parse),
-        cmocka_unit_test(store_keeps_rows),
-        cmocka_unit_test(store_keeps_many_rows),
-        cmocka_unit_test(folder_is_read_and_audited),
-        cmocka_unit_test(audit_reports_progress),
-        cmocka_unit_test(own_error_of_a_reference),
-        cmocka_unit_test(correlations_as_shown),
-        cmocka_unit_test(study_without_folder),
-        cmocka_unit_test(rankings_have_eight_trials_or_more),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

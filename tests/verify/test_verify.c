@@ -28,9 +28,8 @@ static koksma_finding one(const koksma_points *points, const char *property, con
     return f;
 }
 
-static void healthy_points_pass(void **state)
+TEST_CASE(healthy_points_pass)
 {
-    (void)state;
     koksma_points p = test_points("sobol", 256, 2, 0);
     static const char *const properties[][2] = {
         {"net-base-2", "0,1"},       {"latin", "0"},      {"latin", "1"},         {"stratified", "16 x 16"},
@@ -45,9 +44,8 @@ static void healthy_points_pass(void **state)
     koksma_points_fini(&p);
 }
 
-static void each_name_of_the_table_is_found(void **state)
+TEST_CASE(each_name_of_the_table_is_found)
 {
-    (void)state;
     koksma_points p = test_points("sobol", 64, 2, 0);
     koksma_findings all;
     const koksma_property *property;
@@ -67,9 +65,8 @@ static void each_name_of_the_table_is_found(void **state)
 
 /* Of any property: it is called as its line, looks whatever the number of threads, and finds nothing that is no
  * number. */
-static void every_property_looks_alike_on_any_threads(void **state)
+TEST_CASE(every_property_looks_alike_on_any_threads)
 {
-    (void)state;
     static const int dims[] = {1, 2, 3, 9};
     const koksma_property *property;
     for (size_t i = 0; (property = koksma_property_at(i)); i++) {
@@ -98,9 +95,8 @@ static void every_property_looks_alike_on_any_threads(void **state)
     }
 }
 
-static void a_broken_net(void **state)
+TEST_CASE(a_broken_net)
 {
-    (void)state;
     koksma_points p = test_points("sobol:scramble=owen", 64, 2, 4);
     assert_true(one(&p, "net-base-2", "0,1").holds);
     const double y = p.xs[2 * 9 + 1]; /* swapping two y's keeps both coordinates Latin */
@@ -113,9 +109,8 @@ static void a_broken_net(void **state)
     koksma_points_fini(&p);
 }
 
-static void quality_in_other_bases_and_dimensions(void **state)
+TEST_CASE(quality_in_other_bases_and_dimensions)
 {
-    (void)state;
     koksma_points p = test_points("faure", 125, 3, 0);
     assert_true(one(&p, "net-base-3", "all").holds);
     assert_false(one(&p, "net-base-5", "all").holds);
@@ -130,9 +125,8 @@ static void quality_in_other_bases_and_dimensions(void **state)
     koksma_points_fini(&p);
 }
 
-static void a_missing_stratum(void **state)
+TEST_CASE(a_missing_stratum)
 {
-    (void)state;
     koksma_points p = test_points("jittered", 64, 2, 4);
     assert_true(one(&p, "stratified", "8 x 8").holds);
     p.xs[2 * 5] = p.xs[2 * 60];
@@ -143,9 +137,8 @@ static void a_missing_stratum(void **state)
     koksma_points_fini(&p);
 }
 
-static void two_rooks_in_a_row(void **state)
+TEST_CASE(two_rooks_in_a_row)
 {
-    (void)state;
     koksma_points p = test_points("n-rooks", 50, 2, 4);
     assert_true(one(&p, "latin", "0").holds && one(&p, "latin", "1").holds);
     p.xs[2 * 7 + 1] = p.xs[2 * 8 + 1];
@@ -154,9 +147,8 @@ static void two_rooks_in_a_row(void **state)
     koksma_points_fini(&p);
 }
 
-static void the_last_of_many_coordinates(void **state)
+TEST_CASE(the_last_of_many_coordinates)
 {
-    (void)state;
     koksma_points p = test_points("n-rooks", 16, 40, 3);
     assert_true(one(&p, "latin", "39").holds);
     for (size_t i = 0; i < p.n; i++) {
@@ -166,9 +158,8 @@ static void the_last_of_many_coordinates(void **state)
     koksma_points_fini(&p);
 }
 
-static void two_close_points_and_only_across_the_side(void **state)
+TEST_CASE(two_close_points_and_only_across_the_side)
 {
-    (void)state;
     koksma_points p = test_points("dart-throwing", 200, 2, 4);
     const double densest = koksma__packing_distance(200, 2, true);
     assert_true(one(&p, "distance-torus", "-").value >= 0.75 * densest * (1 - 1e-12));
@@ -199,9 +190,8 @@ static koksma_points places(int kind, size_t n, int dim, uint64_t seed)
     return p;
 }
 
-static void distances_by_brute_force(void **state)
+TEST_CASE(distances_by_brute_force)
 {
-    (void)state;
     for (int dim = 1; dim <= 4; dim++) {
         for (uint64_t seed = 0; seed < 40; seed++) {
             koksma_points p = places((int)seed % 5, 2 + 3 * seed, dim, seed);
@@ -228,9 +218,8 @@ static void distances_by_brute_force(void **state)
 }
 
 /* All pairs would be 8e10. */
-static void distances_in_a_corner(void **state)
+TEST_CASE(distances_in_a_corner)
 {
-    (void)state;
     koksma_points p = places(2, 400000, 2, 1);
     double square, torus;
     assert_ok(koksma_smallest_distance(&p, false, NULL, &square));
@@ -248,9 +237,8 @@ static bool count_questions(void *context, double fraction)
 
 /* The measure goes by cells where points are spread and by halving where they crowd: to the bit the same. All pairs
    of the corner would be 2e10, a question whether to go on each 65,536. */
-static void the_measure_is_the_same(void **state)
+TEST_CASE(the_measure_is_the_same)
 {
-    (void)state;
     for (uint64_t seed = 0; seed < 60; seed++) {
         koksma_points p = places((int)seed % 5, 2 + 9 * seed, 2, seed);
         double square, torus;
@@ -275,9 +263,8 @@ static void the_measure_is_the_same(void **state)
     koksma_points_fini(&p);
 }
 
-static void a_repeated_point(void **state)
+TEST_CASE(a_repeated_point)
 {
-    (void)state;
     koksma_points p = test_points("random", 100, 3, 4);
     assert_true(one(&p, "distinct", "-").holds);
     memcpy(p.xs + 3 * 10, p.xs + 3 * 90, 3 * sizeof *p.xs);
@@ -286,9 +273,8 @@ static void a_repeated_point(void **state)
     koksma_points_fini(&p);
 }
 
-static void the_origin(void **state)
+TEST_CASE(the_origin)
 {
-    (void)state;
     koksma_points p = test_points("sobol", 65, 2, 0);
     koksma_points skipped = {64, 2, p.xs + 2}; /* the first point dropped */
     const koksma_finding f = one(&skipped, "origin-present", "-");
@@ -325,9 +311,8 @@ static void the_origin(void **state)
     }
 }
 
-static void a_coordinate_that_rounds_to_one(void **state)
+TEST_CASE(a_coordinate_that_rounds_to_one)
 {
-    (void)state;
     koksma_points p = test_points("regular", 64, 2, 0);
     assert_true(one(&p, "below-one-as-float", "-").holds);
     p.xs[101] = 1 - 0x1p-26;
@@ -335,9 +320,8 @@ static void a_coordinate_that_rounds_to_one(void **state)
     koksma_points_fini(&p);
 }
 
-static void an_order_that_is_not_progressive(void **state)
+TEST_CASE(an_order_that_is_not_progressive)
 {
-    (void)state;
     koksma_points p = test_points("jittered", 256, 2, 0); /* in order of the cells */
     const koksma_finding f = one(&p, "progressive", "-");
     assert_false(f.holds);
@@ -354,9 +338,8 @@ static void an_order_that_is_not_progressive(void **state)
     koksma_points_fini(&p);
 }
 
-static void zero_and_minus_zero_are_one_place(void **state)
+TEST_CASE(zero_and_minus_zero_are_one_place)
 {
-    (void)state;
     double xs[] = {0, 0.5, 0.25, 0.75, -0.0, 0.5, 1, 0.5};
     koksma_points p = {4, 2, xs};
     const koksma_finding f = one(&p, "distinct", "-");
@@ -364,9 +347,8 @@ static void zero_and_minus_zero_are_one_place(void **state)
     assert_true(f.value == 1);
 }
 
-static void points_outside_are_refused(void **state)
+TEST_CASE(points_outside_are_refused)
 {
-    (void)state;
     double xs[] = {0.5, 1.5};
     const koksma_points p = {1, 2, xs};
     koksma_findings all;
@@ -398,9 +380,8 @@ static koksma_findings of_sets(const koksma_spec *spec, size_t n, int dim, size_
 
 /* With their boxes: the middle halves of cells; sides, where darts have fewer neighbours; a first cell that comes first;
    one set for all seeds. Darts on the torus are the same wherever it is cut, so each is uniform. */
-static void biases_are_found(void **state)
+TEST_CASE(biases_are_found)
 {
-    (void)state;
     static const struct {
         const char *spec;
         size_t n_sets;
@@ -431,9 +412,8 @@ static void biases_are_found(void **state)
 
 /* A sampler whose first coordinate is never in [1/4,3/4): 0 of 400 samples where half are expected is 20 standard errors,
    sqrt(400 / (1/2 1/2)) / 2. */
-static void a_gap_is_named(void **state)
+TEST_CASE(a_gap_is_named)
 {
-    (void)state;
     enum { N_SETS = 400 };
     koksma_points sets[N_SETS];
     koksma_findings all;
@@ -458,31 +438,4 @@ static void a_gap_is_named(void **state)
     for (size_t s = 0; s < N_SETS; s++) {
         koksma_points_fini(&sets[s]);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(healthy_points_pass),
-        cmocka_unit_test(biases_are_found),
-        cmocka_unit_test(a_gap_is_named),
-        cmocka_unit_test(every_property_looks_alike_on_any_threads),
-        cmocka_unit_test(each_name_of_the_table_is_found),
-        cmocka_unit_test(a_broken_net),
-        cmocka_unit_test(quality_in_other_bases_and_dimensions),
-        cmocka_unit_test(a_missing_stratum),
-        cmocka_unit_test(two_rooks_in_a_row),
-        cmocka_unit_test(two_close_points_and_only_across_the_side),
-        cmocka_unit_test(distances_by_brute_force),
-        cmocka_unit_test(distances_in_a_corner),
-        cmocka_unit_test(the_measure_is_the_same),
-        cmocka_unit_test(a_repeated_point),
-        cmocka_unit_test(the_last_of_many_coordinates),
-        cmocka_unit_test(the_origin),
-        cmocka_unit_test(a_coordinate_that_rounds_to_one),
-        cmocka_unit_test(an_order_that_is_not_progressive),
-        cmocka_unit_test(zero_and_minus_zero_are_one_place),
-        cmocka_unit_test(points_outside_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,9 +118,8 @@ static void straighten(const koksma_warp *w, const double *x, double *a, double 
     fail_domain(w);
 }
 
-static void the_jacobian_is_the_area(void **state)
+TEST_CASE(the_jacobian_is_the_area)
 {
-    (void)state;
     const double h = 1e-6;
     const koksma_warp *w;
     for (size_t i = 0; (w = koksma_warp_at(i)); i++) {
@@ -151,9 +150,8 @@ static void the_jacobian_is_the_area(void **state)
     }
 }
 
-static void equal_parts_get_equal_shares(void **state)
+TEST_CASE(equal_parts_get_equal_shares)
 {
-    (void)state;
     const koksma_warp *w;
     for (size_t i = 0; (w = koksma_warp_at(i)); i++) {
         double counts[CELLS][CELLS] = {{0}};
@@ -170,13 +168,4 @@ static void equal_parts_get_equal_shares(void **state)
             }
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_jacobian_is_the_area),
-        cmocka_unit_test(equal_parts_get_equal_shares),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

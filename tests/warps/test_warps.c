@@ -20,9 +20,8 @@ static bool has_edges(const koksma_warp *warp, koksma__domain_kind *kind)
 }
 
 /* P(p) is the mean of sigma(p, map(u)) over the square, if the map keeps areas and P is right; C the mean of P. */
-static void potentials_are_means_over_the_square(void **state)
+TEST_CASE(potentials_are_means_over_the_square)
 {
-    (void)state;
     const koksma_warp *warp;
     koksma__domain_kind kind;
     for (size_t w = 0; (warp = koksma_warp_at(w)); w++) {
@@ -49,9 +48,8 @@ static void potentials_are_means_over_the_square(void **state)
     assert_null(koksma_warp_find("bilinear"));
 }
 
-static void maps_may_write_over_what_they_map(void **state)
+TEST_CASE(maps_may_write_over_what_they_map)
 {
-    (void)state;
     const koksma_warp *warp;
     for (size_t w = 0; (warp = koksma_warp_at(w)) != NULL; w++) {
         for (uint64_t i = 0; i < 1000; i++) {
@@ -74,9 +72,8 @@ static koksma_value measure_warped(const char *warp, const char *measure, const 
 
 /* In the disk lines at a uniform angle and distance, on the hemisphere and the sphere planes with uniform normals: the
    mean square, and no line may beat `edge`. */
-static void edges_agree_with_random_lines(void **state)
+TEST_CASE(edges_agree_with_random_lines)
 {
-    (void)state;
     static const char *const warps[] = {"concentric-disk", "polar-disk", "hemisphere", "sphere"};
     for (int w = 0; w < 4; w++) {
         const koksma_warp *warp = koksma_warp_find(warps[w]);
@@ -111,9 +108,8 @@ static void edges_agree_with_random_lines(void **state)
 }
 
 /* A triangle's worst half-plane does not change under affine maps: exchange of the axes, and of corners. */
-static void triangle_is_affine(void **state)
+TEST_CASE(triangle_is_affine)
 {
-    (void)state;
     koksma_points p = test_points("random", 40, 2, 3), q = test_points("random", 40, 2, 3);
     const double edge = measure_warped("triangle", "edge", &p).value;
     for (size_t i = 0; i < p.n; i++) { /* v -> 1 - v exchanges two corners */
@@ -155,9 +151,8 @@ static double worst_of_many_lines(koksma__domain_kind kind, size_t n, const doub
 }
 
 /* Points that repeat in the domain's centre, corners and sides (kinds 1 and 4 of sets.h), alone and among others. */
-static void edges_beat_every_line(void **state)
+TEST_CASE(edges_beat_every_line)
 {
-    (void)state;
     static const char *const warps[] = {"concentric-disk", "polar-disk", "triangle", "triangle-heitz"};
     static const size_t sizes[] = {1, 2, 5, 9};
     for (int round = 0; round < 4 * 4 * SETS_KINDS * 4; round++) {
@@ -186,9 +181,8 @@ static void edges_beat_every_line(void **state)
 
 /* Known exactly: k of n points in a corner of the triangle are a half-plane of no area; a point in the disk's centre
    has half of it on each side. */
-static void edges_at_corners_and_centres(void **state)
+TEST_CASE(edges_at_corners_and_centres)
 {
-    (void)state;
     static const struct {
         const char *warp;
         double at[2];
@@ -225,9 +219,8 @@ static void edges_at_corners_and_centres(void **state)
     }
 }
 
-static void others_say_what_is_taken(void **state)
+TEST_CASE(others_say_what_is_taken)
 {
-    (void)state;
     koksma_points p = test_points("random", 4, 2, 3);
     koksma_spec spec;
     koksma_value value;
@@ -250,18 +243,4 @@ static void others_say_what_is_taken(void **state)
     assert_ok(koksma_warp_evaluate(koksma_warp_find("polar-disk"), &spec, &p, NULL, &value));
     assert_true(value.value > 0 && value.standard_error > 0 && !value.exact);
     koksma_points_fini(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(potentials_are_means_over_the_square),
-        cmocka_unit_test(maps_may_write_over_what_they_map),
-        cmocka_unit_test(edges_agree_with_random_lines),
-        cmocka_unit_test(triangle_is_affine),
-        cmocka_unit_test(edges_beat_every_line),
-        cmocka_unit_test(edges_at_corners_and_centres),
-        cmocka_unit_test(others_say_what_is_taken),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,9 +15,8 @@ static void images_of(int width, int height, koksma_image *image, koksma_image *
     }
 }
 
-static void a_wave_is_in_its_ring(void **state)
+TEST_CASE(a_wave_is_in_its_ring)
 {
-    (void)state;
     static const int sizes[][2] = {{64, 48}, {30, 45}, {33, 33}};
     for (size_t s = 0; s < 3; s++) {
         const int width = sizes[s][0], height = sizes[s][1], u = 5, v = 3;
@@ -49,9 +48,8 @@ static void a_wave_is_in_its_ring(void **state)
     }
 }
 
-static void noise_is_flat(void **state)
+TEST_CASE(noise_is_flat)
 {
-    (void)state;
     koksma__error_spectrum spectrum = {0};
     enum { WIDTH = 40, HEIGHT = 32, IMAGES = 64 };
     koksma_image image, reference;
@@ -76,13 +74,4 @@ static void noise_is_flat(void **state)
     koksma_image_fini(&small);
     koksma_image_fini(&image);
     koksma_image_fini(&reference);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_wave_is_in_its_ring),
-        cmocka_unit_test(noise_is_flat),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,9 +71,8 @@ static double variation_on_grid(const function *f, int m)
     return total;
 }
 
-static void variations_are_sums_of_differences(void **state)
+TEST_CASE(variations_are_sums_of_differences)
 {
-    (void)state;
     for (size_t i = 0; i < n_functions; i++) {
         const function *f = &functions[i];
         const double missed = f->integral->integrand->axes ? 1e-4 : 0.05; /* of a peak between two lines */
@@ -95,9 +94,8 @@ static void variations_are_sums_of_differences(void **state)
 }
 
 /* The midpoint rule on a fine grid; steps cost it no more than a row of cells along each edge. */
-static void integrals_and_ranges_hold(void **state)
+TEST_CASE(integrals_and_ranges_hold)
 {
-    (void)state;
     enum { SIDE = 1000 };
     for (size_t i = 0; i < n_functions; i++) {
         const function *f = &functions[i];
@@ -138,9 +136,8 @@ static void check_inequality(const koksma_points *points, const char *pattern, d
 }
 
 /* Every function over every pattern that takes the number and the dimension, and over sets with ties and sides. */
-static void the_theorem_holds(void **state)
+TEST_CASE(the_theorem_holds)
 {
-    (void)state;
     double closest[3] = {0};
     size_t sets = 0;
     for (size_t i = 0; koksma_pattern_at(i); i++) {
@@ -168,12 +165,4 @@ static void the_theorem_holds(void **state)
     assert_true(closest[1] > 0.9 && closest[2] > 0.5); /* sharp enough that a smaller V would fail */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(variations_are_sums_of_differences),
-        cmocka_unit_test(integrals_and_ranges_hold),
-        cmocka_unit_test(the_theorem_holds),
-    };
-    return cmocka_run_group_tests(tests, open_functions, close_functions);
-}
+TEST_GROUP(open_functions, close_functions)

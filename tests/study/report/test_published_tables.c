@@ -45,19 +45,17 @@ static koksma_study_verdict verdict(const one_row *t, double mean, double sd, si
 
 /* Printed 0.282 of 100 sets; ours 0.29 of 400 sets with SD 0.05: the standard error of the difference is
    0.05 sqrt(1/100 + 1/400) = 0.0055902, rounding adds 0.0005, and z = -0.008 / 0.0060902 = -1.3136. */
-static void z_has_both_errors_and_the_rounding(void **state)
+TEST_CASE(z_has_both_errors_and_the_rounding)
 {
     one_row t;
-    (void)state;
     set_up(&t, 0.282, 0.0005, -1);
     const koksma__cell cell = cell_of(0.29, 0.05, 400);
     assert_near(koksma__table_judge(&t.table, &t.row, 0, &cell).z, -1.3136, 1e-4);
 }
 
-static void every_verdict_has_its_case(void **state)
+TEST_CASE(every_verdict_has_its_case)
 {
     one_row t;
-    (void)state;
     set_up(&t, 0.282, 0.0005, -1);
     assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_AGREES);
     assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNEXPLAINED);
@@ -93,10 +91,9 @@ static void every_verdict_has_its_case(void **state)
 }
 
 /* Of a table over several n a note may be of one column. */
-static void notes_are_of_columns(void **state)
+TEST_CASE(notes_are_of_columns)
 {
     one_row t;
-    (void)state;
     set_up(&t, 0.282, 0.0005, 1);
     t.table.n.n = 3;
     t.note.n = 256;
@@ -108,10 +105,9 @@ static void notes_are_of_columns(void **state)
 
 /* Mitchell 1992, table 1, dart throwing: the least-squares line through (log n, log mean), by hand
    sum (x - x_mean) (y - y_mean) / sum (x - x_mean)^2 = -6.9195 / 10.7511. */
-static void slopes_are_of_all_printed_means(void **state)
+TEST_CASE(slopes_are_of_all_printed_means)
 {
     one_row t;
-    (void)state;
     set_up(&t, 0.049, 0.0005, -1);
     t.table.n.n = 3;
     assert_true(isnan(koksma__table_printed_slope(&t.table, &t.row)));
@@ -119,15 +115,4 @@ static void slopes_are_of_all_printed_means(void **state)
     assert_true(isnan(koksma__table_printed_slope(&t.table, &t.row)));
     t.row.published[1].value = 0.00799;
     assert_near(koksma__table_printed_slope(&t.table, &t.row), -0.64361, 1e-4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(z_has_both_errors_and_the_rounding),
-        cmocka_unit_test(every_verdict_has_its_case),
-        cmocka_unit_test(notes_are_of_columns),
-        cmocka_unit_test(slopes_are_of_all_printed_means),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

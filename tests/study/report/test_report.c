@@ -25,9 +25,8 @@ static bool count_call(void *context, double fraction)
 }
 
 /* A report tells its progress, which never falls, and ends where the callback says so, without a file. */
-static void reports_have_progress(void **state)
+TEST_CASE(reports_have_progress)
 {
-    (void)state;
     const char *plans[] = {"{\"name\": \"p\", \"title\": \"P\", \"discrepancies\": [{\"patterns\": [\"random\"], "
                            "\"measures\": [\"star\"], \"n\": [4], \"trials\": 3}]}"};
     const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = "progress"};
@@ -47,9 +46,8 @@ static void reports_have_progress(void **state)
 }
 
 /* A report also asks while it hashes the rows, which it does first: here at the first row, after 4,096 and after 8,192. */
-static void hashing_rows_can_end(void **state)
+TEST_CASE(hashing_rows_can_end)
 {
-    (void)state;
     const char *plans[] = {"{\"name\": \"p\", \"title\": \"P\", \"discrepancies\": [{\"patterns\": [\"random\"], "
                            "\"measures\": [\"star\"], \"n\": [1], \"trials\": 10000}]}"};
     const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = "hashing"};
@@ -65,9 +63,8 @@ static void hashing_rows_can_end(void **state)
 
 /* A question asks the callback at a grain of little work: once for every 64 of 150,000 resamples here, then in the
    rankings, and for every number that it reads. A no at any of these calls is the last call and leaves no file. */
-static void questions_end_where_the_callback_says(void **state)
+TEST_CASE(questions_end_where_the_callback_says)
 {
-    (void)state;
     const char *plans[] = {
         "{\"name\": \"p\", \"title\": \"P\", \"discrepancies\": [{\"id\": \"d\", \"patterns\": [" PATTERNS "], "
         "\"measures\": [\"star\", \"diaphony\"], \"n\": [4, 9], \"trials\": 2}], "
@@ -95,12 +92,4 @@ static void questions_end_where_the_callback_says(void **state)
         assert_int_equal(access("asking/report.json", F_OK), -1);
     }
     assert_ok(koksma_study_close(study));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(reports_have_progress),
-                                       cmocka_unit_test(hashing_rows_can_end),
-                                       cmocka_unit_test(questions_end_where_the_callback_says)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,9 +54,8 @@ static double symmetric(double reference)
     return fabs(0.5 - reference) / (0.5 + reference + 0.01);
 }
 
-static void job_has_all_metrics(void **state)
+TEST_CASE(job_has_all_metrics)
 {
-    (void)state;
     static const char *const metrics[] = {
         "mae", "rmse", "relmse", "smape", "relmse:epsilon=1", "ldr-flip", "relmse:epsilon=0.1"};
     enum { N = sizeof metrics / sizeof *metrics };
@@ -109,9 +108,8 @@ static void job_has_all_metrics(void **state)
 }
 
 /* Metrics that are evaluated together are bit for bit those that are evaluated alone, with 1 and 3 channels. */
-static void together_as_alone(void **state)
+TEST_CASE(together_as_alone)
 {
-    (void)state;
     static const char *const texts[] = {"smape", "mae", "ldr-flip:ppd=20", "rmse", "relmse", "hdr-flip:ppd=20"};
     enum { N = sizeof texts / sizeof *texts };
     koksma_metric_spec specs[N];
@@ -140,13 +138,4 @@ static void together_as_alone(void **state)
         koksma_image_fini(&image);
         koksma_image_fini(&reference);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(job_has_all_metrics),
-        cmocka_unit_test(together_as_alone),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,9 +6,8 @@
 #include "rendering.h"
 #include "study/run/run.h"
 
-static void rows_have_the_bits_of_the_whole(void **state)
+TEST_CASE(rows_have_the_bits_of_the_whole)
 {
-    (void)state;
     static const char *const filters[] = {"box", "mitchell"};
     for (size_t f = 0; f < 2; f++) {
         koksma_scene *scene;
@@ -33,9 +32,8 @@ static void rows_have_the_bits_of_the_whole(void **state)
     }
 }
 
-static void some_rows_need_the_others(void **state)
+TEST_CASE(some_rows_need_the_others)
 {
-    (void)state;
     koksma_scene *scene;
     assert_ok(koksma_scene_open("ball", &scene));
     koksma_render_options options = options_of(scene, "random", "irradiance-cache", 4, 8);
@@ -56,9 +54,8 @@ static bool is_even(const void *context, size_t i)
     return i % 2 == 0;
 }
 
-static void a_queue_gives_each_number_once(void **state)
+TEST_CASE(a_queue_gives_each_number_once)
 {
-    (void)state;
     koksma__work_queue q;
     size_t i, seen = 0;
     assert_ok(koksma__work_queue_open(20, &q));
@@ -89,14 +86,4 @@ static void a_queue_gives_each_number_once(void **state)
     assert_int_equal(q.left, 0);
     assert_false(koksma__work_queue_take_lost(&q, &i));
     koksma__work_queue_close(&q);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_have_the_bits_of_the_whole),
-        cmocka_unit_test(some_rows_need_the_others),
-        cmocka_unit_test(a_queue_gives_each_number_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

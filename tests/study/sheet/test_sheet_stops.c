@@ -39,9 +39,8 @@ static koksma_status sheet_of(const char *sampler, calls *c)
     return status;
 }
 
-static void test_asks_within_sets(void **state)
+TEST_CASE(test_asks_within_sets)
 {
-    (void)state;
     calls whole = {.n = 0};
     assert_ok(sheet_of("jittered", &whole));
     assert_true(whole.fractions > 10 && whole.in_measures > 50 * whole.fractions);
@@ -50,10 +49,4 @@ static void test_asks_within_sets(void **state)
         assert_int_equal(sheet_of("jittered", &c), KOKSMA_INTERRUPTED);
         assert_true(c.n < last + 8); /* each of the calls that end asks no more than once */
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_asks_within_sets)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
