@@ -14,6 +14,7 @@
 
 #include <koksma/estimate.h>
 
+#include "core/elementary.h"
 #include "core/lookup.h"
 #include "core/parallel.h"
 #include "core/random.h"
@@ -130,11 +131,11 @@ static koksma_status student(sample *s, double *low, double *high)
    Binomial(R, 1/2): the interval of Clopper & Pearson for the level of a quantile, inverted. */
 static koksma_status quantile(sample *s, double *low, double *high)
 {
-    const double n = (double)s->n, all = koksma__log_gamma(n + 1) - n * log(2);
+    const double n = (double)s->n, all = koksma__log_gamma(n + 1) - n * koksma__log(2);
     double below = 0;
     size_t k = 0;
     for (; 2 * (k + 1) <= s->n + 1; k++) {
-        below += exp(all - koksma__log_gamma((double)k + 1) - koksma__log_gamma(n - (double)k + 1));
+        below += koksma__exp(all - koksma__log_gamma((double)k + 1) - koksma__log_gamma(n - (double)k + 1));
         if (2 * below > s->miss * (1 + 1e-12)) {
             break;
         }
@@ -142,7 +143,7 @@ static koksma_status quantile(sample *s, double *low, double *high)
     KOKSMA__FAIL_IF(
         k == 0, KOKSMA_ARGUMENT,
         "replicates: %zu are too few for the interval quantile with a confidence of %.6g, which takes %.0f", s->n,
-        1 - s->miss, 1 + ceil(log2(1 / s->miss) - 1e-9));
+        1 - s->miss, 1 + ceil(koksma__log2(1 / s->miss) - 1e-9));
     memcpy(s->scratch, s->values, s->n * sizeof *s->values);
     sort(s->scratch, s->n);
     *low = s->scratch[k - 1];
@@ -166,7 +167,7 @@ static const running prior = {.mean = 0.5, .variance = 0.25, .sum = 0.5, .square
 
 static double stake(const sample *s, const running *r)
 {
-    return sqrt(2 * log(2 / s->miss) / ((double)s->n * r->variance));
+    return sqrt(2 * koksma__log(2 / s->miss) / ((double)s->n * r->variance));
 }
 
 static void look_at(running *r, double x)
@@ -189,10 +190,10 @@ static koksma_status empirical_bernstein(sample *s, double *low, double *high)
         const double x = unit(s, i), l = fmin(stake(s, &r), 0.5);
         stakes += l;
         weighted += l * x;
-        spread += (x - r.mean) * (x - r.mean) * (-log1p(-l) - l);
+        spread += (x - r.mean) * (x - r.mean) * (-koksma__log1p(-l) - l);
         look_at(&r, x);
     }
-    const double half = (log(2 / s->miss) + spread) / stakes, range = s->highest - s->lowest;
+    const double half = (koksma__log(2 / s->miss) + spread) / stakes, range = s->highest - s->lowest;
     *low = s->lowest + range * fmax(weighted / stakes - half, 0);
     *high = s->lowest + range * fmin(weighted / stakes + half, 1);
     return KOKSMA_OK;
@@ -205,8 +206,8 @@ static bool pays(const sample *s, bool mirrored, double m)
     double capital = 0;
     for (size_t i = 0; i < s->n; i++) {
         const double x = mirrored ? 1 - unit(s, i) : unit(s, i);
-        capital += log1p(fmin(s->scratch[i], 0.75 / m) * (x - m));
-        if (capital >= log(2 / s->miss)) {
+        capital += koksma__log1p(fmin(s->scratch[i], 0.75 / m) * (x - m));
+        if (capital >= koksma__log(2 / s->miss)) {
             return true;
         }
     }

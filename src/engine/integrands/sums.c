@@ -21,12 +21,12 @@ enum { SMOOTH, KINK, JUMP };
 
 static double normal(double z)
 {
-    return erfc(-z * M_SQRT1_2) / 2;
+    return koksma__erfc(-z * M_SQRT1_2) / 2;
 }
 
 static double density(double z)
 {
-    return exp(-z * z / 2) / sqrt(2 * M_PI);
+    return koksma__exp(-z * z / 2) / sqrt(2 * M_PI);
 }
 
 /* ---- sum-exp ----------------------------------------------------------------------------------------------------- */
@@ -38,16 +38,16 @@ static double explained_of_sum(const koksma_integral *f, const bool *held)
     for (int k = 0; k < f->dim; k++) {
         count += held[k];
     }
-    return count * ((exp(2) - 1) / 4 - 1);
+    return count * ((koksma__exp(2) - 1) / 4 - 1);
 }
 
 static koksma_status prepare_sum(koksma_integral *f)
 {
     f->value = 0;
-    f->variance = f->dim * ((exp(2) - 1) / 4 - 1);
-    f->variation = f->dim * exp(1); /* each term rises from 0 to e */
+    f->variance = f->dim * ((koksma__exp(2) - 1) / 4 - 1);
+    f->variation = f->dim * koksma__exp(1); /* each term rises from 0 to e */
     f->lowest = -f->dim;
-    f->highest = f->dim * (exp(1) - 1);
+    f->highest = f->dim * (koksma__exp(1) - 1);
     f->explained = explained_of_sum;
     return KOKSMA_OK;
 }
@@ -56,7 +56,7 @@ static double sum_at(const koksma_integral *f, const double *x)
 {
     double sum = -f->dim;
     for (int k = 0; k < f->dim; k++) {
-        sum += x[k] * exp(x[k]);
+        sum += x[k] * koksma__exp(x[k]);
     }
     return sum;
 }

@@ -12,6 +12,7 @@
 #include <koksma/estimate.h>
 #include <koksma/series.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/sum.h"
@@ -155,11 +156,11 @@ static void predict(const job *j, koksma_tolerance *t)
     t->rate_error = line.slope_error;
     const double tolerance = tolerance_of(j->options, &t->steps[t->n_steps - 1].estimate);
     const double half = koksma_student_975(line.count - 2) * line.slope_error,
-                 decades = log(tolerance / errors[count - 1]);
+                 decades = koksma__log(tolerance / errors[count - 1]);
     if (tolerance > 0 && errors[count - 1] > 0 && line.slope < 0) {
-        t->needed = points[count - 1] * exp(decades / line.slope);
-        const double fast = points[count - 1] * exp(decades / (line.slope - half)),
-                     slow = line.slope + half < 0 ? points[count - 1] * exp(decades / (line.slope + half))
+        t->needed = points[count - 1] * koksma__exp(decades / line.slope);
+        const double fast = points[count - 1] * koksma__exp(decades / (line.slope - half)),
+                     slow = line.slope + half < 0 ? points[count - 1] * koksma__exp(decades / (line.slope + half))
                             : decades < 0         ? (double)INFINITY
                                                   : 0;
         t->needed_low = fmin(fast, slow);

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "image/coherence.h"
 #include "masks/masks.h"
@@ -30,7 +31,7 @@ static koksma_status add_power(const koksma_mask *m, int k, double *values, doub
 static int ring_of(const koksma_mask *m, size_t u, size_t v, int rings)
 {
     const double y = (double)(2 * v > (size_t)m->height ? (size_t)m->height - v : v) / m->height;
-    const double f = hypot((double)u / m->width, y) * 2 * rings;
+    const double f = koksma__hypot((double)u / m->width, y) * 2 * rings;
     return f < rings ? (int)f : rings;
 }
 
@@ -78,7 +79,7 @@ koksma_status koksma_mask_rings(const koksma_mask *mask, int rings, double *powe
         const double mean = sums[r][1] / sums[r][0], variance = sums[r][2] / sums[r][0] - mean * mean;
         power[r] = mean / (sum / count);
         if (anisotropy) {
-            anisotropy[r] = 10 * log10(variance / (mean * mean));
+            anisotropy[r] = 10 * koksma__log10(variance / (mean * mean));
         }
     }
     free(sums);
