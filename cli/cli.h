@@ -194,8 +194,9 @@ void cli_say_left_out(const char *line, size_t length);
 
 typedef struct cli_rows cli_rows;
 
-/* Writes a number to `text` as all text output shows it, and returns `text`. The number has as many significant
-   digits as --digits says, but all digits before the decimal point; infinity and NaN are "-". */
+/* Writes a number to `text` as all text output shows it, and returns `text`. It is rounded to as many significant
+   digits as --digits says, without zeros at the end; but below 1e15 all digits before the decimal point are written.
+   Infinity and NaN are "-". */
 const char *cli_number(double value, char text[CLI_NUMBER]);
 void cli_set_style(int digits, bool all_columns); /* sets the values of --digits and --long */
 

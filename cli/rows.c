@@ -393,7 +393,7 @@ void cli_row_json(cli_rows *rows, const char *key, const char *json, const char 
 const char *cli_number(double value, char text[CLI_NUMBER])
 {
     const double size = fabs(value);
-    const bool whole = size < 1e15 && (value == floor(value) || size >= pow(10, digits));
+    const bool whole = size < 1e15 && (value == floor(value) || size >= pow(10, digits) - 0.5);
     if (!isfinite(value)) {
         strcpy(text, "-");
     } else if (whole) {
