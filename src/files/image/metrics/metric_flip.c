@@ -19,11 +19,12 @@
  * filters are separable, which takes O(n radius).
  *
  * HDR-FLIP (Andersson et al. 2021): both images are multiplied by 2^e and tone-mapped, for max(2, ceil(e1 - e0))
- * exposures e from e0 = log2(x / largest luminance) to e1 = log2(x / median luminance) of the reference, where the
- * tone-mapper maps grey x to 0.85. The value of a pixel is its largest LDR-FLIP over all exposures. A median of 0, a
- * case that the paper leaves open, is replaced by the median of the pixels above 0; a black reference has only the
- * exposure e = 0. The authors' program (flip-evaluator 1.7) takes 2^-23 for such a median, which adds exposures up to
- * 23 stops in which the image is white but for its black pixels, and refuses black references.
+ * exposures e, equally spaced from e0 = log2(x / largest luminance) to e1 = log2(x / median luminance) of the
+ * reference, where the tone-mapper maps grey x to 0.85; but for at most 64. The value of a pixel is its largest
+ * LDR-FLIP over all exposures. A median of 0, a case that the paper leaves open, is replaced by the median of the
+ * pixels above 0; a black reference has only the exposure e = 0. The authors' program (flip-evaluator 1.7) takes 2^-23
+ * for such a median, which adds exposures up to 23 stops in which the image is white but for its black pixels, and
+ * refuses black references.
  *
  * ppd: pixels per degree = (distance / width of the monitor) x (pixels across the monitor) x pi / 180; the papers'
  * default is 67.02, for 3840 pixels across 0.7 m, seen from 0.7 m.
