@@ -25,7 +25,8 @@ static void put_range(cli_rows *rows, const char *key, double low, double high, 
     cli_row_json(rows, key, json, text);
 }
 
-/* Prints a row for each part of the scene, with its bounding box and the part of the image that the box covers. */
+/* Prints a row for each of the first MOST_PARTS parts of the scene, or of all with --long or --json: its bounding box and
+   the part of the image that the box covers. */
 static void put_parts(const cli_arguments *arguments, cli_rows *rows, const koksma_scene *scene)
 {
     koksma_scene_part part;

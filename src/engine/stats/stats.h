@@ -52,12 +52,14 @@ KOKSMA__LAB double koksma__joint_error(const koksma_joint *joint, size_t n, cons
 /* ---- Mean squares of errors, with intervals that allow for skewed and heavy-tailed ones ------------------------ */
 
 typedef struct koksma__mean_square {
-    double value, low, high; /* mean square and its 95 % interval, or NaN with one error */
+    /* Mean square and its 95 % interval. The interval is NaN with one error, and so is the value if the centre is the
+       mean; all three are NaN if an error is not finite. */
+    double value, low, high;
     /* variance of a squared error divided by the square of its mean: 2 for normal errors, 5 for those of Laplace */
     double relative_variance;
     double log_error; /* standard error of log value; NaN with one error */
     bool approximate; /* whether the interval may hold less often than 93 %: the errors are too few, or too skewed or
-                          heavy-tailed. False with one error, and if all are 0 */
+                          heavy-tailed. False if there is no such interval, or if all errors are 0 */
 } koksma__mean_square;
 
 /* relative_variance from which the intervals of a mean square, and of a slope over several, are approximate. */

@@ -65,7 +65,7 @@ typedef struct elimination {
     size_t reach;           /* largest number of cells that d_max extends over; unused with `scale` */
     uint32_t *cell_start;   /* where each cell's points begin in `members` */
     uint32_t *cell_count;   /* number of points left in each cell */
-    uint32_t *members;      /* the points of all cells, cell by cell */
+    uint32_t *members;      /* the points of all cells, cell by cell, those left in a cell first */
     uint32_t *member_place; /* index of a point in `members` */
     size_t looks;           /* number of cells visited and distances computed since the last check of `run` */
 } elimination;

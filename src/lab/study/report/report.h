@@ -271,7 +271,8 @@ typedef struct koksma__pairs {
     const char *patterns[KOKSMA__CASE_PATTERNS];
 } koksma__pairs;
 
-/* Lists the measures of a topic, in the report's memory. */
+/* Lists the measures that the blocks of a topic evaluate without a warp, each once for a number of dimensions, in the
+   report's memory. */
 koksma__cases koksma__cases_of(koksma__report *r, const koksma__topic *topic);
 
 /* Calls `visit` once for every case: every combination of scene, variant, number of samples and measure. */
