@@ -22,8 +22,9 @@
  * excludes repetitions. In more dimensions than phi(n)/2 some points lie on diagonals. In two dimensions the
  * minimiser does not depend on the weight.
  *
- * Ties: z and n - z always have equal errors, and the smaller is taken, except for n = 12 and a few other n below 30
- * (lattice.h). Among other multipliers with bitwise equal sums the smallest is taken.
+ * Ties: z and n - z always have equal errors, and the smaller is taken, except that for a few even n the unit next above
+ * n/2 may be taken (lattices/lattices.h): with up to 10 coordinates for 17 of the n up to 2,000, from 10 and 12 to 254.
+ * Among other multipliers with bitwise equal sums the smallest is taken.
  * Known: P_2 in 10 dimensions: n = 1024: 1.979e-4, 2^20: 7.69e-9 (docs/findings/lattices.md).
  *
  * With order=Q only projections of up to Q coordinates count (finite-order weights), and gamma2 to gammaQ are the

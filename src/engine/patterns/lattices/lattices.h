@@ -95,8 +95,8 @@ void koksma__lattice_units(koksma__lattice_search *search);
 
 /* Returns the last candidate z. Candidates end at n/2, because n - z is the mirror image of z. For even n the
    smallest unit modulo n above n/2 is a candidate, too. This unit is the mirror image of a candidate below n/2, but
-   its sum has different rounding errors, which decide for n = 12 and a few other n below 30. Without this candidate
-   the points for these n would change. */
+   its sum has different rounding errors, which decide for a few n (lattice_rank1.c). Without this candidate the points
+   for these n would change. */
 uint64_t koksma__lattice_last(size_t n);
 
 /* Finds the best z_1 for z_0 = 1. This z_1 does not depend on the weights, because in two dimensions these scale the
