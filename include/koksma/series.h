@@ -56,7 +56,7 @@ typedef struct koksma_joint {
 } koksma_joint;
 
 /* Adds a trial in O(n^2): values[i] is the value at size i < n. All trials need the same n, at most
-   KOKSMA_MAX_SIZES; with a larger n the function does nothing. The sets of the trials must differ: a pattern with only
+   KOKSMA_MAX_SIZES; with a larger n the function only sets koksma_error_text(). The sets of the trials must differ: a pattern with only
    one set (koksma_has_one_set) has one trial, else its slope would seem to be exact. */
 KOKSMA_API void koksma_joint_add(koksma_joint *joint, size_t n, const double *values);
 
