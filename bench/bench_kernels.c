@@ -74,6 +74,8 @@ RUN(star_extremes, 48 * 32, t->star_extremes(48, pairs_a, 32, pairs_b, columns))
 RUN(star_pairs, 48 * 32, t->star_pairs(48, pairs_a, 32, pairs_b, 1000, 7, sums[0]))
 RUN(far_corners, N, sink += t->far_corners(N, counts16, floats, 1, 1, 1000, found))
 RUN(cells_2d, N, t->cells_2d(0, 1, 32, 32, out[2]))
+RUN(truncated_normals, 2 * N, memcpy(out[2], units, 2 * N * sizeof(double));
+    t->truncated_normals(0.95, 0.35, 2 * N, out[2]))
 RUN(rooks_2d, N, t->rooks_2d(1, squares, 0, N, N + 1, out[0]))
 RUN(nearest_place, N,
     for (size_t i = 0; i < N; i++) sink += (size_t)t->nearest_place(places + i % 900, STRIDE, words[i]))

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The kernels of patterns against their twins, bit for bit, for odd counts. */
+#include <math.h>
 #include <string.h>
 
 #include "core/random.h"
@@ -205,6 +206,19 @@ static void nested_digits(const koksma__kernel_table *t, size_t count, void *out
     t->nested_digits(base, relatives, count < step ? count : step, width, v + first, relative);
 }
 
+/* Narrow bells reach all three polynomials of the inverse erf, and the number 1. */
+static void truncated_normals(const koksma__kernel_table *t, size_t count, void *out)
+{
+    static const double reaches[] = {0.95, 0.9999, 0.99999999999, 1};
+    double *xs = out;
+    for (size_t r = 0; r < sizeof reaches / sizeof *reaches; r++, xs += count) {
+        for (size_t i = 0; i < count; i++) {
+            xs[i] = i % 9 == 3 ? 1 - ldexp(1, -(int)(i % 54)) : i % 9 == 5 ? ldexp(1, -(int)(i % 54)) : units[i];
+        }
+        t->truncated_normals(reaches[r], 0.08, count, xs);
+    }
+}
+
 /* Runs of every length up to 12, at all distances up to twice the cut's. */
 static void gauss_force(const koksma__kernel_table *t, size_t count, void *out)
 {
@@ -294,6 +308,7 @@ TEST(mask_growth, MAX)
 TEST(nested_digits, MAX)
 TEST(permute, MAX)
 TEST(rooks_2d, 120)
+TEST(truncated_normals, MAX)
 TEST(gauss_force, MAX)
 TEST(source_force, MAX)
 TEST(rows_of_columns, 150)
@@ -311,7 +326,7 @@ int main(void)
         cmocka_unit_test(nested_digits_equals_reference),   cmocka_unit_test(rooks_2d_equals_reference),
         cmocka_unit_test(rows_of_columns_equals_reference), cmocka_unit_test(gauss_force_equals_reference),
         cmocka_unit_test(permute_equals_reference),         cmocka_unit_test(source_force_equals_reference),
-        cmocka_unit_test(mask_growth_equals_reference),
+        cmocka_unit_test(mask_growth_equals_reference),     cmocka_unit_test(truncated_normals_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -149,35 +149,86 @@ static inline double koksma__erf(double x)
     return copysign(1 - 0x1.20dd750429b6dp-1 * koksma__exp(-square) / fraction, x);
 }
 
-/* Returns t with erf(t) = x, for |x| <= 1. For x = 1 it returns 6, because koksma__erf is 1 above 6. The method is
-   Giles's approximation (2012), which has a relative error below 4e-7 unless 1 - |x| < 1e-7, and then Halley's
-   iteration (erf'' = -2 t erf'), each step of which triples the number of correct digits. */
+/* Giles's polynomials (2012) for inverse erf, for w = -ln(1 - x^2) below 6.25, below 16, and above; each from its highest
+   power down, filled up by zeros. */
+enum { KOKSMA__INVERSE_ERF_TERMS = 23 };
+
+static inline const double *koksma__inverse_erf_terms(int part)
+{
+    static const double terms[3][KOKSMA__INVERSE_ERF_TERMS] = {
+        {-3.6444120640178196996e-21, -1.685059138182016589e-19,  1.2858480715256400167e-18,
+         1.115787767802518096e-17,   -1.333171662854620906e-16,  2.0972767875968561637e-17,
+         6.6376381343583238325e-15,  -4.0545662729752068639e-14, -8.1519341976054721522e-14,
+         2.6335093153082322977e-12,  -1.2975133253453532498e-11, -5.4154120542946279317e-11,
+         1.051212273321532285e-09,   -4.1126339803469836976e-09, -2.9070369957882005086e-08,
+         4.2347877827932403518e-07,  -1.3654692000834678645e-06, -1.3882523362786468719e-05,
+         0.0001867342080340571352,   -0.00074070253416626697512, -0.0060336708714301490533,
+         0.24015818242558961693,     1.6536545626831027356},
+        {0,
+         0,
+         0,
+         0,
+         2.2137376921775787049e-09,
+         9.0756561938885390979e-08,
+         -2.7517406297064545428e-07,
+         1.8239629214389227755e-08,
+         1.5027403968909827627e-06,
+         -4.013867526981545969e-06,
+         2.9234449089955446044e-06,
+         1.2475304481671778723e-05,
+         -4.7318229009055733981e-05,
+         6.8284851459573175448e-05,
+         2.4031110387097893999e-05,
+         -0.0003550375203628474796,
+         0.00095328937973738049703,
+         -0.0016882755560235047313,
+         0.0024914420961078508066,
+         -0.0037512085075692412107,
+         0.005370914553590063617,
+         1.0052589676941592334,
+         3.0838856104922207635},
+        {0,
+         0,
+         0,
+         0,
+         0,
+         0,
+         -2.7109920616438573243e-11,
+         -2.5556418169965252055e-10,
+         1.5076572693500548083e-09,
+         -3.7894654401267369937e-09,
+         7.6157012080783393804e-09,
+         -1.4960026627149240478e-08,
+         2.9147953450901080826e-08,
+         -6.7711997758452339498e-08,
+         2.2900482228026654717e-07,
+         -9.9298272942317002539e-07,
+         4.5260625972231537039e-06,
+         -1.9681778105531670567e-05,
+         7.5995277030017761139e-05,
+         -0.00021503011930044477347,
+         -0.00013871931833623122026,
+         1.0103004648645343977,
+         4.8499064014085844221}};
+    return terms[part];
+}
+
+/* Returns t with erf(t) = x, for |x| <= 1: x times a polynomial of Giles (2012). For x = 1 it returns 6, because
+   koksma__erf is 1 above 6. The kernel truncated_normals has the same steps in lanes. */
 static inline double koksma__inverse_erf(double x)
 {
-    static const double middle[] = {2.81022636e-8,  3.43273939e-7,  -3.5233877e-6, -4.39150654e-6, 2.1858087e-4,
-                                    -0.00125372503, -0.00417768164, 0.246640727,   1.50140941};
-    static const double tail[] = {-2.00214257e-4, 1.00950558e-4, 0.00134934322, -0.00367342844, 0.00573950773,
-                                  -0.0076224613,  0.00943887047, 1.00167406,    2.83297682};
     if (!(fabs(x) < 1)) {
         return x * 6;
     }
-    const double minus_log = -koksma__log((1 - x) * (1 + x)),
-                 w = minus_log < 5 ? minus_log - 2.5 : sqrt(minus_log) - 3;
-    const double *c = minus_log < 5 ? middle : tail;
-    double t = c[0];
-    for (int i = 1; i < 9; i++) {
-        t = t * w + c[i];
+    const double w = -koksma__log((1 - x) * (1 + x));
+    const int part = w < 6.25 ? 0 : w < 16 ? 1 : 2;
+    const double *terms = koksma__inverse_erf_terms(part);
+    const double z = part ? sqrt(w) - (part == 1 ? 3.25 : 5) : w - 3.125;
+    double t = terms[0];
+    for (int i = 1; i < KOKSMA__INVERSE_ERF_TERMS; i++) {
+        t = t * z + terms[i];
     }
-    t *= x;
-    for (int i = 0; i < 8; i++) {
-        const double newton = (koksma__erf(t) - x) / (0x1.20dd750429b6dp+0 * koksma__exp(-t * t)); /* 2 / sqrt(pi) */
-        const double step = newton / (1 + t * newton);
-        t -= step;
-        if (fabs(step) <= 2e-6) {
-            break;
-        }
-    }
-    return t;
+    return t * x;
 }
 
 #endif

@@ -8,6 +8,7 @@
 
 #include <koksma/sampler.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "kernels/kernels.h"
 
@@ -185,6 +186,14 @@ void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, dou
     for (size_t i = 0; i < nx * ny; i++) {
         xs[2 * i] = in_cell((double)(i / ny), start + width * xs[2 * i], (double)nx);
         xs[2 * i + 1] = in_cell((double)(i % ny), start + width * xs[2 * i + 1], (double)ny);
+    }
+}
+
+void KERNEL_NAME(truncated_normals)(double reach, double scale, size_t count, double *xs)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double u = 0.5 + scale * koksma__inverse_erf((2 * xs[i] - 1) * reach);
+        xs[i] = u < 0 ? 0 : u > 1 ? 1 : u;
     }
 }
 

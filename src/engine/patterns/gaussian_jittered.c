@@ -14,41 +14,34 @@
 #include "core/elementary.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 #include "patterns/grids/grids.h"
 #include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
 
 typedef struct bell {
-    double scale, erf_a; /* scale is sqrt(2) sigma, erf_a is erf(0.5 / scale) */
-    size_t along_x, along_rest;
+    double scale, reach; /* scale is sqrt(2) sigma, reach is erf(0.5 / scale) */
 } bell;
 
-/* Turns the uniform numbers of `count` points into truncated normal positions in their cells. */
-static void place(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
+/* Turns the uniform numbers of `count` points into truncated normal positions in a cell. */
+static void bend(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
 {
     const bell *b = context;
+    const size_t dim = (size_t)out->dim;
     (void)stream;
-    for (size_t i = first; i < first + count; i++) {
-        double *x = out->xs + i * (size_t)out->dim;
-        size_t rest = i;
-        for (int k = out->dim - 1; k >= 0; k--) {
-            const size_t along = k ? b->along_rest : b->along_x, cell = rest % along;
-            const double t = koksma__inverse_erf((2 * x[k] - 1) * b->erf_a);
-            const double u = fmin(fmax(0.5 + b->scale * t, 0), 1);
-            x[k] = koksma__in_cell((double)cell, u, (double)along);
-            rest /= along;
-        }
-    }
+    koksma__kernels()->truncated_normals(b->reach, b->scale, count * dim, out->xs + first * dim);
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    bell b;
-    KOKSMA__TRY(koksma__cells("gaussian-jittered", out, args->params[0], &b.along_x, &b.along_rest));
+    const double scale = sqrt(2) * args->params[1];
+    const bell b = {scale, koksma__erf(0.5 / scale)};
+    size_t along_x, along_rest;
+    KOKSMA__TRY(koksma__cells("gaussian-jittered", out, args->params[0], &along_x, &along_rest));
     KOKSMA__TRY(koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, out->n * (size_t)out->dim, out->xs));
-    b.scale = sqrt(2) * args->params[1];
-    b.erf_a = koksma__erf(0.5 / b.scale);
-    return koksma__fill_rows(args->run, out, place, &b);
+    KOKSMA__TRY(koksma__fill_rows(args->run, out, bend, &b));
+    koksma__place_in_cells(args, 0, 1, along_x, along_rest, out);
+    return KOKSMA_OK;
 }
 
 static const koksma_param params[] = {
@@ -66,4 +59,5 @@ const koksma_pattern koksma__pattern_gaussian_jittered = {
     .claims = KOKSMA_CLAIM_STRATIFIED,
     .params = params,
     .generate = generate,
+    .revision = 1, /* inverse erf by polynomials alone: other last bits */
 };

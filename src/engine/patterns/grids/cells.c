@@ -71,28 +71,14 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
                         power(m, out->dim), more, out->dim == 2 ? ", or columns=C with C a divisor of n" : "");
 }
 
-koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
-                                 koksma_points *out)
+void koksma__place_in_cells(const koksma_args *args, double start, double width, size_t along_x, size_t along_rest,
+                            koksma_points *out)
 {
-    size_t along_x, along_rest;
-    const koksma_points whole = {(size_t)args->n, out->dim, NULL};
-    const size_t count = out->n * (size_t)out->dim;
-    koksma_status status = koksma__cells(name, &whole, args->params[0], &along_x, &along_rest);
-    if (!status && width > 0) {
-        status = koksma__range_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, args->first * (uint64_t)out->dim,
-                                       count, out->xs);
-    }
-    if (status) {
-        return status;
-    }
-    const double start = (1 - width) / 2, m_x = (double)along_x, m_rest = (double)along_rest;
+    const double m_x = (double)along_x, m_rest = (double)along_rest;
     double *x = out->xs;
-    for (size_t i = 0; i < count && width == 0; i++) {
-        x[i] = 0;
-    }
     if (out->dim == 2 && out->n == args->n) {
         koksma__kernels()->cells_2d(start, width, along_x, along_rest, x);
-        return KOKSMA_OK;
+        return;
     }
     size_t cell[KOKSMA_MAX_DIM];
     uint64_t rest = args->first;
@@ -110,5 +96,25 @@ koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_a
             cell[k] = 0;
         }
     }
+}
+
+koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
+                                 koksma_points *out)
+{
+    size_t along_x, along_rest;
+    const koksma_points whole = {(size_t)args->n, out->dim, NULL};
+    const size_t count = out->n * (size_t)out->dim;
+    koksma_status status = koksma__cells(name, &whole, args->params[0], &along_x, &along_rest);
+    if (!status && width > 0) {
+        status = koksma__range_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, args->first * (uint64_t)out->dim,
+                                       count, out->xs);
+    }
+    if (status) {
+        return status;
+    }
+    for (size_t i = 0; i < count && width == 0; i++) {
+        out->xs[i] = 0;
+    }
+    koksma__place_in_cells(args, (1 - width) / 2, width, along_x, along_rest, out);
     return KOKSMA_OK;
 }

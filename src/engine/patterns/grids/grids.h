@@ -63,6 +63,11 @@ KOKSMA__LAB koksma_status koksma__cells(const char *name, const koksma_points *o
 koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
                                  koksma_points *out);
 
+/* Moves the points of `out`, which begin with point args->first of a set of along_x * along_rest^(dim - 1) cells, from the
+   unit cube into their cells: u becomes start + width u of the cell. */
+void koksma__place_in_cells(const koksma_args *args, double start, double width, size_t along_x, size_t along_rest,
+                            koksma_points *out);
+
 /* ---- Jittered time --------------------------------------------------------------------------------------- */
 
 /* Fills `out` with 3D points in order of the cells: x and y are jittered in a grid of params[0] columns (0: as many as
