@@ -64,9 +64,6 @@ static koksma_status best_multiplier(koksma__lattice_search *search, int dim, ui
     const size_t n = search->n, some = WORK / n < 16 ? 16 : WORK / n;
     const size_t tries = n <= ALL ? koksma__lattice_last(n) : some < n / 2 ? some : n / 2;
     double error, least = 0;
-    if (dim == 2) {
-        return koksma__lattice_second(search, best);
-    }
     koksma__lattice_units(search);
     *best = 0;
     for (size_t c = 0; c < tries; c++) {
@@ -86,19 +83,26 @@ static koksma_status best_multiplier(koksma__lattice_search *search, int dim, ui
     return KOKSMA_OK;
 }
 
+/* Finds the multiplier for n > 1 points. */
+static koksma_status search_for(const koksma_run *run, size_t n, int dim, uint64_t *a)
+{
+    koksma__lattice_search search;
+    if (dim == 2) {
+        return koksma__lattice_second(run, n, a);
+    }
+    koksma_status status = koksma__lattice_open(&search, n, run);
+    status = status ? status : best_multiplier(&search, dim, a);
+    koksma__lattice_close(&search);
+    return status;
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
     const size_t n = out->n;
     uint64_t a = (uint64_t)args->params[0], z[MAX_DIM];
     if (a == 0 && n > 1 && out->dim > 1) {
-        koksma__lattice_search search;
-        koksma_status status = koksma__lattice_open(&search, n, args->run);
-        status = status ? status : best_multiplier(&search, out->dim, &a);
-        koksma__lattice_close(&search);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(search_for(args->run, n, out->dim, &a));
     }
     powers(a, n, out->dim, z);
     return koksma__fill_lattice(args->run, z, out);

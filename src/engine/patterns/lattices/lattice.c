@@ -109,26 +109,6 @@ static uint64_t next(uint64_t numerator, uint64_t z, size_t n)
     return numerator + z - (numerator + z >= n ? n : 0);
 }
 
-static double planar_kernel(uint64_t numerator, size_t n)
-{
-    return 1 + 2 * M_PI * M_PI * bernoulli(numerator, n);
-}
-
-/* Returns P_2 of the generating vector (1, z), where product[i] = planar_kernel(i, n). A multiplier and its inverse,
-   which swaps the axes, have equal errors; sometimes other multipliers have the same error, too. The last bit of the
-   sum decides which of them is chosen. The order of summation, here and in added_sum, must therefore never change,
-   because the points would change. */
-static double planar_sum(const koksma__lattice_search *s, uint64_t z)
-{
-    double sum = 0;
-    uint64_t numerator = 0;
-    for (size_t i = 0; i < s->n; i++) {
-        sum += s->product[i] * planar_kernel(numerator, s->n);
-        numerator = next(numerator, z, s->n);
-    }
-    return sum / (double)s->n - 1;
-}
-
 /* Returns the amount that another coordinate with the multiplier z would add to the minimised sum, up to a constant
    factor. */
 static double added_sum(const koksma__lattice_search *s, uint64_t z)
@@ -239,24 +219,15 @@ static koksma_status find_best(koksma__lattice_search *s, uint64_t *best)
     return status ? status : choose(s, window, s->n > KOKSMA__LATTICE_FEW ? added_sum : added_sum_of_few, best);
 }
 
-koksma_status koksma__lattice_second(koksma__lattice_search *s, uint64_t *best)
-{
-    double window;
-    koksma__lattice_start(s);
-    koksma__lattice_extend(s, 1);
-    const koksma_status status = koksma__lattice_value(s, &window);
-    for (size_t i = 0; !status && i < s->n; i++) {
-        s->product[i] = planar_kernel(i, s->n);
-    }
-    return status ? status : choose(s, window, planar_sum, best);
-}
-
 /* Finds all multipliers. `sums` are those of extend_orders, all 0; NULL if all projections count. */
 static koksma_status find_all(koksma__lattice_search *s, int dim, int order, const double *factors, double *sums,
                               double share, uint64_t *z)
 {
     z[0] = 1;
-    koksma_status status = dim > 1 ? koksma__lattice_second(s, &z[1]) : KOKSMA_OK;
+    koksma_status status = dim > 1 ? koksma__lattice_second(s->run, s->n, &z[1]) : KOKSMA_OK;
+    if (status || dim <= 2) {
+        return status;
+    }
     koksma__lattice_start(s);
     for (size_t i = 1; sums && i <= s->n / 2; i++) {
         sums[i * (size_t)order] = s->product[i];

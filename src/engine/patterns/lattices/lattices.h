@@ -47,6 +47,12 @@ void koksma__unit_sums_close(koksma__unit_sums *sums);
 koksma_status koksma__unit_sums_find(koksma__unit_sums *sums, const koksma_run *run, const double *product,
                                      double *values, double *error);
 
+/* ---- Lattice plane --------------------------------------------------------------------------------------- */
+
+/* Finds the best z_1 for z_0 = 1 and n > 1 points, n < 2^32. This z_1 does not depend on the weights, because in two
+   dimensions these scale the sums of all candidates by the same factor. Time: some n ln ln n. Errors: INTERRUPTED, MEMORY. */
+koksma_status koksma__lattice_second(const koksma_run *run, size_t n, uint64_t *best);
+
 /* ---- Lattice --------------------------------------------------------------------------------------------- */
 
 /* Rank-1 lattices, x_k = {i z_k / n}, and the search for their multipliers z_k. Every coordinate is the double nearest
@@ -98,10 +104,6 @@ void koksma__lattice_units(koksma__lattice_search *search);
    its sum has different rounding errors, which decide for a few n (lattice_rank1.c). Without this candidate the points
    for these n would change. */
 uint64_t koksma__lattice_last(size_t n);
-
-/* Finds the best z_1 for z_0 = 1. This z_1 does not depend on the weights, because in two dimensions these scale the
-   sums of all candidates by the same factor. */
-koksma_status koksma__lattice_second(koksma__lattice_search *search, uint64_t *best);
 
 /* Finds the multipliers z of `dim` coordinates for a lattice of n > 1 points. With an order above 0 only projections of
    up to `order` coordinates have a weight: the factor of the next coordinate is then the sum of the elementary
