@@ -38,9 +38,10 @@
  * order=3,gamma2=0.1,gamma3=0.01. In two dimensions weights do not matter. With gamma2=0, which gives pairs of
  * coordinates no weight, z_1 is still the best multiplier in two dimensions.
  *
- * Time: In two dimensions the search takes some 15 ns a point and no memory (lattices/lattice_plane.c), above O(dim n log n): half a second for 2^20 points in 10 dimensions, hardly more for a prime
- * number of points. The memory in addition to the points is 28 n bytes for powers of two, up to 95 n bytes for other
- * n, and 4 n Q bytes more with order=Q.
+ * Time: In two dimensions the search takes some 15 ns a point and no memory (lattices/lattice_plane.c), above O(dim n
+ * log n): half a second for 2^20 points in 10 dimensions, hardly more for a prime number of points. The memory in
+ * addition to the points is then 28 n bytes for powers of two, up to 95 n bytes for other n, and 4 n Q bytes more with
+ * order=Q.
  */
 
 #include <math.h>
