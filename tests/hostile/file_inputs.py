@@ -233,7 +233,8 @@ def check_named_by_files(checks, program, folder, kinds):
         checks.refused(f"{what} of 10 GiB", files.run(program, *arguments(name), cwd=folder), 3, name,
                        f"longer than {most >> 20} MiB, the limit of {words}")
         if kind != "BUFFER":  # whose bytes are numbers, that the rest of the model needs
-            name, _ = things.sparse(ending, files.MIB if (kind, ending) in read else most)
+            # A plan's points are hashed whole before they are read: 8 GiB, which check_named_by_user has for the readers.
+            name, _ = things.sparse(ending, files.MIB if (kind, ending) in read or kind == "POINTS" else most)
             checks.refused(f"{what} of zeros up to the limit", files.run(program, *arguments(name), cwd=folder), code,
                            name)
         seen.add(kind)
@@ -304,30 +305,31 @@ def check_signals(checks, program, folder):
     ways += [("optimise --from", ".txt", lambda name: ["optimise", "star", "--from", name, "--steps", "1", "-o", "best.txt"]),
              ("verify", ".txt", lambda name: ["verify", name]), ("plot", ".txt", lambda name: ["plot", name, "-o", "p.svg"]),
              ("curve", ".txt", lambda name: ["curve", "rings", name]), ("integrate", ".txt", lambda name: ["integrate", "disk", name])]
+    started = []
     for i, (what, ending, arguments) in enumerate(ways):
         hows = ["no writer", "a writer"] + ["standard input"] * (ending == ".txt")  # scenes and plans take none
         for k, how in enumerate(hows):
             if what != "verify" and k != i % len(hows):
-                continue  # each takes a second
-            fifo = os.path.join(folder, f"waiting{ending}")
+                continue
+            fifo = os.path.join(folder, f"waiting{len(started)}{ending}")
             os.mkfifo(fifo)
             writer = os.open(fifo, os.O_RDWR) if how == "a writer" else None
             name = "-" if how == "standard input" else os.path.basename(fifo)
-            with subprocess.Popen([program, *arguments(name)], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                  stderr=subprocess.PIPE) as process:
-                while not is_waiting(process):
-                    pass
-                number = (signal.SIGTERM, signal.SIGINT)[i // 2 % 2]
-                process.send_signal(number)
-                try:
-                    code = process.wait(files.SECONDS / 10)
-                except subprocess.TimeoutExpired:
-                    code = "none"
-                    process.kill()
-                checks.check(code in (130, -number), f"{what}, {how}: exit code {code} after signal {number}: {process.stderr.read()}")
-            if writer is not None:
-                os.close(writer)
-            os.remove(fifo)
+            started.append((what, how, writer, (signal.SIGTERM, signal.SIGINT)[i // 2 % 2], subprocess.Popen(
+                [program, *arguments(name)], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)))
+    for what, how, writer, number, process in started:  # all wait at once
+        while not is_waiting(process):
+            pass
+        process.send_signal(number)
+        try:
+            code = process.wait(files.SECONDS / 10)
+        except subprocess.TimeoutExpired:
+            code = "none"
+            process.kill()
+        checks.check(code in (130, -number), f"{what}, {how}: exit code {code} after signal {number}: {process.stderr.read()}")
+        process.communicate()
+        if writer is not None:
+            os.close(writer)
 
 
 def check_pipes(checks, program, folder):
