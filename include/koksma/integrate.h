@@ -120,7 +120,9 @@ typedef struct koksma_integration_row {
     bool
         approximate; /* whether the interval may hold rmse less often than in 93 % of cases: there are fewer than 16 sets,
                          or their errors are so skewed or heavy-tailed that the variance of their squares is more than
-                         twice that of normal errors. False with one set */
+                         twice that of normal errors. False with one set. In simulations of 8 to 128 sets the intervals hold
+                         in 95 to 98 % for nearly normal errors, in 76 to 99 % for skewed or heavy-tailed ones and in 98 to
+                         99.9 % for uniform ones */
 } koksma_integration_row;
 
 /* The slope of log rmse against log n by least squares, with its 95 % interval. With several trials the standard
@@ -162,8 +164,8 @@ KOKSMA_API koksma_status koksma_integration_summary(double value, double varianc
 
 /* ---- Analysis of variance ----------------------------------------------------------------------------- */
 
-/* A fraction of the variance, 0 to 1, and its 95 % interval; if the value is exact, low and high are equal to it. An
-   estimate of a fraction near 0 or 1 may lie a little outside. */
+/* A fraction of the variance, 0 to 1, and its 95 % interval, which holds in 94 to 96 % of simulations; if the value is
+   exact, low and high are equal to it. An estimate of a fraction near 0 or 1 may lie a little outside. */
 typedef struct koksma_share {
     double value, low, high;
 } koksma_share;

@@ -29,7 +29,9 @@ typedef struct koksma_tally {
 KOKSMA_API void koksma_tally_add(koksma_tally *tally, double value);
 
 /* Return the standard deviation of the values, the standard error of their mean, and half the length of the mean's
-   95 % confidence interval (Student's t). All three are NaN with fewer than two values. */
+   95 % confidence interval (Student's t). The interval is approximate where values are skewed: in simulations of 8 to 128
+   values it holds in 94 to 96 % up to a skewness of 1/2, in 89 to 95 % at 1 to 2 and in 77 to 94 % at 3 to 6. All three
+   are NaN with fewer than two values. */
 KOKSMA_API double koksma_tally_sd(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_error(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_interval(const koksma_tally *tally);

@@ -42,7 +42,8 @@ class Integrand:
 
 @dataclass(frozen=True)
 class Share:
-    """A part of the variance and its 95 % interval; both ends equal it where it is exact."""
+    """A part of the variance and its 95 % interval, which holds in 94 to 96 % of simulations; both ends equal it where it is
+    exact."""
 
     value: float
     low: float
@@ -107,7 +108,8 @@ class Integration:
         integral is not known, the standard deviation of the estimates.
     approximate : ndarray of shape (k,)
         Whether the interval may hold in less than 93 % of cases: with fewer than 16 trials, and if the errors are much more
-        skewed or heavy-tailed than normal ones.
+        skewed or heavy-tailed than normal ones. In simulations of 8 to 128 trials the intervals of rmse and slope hold in 95 to
+        98 % for nearly normal errors, in 76 to 99 % for skewed or heavy-tailed ones, in 98 to 99.9 % for uniform ones.
     mean, sd : ndarray of shape (k,)
         Of the estimates.
     gain : ndarray of shape (k,)

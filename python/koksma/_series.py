@@ -59,7 +59,8 @@ class Trials:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The 95 % confidence interval of the mean, by Student's t."""
+        """The 95 % confidence interval of the mean, by Student's t: approximate where values are skewed. In simulations of 8 to
+        128 sets it holds in 94 to 96 % up to a skewness of 1/2, in 89 to 95 % at 1 to 2, in 77 to 94 % at 3 to 6."""
         half = core().koksma_student_975(len(self.values) - 1) * self.standard_error
         return self.mean - half, self.mean + half
 

@@ -86,7 +86,7 @@ int koksma__compare(double a, double b);
 /* How reports describe the intervals of means; docs/findings/integration.md has the simulations. "%%": for printf. */
 #define KOKSMA__MEAN_INTERVALS                                                                                       \
     "95 %% intervals of means by Student's t, which are approximate where values are skewed: of 8 to 128 simulated " \
-    "trials they hold in 93 to 96 %% up to a skewness of 1, in 89 to 94 %% at 2 and in 81 to 92 %% at 6"
+    "trials they hold in 94 to 96 %% up to a skewness of 1/2, in 89 to 95 %% at 1 to 2 and in 77 to 94 %% at 3 to 6"
 
 /* Summarises the n values values[0], values[stride], …; n = 0 gives NaN. Sums are compensated, in the order of
    the index. An sd up to 1e-12 of the largest value is rounding noise and becomes 0. */

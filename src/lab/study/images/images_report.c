@@ -200,8 +200,9 @@ static void put_slopes(koksma__document *d, const koksma__images *all)
         return;
     }
     koksma__doc_section(d, "slopes", "How does the error fall with the samples?");
-    koksma__doc_paragraph(d, "Slope of the logarithm of the error over that of the number of samples, with its 95 %% "
-                             "interval; independent random samples have -0.5.");
+    koksma__doc_paragraph(d,
+                          "Slope of the logarithm of the error over that of the number of samples, with its 95 %% "
+                          "interval; independent random samples have -0.5. Simulated intervals hold in 94 to 98 %%.");
     put_chart(d, all);
     koksma__doc_sorted_table_begin(d, "slopes", "slope", false, false);
     koksma__doc_columns(d, "t images;i3 slope");
