@@ -371,7 +371,7 @@ def integrate(function: Function, pattern: Union[str, SupportsIndex, None] = Non
 
 def integrate(function: Function, pattern: Any = None, n: Any = None, dim: SupportsIndex = 2, *, trials: SupportsIndex = 32,
               seed: SupportsIndex = 0, integral: float = math.nan, variance: float = math.nan, anova: bool = False,
-              samples: SupportsIndex = 0, threads: SupportsIndex = 0, tolerance: Optional[float] = None, **options: Any) -> Any:
+              samples: SupportsIndex = 0, threads: SupportsIndex = 0, tolerance: Optional[float] = None, **of_tolerance: Any) -> Any:
     """Integrates a function by sets of a pattern, and measures the error; or, with a tolerance, to that tolerance.
 
     Parameters
@@ -448,9 +448,9 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
                                 "is replicates")
         if hasattr(pattern, "__index__"):
             pattern, dim = None, pattern
-        return _to_tolerance(function, pattern, n, dim, tolerance, seed=seed, threads=threads, **options)
-    if options:
-        raise TypeError(f"{next(iter(options))} has an effect only with a tolerance")
+        return _to_tolerance(function, pattern, n, dim, tolerance, seed=seed, threads=threads, **of_tolerance)
+    if of_tolerance:
+        raise TypeError(f"{next(iter(of_tolerance))} has an effect only with a tolerance")
     if pattern is None:
         raise TypeError("pattern must be a str or points, or tolerance a number")
     sizes: List[int]

@@ -153,6 +153,11 @@ def check_curve(command, rows, data, name):
 
 
 def check_verify(command, rows, data):
+    if " --seeds " in command:
+        said = text_of(next(b for b in data["content"] if b.get("id") == "verdict")["content"][0]["text"])
+        found = next(r for r in rows if r["property"] == "unbiased")
+        expect(said.startswith("Unbiased" if found["holds"] else "Biased") and (found["holds"] or found["detail"] in said), f"{command}: {said}")
+        return True
     spec = rows[0]["source"].removeprefix("pattern:")
     deep = rows[0]["dim"] > 2
     sampler = spec.rsplit("@", 2 if deep else 1)[0]
@@ -206,7 +211,7 @@ def check_verdict(data):
             best = min(means, key=means.get)
             expect(best == (data["samplers"][0] if head == "Best" else head.removeprefix("Beaten by ")), f"{item}: {name}: {means}")
             counted += 1
-    said = text_of(section["content"][0]["text"])
+    said = " ".join(text_of(b["text"]) for b in section["content"] if b["kind"] == "paragraph")
     expect(f"{sum(len(i.partition(': ')[2].split(', ')) for i in items if i.startswith('Best: '))} of " in said, f"{said} {items}")
     return counted
 
@@ -227,7 +232,7 @@ def check_patterns():
     rows = tables(data)["scene-ball"]
     expect(rows[0]["behind the first"][0] == 0 and all(r["behind the first"][0] > 0 for r in rows[1:]), f"behind: {rows}")
     done = check_commands(data)
-    expect(done == {"plot": 3, "rank": 1, "measure": 6, "integrate": 3, "curve": 9, "verify": 4}, f"commands: {done}")
+    expect(done == {"plot": 3, "rank": 1, "measure": 6, "integrate": 3, "curve": 9, "verify": 5}, f"commands: {done}")
     expect(check_verdict(data) >= 12, "the verdict says little of sobol")
 
 
@@ -252,6 +257,26 @@ def check_family():
     expect("t-value" not in {r["measure"] for r in values}, "t-value of 100 points")
     check_commands(data)
     check_verdict(data)
+
+
+def check_biased():
+    """Points whose first coordinate is never in [1/4, 3/4): the first that the sheet says; no praise, and no gains."""
+    Path("biased").mkdir()
+    for seed in range(64):
+        run("generate", "sobol:scramble=owen", "-n", "16", "-s", str(seed), "-q", "-o", "b.txt")
+        with open("b.txt") as points, open(f"biased/my_16_{seed}.txt", "w") as out:
+            for line in points:
+                if not line.startswith("#"):
+                    x, y = map(float, line.split())
+                    print(repr(x / 2 if x < .5 else x / 2 + .5), repr(y), file=out)
+    _, data = sheet("biased/my_{n}_{seed}.txt", "--beside", "random", "--scenes", "none", "--quick")
+    section = next(b for b in data["content"] if b.get("id") == "verdict")
+    said = [text_of(b["text"]) for b in section["content"] if b["kind"] == "paragraph"]
+    expect(said[0].startswith("Biased: over 64 sets of 16 points") and "z = " in said[0], said[0])
+    expect(not any("better than every other" in s for s in said), said)
+    expect(not {"Best", "Equal to the best"} & set(verdict_of(data)[0]), verdict_of(data))
+    gains = {r["integrand"]: r["gain"] for r in tables(data)["integrals"] if r["sampler"] == data["samplers"][0]}
+    expect(set(gains.values()) == {None}, gains)
 
 
 def check_single_file():
@@ -334,6 +359,7 @@ def main():
         os.chdir(folder)
         check_patterns()
         check_family()
+        check_biased()
         check_single_file()
         check_one_set()
         check_names()

@@ -65,7 +65,8 @@ static void note_bounds(koksma__sheet *sheet)
 
 static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
 {
-    koksma_status status = koksma__sheet_measure_plane(sheet);
+    koksma_status status = koksma__sheet_look_for_bias(sheet);
+    status = status ? status : koksma__sheet_measure_plane(sheet);
     status = status ? status : koksma__sheet_rank(sheet);
     if (status) {
         return status;

@@ -53,6 +53,13 @@ typedef struct koksma__sheet_values {
     koksma_joint *joints; /* a joint's index is s * n_measures + m */
 } koksma__sheet_values;
 
+/* Whether samplers[0] is unbiased over its sets. */
+typedef struct koksma__sheet_bias {
+    size_t n, sets; /* sets: number of sets of n points that were tested; 0: not tested */
+    bool biased;
+    char detail[200]; /* of the finding of koksma_verify_sets */
+} koksma__sheet_bias;
+
 /* The ranking of the samplers in one scene at one number of samples per pixel. */
 typedef struct koksma__sheet_ranking {
     const char *scene;
@@ -84,6 +91,7 @@ typedef struct koksma__sheet {
     size_t n_commands;
     koksma__document notes; /* notes for a list: what is left out, and why */
     size_t n_notes;
+    koksma__sheet_bias bias;
     koksma__sheet_values plane;
     koksma__sheet_ranking *rankings; /* index i * n_spp + k: scene i with the k-th number of samples */
     size_t n_rankings;
@@ -151,6 +159,14 @@ int koksma__sheet_compare(const koksma__sheet_values *values, size_t a, size_t b
 /* The first function evaluates the measures in the plane, the second writes their section. */
 koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet);
 void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d);
+
+/* ---- Bias -------------------------------------------------------------------------------------------------------- */
+
+/* Tests whether samplers[0] is unbiased, from many sets; notes the reason if it cannot be tested. */
+koksma_status koksma__sheet_look_for_bias(koksma__sheet *sheet);
+
+/* Writes what was found, as the first paragraph of the verdict. */
+void koksma__sheet_put_bias(koksma__sheet *sheet, koksma__document *d);
 
 /* ---- The other sections ---------------------------------------------------------------------------------------- */
 

@@ -77,11 +77,12 @@ static void put_table(const koksma__sheet *sheet, const koksma_integration *resu
     for (size_t k = 0; k < N_INTEGRANDS * sheet->n_samplers; k++) {
         const koksma_integration *r = &results[k];
         const koksma_integration_row *last = &r->rows[sheet->n_sizes - 1];
+        const bool biased = sheet->bias.biased && k % sheet->n_samplers == 0;
         koksma__doc_row(d);
         koksma__doc_cells(d, "ttiinn", integrands[k / sheet->n_samplers],
                           sheet->samplers[k % sheet->n_samplers]->text, rmse_of(last),
-                          (koksma__estimate){r->slope.value, r->slope.low, r->slope.high}, last->gain,
-                          (double)last->trials);
+                          (koksma__estimate){r->slope.value, r->slope.low, r->slope.high},
+                          biased ? (double)NAN : last->gain, (double)last->trials);
         approximate += last->approximate || r->slope.approximate;
     }
     koksma__doc_table_end(d);
@@ -131,8 +132,8 @@ koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d)
             "Root mean square errors of the mean of five functions at n = %zu, slopes of log RMSE over "
             "log n, with 95 %% intervals, which are approximate: simulated ones hold in 95 to 98 %% for nearly "
             "normal errors, in 76 to 99 %% for skewed or heavy-tailed ones. Gain: the factor by which more random "
-            "points are needed for the same error. For a sampler that has only one set, the error is that of this "
-            "set.",
+            "points are needed for the same error; a biased sampler has none. For a sampler that has only one set, "
+            "the error is that of this set.",
             sheet->sizes[sheet->n_sizes - 1]);
         put_table(sheet, results, d);
         for (size_t i = 0; i < N_INTEGRANDS; i++) {

@@ -3,7 +3,8 @@
  * The verdict of a datasheet: where the sampler is best, where it is beaten, and how certain that is. A measure
  * is won if the sampler is better than every other one at the largest n, lost if another one is better, equal if
  * it is better than or equal to every other one, and otherwise undecided. The ranking of a scene at the largest
- * number of samples per pixel decides whether the scene is won or lost.
+ * number of samples per pixel decides whether the scene is won or lost. Whether the sampler is biased comes first; a biased
+ * one wins nothing.
  */
 #include "study/sheet/sheet.h"
 
@@ -115,6 +116,8 @@ static void put_scenes(const koksma__sheet *sheet, koksma__document *d)
         koksma__doc_say(d, "Scene %s at %d samples a pixel: ", r->scene, r->spp);
         if (!row) {
             koksma__doc_say(d, "not ranked");
+        } else if (sheet->bias.biased && o != LOST) {
+            koksma__doc_say(d, "not compared, because the sampler is biased");
         } else if (o == WON) {
             koksma__doc_say(d, "the least error");
             if (r->ranking.n > 1) {
@@ -149,6 +152,7 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
         scenes[judge_scene(&sheet->rankings[(i + 1) * sheet->n_spp - 1], &row)]++;
     }
     koksma__doc_section(d, "verdict", "Verdict");
+    koksma__sheet_put_bias(sheet, d);
     koksma__doc_paragraph_begin(d);
     if (sheet->n_samplers == 1) {
         koksma__doc_say(d, "This sheet compares %s with no other sampler.", sheet->samplers[0]->text);
@@ -156,22 +160,27 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_end(d);
         return;
     }
-    koksma__doc_say(d, "`%s` is better than every other sampler here in *", sheet->samplers[0]->text);
-    say_count(d, s.n[WON], n, scenes[WON], of_scenes);
-    koksma__doc_say(d, "*. It is beaten in *");
+    if (!sheet->bias.biased) {
+        koksma__doc_say(d, "`%s` is better than every other sampler here in *", sheet->samplers[0]->text);
+        say_count(d, s.n[WON], n, scenes[WON], of_scenes);
+        koksma__doc_say(d, "*. ");
+    }
+    koksma__doc_say(d, "It is beaten in *");
     say_count(d, s.n[LOST], n, scenes[LOST], of_scenes);
     koksma__doc_say(d, "*");
-    if (s.n[WON] + s.n[LOST] < n || scenes[WON] + scenes[LOST] < of_scenes) {
+    if (!sheet->bias.biased && (s.n[WON] + s.n[LOST] < n || scenes[WON] + scenes[LOST] < of_scenes)) {
         koksma__doc_say(d, "; in the rest it is equal to the best, or not decided");
     }
     koksma__doc_say(d, ".");
     koksma__doc_paragraph_end(d);
     koksma__doc_list_begin(d, NULL, false);
-    put_measures(v, &s, WON, 0, "Best", d);
+    if (!sheet->bias.biased) {
+        put_measures(v, &s, WON, 0, "Best", d);
+        put_measures(v, &s, EQUAL, 0, "Equal to the best", d);
+    }
     for (size_t k = 1; k < v->n_samplers; k++) {
         put_measures(v, &s, LOST, k, "Beaten by", d);
     }
-    put_measures(v, &s, EQUAL, 0, "Equal to the best", d);
     put_measures(v, &s, OPEN, 0, "Not decided", d);
     put_scenes(sheet, d);
     koksma__doc_list_end(d);
