@@ -48,6 +48,7 @@ typedef struct job {
     /* the number of deterministic patterns, which have one set and thus no trials */
     size_t n_deterministic;
     char deterministic[KOKSMA_MAX_SPEC]; /* the first deterministic pattern */
+    char biased[KOKSMA_MAX_SPEC];        /* the last pattern that was found to be biased */
     cli_integrands integrands;
 } job;
 
@@ -146,6 +147,12 @@ static int integrate(job *j, const koksma_integral *integral, series *s)
         }
         snprintf(to->integrand, sizeof to->integrand, "%s", facts.text);
         snprintf(to->source, sizeof to->source, "%s", s->text);
+    }
+    if (!status && *result->bias && strcmp(j->biased, s->text) != 0) {
+        snprintf(j->biased, sizeof j->biased, "%s", s->text);
+        if (!cli_flag(j->arguments, "quiet")) {
+            cli_say(j->arguments->command->name, "%s is biased, and has no gain: %s", s->text, result->bias);
+        }
     }
     if (!status && s->source.is_pattern && j->trials > 1 && result->rows[0].trials == 1 &&
         strcmp(j->deterministic, s->text) != 0) {
@@ -347,6 +354,24 @@ static int run_variance(job *j, int dim)
                : CLI_USAGE;
 }
 
+/* Shares the level of z among all rows of errors. */
+static void count_tests(job *j)
+{
+    const char *list = j->arguments->operands[0];
+    const bool all = !strcmp(list, "all");
+    char item[KOKSMA_MAX_SPEC];
+    size_t integrands = 0, rows = 0;
+    while (all ? koksma_integrand_at(integrands) != NULL : cli_list_item(list, integrands, item, sizeof item)) {
+        integrands++;
+    }
+    for (size_t i = 0; i < j->n_series; i++) {
+        rows += j->series[i].options.n_sizes;
+    }
+    for (size_t i = 0; i < j->n_series; i++) {
+        j->series[i].options.tests = integrands * rows;
+    }
+}
+
 static int run_all(job *j)
 {
     const cli_arguments *arguments = j->arguments;
@@ -358,6 +383,7 @@ static int run_all(job *j)
     for (int i = 1; i < arguments->n_operands && !code; i++) {
         code = open_series(j, i);
     }
+    count_tests(j);
     j->rows = code ? NULL : cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < j->n_series && !code; i++) {
         cli_work_part(&j->work, i, j->n_series);
@@ -444,9 +470,12 @@ const cli_command cli_command_integrate = {
         "With a single set, which is all that deterministic patterns have, it is the absolute error. gain is the "
         "variance with random points divided by the mean squared error: how many times as many random points would "
         "be needed for the same error. z is the mean minus the integral in standard errors, sd / sqrt T. Estimates "
-        "whose z is beyond what Student's t allows at the level of 4 standard deviations (6.3e-5) are biased, and "
-        "have no gain; where intervals are approximate, the mean must be off by 4 standard errors of random points, "
-        "too. Three\n"
+        "whose z is beyond what Student's t allows at the level of 4 standard deviations (6.3e-5), or of .001 for "
+        "all "
+        "rows together if that is less, are biased, and have no gain; where intervals are approximate, the mean must "
+        "be "
+        "off by 4 standard errors of random points, too. With 32 sets or more, patterns that are not known to be "
+        "unbiased are tested as by 'koksma verify --seeds'; a biased one has no gain. Three\n"
         "sizes or more give the slope of log rmse against log n with its interval. Intervals are marked approximate "
         "if they may hold in less than 93 % of cases: with fewer than 16 sets, and if errors are much more skewed or "
         "heavy-tailed than normal ones, as those of options far out of the money. Simulated "

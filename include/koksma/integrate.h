@@ -111,11 +111,12 @@ typedef struct koksma_integration_row {
        the errors; NaN with one set */
     double low, high;
     double gain; /* variance / n / rmse^2: how many times as many random points would be needed for this error, or NaN
-                    if the variance is not known, the error is only rounding, or z says that the estimates are biased */
+                    if the variance is not known, the error is only rounding, z says that the estimates are biased, or
+                    the sets are (koksma_integration.bias) */
     double z; /* mean minus integral, divided by the standard error of the mean, sd / sqrt(trials); NaN with one set,
                     if the integral is not known, and if the difference is only rounding. The estimates are taken as
                     biased if z is beyond the two-sided quantile of Student's t at the level of 4 standard deviations
-                    (6.3e-5) and, where the interval is approximate, the difference is beyond 4 standard errors of
+                    (6.3e-5), or of .001 divided by koksma_integration_options.tests if that is less, and, where the interval is approximate, the difference is beyond 4 standard errors of
                     random points, too */
     bool
         approximate; /* whether the interval may hold rmse less often than in 93 % of cases: there are fewer than 16 sets,
@@ -138,6 +139,10 @@ typedef struct koksma_integration_slope {
 typedef struct koksma_integration {
     koksma_integration_row rows[KOKSMA_MAX_SIZES];
     koksma_integration_slope slope;
+    char bias
+        [200]; /* what koksma_verify_sets found if the sets are biased; else empty. Tested with up to 64 sets of the
+                       smallest size of koksma_integration_errors, if the trials are KOKSMA_VERIFY_SETS or more and the
+                       pattern is not known to be unbiased (koksma_is_unbiased) */
 } koksma_integration;
 
 typedef struct koksma_integration_options {
@@ -145,6 +150,8 @@ typedef struct koksma_integration_options {
     size_t n_sizes;  /* 1 to KOKSMA_MAX_SIZES different sizes; row i of the result is for sizes[i] points */
     uint64_t seed;   /* trial t uses seed + t; the last may be UINT64_MAX */
     uint64_t trials; /* number of point sets of each size, 1 to 1000000 */
+    size_t tests; /* number of rows that are judged together, of all calls, among which the level of z is shared; less
+                        than n_sizes: those of this call */
 } koksma_integration_options;
 
 /* Generates sets of each size and integrates over them.

@@ -113,7 +113,7 @@ class Integration:
     mean, sd : ndarray of shape (k,)
         Of the estimates.
     gain : ndarray of shape (k,)
-        How many times more random points give this error; NaN if the variance is not known, or z tells that the estimates are biased.
+        How many times more random points give this error; NaN if the variance is not known, or z or `bias` tell of a bias.
     z : ndarray of shape (k,)
         Mean minus integral in standard errors, sd / sqrt(trials); NaN with one trial. Beyond the quantile of Student's t at the
         level of 4 standard deviations (6.3e-5, two-sided) the estimates are taken as biased; where the interval is approximate,
@@ -127,6 +127,8 @@ class Integration:
     integral, variance : float
     components : tuple of Component
         With integrate(anova=True): of each coordinate, and up to 16 of each pair; else empty.
+    bias : str
+        Where the sets of the pattern are biased (verify_sets, with up to 64 of the 32 trials or more): in which box; else "".
     """
 
     integrand: str
@@ -151,6 +153,7 @@ class Integration:
     integral: float
     variance: float
     components: Tuple[Component, ...] = ()
+    bias: str = ""
 
     def _slope_interval(self) -> str:
         return f"{'about ' * self.slope_approximate}{self.slope_low:.3f} to {self.slope_high:.3f}"
@@ -491,7 +494,7 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
     return Integration(name, canonical(source) if isinstance(source, str) else "points", dim, rows[0].trials, np.array(sizes), **columns,
                        slope=result.slope.value, slope_error=result.slope.standard_error, slope_low=result.slope.low,
                        slope_high=result.slope.high, slope_approximate=result.slope.approximate, slope_sizes=result.slope.count,
-                       integral=integral, variance=variance, components=components)
+                       integral=integral, variance=variance, components=components, bias=result.bias.decode())
 
 
 def _to_tolerance(function: Function, pattern: Optional[str], n: Optional[SupportsIndex], dim: SupportsIndex, tolerance: float, *,

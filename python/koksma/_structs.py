@@ -168,11 +168,11 @@ class IntegrationSlope(Structure):
 
 
 class Integration(Structure):
-    _fields_ = [("rows", IntegrationRow * MAX_SIZES), ("slope", IntegrationSlope)]
+    _fields_ = [("rows", IntegrationRow * MAX_SIZES), ("slope", IntegrationSlope), ("bias", c_char * 200)]
 
 
 class IntegrationOptions(Structure):
-    _fields_ = [("sizes", c_size_t * MAX_SIZES), ("n_sizes", c_size_t), ("seed", c_uint64), ("trials", c_uint64)]
+    _fields_ = [("sizes", c_size_t * MAX_SIZES), ("n_sizes", c_size_t), ("seed", c_uint64), ("trials", c_uint64), ("tests", c_size_t)]
 
 
 class Estimator(Structure):

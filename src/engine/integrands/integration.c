@@ -12,12 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/verify.h>
+
 #include "core/parallel.h"
 #include "core/status.h"
 #include "integrands/integrands.h"
 #include "stats/stats.h"
 
-enum { MOST_TRIALS = 1000000 };
+enum { MOST_TRIALS = 1000000, BIAS_SETS = 64 };
 
 static koksma_status check_options(const koksma_integration_options *o)
 {
@@ -70,8 +72,9 @@ static koksma_integration_row row_of(const koksma_integration_options *o, size_t
                                     .approximate = square->approximate};
 }
 
-/* The level of 4 standard deviations on one side: P(Z > 4) of the normal law. */
+/* The level of 4 standard deviations on one side, P(Z > 4) of the normal law, and that of all rows together. */
 #define BEYOND_4 3.167124183311986e-5
+#define TOGETHER 0.0005
 
 /* Returns the distance of the mean from the integral in standard errors; NaN where it says nothing. */
 static double z_of(const koksma_integration_row *row, double value, double least)
@@ -82,10 +85,12 @@ static double z_of(const koksma_integration_row *row, double value, double least
 
 /* Estimates that are 0 but for rare trials have a deviation that is too small, or 0, as long as these are missing. Where
    the interval is approximate, the mean must therefore be off by 4 standard errors of random points, too. */
-static bool is_biased(const koksma_integration_row *row, double value, double variance)
+static bool is_biased(const koksma_integration_options *o, const koksma_integration_row *row, double value,
+                      double variance)
 {
+    const double level = fmin(BEYOND_4, TOGETHER / (double)(o->tests > o->n_sizes ? o->tests : o->n_sizes));
     const double random = sqrt(variance / ((double)row->n * (double)row->trials));
-    return !isnan(row->z) && fabs(row->z) > koksma__student_quantile(1 - BEYOND_4, (double)row->trials - 1) &&
+    return !isnan(row->z) && fabs(row->z) > koksma__student_quantile(1 - level, (double)row->trials - 1) &&
            (!row->approximate || fabs(row->mean - value) > 4 * random);
 }
 
@@ -156,11 +161,12 @@ koksma_status koksma_integration_summary(double value, double variance, const ko
         squares[i] = koksma__mean_square_of(estimates + i, options->trials, options->n_sizes, value);
         out->rows[i] = row_of(options, i, &tallies[i], &squares[i], variance);
         out->rows[i].z = z_of(&out->rows[i], value, least);
-        const bool gains = out->rows[i].rmse > least && !is_biased(&out->rows[i], value, variance);
+        const bool gains = out->rows[i].rmse > least && !is_biased(options, &out->rows[i], value, variance);
         out->rows[i].gain = gains ? out->rows[i].gain : (double)NAN;
     }
     const koksma_joint joint = joint_of(options, estimates, value, tallies);
     fit_slope(options, &joint, squares, least, &out->slope);
+    out->bias[0] = 0;
     return KOKSMA_OK;
 }
 
@@ -216,6 +222,39 @@ static koksma_status has_one_set(const job *j, bool *one)
     return status;
 }
 
+/* Tests whether the sets are biased. An integrand may hide a bias, as a symmetrical one does. */
+static koksma_status look_for_bias(const job *j, koksma_integration *out)
+{
+    const koksma_integration_options *o = j->options;
+    const size_t count = o->trials < BIAS_SETS ? (size_t)o->trials : BIAS_SETS;
+    size_t n = o->sizes[0];
+    for (size_t i = 1; i < o->n_sizes; i++) {
+        n = o->sizes[i] < n ? o->sizes[i] : n;
+    }
+    if (o->trials < KOKSMA_VERIFY_SETS || koksma_is_unbiased(j->pattern)) {
+        return KOKSMA_OK;
+    }
+    koksma_points sets[BIAS_SETS] = {{0}};
+    koksma_findings findings = {0};
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        status = koksma_points_init(&sets[i], n, j->f->dim);
+        status = status ? status : koksma_generate(j->pattern, o->seed + i, j->run, &sets[i]);
+    }
+    status = status ? status : koksma_verify_sets(sets, count, j->run, &findings);
+    if (!status && !findings.items[0].holds) { /* unbiased is the first finding */
+        memcpy(out->bias, findings.items[0].detail, sizeof out->bias);
+        for (size_t i = 0; i < o->n_sizes; i++) {
+            out->rows[i].gain = NAN;
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        koksma_points_fini(&sets[i]);
+    }
+    koksma_findings_fini(&findings);
+    return status;
+}
+
 /* The keep_going callback within a set: it asks the caller whether to stop, but reports no fraction, because progress
    is counted in sets. */
 static bool go_on(void *context, double fraction)
@@ -249,8 +288,8 @@ koksma_status koksma_integration_errors(const koksma_integral *integral, const k
     outer.threads = together ? outer.threads : 1;
     koksma_status status = koksma__parallel(&outer, jobs, integrate_set, &j);
     bool one_set = false;
+    j.run = &all;
     if (!status && o.trials > 1 && estimates_are_equal(&o, j.estimates)) {
-        j.run = &all;
         status = has_one_set(&j, &one_set);
         o.trials = one_set ? 1 : o.trials;
     }
@@ -258,5 +297,5 @@ koksma_status koksma_integration_errors(const koksma_integral *integral, const k
     koksma_integral_about(integral, &facts);
     status = status ? status : koksma_integration_summary(facts.value, facts.variance, &o, j.estimates, out);
     free(j.estimates);
-    return status;
+    return status ? status : look_for_bias(&j, out);
 }
