@@ -44,21 +44,49 @@ static void must(koksma_status status)
     }
 }
 
-/* The estimates of all functions by all sets: estimates[f * sets + s]. */
+/* The mean of n values, whose range grows that of *least and *largest. */
+static double mean_of(const double *values, size_t n, double *least, double *largest)
+{
+    double sum = 0, lost = 0; /* compensated (Kahan) */
+    for (size_t i = 0; i < n; i++) {
+        const double next = values[i] - lost, total = sum + next;
+        lost = (total - sum) - next;
+        sum = total;
+        *least = fmin(*least, values[i]);
+        *largest = fmax(*largest, values[i]);
+    }
+    return sum / (double)n;
+}
+
+/* The estimates of all functions by all sets, estimates[f * sets + s], and of each function what a point may change one by:
+   the range of all values, divided by n. */
 static void integrate(const koksma_spec *pattern, size_t n, int dim, size_t sets, koksma_integral *const *integrals,
-                      double *estimates)
+                      double *estimates, double *shares)
 {
     koksma_points points;
+    double least[N_FUNCTIONS], largest[N_FUNCTIONS], *values = malloc(n * sizeof *values);
     must(koksma_points_init(&points, n, dim));
+    for (size_t f = 0; f < N_FUNCTIONS; f++) {
+        least[f] = HUGE_VAL;
+        largest[f] = -HUGE_VAL;
+    }
+    if (!values) {
+        exit(4);
+    }
     for (size_t s = 0; s < sets; s++) {
         must(koksma_generate(pattern, s, &(koksma_run){.threads = 1}, &points));
         for (size_t f = 0; f < N_FUNCTIONS; f++) {
             if (integrals[f]) {
-                must(koksma_integrate(integrals[f], &points, &(koksma_run){.threads = 1}, &estimates[f * sets + s]));
+                must(koksma_integral_values(integrals[f], &points, &(koksma_run){.threads = 1}, values));
+                estimates[f * sets + s] = mean_of(values, n, &least[f], &largest[f]);
             }
         }
     }
+    for (size_t f = 0; f < N_FUNCTIONS; f++) {
+        shares[f] = integrals[f] ? (largest[f] - least[f]) / (double)n : 0;
+    }
     koksma_points_fini(&points);
+    free(values);
 }
 
 static void put_number(const char *key, double value)
@@ -66,7 +94,8 @@ static void put_number(const char *key, double value)
     printf(isfinite(value) ? ",\"%s\":%.6g" : ",\"%s\":null", key, value);
 }
 
-static void put_rows(const koksma_integral *integral, const double *estimates, size_t runs, size_t replicates)
+static void put_rows(const koksma_integral *integral, const double *estimates, double share, size_t runs,
+                     size_t replicates)
 {
     koksma_integral_facts facts;
     koksma_integral_about(integral, &facts);
@@ -83,7 +112,7 @@ static void put_rows(const koksma_integral *integral, const double *estimates, s
     }
     for (size_t i = 0; koksma_interval_at(i); i++) {
         const koksma_interval *interval = koksma_interval_at(i);
-        koksma_estimate_options o = {.interval = interval->name};
+        koksma_estimate_options o = {.interval = interval->name, .share = share};
         const bool bounded = isfinite(facts.lowest) && isfinite(facts.highest);
         o.lowest = bounded ? facts.lowest : 0;
         o.highest = bounded ? facts.highest : 0;
@@ -111,6 +140,7 @@ int main(int count, char **arguments)
 {
     koksma_spec pattern;
     koksma_integral *integrals[N_FUNCTIONS] = {0};
+    double shares[N_FUNCTIONS];
     const long n = count == 6 ? atol(arguments[2]) : 0, dim = n ? atol(arguments[3]) : 0,
                runs = n ? atol(arguments[4]) : 0, replicates = n ? atol(arguments[5]) : 0;
     if (n < 1 || dim < 1 || dim > KOKSMA_MAX_DIM || runs < 1 || replicates < 2) {
@@ -129,13 +159,13 @@ int main(int count, char **arguments)
                                          : KOKSMA_DIM;
         must(status == KOKSMA_DIM ? KOKSMA_OK : status);
     }
-    integrate(&pattern, (size_t)n, (int)dim, sets, integrals, estimates);
+    integrate(&pattern, (size_t)n, (int)dim, sets, integrals, estimates, shares);
     for (size_t f = 0; f < N_FUNCTIONS; f++) {
         if (integrals[f]) {
             printf("{\"kind\":\"%s\",\"integrand\":\"%s\",\"pattern\":\"%s\",\"n\":%ld,\"dim\":%ld,\"runs\":%ld,"
                    "\"replicates\":%ld",
                    functions[f].kind, functions[f].spec, arguments[1], n, dim, runs, replicates);
-            put_rows(integrals[f], estimates + f * sets, (size_t)runs, (size_t)replicates);
+            put_rows(integrals[f], estimates + f * sets, shares[f], (size_t)runs, (size_t)replicates);
             puts("}");
         }
         koksma_integral_close(integrals[f]);

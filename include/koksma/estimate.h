@@ -57,6 +57,9 @@ typedef struct koksma_estimate_options {
     const char *interval;   /* name; NULL: that of the estimator, and without either the first of the table, auto */
     double confidence;      /* of the interval, above 0 and below 1; 0: .95 */
     double lowest, highest; /* bounds of the integrand's values, lowest < highest; both 0: unknown */
+    double
+        share; /* what a point more or less may change an estimate by: the range of the values seen, divided by n; 0:
+                     unknown. Only for the interval auto, which without it takes Student's */
 } koksma_estimate_options;
 
 typedef struct koksma_integral_estimate {

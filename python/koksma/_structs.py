@@ -185,7 +185,8 @@ class Interval(Structure):
 
 
 class EstimateOptions(Structure):
-    _fields_ = [("estimator", c_char_p), ("interval", c_char_p), ("confidence", c_double), ("lowest", c_double), ("highest", c_double)]
+    _fields_ = [("estimator", c_char_p), ("interval", c_char_p), ("confidence", c_double), ("lowest", c_double), ("highest", c_double),
+                ("share", c_double)]
 
 
 class IntegralEstimate(Structure):

@@ -11,7 +11,7 @@ static koksma_integral_estimate estimate(const char *estimator, const char *inte
                                          double lowest, double highest, const double *values, size_t n)
 {
     koksma_integral_estimate e;
-    const koksma_estimate_options o = {estimator, interval, confidence, lowest, highest};
+    const koksma_estimate_options o = {estimator, interval, confidence, lowest, highest, 0};
     assert_ok(koksma_estimate_integral(&o, values, n, NULL, &e));
     return e;
 }
@@ -67,26 +67,31 @@ static void intervals_are_their_formulas(void **state)
     assert_non_null(strstr(koksma_error_text(), "takes 6"));
 }
 
-/* Most values near 3 and two far off: the median; values spread evenly, or with equal ones: the mean. */
+/* Most values near 3 and two far off: the median, if they differ by less than .7 of a point's share; else, and for values spread
+   evenly, the mean. */
 static void auto_takes_the_median_of_heavy_tails(void **state)
 {
     (void)state;
-    double tails[15], even[15], equal[15];
+    double tails[15], even[15];
     for (size_t i = 0; i < 15; i++) {
         tails[i] = 3 + 1e-4 * (double)i + (i == 4 ? 50 : i == 9 ? -20 : 0);
         even[i] = (double)i;
-        equal[i] = i == 4 ? 50 : 3;
     }
-    koksma_integral_estimate e = estimate(NULL, NULL, 0, 0, 0, tails, 15);
+    koksma_integral_estimate e;
+    koksma_estimate_options o = {.share = 71 / 0.7};
+    assert_ok(koksma_estimate_integral(&o, tails, 15, NULL, &e));
     assert_string_equal(e.estimator, "median");
     assert_string_equal(e.interval, "quantile");
     assert_near(e.value, 3.0007, 1e-3);
-    e = estimate(NULL, NULL, 0, 0, 0, even, 15);
+    assert_ok(koksma_estimate_integral(&o, even, 15, NULL, &e));
     assert_string_equal(e.estimator, "mean");
     assert_string_equal(e.interval, "student");
     assert_near(e.high, estimate("mean", "student", 0.975, 0, 0, even, 15).high, 1e-12); /* half of the risk */
-    e = estimate(NULL, NULL, 0, 0, 0, equal, 15);
+    o.share = 69 / 0.7;
+    assert_ok(koksma_estimate_integral(&o, tails, 15, NULL, &e));
     assert_string_equal(e.estimator, "mean");
+    o.share = -1;
+    assert_int_equal(koksma_estimate_integral(&o, tails, 15, NULL, &e), KOKSMA_ARGUMENT);
 }
 
 /* The formulas of Waudby-Smith & Ramdas once more, term by term, for values of a range from 10 to 30. */

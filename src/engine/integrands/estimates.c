@@ -24,6 +24,8 @@
 
 enum { RESAMPLES = 2000, GROUP = 3, HALVINGS = 60 };
 
+#define SPREAD 0.7
+
 static int by_value(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -102,7 +104,7 @@ typedef struct sample {
     double *scratch;
     size_t n;
     double miss; /* 1 - confidence */
-    double lowest, highest;
+    double lowest, highest, share;
     const koksma_run *run;
 } sample;
 
@@ -263,21 +265,18 @@ static koksma_status bootstrap(sample *s, double *low, double *high)
     return status;
 }
 
-/* Both intervals with half of the risk. The quantile's is taken where it is less than half as wide, as it is where a few of
-   the y are far from the others, and no two y are equal: equal ones are those of functions with jumps, whose estimates
-   have few values, and their median may be none that is near the integral. */
+/* Both intervals with half of the risk; the quantile's is taken where it is narrower, and all y differ by less than SPREAD of
+   a point's share. The second is for functions with jumps. Sets that differ by one point on one side of a jump give
+   estimates in two clusters, of which the median's interval is one, and the integral may be between them. */
 static koksma_status choose(sample *s, double *low, double *high)
 {
     sample half = *s;
     double lowest, highest;
     half.miss /= 2;
     KOKSMA__TRY(quantile(&half, &lowest, &highest));
-    bool equal = false; /* quantile leaves the values in order */
-    for (size_t i = 1; i < s->n; i++) {
-        equal = equal || s->scratch[i] == s->scratch[i - 1];
-    }
+    const double spread = s->scratch[s->n - 1] - s->scratch[0]; /* quantile leaves the values in order */
     KOKSMA__TRY(student(&half, low, high));
-    const bool tails = !equal && highest - lowest < (*high - *low) / 2;
+    const bool tails = spread < SPREAD * s->share && highest - lowest < *high - *low;
     s->estimator = s->estimator ? s->estimator : tails ? &median_row : &mean_row;
     s->interval = tails ? "quantile" : "student";
     *low = tails ? lowest : *low;
@@ -286,7 +285,8 @@ static koksma_status choose(sample *s, double *low, double *high)
 }
 
 static const interval_row interval_rows[] = {
-    {{"auto", "quantile where that is less than half as wide as student and no two y are equal, else student",
+    {{"auto",
+      "the narrower of quantile and student, if the y differ by less than 0.7 of a point's share; else student",
       "clopper1934 student1908", NULL,
       "what the one that it takes assumes; each has half of the risk, so that the choice costs no coverage", false,
       false},
@@ -371,7 +371,9 @@ static koksma_status parse(const koksma_estimate_options *o, sample *s, const in
                     o->lowest, o->highest);
     KOKSMA__FAIL_IF(!known && (*interval)->public.bounded, KOKSMA_ARGUMENT,
                     "the interval %s needs bounds of the integrand's values", name);
+    KOKSMA__FAIL_IF(!(o->share >= 0), KOKSMA_ARGUMENT, "share: it takes 0 or more, not %g", o->share);
     s->miss = 1 - confidence;
+    s->share = o->share;
     s->lowest = known ? o->lowest : -HUGE_VAL;
     s->highest = known ? o->highest : HUGE_VAL;
     return KOKSMA_OK;

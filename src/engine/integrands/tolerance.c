@@ -210,10 +210,16 @@ static koksma_status check(const koksma_spec *pattern, const koksma_tolerance_op
     return KOKSMA_OK;
 }
 
-/* Widens an interval of width 0 by one point's share of the range of the values. */
+/* What a point more or less may change an estimate by. */
+static double share_of(const job *j)
+{
+    return (j->largest - j->least) / (double)j->n;
+}
+
+/* Widens an interval of width 0. */
 static void widen(const job *j, koksma_integral_estimate *e)
 {
-    const double share = e->low < e->high ? 0 : (j->largest - j->least) / (double)j->n;
+    const double share = e->low < e->high ? 0 : share_of(j);
     e->low -= share;
     e->high += share;
     e->error = fmax(e->error, share);
@@ -239,6 +245,7 @@ static koksma_status run_steps(job *j, size_t n, size_t steps, koksma_tolerance 
         for (size_t r = 0; r < j->replicates; r++) {
             j->means[r] = koksma__sum_value(&j->sums[r]) / (double)j->n;
         }
+        estimate.share = share_of(j);
         koksma_tolerance_step *step = &t->steps[t->n_steps++];
         *step = (koksma_tolerance_step){.n = j->n, .points = j->points};
         KOKSMA__TRY(koksma_estimate_integral(&estimate, j->means, j->replicates, &j->in_step, &step->estimate));
