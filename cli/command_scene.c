@@ -92,7 +92,8 @@ const cli_command cli_command_scene = {
                "lists what the\n"
                "scene contains: the bounding box of each part, and the largest region of the image that the part can "
                "cover,\n"
-               "both while the shutter is open: with every motion, and through the whole lens.\n",
+               "both while the shutter is open: with every motion, and through the whole lens. Text has the first 40 "
+               "parts, with --long all.\n",
     .examples = "koksma scene check ball\n",
     .options = options,
     .run = run,
