@@ -58,8 +58,8 @@ typedef struct koksma_joint {
 } koksma_joint;
 
 /* Adds a trial in O(n^2): values[i] is the value at size i < n. All trials need the same n, at most
-   KOKSMA_MAX_SIZES; with a larger n the function only sets koksma_error_text(). The sets of the trials must differ: a pattern with only
-   one set (koksma_has_one_set) has one trial, else its slope would seem to be exact. */
+   KOKSMA_MAX_SIZES; with a larger n the function only sets koksma_error_text(). The sets of the trials must differ: a
+   pattern with only one set (koksma_has_one_set) has one trial, else its slope would seem to be exact. */
 KOKSMA_API void koksma_joint_add(koksma_joint *joint, size_t n, const double *values);
 
 /* Fits a line to n means as koksma_log_line does. With two or more trials slope_error comes from the spread of the
