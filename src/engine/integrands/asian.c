@@ -174,12 +174,11 @@ const koksma_integrand koksma__integrand_asian = {
     .name = "asian",
     .title = "payoff of an Asian option on the geometric mean of d prices",
     .cite = "kemna1990 glasserman2004 caflisch1997",
-    .revision = 1, /* own elementary functions */
     .known = "closed form",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
     .params = params,
     .prepare = prepare,
     .at = at,
-    .revision = 1, /* inverse erf by polynomials alone: other last bits */
+    .revision = 1, /* own elementary functions, inverse erf by polynomials alone */
 };
