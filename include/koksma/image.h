@@ -213,7 +213,9 @@ typedef struct koksma_coherence_values {
     size_t images;      /* number of images used; if it is 0, all other numbers of this struct are NaN */
     double coherence;   /* the peak of P */
     double low, high;   /* 95 % interval (Student's t) of the mean over the images of P at the frequency of the
-                           peak, or NaN if there is one image */
+                           peak, or NaN if there is one image. Of bands, with a P of 8 or more, it holds in 93 to 95 % of
+                           simulations; the peak of noise is the largest of many: at 32 x 24 pixels it misses the true mean
+                           of 1 in 8 % of cases with 4 images, in 18 % with 8 and in 65 % with 32 */
     double frequency_x; /* horizontal frequency of the peak, 0 .. 1/2 cycles per pixel */
     double frequency_y; /* vertical frequency of the peak, -1/2 .. 1/2 cycles per pixel; positive values point up in
                            the image */

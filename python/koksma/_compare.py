@@ -34,7 +34,8 @@ class Comparison:
     mean, sd, max and rmse are those of the absolute error in luminance, means over the images. coherence is the peak
     of the error's power spectrum over its mean, or over the mean of frequencies as high if that is larger (so that blue
     noise counts as noise), averaged over the images; coherence_low to coherence_high its 95 % interval over them, at
-    the peak's frequency (frequency_x, frequency_y) in cycles a pixel. 95 % of white-noise errors
+    the peak's frequency (frequency_x, frequency_y) in cycles a pixel: of bands it holds, of noise, where the peak is the
+    largest of many frequencies, it tends to lie above the true mean of 1. 95 % of white-noise errors
     have a coherence from noise_low to noise_high, and p of them at least this one; coherent says that p is below
     0.005 (and the coherence at least 2). common is the share of the squared error that is the same in all images.
     metrics has rmse and the metrics that were asked for, by their texts.
