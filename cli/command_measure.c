@@ -386,7 +386,8 @@ static const cli_option options[] = {
     {0, "warp", "WARP,..", "measure the points mapped by WARP: see 'koksma list warps'"},
     {0, "paired", NULL,
      "with --trials: also print the difference of every further source or warp from the first, set by set, with its "
-     "95 % interval (Student's t; simulated ones hold in 94 to 96 % up to a skewness of 1/2, in 89 to 95 % at 1 to 2)"},
+     "95 % interval (Student's t; simulated ones hold in 94 to 96 % up to a skewness of 1/2, in 89 to 95 % at 1 to "
+     "2)"},
     {0, "time-limit", "SECONDS",
      "time limit in seconds for each value; a measure that exceeds it gives bounds (default: 0, no limit)"},
     CLI_ROW_OPTIONS,

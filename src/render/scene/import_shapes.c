@@ -5,10 +5,10 @@
  * passed by the reader, or made from a basic shape (a sphere of 64 x 32 rectangles, a disk or cylinder with 64
  * sides). A mesh is stored once and placed by a matrix as often as the scene contains it. A placement whose matrix
  * mirrors, or whose front and back sides are swapped, uses a copy of the mesh that is turned inside out, as glTF 2.0,
- * section 3.7.4, explains. One whose material has textures, where the mesh has no texture coordinates, uses a copy with
- * default ones. Each copy is made once. A light whose surface reflects also becomes a mesh, because Koksma's own lights do not
- * reflect. But a sphere or disk that emits and reflects remains a light of Koksma's own, with a warning that it does not
- * reflect, because a mesh with flat sides would emit less light than the round shape.
+ * section 3.7.4, explains. One whose material has textures, where the mesh has no texture coordinates, uses a copy
+ * with default ones. Each copy is made once. A light whose surface reflects also becomes a mesh, because Koksma's own
+ * lights do not reflect. But a sphere or disk that emits and reflects remains a light of Koksma's own, with a warning
+ * that it does not reflect, because a mesh with flat sides would emit less light than the round shape.
  * Long because all ways of placing a shape share the matrices and the motion of one type.
  */
 #include "scene/import.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Checks which tables a file has. The SQL of every table and view, as SQLite stores it, is compared with the
-   statements of schema.sql after removing comments (from -- to the end of the line) and replacing white space by one blank:
-   the file must have each statement once and nothing else. A file from an untrusted source thus has no triggers, further tables or views,
-   virtual tables, or computed columns. */
+   statements of schema.sql after removing comments (from -- to the end of the line) and replacing white space by one
+   blank: the file must have each statement once and nothing else. A file from an untrusted source thus has no
+   triggers, further tables or views, virtual tables, or computed columns. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
