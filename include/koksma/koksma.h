@@ -332,6 +332,13 @@ KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
 KOKSMA_API koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint64_t n, uint64_t first,
                                                const koksma_run *run, koksma_points *out);
 
+/* Generates many sets in one call: set s of `sets` is that of koksma_generate with the seed `seed` + s, and is points s m ..
+   s m + m - 1 of `out`, m = out->n / sets. Threads share the sets, which they do not need for one of a few points.
+     sets  at least 1; divides out->n
+   Errors: those of koksma_generate, of the set that failed first. */
+KOKSMA_API koksma_status koksma_generate_sets(const koksma_spec *spec, uint64_t seed, size_t sets,
+                                              const koksma_run *run, koksma_points *out);
+
 /* Generates n points and writes them as koksma_points_write does. A pattern that has ranges is generated piece by
    piece in a few megabytes of memory for any n; another pattern is generated as one set, so n * dim is at most
    KOKSMA_MAX_COORDINATES.
@@ -446,6 +453,13 @@ KOKSMA_API koksma_status koksma_local_discrepancy_grid(const koksma_points *poin
    not an error: see koksma_run. */
 KOKSMA_API koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points, const koksma_run *run,
                                          koksma_value *out);
+
+/* Evaluates a measure of many sets in one call: values[s] is koksma_value.value of points s m .. s m + m - 1, m =
+   points->n / sets, for s < sets. A time limit is that of each set. Threads share the sets.
+     sets  at least 1; divides points->n
+   Errors: those of koksma_evaluate, of the set that failed first. */
+KOKSMA_API koksma_status koksma_evaluate_sets(const koksma_spec *spec, const koksma_points *points, size_t sets,
+                                              const koksma_run *run, double *values);
 
 #ifdef __cplusplus
 }

@@ -127,6 +127,8 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma__evaluate_array", spec, c_void_p, c_int, POINTER(s.Value))
     _declare(library, c_int, "koksma__generate_array", spec, c_uint64, c_void_p, c_int)
     _declare(library, c_int, "koksma_evaluate", spec, points, run, POINTER(s.Value))
+    _declare(library, c_int, "koksma_generate_sets", spec, c_uint64, c_size_t, run, points)
+    _declare(library, c_int, "koksma_evaluate_sets", spec, points, c_size_t, run, POINTER(c_double))
     _declare(library, c_int, "koksma_evaluate_prefixes", spec, points, POINTER(c_size_t), c_size_t, run, POINTER(s.Value))
     _declare(library, c_bool, "koksma_log_line", c_size_t, POINTER(c_double), POINTER(c_double), POINTER(s.Line))
     _declare(library, c_double, "koksma_student_975", c_size_t)

@@ -8,7 +8,7 @@ import weakref
 from ctypes import byref
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Optional, Sequence, SupportsIndex, Tuple, Union, cast, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -355,7 +355,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
              out: Optional[PointArray] = None, allow_exec: bool = False,
              density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]] = None,
              on: Optional[Union[str, "os.PathLike[str]"]] = None, warp: Optional[str] = None,
-             domain: Optional[Sequence[float]] = None) -> PointArray:
+             domain: Optional[Sequence[float]] = None, sets: Optional[SupportsIndex] = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     Parameters
@@ -390,10 +390,13 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
     warp : str, optional
         Maps the points of the square to a disk, triangle, hemisphere or sphere, as `warp_points` does; warps() has them all.
+    sets : int, optional
+        Makes so many sets in one call, with the seeds seed, seed + 1, ... (`measure` takes them all at once, too). Threads
+        share the sets. Excludes first, density, on, warp and domain; out has the shape (sets, n, dim).
 
     Returns
     -------
-    ndarray of shape (n, dim); with warp (n, 2) or (n, 3)
+    ndarray of shape (n, dim); with warp (n, 2) or (n, 3); with sets (sets, n, dim)
 
     Raises
     ------
@@ -421,7 +424,15 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
            [0.25, 0.75],
            [0.75, 0.25]])
     """
-    shape: Any = (n, 2 if dim is None else dim) if out is None else out.shape if type(out) is np.ndarray and n is dim is None else None
+    if sets is not None:
+        if first or warp is not None or density is not None or on is not None or domain is not None:
+            raise ArgumentError("sets excludes first, warp, density, on and domain")
+        return _generate_sets(pattern, n, dim, seed, whole("sets", sets, 1, s.MAX_COORDINATES), threads, out, flag("allow_exec", allow_exec))
+    shape: Any = (n, 2 if dim is None else dim)
+    if type(out) is np.ndarray and out.ndim == 2:
+        shape = out.shape if (out.shape[0] if n is None else n, out.shape[1] if dim is None else dim) == out.shape else None
+    elif out is not None:
+        shape = None
     if (type(seed) is int and type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
             and type(allow_exec) is bool and density is on is warp is None and domain is None and type(first) is int and first == 0
             and set(map(type, shape or ())) == {int} and (pattern, shape) in quick):
@@ -478,6 +489,27 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         call(core().koksma_generate_range, byref(parsed), seed, 0, first, byref(points), threads=threads, run_at=4, short=short)
     else:
         call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2, short=short, same=same)
+    return out
+
+
+def _generate_sets(pattern: str, n: Optional[SupportsIndex], dim: Optional[SupportsIndex], seed: SupportsIndex, sets: int,
+                   threads: SupportsIndex, out: Optional[PointArray], allow_exec: bool) -> PointArray:
+    if allow_exec:
+        core().koksma_allow_exec(before := core().koksma_allow_exec(0))
+        with allowing_exec(before if before > 0 else 60):
+            return _generate_sets(pattern, n, dim, seed, sets, threads, out, False)
+    parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
+    if out is None:
+        if n is None:
+            raise ArgumentError("sets needs n, the number of points of each set")
+        axes = 2 if dim is None else whole("dim", dim, 1, s.MAX_DIM)
+        out = np.zeros((sets, whole("n", n, 1, s.MAX_COORDINATES // (axes * sets)), axes))
+    elif not (isinstance(out, np.ndarray) and out.dtype == np.float64 and out.ndim == 3 and out.flags.carray and out.size):
+        raise ArgumentError("out must be a writable, aligned, C-contiguous array of doubles, of shape (sets, n, dim)")
+    elif out.shape != (sets, out.shape[1] if n is None else n, out.shape[2] if dim is None else dim):
+        raise ArgumentError(f"out has the shape {out.shape}, not that of sets, n and dim")
+    points = view(out.reshape(-1, out.shape[2]))
+    call(core().koksma_generate_sets, byref(parsed), seed, sets, byref(points), threads=threads, run_at=3)
     return out
 
 
@@ -596,7 +628,8 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
 
     Parameters
     ----------
-    points : array_like of shape (n, dim)
+    points : array_like of shape (n, dim), or ndarray of shape (sets, n, dim)
+        Of a stack of sets, which threads share, the result is an array of their values.
     measure : str or sequence of str
         A spec such as "star", "l2-star" or "disk:r=0.1"; measures() has them all. Of several the values come as a dict.
     warp : str, optional
@@ -609,7 +642,7 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
 
     Returns
     -------
-    Value, or dict of Value
+    Value, or dict of Value; of a stack ndarray of shape (sets,), or dict of them
 
     Raises
     ------
@@ -624,6 +657,9 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
     >>> sorted(koksma.measure(koksma.generate("sobol", 16), ["star", "l2-star"]))
     ['l2-star', 'star']
     """
+    if isinstance(points, np.ndarray) and points.ndim == 3:
+        # The types tell no stack from a set, and say what a set gives.
+        return cast("Union[Value, Dict[str, Value]]", _measure_sets(points, measure, warp, threads, time_limit))
     if isinstance(measure, str):
         if (type(points) is np.ndarray and type(measure) is str and (measure, points.shape) in quick and type(threads) is int
                 and 0 <= threads <= s.MAX_INT and warp is None and time_limit is None):
@@ -633,6 +669,21 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
         return value_of(points, measure, warp=warp, threads=threads, time_limit=time_limit)
     names, array = texts("measure", measure), as_points(points)
     return {name: value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in names}
+
+
+def _measure_sets(stack: PointArray, measure: Union[str, Sequence[str]], warp: Optional[str], threads: SupportsIndex,
+                  time_limit: Optional[float]) -> Union[PointArray, Dict[str, PointArray]]:
+    if not isinstance(measure, str):
+        return {name: cast(PointArray, _measure_sets(stack, name, warp, threads, time_limit)) for name in texts("measure", measure)}
+    if warp is not None:
+        raise ArgumentError("warp takes one set, of shape (n, dim), not a stack")
+    if 0 in stack.shape:
+        raise ArgumentError(f"a stack must have the shape (sets, n, dim), with each at least 1, not {stack.shape}")
+    parsed, array, values = spec("measure", measure), as_points(stack.reshape(-1, stack.shape[2])), np.empty(stack.shape[0])
+    points = view(array)
+    call(core().koksma_evaluate_sets, byref(parsed), byref(points), len(values),
+         values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), threads=threads, time_limit=time_limit, run_at=3)
+    return values
 
 
 def value_of(points: npt.ArrayLike, measure: str, *, warp: Optional[str] = None, threads: SupportsIndex = 0,

@@ -779,6 +779,25 @@ class Families(unittest.TestCase):
 class Code(unittest.TestCase):
     """exec: and plugin: run by the caller's word alone."""
 
+    def test_sets(self):
+        for pattern in ("n-rooks", "sobol:scramble=owen"):
+            stack = koksma.generate(pattern, 16, 3, seed=5, sets=4)
+            self.assertEqual(stack.shape, (4, 16, 3))
+            for i in range(4):
+                np.testing.assert_array_equal(stack[i], koksma.generate(pattern, 16, 3, seed=5 + i))
+            room = np.zeros((4, 16, 3))
+            self.assertIs(koksma.generate(pattern, seed=5, sets=4, out=room), room)
+            np.testing.assert_array_equal(room, stack)
+            for array in (stack, np.asfortranarray(stack), stack.astype(np.float32)):
+                values = koksma.measure(array, "l2-star")
+                self.assertEqual(values.tolist(), [koksma.measure(each, "l2-star").value for each in array])
+            self.assertEqual(list(koksma.measure(stack, ["star", "l2-star"])), ["star", "l2-star"])
+        for wrong in ({"sets": 0}, {"sets": 2, "first": 1}, {"sets": 2, "warp": "concentric-disk"}, {"sets": 3, "out": room}):
+            self.assertRaises(koksma.ArgumentError, koksma.generate, "sobol", 16, 3, **wrong)
+        self.assertRaises(koksma.ArgumentError, koksma.generate, "sobol", sets=2)
+        self.assertRaises(koksma.ArgumentError, koksma.measure, np.zeros((0, 4, 2)), "star")
+        self.assertRaises(koksma.ArgumentError, koksma.measure, stack, "star", warp="concentric-disk")
+
     def test_programs(self):
         sampler = "exec:" + os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "samplers", "stratified.py")
         with self.assertRaises(PermissionError) as refused:
