@@ -327,9 +327,29 @@ static koksma_status tally_points(measuring *j, const koksma_points *points, con
     return KOKSMA_OK;
 }
 
+/* The points of trial t, into those of the trial before. */
+static int next_points(const measuring *j, const char *source, const cli_source *parts, uint64_t t,
+                       koksma_points *points)
+{
+    if (t == 0) {
+        return cli_source_points(j->arguments, source, j->seed, &j->work.run, points);
+    }
+    const koksma_status status = koksma_generate(&parts->spec, j->seed + t, &j->work.run, points);
+    return status ? cli_fail(j->arguments, status) : CLI_YES;
+}
+
+/* What needs the numbers of points and dimensions, which are those of the first trial. Returns the exit code. */
+static int begin_trials(measuring *j, const char *source, size_t n, int dim, bool own_sets)
+{
+    int code = measuring_check_dim(j, dim);
+    code = code || own_sets ? code : choose_prefixes(j, n);
+    return code ? code : open_firsts(j, source);
+}
+
 int measuring_trials(measuring *j, const char *source)
 {
     cli_source parts;
+    koksma_points points = {0};
     int code = cli_source_open(j->arguments, source, &parts), dim = 0;
     const bool first = !j->firsts, own_sets = j->own_sets && !code && parts.is_pattern;
     memset(j->tallies, 0, 2 * MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->tallies);
@@ -337,28 +357,21 @@ int measuring_trials(measuring *j, const char *source)
     memset(j->n_whole, 0, (j->n_measures + 1) * sizeof *j->n_whole);
     memset(j->joints, 0, (j->n_measures + 1) * sizeof *j->joints);
     for (uint64_t t = 0; t < j->trials && !code; t++) {
-        koksma_points points = {0};
         if (!own_sets) {
             cli_work_unknown(&j->work, "points");
-            code = cli_source_points(j->arguments, source, j->seed + t, &j->work.run, &points);
+            code = next_points(j, source, &parts, t, &points);
         }
-        if (!code) {
+        if (!code && t == 0) {
             dim = own_sets ? parts.dim : points.dim;
-            code = measuring_check_dim(j, dim);
-        }
-        if (!code) {
-            code = own_sets ? CLI_YES : choose_prefixes(j, points.n);
-        }
-        if (!code) {
-            code = open_firsts(j, source);
+            code = begin_trials(j, source, points.n, dim, own_sets);
         }
         if (!code) {
             const koksma_status status = tally_points(j, own_sets ? NULL : &points, &parts, t, first);
             cli_work_end();
             code = status ? cli_fail(j->arguments, status) : CLI_YES;
         }
-        koksma_points_fini(&points);
     }
+    koksma_points_fini(&points);
     put_tallies(j, source, dim);
     return code;
 }
