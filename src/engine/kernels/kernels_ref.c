@@ -6,6 +6,7 @@
 
 #include <koksma/sampler.h>
 
+#include "core/double_double.h"
 #include "core/elementary.h"
 #include "core/random.h"
 #include "core/sum.h"
@@ -45,6 +46,24 @@ void KERNEL_NAME(draws)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
 {
     koksma__random_permutation(seed, lane, n, out);
+}
+
+void KERNEL_NAME(l2_linear)(size_t count, int dim, const double *u, size_t stride, const double f[4], double *hi,
+                            double *lo)
+{
+    for (size_t i = 0; i < count; i++) {
+        koksma__dd product = {1, 0};
+        for (size_t k = 0; k < (size_t)dim; k++) {
+            const double z = u[k * stride + i] - 0.5;
+            koksma__dd a = {f[0], 0};
+            a = f[1] != 0 ? koksma__dd_add(a, koksma__dd_product(f[1], z)) : a;
+            a = f[2] != 0 ? koksma__dd_add(a, koksma__dd_scale(koksma__dd_product(z, z), f[2])) : a;
+            a = f[3] != 0 ? koksma__dd_add(a, koksma__dd_product(f[3], fabs(z))) : a;
+            product = koksma__dd_mul(product, koksma__dd_divide(a, 24));
+        }
+        hi[i] = product.hi;
+        lo[i] = product.lo;
+    }
 }
 
 void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const double *u, const double *g, double q,

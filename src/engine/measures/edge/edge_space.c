@@ -33,7 +33,7 @@
 #include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/shared/double_double.h"
+#include "core/double_double.h"
 #include "measures/shared/shared.h"
 
 /* SECONDS: number of second points in a block. With 1024 points, a block then takes some ten milliseconds, after which

@@ -5,8 +5,8 @@
 
 #include <koksma/koksma.h>
 
+#include "core/double_double.h"
 #include "core/sum.h"
-#include "measures/shared/double_double.h"
 
 /* ---- l2_pairs.c -------------------------------------------------------------------------------------------- */
 
@@ -33,10 +33,6 @@ typedef struct koksma__l2_row {
 
 /* f[0] + f[1] z + f[2] z^2 + f[3] |z|, z = u - 1/2. */
 double koksma__l2_polynomial(const double f[4], double u);
-koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* this polynomial at z, in 106 bits */
-
-/* prod_k a(x_k) in 106 bits. */
-koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim);
 
 /* Writes the square by a sum over all pairs, in O(n^2 d). Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,

@@ -35,10 +35,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/double_double.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/sum.h"
-#include "measures/shared/double_double.h"
+#include "kernels/kernels.h"
 #include "measures/shared/shared.h"
 
 typedef koksma__dd dd;
@@ -330,7 +331,9 @@ static koksma_status prepare(divider *d, const koksma_points *points, const koks
             it->z[k] = x[k] - 0.5;
             it->g[k] = koksma__l2_polynomial(big_g, x[k]);
         }
-        *linear = koksma__dd_add(*linear, koksma__l2_linear(d->row, x, d->dim));
+        koksma__dd product;
+        koksma__kernels()->l2_linear(1, d->dim, x, 1, d->row->a24, &product.hi, &product.lo);
+        *linear = koksma__dd_add(*linear, product);
         koksma__sum_add(self, kernel_from(d, 0, it, it));
     }
     return status;

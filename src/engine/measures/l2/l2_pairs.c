@@ -9,11 +9,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/double_double.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
-#include "measures/shared/double_double.h"
 
 enum { ROWS_PER_BLOCK = 128 };
 
@@ -23,38 +23,14 @@ double koksma__l2_polynomial(const double f[4], double u)
     return f[0] + f[1] * z + f[2] * z * z + f[3] * fabs(z);
 }
 
-koksma__dd koksma__l2_polynomial_dd(const double f[4], double z)
-{
-    koksma__dd sum = {f[0], 0};
-    if (f[1] != 0) {
-        sum = koksma__dd_add(sum, koksma__dd_product(f[1], z));
-    }
-    if (f[2] != 0) {
-        sum = koksma__dd_add(sum, koksma__dd_scale(koksma__dd_product(z, z), f[2]));
-    }
-    if (f[3] != 0) {
-        sum = koksma__dd_add(sum, koksma__dd_product(f[3], fabs(z)));
-    }
-    return sum;
-}
-
-/* prod_k a(x_k). In doubles the rounding errors of the products would all have the same sign for points on a grid. */
-koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim)
-{
-    koksma__dd product = {1, 0};
-    for (int k = 0; k < dim; k++) {
-        const koksma__dd a = koksma__l2_polynomial_dd(row->a24, x[k] - 0.5);
-        product = koksma__dd_mul(product, koksma__dd_divide(a, 24));
-    }
-    return product;
-}
-
 typedef struct pairs {
     const koksma__l2_row *row;
     size_t n;
     int dim;
-    double *u, *g;     /* u[k n + j] is coordinate k of point j, and g[k n + j] the function g of the kernel at this
+    double *u, *g;   /* u[k n + j] is coordinate k of point j, and g[k n + j] the function g of the kernel at this
                           coordinate */
+    double *hi, *lo; /* hi[j] + lo[j]: prod_k a(x_jk), for which doubles would not do: their rounding errors would all
+                          have the same sign for points on a grid */
     koksma__sum *sums; /* the sum of each block of rows */
 } pairs;
 
@@ -80,8 +56,11 @@ static void sum_points(const pairs *p, const koksma_points *points, koksma__dd *
             p->g[k * p->n + i] = koksma__l2_polynomial(p->row->g, x);
             k_ii *= 2 * p->g[k * p->n + i];
         }
-        *linear = koksma__dd_add(*linear, koksma__l2_linear(p->row, points->xs + i * (size_t)p->dim, p->dim));
         koksma__sum_add(self, k_ii);
+    }
+    koksma__kernels()->l2_linear(p->n, p->dim, p->u, p->n, p->row->a24, p->hi, p->lo);
+    for (size_t i = 0; i < p->n; i++) {
+        *linear = koksma__dd_add(*linear, (koksma__dd){p->hi[i], p->lo[i]});
     }
 }
 
@@ -105,11 +84,13 @@ koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points
 {
     const size_t n = points->n, coordinates = n * (size_t)points->dim;
     const size_t n_blocks = (n + ROWS_PER_BLOCK - 1) / ROWS_PER_BLOCK;
-    const size_t bytes = 2 * coordinates * sizeof(double) + n_blocks * sizeof(koksma__sum);
+    const size_t bytes = 2 * (coordinates + n) * sizeof(double) + n_blocks * sizeof(koksma__sum);
     pairs p = {.row = row, .n = n, .dim = points->dim, .u = malloc(bytes)};
     KOKSMA__REQUIRE_MEMORY(p.u, bytes);
     p.g = p.u + coordinates;
-    p.sums = (koksma__sum *)(p.g + coordinates);
+    p.hi = p.g + coordinates;
+    p.lo = p.hi + n;
+    p.sums = (koksma__sum *)(p.lo + n);
     koksma__dd linear = {0, 0};
     koksma__sum both = {0};
     sum_points(&p, points, &linear, &both);

@@ -22,9 +22,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/double_double.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/shared/double_double.h"
 #include "measures/shared/shared.h"
 
 #ifndef __SIZEOF_INT128__

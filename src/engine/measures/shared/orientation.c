@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "measures/shared/double_double.h"
+#include "core/double_double.h"
 
 enum { PARTS = 32 };
 

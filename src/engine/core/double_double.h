@@ -2,8 +2,8 @@
 /* Numbers of about 106 bits as unevaluated sums of two doubles (Dekker 1971, and Hida, Li and Bailey 2001), for sums
    that are as small as 1e-12 times their terms. Exact products use Dekker's splitting, because the machine may lack a
    fused multiply-add. */
-#ifndef KOKSMA_MEASURES_SHARED_DOUBLE_DOUBLE_H
-#define KOKSMA_MEASURES_SHARED_DOUBLE_DOUBLE_H
+#ifndef KOKSMA_CORE_DOUBLE_DOUBLE_H
+#define KOKSMA_CORE_DOUBLE_DOUBLE_H
 
 typedef struct koksma__dd {
     double hi, lo;
