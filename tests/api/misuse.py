@@ -56,7 +56,7 @@ VALID = {
     "koksma_points_init.n": "4", "koksma_points_init.dim": "2", "koksma_points_init.points": "a_buffer(sizeof(koksma_points))",
     "koksma_points_fini.points": "a_zero(sizeof(koksma_points))", "koksma_points_read.path": "work_path(\"in.npy\")",
     "koksma_points_read.points": "a_buffer(sizeof(koksma_points))", "koksma_generate_whole.out": "a_buffer(sizeof(koksma_points))",
-    "koksma_generate_range.spec": "a_pattern(\"sobol\")", "koksma_generate_sets.sets": "2", "koksma_evaluate_sets.sets": "2",
+    "koksma_generate_range.spec": "a_pattern(\"sobol\")", "koksma_generate_sets.sets": "4", "koksma_evaluate_sets.sets": "2",
     "koksma_evaluate_sets.spec": "a_measure(\"l2-disk\")", "koksma_generate_write.spec": "a_pattern(\"sobol\")",
     "koksma_generate_write.n": "7", "koksma_generate_write.dim": "2", "koksma_has_ranges.spec": "a_pattern(\"sobol\")",
     "koksma_generate_whole.dim": "2", "koksma_generate_whole.spec": "a_pattern(work_path(\"file:in.npy\"))",

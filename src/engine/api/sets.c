@@ -62,7 +62,8 @@ static koksma_status do_block(void *context, size_t block)
 /* Divides points into sets and runs do_block. */
 static koksma_status do_all(const char *caller, batch *b, const koksma_points *all, bool one_thread)
 {
-    KOKSMA__FAIL_IF(!all->xs || all->n == 0 || all->dim < 1 || b->sets == 0 || all->n % b->sets, KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF(all->dim < 1, KOKSMA_DIM, "%s: points of %d dimensions", caller, all->dim);
+    KOKSMA__FAIL_IF(!all->xs || all->n == 0 || b->sets == 0 || all->n % b->sets, KOKSMA_ARGUMENT,
                     "%s: %zu points are not %zu sets of equal numbers of points", caller, all->n, b->sets);
     b->set = (koksma_points){all->n / b->sets, all->dim, all->xs};
     b->block = 1 + BLOCK_COORDINATES / (b->set.n * (size_t)all->dim);
