@@ -378,6 +378,73 @@ def authors_patterns(table, peers):
                                         "-o", os.path.join(WORK, "bell.txt")), rounds=1)
 
 
+def waits(table, row):
+    """Where users wait for one command: patterns beside their simplest relatives, and many small sets."""
+    def ours(pattern, n):
+        return lambda: timed(row, "generate", pattern, n, 2)[0]
+    table.versus("6 patterns", "gaussian-jittered 2D 1M", ours("gaussian-jittered", 1 << 20), ours("jittered", 1 << 20), "our jittered")
+    for pattern in ("korobov", "lattice-rank1"):
+        table.alone("6 patterns", pattern + " 2D 1e7, with its search", ours(pattern, 10000000), .4, True, "s", lambda s: s, rounds=1)
+    table.alone("5 measures", "l2-star of 100,000 sets of 16, n-rooks", lambda: run(
+        KOKSMA, "measure", "pattern:n-rooks@16", "-m", "l2-star", "--trials", "100000", "--threads", "1"), 2, True, "us a set", lambda s: 10 * s)
+
+
+def python_package(table):
+    """The Python package on one thread, beside packages that do the same; one that is not installed has no row."""
+    part = "9 Python"
+    try:
+        import numpy
+        os.environ.setdefault("KOKSMA_LIBRARY_DIR", LIBRARY)
+        sys.path.insert(0, os.path.join(ROOT, "python"))
+        import koksma
+    except ImportError:
+        return
+
+    def least(call):
+        """Of three, by the processor."""
+        found = []
+        for _ in range(3):
+            start = time.process_time()
+            call()
+            found.append(time.process_time() - start)
+        return min(found)
+
+    def beside(what, ours, module, theirs, same, goal):
+        """The row, if the module is installed and both sides have the same result."""
+        try:
+            peer = __import__(module, fromlist=["x"])
+        except ImportError:
+            table.alone(part, what, lambda: least(ours))
+            return
+        if table.has(part, what):
+            if not same(peer):
+                sys.exit("speed.py: %s: not the result of %s" % (what, module))
+            table.versus(part, what, lambda: least(ours), lambda: least(lambda: theirs(peer)), module, goal)
+    sets, n = 100000, 16
+    for pattern in ("n-rooks", "sobol:scramble=owen"):
+        beside("%d sets of %d, %s" % (sets, n, pattern), lambda p=pattern: koksma.generate(p, n, sets=sets, threads=1), "torch",
+               lambda torch: torch.rand(sets, n, 2, dtype=torch.float64), lambda torch: True, None)  # of torch the time alone
+    image, target = numpy.random.default_rng(1).random((2, 768, 768, 3), dtype=numpy.float32)
+    grey = [x @ numpy.array([.2126, .7152, .0722]) for x in (image.astype(float), target.astype(float))]
+    beside("rmse, 768 x 768", lambda: koksma.compare(image, target, ["rmse"]), "skimage.metrics", lambda m: m.mean_squared_error(image, target),
+           lambda m: abs(koksma.compare(image, target, ["rmse"]).rmse ** 2 - m.mean_squared_error(*grey)) < 1e-9, None)
+    npy, exr, other = (os.path.join(WORK, name) for name in ("rows.npy", "x.exr", "y.exr"))
+    numpy.save(npy, numpy.random.default_rng(2).random((300000, 3)))
+    beside("read 300,000 x 3 of NPY", lambda: koksma.read(npy), "numpy", lambda np: np.load(npy),
+           lambda np: bool((koksma.read(npy) == np.load(npy)).all()), .7)
+
+    def write_exr(exr_package):
+        header = {"compression": exr_package.ZIP_COMPRESSION, "type": exr_package.scanlineimage}
+        with exr_package.File(header, {"RGB": image}) as file:
+            file.write(other)
+
+    def same_exr(exr_package):
+        koksma.write_image(exr, image)
+        write_exr(exr_package)
+        return bool((koksma.read_image(exr) == koksma.read_image(other)).all())
+    beside("write EXR, 768 x 768", lambda: koksma.write_image(exr, image), "OpenEXR", write_exr, same_exr, 1)
+
+
 def qmcpy_files(table, row, qmcpy, seconds):
     """Matrices and vectors of the user: Joe & Kuo's matrices of two dimensions, and a vector for 2^20 points. Ours are read from
     files; QMCPy's own files are elsewhere in its package, so that it gets the same numbers as arrays."""
@@ -672,6 +739,7 @@ def main():
     for part in (lambda: start_up(table, row, base), lambda: measures(table, peers), lambda: patterns(table, peers),
                  lambda: authors_patterns(table, peers),
                  lambda: renders(table, base), lambda: large_data(table, row, base), lambda: python_peers(table, row),
+                 lambda: waits(table, row), lambda: python_package(table),
                  lambda: sampler(table), lambda: threads(table, row), lambda: renderers(table), lambda: kernels(table),
                  lambda: extremes(table, row)):
         part()

@@ -433,3 +433,23 @@ TEST_CASE(tiles_beyond_the_image_are_refused)
                      KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "tiles are larger than the image"));
 }
+
+/* The table's bytes are those of the curve, on both sides of each step between two bytes and elsewhere. */
+TEST_CASE(table_of_levels_is_the_curve)
+{
+    koksma__srgb_table table;
+    koksma__srgb_table_make(&table);
+    for (int b = 0; b <= 256; b++) {
+        const float at = b < 256 ? table.least[b] : 1;
+        const float near[] = {nextafterf(at, -1), at, nextafterf(at, 2), at + 1e-4f, -at, 3 * at};
+        for (size_t i = 0; i < sizeof near / sizeof *near; i++) {
+            assert_int_equal(koksma__srgb_table_byte(&table, near[i]), koksma__srgb_byte(near[i]));
+        }
+    }
+    for (int i = 0; i < 100000; i++) {
+        const float x = (float)i * 1.1e-5f;
+        assert_int_equal(koksma__srgb_table_byte(&table, x), koksma__srgb_byte(x));
+    }
+    assert_int_equal(koksma__srgb_table_byte(&table, (float)NAN), 0);
+    assert_int_equal(koksma__srgb_table_byte(&table, HUGE_VALF), 255);
+}

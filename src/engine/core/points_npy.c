@@ -13,7 +13,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 
-enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 2048, /* read, or converted */ WRITTEN_AT_ONCE = 1 << 18 };
+enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 8192, /* read, or converted */ WRITTEN_AT_ONCE = 1 << 18 };
 
 typedef struct layout {
     size_t n, dim;   /* of points */
@@ -180,15 +180,39 @@ static koksma_status put_item(const char *name, const layout *l, size_t item, do
     return KOKSMA_OK;
 }
 
+/* Returns whether all numbers are in [0,1]. A -0 becomes 0. */
+static bool are_coordinates(double *xs, size_t n)
+{
+    int bad = 0;
+    for (size_t i = 0; i < n; i++) {
+        bad |= !(xs[i] >= 0) | !(xs[i] <= 1);
+        xs[i] += 0.0;
+    }
+    return !bad;
+}
+
+/* Returns whether a double's lowest byte comes first in memory. */
+static bool is_little_endian(void)
+{
+    const double one = 1;
+    unsigned char bytes[sizeof one];
+    memcpy(bytes, &one, sizeof one);
+    return bytes[7] == 0x3f;
+}
+
 static koksma_status read_items(FILE *stream, const char *name, const layout *l, koksma_points *points)
 {
     unsigned char bytes[8 * ITEMS_AT_ONCE];
     const size_t n_items = l->n * l->dim;
+    const bool ready = l->kind == 'f' && l->item_size == sizeof *points->xs && !l->fortran_order &&
+                       l->big_endian != is_little_endian(); /* the numbers lie in the file as in memory */
     for (size_t first = 0; first < n_items; first += ITEMS_AT_ONCE) {
         const size_t wanted = n_items - first < ITEMS_AT_ONCE ? n_items - first : ITEMS_AT_ONCE;
-        const size_t got = fread(bytes, l->item_size, wanted, stream);
-        for (size_t i = 0; i < got; i++) {
-            KOKSMA__TRY(put_item(name, l, first + i, decode(bytes + i * l->item_size, l), points));
+        double *xs = points->xs + first;
+        const size_t got = fread(ready ? (void *)xs : bytes, l->item_size, wanted, stream);
+        const bool done = ready && are_coordinates(xs, got);
+        for (size_t i = 0; i < got && !done; i++) {
+            KOKSMA__TRY(put_item(name, l, first + i, ready ? xs[i] : decode(bytes + i * l->item_size, l), points));
         }
         KOKSMA__FAIL_IF(got < wanted, KOKSMA_MALFORMED,
                         "%s: item %zu: the file ends before the %zu points of dim %zu that it claims", name,
@@ -292,18 +316,9 @@ void koksma__npy_put_header(FILE *stream, const char *descr, const char *shape)
     fprintf(stream, "%-*s\n", length - 1, header);
 }
 
-/* Returns whether a double's lowest byte comes first in memory, so that doubles can be written without conversion. */
-static bool is_little_endian(void)
-{
-    const double one = 1;
-    unsigned char bytes[sizeof one];
-    memcpy(bytes, &one, sizeof one);
-    return bytes[7] == 0x3f;
-}
-
 static void put_doubles(FILE *stream, const double *xs, size_t count)
 {
-    if (is_little_endian()) {
+    if (is_little_endian()) { /* without conversion */
         fwrite(xs, sizeof *xs, count, stream);
         return;
     }

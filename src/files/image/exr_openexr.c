@@ -9,8 +9,8 @@
  * an error may be that of another thread, but the status is right.
  *
  * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
- * reader takes such a stream for uncompressed pixels. So each file is read back after writing; if a bit differs, the
- * file is written again without compression.
+ * reader takes such a stream for uncompressed pixels. So a file with a chunk of that length is read back after writing;
+ * if a bit differs, the file is written again without compression.
  */
 #define _GNU_SOURCE /* memfd_create */
 #include <errno.h>
@@ -438,8 +438,9 @@ static void aim_encoder(exr_encode_pipeline_t *encoder, const koksma_layer *laye
     }
 }
 
+/* *doubtful becomes true if a chunk is as long as its pixels. */
 static exr_result_t put_lines(exr_context_t file, const koksma_layer *layers, size_t n,
-                              exr_encode_pipeline_t *encoder)
+                              exr_encode_pipeline_t *encoder, bool *doubtful)
 {
     int32_t lines = 1;
     exr_chunk_info_t chunk;
@@ -454,12 +455,13 @@ static exr_result_t put_lines(exr_context_t file, const koksma_layer *layers, si
             r = y ? r : exr_encoding_choose_default_routines(file, 0, encoder);
         }
         r = r ? r : exr_encoding_run(file, 0, encoder);
+        *doubtful |= encoder->compressed_bytes == encoder->packed_bytes;
     }
     return r;
 }
 
 static koksma_status encode(const koksma_layer *layers, size_t n, const char *metadata, exr_compression_t compression,
-                            koksma__bytes *out)
+                            bool *doubtful, koksma__bytes *out)
 {
     source s = {.out = out};
     exr_context_t file;
@@ -469,7 +471,7 @@ static koksma_status encode(const koksma_layer *layers, size_t n, const char *me
     if (!r) {
         exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
         r = put_header(file, layers, n, metadata, compression);
-        r = r ? r : put_lines(file, layers, n, &encoder);
+        r = r ? r : put_lines(file, layers, n, &encoder, doubtful);
         exr_encoding_destroy(file, &encoder);
         const exr_result_t finish = exr_finish(&file);
         r = r ? r : finish;
@@ -491,14 +493,17 @@ static koksma_status read_back(const koksma__bytes *bytes, const koksma_image *i
 
 static koksma_status write_exr(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
-    bool same = false;
-    koksma_status status = encode(layers, n, metadata, EXR_COMPRESSION_ZIP, out);
-    status = status ? status : read_back(out, layers->image, &same);
+    bool doubtful = false, same = false;
+    KOKSMA__TRY(encode(layers, n, metadata, EXR_COMPRESSION_ZIP, &doubtful, out));
+    if (!doubtful) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = read_back(out, layers->image, &same);
     if (status || same) {
         return status;
     }
     out->size = 0;
-    return encode(layers, n, metadata, EXR_COMPRESSION_NONE, out);
+    return encode(layers, n, metadata, EXR_COMPRESSION_NONE, &doubtful, out);
 }
 
 static const koksma__codec functions = {read_exr, write_exr};

@@ -141,13 +141,6 @@ koksma_status koksma_image_check_finite(const koksma_image *image, const char *n
     return KOKSMA_OK;
 }
 
-double koksma__luminance(const koksma_image *image, size_t pixel)
-{
-    const float *p = image->pixels + pixel * (size_t)image->channels;
-    return image->channels == 1 ? (double)p[0]
-                                : 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
-}
-
 static double absolute_error(const koksma_image *image, const koksma_image *reference, size_t pixel)
 {
     return fabs(koksma__luminance(image, pixel) - koksma__luminance(reference, pixel));

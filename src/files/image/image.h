@@ -6,6 +6,8 @@
 #include <koksma/image.h>
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "core/elementary.h"
 #include "core/status.h"
@@ -37,9 +39,6 @@ void koksma__image_limit(size_t pixels);
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
                                   koksma_image *out);
 
-/* Returns the luminance of a pixel. */
-double koksma__luminance(const koksma_image *image, size_t pixel);
-
 /* Fails with ARGUMENT unless the image has pixels and valid dimensions. */
 koksma_status koksma__image_usable(const koksma_image *image);
 
@@ -51,6 +50,14 @@ enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
 
 /* Luminance of linear red, green and blue (Rec. 709), in doubles. */
 #define KOKSMA__LUMINANCE(rgb) (0.2126 * (rgb)[0] + 0.7152 * (rgb)[1] + 0.0722 * (rgb)[2])
+
+/* Returns the luminance of a pixel. */
+static inline double koksma__luminance(const koksma_image *image, size_t pixel)
+{
+    const float *p = image->pixels + pixel * (size_t)image->channels;
+    return image->channels == 1 ? (double)p[0]
+                                : 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
+}
 
 /* The transfer function of sRGB (IEC 61966-2-1): linear light of a level of [0,1], its inverse, and the level of 8 bits. */
 static inline double koksma__from_srgb(double level)
@@ -67,6 +74,47 @@ static inline unsigned char koksma__srgb_byte(float linear)
 {
     const double x = linear >= 0 ? fmin((double)linear, 1) : 0; /* NaN is 0 */
     return (unsigned char)(255 * koksma__to_srgb(x) + 0.5);
+}
+
+/* A table of koksma__srgb_byte, for whole pictures: the least number of each byte, and the byte of each of 4096 steps of
+   linear light, from which the byte of a number in the step is at most a few ahead. */
+enum { KOKSMA__SRGB_STEPS = 1 << 12 };
+
+typedef struct koksma__srgb_table {
+    float least[257];
+    unsigned char byte[KOKSMA__SRGB_STEPS + 1];
+} koksma__srgb_table;
+
+static inline void koksma__srgb_table_make(koksma__srgb_table *t)
+{
+    t->least[0] = 0;
+    t->least[256] = HUGE_VALF;
+    for (int b = 1; b < 256; b++) { /* by halving; the floats of [0,1] are in the order of their bits */
+        uint32_t below = 0, at = 0x3f800000;
+        while (at - below > 1) {
+            const uint32_t middle = below + (at - below) / 2;
+            float x;
+            memcpy(&x, &middle, sizeof x);
+            *(koksma__srgb_byte(x) >= b ? &at : &below) = middle;
+        }
+        memcpy(&t->least[b], &at, sizeof at);
+    }
+    for (int i = 0, b = 0; i <= KOKSMA__SRGB_STEPS; i++) {
+        for (; t->least[b + 1] <= (float)i / KOKSMA__SRGB_STEPS; b++) {
+        }
+        t->byte[i] = (unsigned char)b;
+    }
+}
+
+/* Does the same as koksma__srgb_byte. */
+static inline unsigned char koksma__srgb_table_byte(const koksma__srgb_table *t, float linear)
+{
+    const float x = linear >= 0 ? linear < 1 ? linear : 1 : 0;
+    unsigned b = t->byte[(int)(x * KOKSMA__SRGB_STEPS)];
+    while (t->least[b + 1] <= x) {
+        b++;
+    }
+    return (unsigned char)b;
 }
 
 #endif

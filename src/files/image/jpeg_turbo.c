@@ -203,6 +203,8 @@ static bool write_rows(struct jpeg_compress_struct *jpeg, errors *e, const koksm
                        unsigned char *row, unsigned char **bytes, unsigned long *size)
 {
     const size_t count = (size_t)image->width * (size_t)image->channels, length = strlen(metadata);
+    koksma__srgb_table levels;
+    koksma__srgb_table_make(&levels);
     if (setjmp(e->back)) {
         return false;
     }
@@ -219,7 +221,7 @@ static bool write_rows(struct jpeg_compress_struct *jpeg, errors *e, const koksm
     jpeg_write_marker(jpeg, JPEG_COM, (const JOCTET *)metadata, (unsigned)(length < 65000 ? length : 65000));
     while (jpeg->next_scanline < jpeg->image_height) {
         for (size_t i = 0; i < count; i++) {
-            row[i] = koksma__srgb_byte(image->pixels[jpeg->next_scanline * count + i]);
+            row[i] = koksma__srgb_table_byte(&levels, image->pixels[jpeg->next_scanline * count + i]);
         }
         jpeg_write_scanlines(jpeg, &row, 1);
     }

@@ -274,6 +274,8 @@ static void put_metadata(png_structp png, png_infop info, const char *metadata)
 static bool put_image(png_structp png, png_infop info, const koksma_image *image, const char *metadata,
                       unsigned char *row)
 {
+    koksma__srgb_table levels;
+    koksma__srgb_table_make(&levels);
     if (setjmp(png_jmpbuf(png))) {
         return false;
     }
@@ -286,7 +288,7 @@ static bool put_image(png_structp png, png_infop info, const koksma_image *image
     const size_t count = (size_t)image->width * (size_t)image->channels;
     for (int y = 0; y < image->height; y++) {
         for (size_t i = 0; i < count; i++) {
-            row[i] = koksma__srgb_byte(image->pixels[(size_t)y * count + i]);
+            row[i] = koksma__srgb_table_byte(&levels, image->pixels[(size_t)y * count + i]);
         }
         png_write_row(png, row);
     }
