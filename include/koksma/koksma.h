@@ -332,8 +332,8 @@ KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
 KOKSMA_API koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint64_t n, uint64_t first,
                                                const koksma_run *run, koksma_points *out);
 
-/* Generates many sets in one call: set s of `sets` is that of koksma_generate with the seed `seed` + s, and is points s m ..
-   s m + m - 1 of `out`, m = out->n / sets. Threads share the sets, which they do not need for one of a few points.
+/* Generates many sets in one call: set s of `sets` is that of koksma_generate with the seed `seed` + s, and is points
+   s m .. s m + m - 1 of `out`, m = out->n / sets. Threads share the sets.
      sets  at least 1; divides out->n
    Errors: those of koksma_generate, of the set that failed first. */
 KOKSMA_API koksma_status koksma_generate_sets(const koksma_spec *spec, uint64_t seed, size_t sets,

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Computes the sums over points and over pairs of points in the L2 discrepancies. The pairs of a point i with all j < i (row i) are
-   summed in a fixed number of lanes, so that every instruction set adds in the same order and gives the same bits.
-   The row sums are added with compensation. */
+/* Computes the products over single points and the sums over pairs of points in the L2 discrepancies. The pairs of a
+   point i with all j < i (row i) are summed in a fixed number of lanes, so that every instruction set adds in the same
+   order and gives the same bits. The row sums are added with compensation. */
 #include <math.h>
 #include <string.h>
 
-#include "core/double_double.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
+#include "kernels/lanes64.h"
 
 enum { LANES = 16, CHUNK = 64 };
 
@@ -83,66 +83,85 @@ void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const do
     sum[1] = pairs.lost;
 }
 
-/* LANES double-doubles. The loops have no branches, so that the compiler makes vectors of them. */
+/* The double-doubles of core/double_double.h in lanes, operation by operation. */
 typedef struct lanes_dd {
-    double hi[LANES], lo[LANES];
+    lanes64_d hi, lo;
 } lanes_dd;
 
-static inline koksma__dd get(const lanes_dd *a, size_t l)
+static inline lanes_dd lanes_sum(lanes64_d a, lanes64_d b)
 {
-    return (koksma__dd){a->hi[l], a->lo[l]};
+    const lanes64_d s = a + b, t = s - a;
+    return (lanes_dd){s, (a - (s - t)) + (b - t)};
 }
 
-static inline void put(lanes_dd *a, size_t l, koksma__dd x)
+static inline lanes_dd lanes_quick_sum(lanes64_d a, lanes64_d b)
 {
-    a->hi[l] = x.hi;
-    a->lo[l] = x.lo;
+    const lanes64_d s = a + b;
+    return (lanes_dd){s, b - (s - a)};
 }
 
-/* Multiplies by a(u) / 24 of LANES coordinates. */
-static inline void multiply_linear(const double f[4], const double u[LANES], lanes_dd *product)
+static inline lanes_dd lanes_product(lanes64_d a, lanes64_d b)
 {
-    lanes_dd a;
-    double z[LANES];
-    for (size_t l = 0; l < LANES; l++) {
-        z[l] = u[l] - 0.5;
-        put(&a, l, (koksma__dd){f[0], 0});
-    }
+    const lanes64_d p = a * b, sa = a * 134217729.0, sb = b * 134217729.0;
+    const lanes64_d ah = sa - (sa - a), al = a - ah, bh = sb - (sb - b), bl = b - bh;
+    return (lanes_dd){p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
+}
+
+static inline lanes_dd lanes_add(lanes_dd a, lanes_dd b)
+{
+    const lanes_dd s = lanes_sum(a.hi, b.hi), t = lanes_sum(a.lo, b.lo);
+    const lanes_dd v = lanes_quick_sum(s.hi, s.lo + t.hi);
+    return lanes_quick_sum(v.hi, v.lo + t.lo);
+}
+
+static inline lanes_dd lanes_mul(lanes_dd a, lanes_dd b)
+{
+    const lanes_dd p = lanes_product(a.hi, b.hi);
+    return lanes_quick_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
+
+static inline lanes_dd lanes_scale(lanes_dd a, lanes64_d b)
+{
+    const lanes_dd p = lanes_product(a.hi, b);
+    return lanes_quick_sum(p.hi, p.lo + a.lo * b);
+}
+
+static inline lanes_dd lanes_divide(lanes_dd a, lanes64_d b)
+{
+    const lanes64_d q = a.hi / b;
+    const lanes_dd p = lanes_product(q, b), rest = lanes_add(a, (lanes_dd){-p.hi, -p.lo});
+    return lanes_quick_sum(q, rest.hi / b);
+}
+
+/* a(u) / 24 */
+static inline lanes_dd linear(const double f[4], lanes64_d u)
+{
+    const lanes64_d z = u - 0.5;
+    lanes_dd a = {lanes64_splat_d(f[0]), lanes64_splat_d(0)};
     if (f[1] != 0) {
-        for (size_t l = 0; l < LANES; l++) {
-            put(&a, l, koksma__dd_add(get(&a, l), koksma__dd_product(f[1], z[l])));
-        }
+        a = lanes_add(a, lanes_product(lanes64_splat_d(f[1]), z));
     }
     if (f[2] != 0) {
-        for (size_t l = 0; l < LANES; l++) {
-            put(&a, l, koksma__dd_add(get(&a, l), koksma__dd_scale(koksma__dd_product(z[l], z[l]), f[2])));
-        }
+        a = lanes_add(a, lanes_scale(lanes_product(z, z), lanes64_splat_d(f[2])));
     }
     if (f[3] != 0) {
-        for (size_t l = 0; l < LANES; l++) {
-            put(&a, l, koksma__dd_add(get(&a, l), koksma__dd_product(f[3], fabs(z[l]))));
-        }
+        a = lanes_add(a, lanes_product(lanes64_splat_d(f[3]), lanes64_abs(z)));
     }
-    for (size_t l = 0; l < LANES; l++) {
-        put(product, l, koksma__dd_mul(get(product, l), koksma__dd_divide(get(&a, l), 24)));
-    }
+    return lanes_divide(a, lanes64_splat_d(24));
 }
 
 void KERNEL_NAME(l2_linear)(size_t count, int dim, const double *u, size_t stride, const double f[4], double *hi,
                             double *lo)
 {
-    for (size_t i = 0; i < count; i += LANES) {
-        const size_t some = count - i < LANES ? count - i : LANES;
-        lanes_dd product;
-        for (size_t l = 0; l < LANES; l++) {
-            put(&product, l, (koksma__dd){1, 0});
-        }
+    for (size_t i = 0; i < count; i += LANES64) {
+        const size_t some = count - i < LANES64 ? count - i : LANES64;
+        lanes_dd product = {lanes64_splat_d(1), lanes64_splat_d(0)};
         for (size_t k = 0; k < (size_t)dim; k++) {
-            double rest[LANES] = {0};
+            double rest[LANES64] = {0};
             memcpy(rest, u + k * stride + i, some * sizeof *u);
-            multiply_linear(f, rest, &product);
+            product = lanes_mul(product, linear(f, lanes64_load_d(rest)));
         }
-        memcpy(hi + i, product.hi, some * sizeof *hi);
-        memcpy(lo + i, product.lo, some * sizeof *lo);
+        memcpy(hi + i, &product.hi, some * sizeof *hi);
+        memcpy(lo + i, &product.lo, some * sizeof *lo);
     }
 }

@@ -30,10 +30,10 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "core/double_double.h"
 #include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "core/double_double.h"
 #include "measures/shared/shared.h"
 
 /* SECONDS: number of second points in a block. With 1024 points, a block then takes some ten milliseconds, after which

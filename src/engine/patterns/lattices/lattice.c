@@ -182,11 +182,6 @@ koksma_status koksma__lattice_value(koksma__lattice_search *s, double *window)
     return status;
 }
 
-uint64_t koksma__lattice_last(size_t n)
-{
-    return n % 2 || n == 2 ? n / 2 : n / 2 + (n % 4 ? 2 : 1);
-}
-
 static koksma_status choose(const koksma__lattice_search *s, double window, candidate_sum sum, uint64_t *best)
 {
     double lowest = s->values[1], least = 0;

@@ -101,6 +101,11 @@ static koksma_status list_best(const koksma_run *run, size_t n, candidates *list
     return KOKSMA_OK;
 }
 
+uint64_t koksma__lattice_last(size_t n)
+{
+    return n % 2 || n == 2 ? n / 2 : n / 2 + (n % 4 ? 2 : 1);
+}
+
 /* For few points all z are compared by their sums. */
 static koksma_status list_all(size_t n, candidates *list)
 {

@@ -50,8 +50,15 @@ koksma_status koksma__unit_sums_find(koksma__unit_sums *sums, const koksma_run *
 /* ---- Lattice plane --------------------------------------------------------------------------------------- */
 
 /* Finds the best z_1 for z_0 = 1 and n > 1 points, n < 2^32. This z_1 does not depend on the weights, because in two
-   dimensions these scale the sums of all candidates by the same factor. Time: some n ln ln n. Errors: INTERRUPTED, MEMORY. */
+   dimensions these scale the sums of all candidates by the same factor. Time: some n ln ln n. Errors: INTERRUPTED,
+   MEMORY. */
 koksma_status koksma__lattice_second(const koksma_run *run, size_t n, uint64_t *best);
+
+/* Returns the last candidate z. Candidates end at n/2, because n - z is the mirror image of z. For even n the
+   smallest unit modulo n above n/2 is a candidate, too. This unit is the mirror image of a candidate below n/2, but
+   its sum has different rounding errors, which decide for n = 12 and a few other n below 30. Without this candidate
+   the points for these n would change. */
+uint64_t koksma__lattice_last(size_t n);
 
 /* ---- Lattice --------------------------------------------------------------------------------------------- */
 
@@ -98,12 +105,6 @@ koksma_status koksma__lattice_value(koksma__lattice_search *search, double *wind
 
 /* Sets search->values to infinity for each z that has a divisor in common with n, else to 0. */
 void koksma__lattice_units(koksma__lattice_search *search);
-
-/* Returns the last candidate z. Candidates end at n/2, because n - z is the mirror image of z. For even n the
-   smallest unit modulo n above n/2 is a candidate, too. This unit is the mirror image of a candidate below n/2, but
-   its sum has different rounding errors, which decide for a few n (lattice_rank1.c). Without this candidate the points
-   for these n would change. */
-uint64_t koksma__lattice_last(size_t n);
 
 /* Finds the multipliers z of `dim` coordinates for a lattice of n > 1 points. With an order above 0 only projections of
    up to `order` coordinates have a weight: the factor of the next coordinate is then the sum of the elementary
