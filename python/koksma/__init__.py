@@ -24,6 +24,7 @@ from ._images import ImageGroup, study_images
 from ._integrate import Component, Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
 from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError, allow_exec, refuse_unknown)
+from ._mask import MaskQuality, mask, mask_quality, read_mask, write_mask
 from ._optimise import Optimum, Record, optimise, radial_power, records
 from ._optimise_scene import SceneGain, SceneOptimum, optimise_scene
 from ._points import (Finding, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, local_discrepancy, measure, measures,
@@ -39,17 +40,18 @@ from ._tolerance import Integral, Interval, Step, estimators, intervals
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Cost", "Datasheet", "Engine", "Error",
-    "Finding", "ForbiddenError", "ImageGroup", "Integral", "Integrand", "Integration", "Interval", "Layers", "MalformedError", "Member", "MetricValue",
-    "MissingError", "Modifier", "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked",
-    "Ranking", "Record", "SceneCheck", "SceneGain", "SceneOptimum", "ScenePart", "Sensitivity", "Share", "SizeCheck",
-    "Spectrum", "Step", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "adaptive",
-    "allow_exec", "audit", "canonical", "check_scene", "compare", "convergence", "datasheet", "estimators", "filters", "generate",
-    "has_ranges", "integrand", "integrands", "integrate", "integrators", "intervals", "local_discrepancy", "measure", "measures",
-    "metrics", "modifiers", "optimise", "optimise_scene", "pair_correlation", "patterns", "plans", "plot",
-    "plot_compare", "plot_convergence", "radial_power", "rank", "read", "read_image", "records", "refuse_unknown",
-    "render", "scenes", "sensitivity", "spectrum", "study_images", "trials", "verify", "verify_sets", "version", "warp_points",
-    "warps", "write", "write_image",
+    "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Cost", "Datasheet", "Engine",
+    "Error", "Finding", "ForbiddenError", "ImageGroup", "Integral", "Integrand", "Integration", "Interval", "Layers",
+    "MalformedError", "MaskQuality", "Member", "MetricValue", "MissingError", "Modifier", "Named", "Optimum",
+    "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "SceneCheck", "SceneGain",
+    "SceneOptimum", "ScenePart", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Step", "Study", "Summary",
+    "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "adaptive", "allow_exec", "audit", "canonical",
+    "check_scene", "compare", "convergence", "datasheet", "estimators", "filters", "generate", "has_ranges",
+    "integrand", "integrands", "integrate", "integrators", "intervals", "local_discrepancy", "mask", "mask_quality",
+    "measure", "measures", "metrics", "modifiers", "optimise", "optimise_scene", "pair_correlation", "patterns",
+    "plans", "plot", "plot_compare", "plot_convergence", "radial_power", "rank", "read", "read_image", "read_mask",
+    "records", "refuse_unknown", "render", "scenes", "sensitivity", "spectrum", "study_images", "trials", "verify",
+    "verify_sets", "version", "warp_points", "warps", "write", "write_image", "write_mask",
 ]
 
 if _typing.TYPE_CHECKING:

@@ -6,7 +6,7 @@ import ctypes
 import os
 import re
 from contextlib import contextmanager
-from ctypes import POINTER, addressof, byref, c_bool, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
+from ctypes import POINTER, addressof, byref, c_bool, c_char_p, c_double, c_float, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
 from functools import lru_cache
 from math import inf
 from operator import index
@@ -164,6 +164,12 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_integral_values", c_void_p, points, run, POINTER(c_double))
     _declare(library, c_int, "koksma_integrate_to", s.ValuesOf, c_void_p, c_int, spec, POINTER(s.ToleranceOptions), run,
              POINTER(s.Tolerance))
+    space, kernel = POINTER(s.MaskSpace), POINTER(s.MaskFilter)
+    _declare(library, space, "koksma_mask_space_at", c_size_t)
+    _declare(library, space, "koksma_mask_space_find", c_char_p)
+    _declare(library, c_int, "koksma_mask_filter_check", kernel)
+    _declare(library, c_int, "koksma_mask_optimise", POINTER(s.MaskOptions), run, POINTER(c_float), c_void_p)
+    _declare(library, c_int, "koksma_mask_measure", c_int, c_int, space, POINTER(c_float), kernel, c_int, run, POINTER(s.MaskQuality))
     spectrum = POINTER(s.Spectrum)
     _declare(library, c_int, "koksma_spectrum_init", spectrum, c_int)
     _declare(library, None, "koksma_spectrum_fini", spectrum)
@@ -247,6 +253,10 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_metric_parse", c_char_p, POINTER(s.MetricSpec))
     _declare(library, None, "koksma_metric_text", POINTER(s.MetricSpec), c_char_p)
     _declare(library, c_int, "koksma_metric_evaluate", POINTER(s.MetricSpec), image, image, POINTER(s.MetricValue))
+    _declare(library, c_int, "koksma_mask_filter_parse", c_char_p, POINTER(s.MaskFilter))
+    _declare(library, c_int, "koksma_mask_read", c_char_p, POINTER(s.MaskSpace), POINTER(s.Mask))
+    _declare(library, c_int, "koksma_mask_write", c_char_p, POINTER(s.Mask), c_int)
+    _declare(library, None, "koksma_mask_fini", POINTER(s.Mask))
     coherence = POINTER(s.Coherence)
     _declare(library, c_int, "koksma_coherence_init", coherence, c_int, c_int)
     _declare(library, None, "koksma_coherence_fini", coherence)

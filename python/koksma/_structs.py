@@ -10,6 +10,7 @@ MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else
 MAX_SPP, MAX_IMAGE_SIDE, MAX_DEPTH, MAX_AOVS = 1 << 20, 65536, 64, 72
 MAX_RANK_TRIALS, RANK_CHECKS, RANK_REASON = 65536, 2, 256
 MAX_SIZES, MAX_AGAINST, MAX_HELD_OUT, IMAGES_GROUP, MAX_STEPS = 64, 64, 16, 256, 32
+MASK_MIN, MASK_MAX, MASK_MAX_SIDE = 4, 1024, 65
 MAX_INT, MAX_SEED, MAX_INDEX = (1 << 31) - 1, (1 << 64) - 1, (1 << 51) - 1
 
 KeepGoing = CFUNCTYPE(c_bool, c_void_p, c_double)
@@ -106,6 +107,28 @@ class Ring(Structure):
 
 class Image(Structure):
     _fields_ = [("width", c_int), ("height", c_int), ("channels", c_int), ("pixels", POINTER(c_float))]
+
+
+class MaskSpace(Structure):
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("dim", c_int), ("low", c_double), ("high", c_double)]
+
+
+class MaskFilter(Structure):
+    _fields_ = [("width", c_int), ("height", c_int), ("weights", c_double * (MASK_MAX_SIDE * MASK_MAX_SIDE))]
+
+
+class MaskOptions(Structure):
+    _fields_ = [("width", c_int), ("height", c_int), ("space", POINTER(MaskSpace)), ("filter", MaskFilter), ("open", c_bool),
+                ("levels", c_int), ("seed", c_uint64), ("swaps", c_double), ("from", POINTER(c_float)), ("done", c_uint64),
+                ("target", c_double)]
+
+
+class MaskQuality(Structure):
+    _fields_ = [("error", c_double), ("white", c_double), ("inside", c_double), ("seam", c_double)]
+
+
+class Mask(Structure):
+    _fields_ = [("width", c_int), ("height", c_int), ("space", POINTER(MaskSpace)), ("values", POINTER(c_float))]
 
 
 class Aovs(Structure):
@@ -409,6 +432,7 @@ class Ranking(Structure):
 CONSTANTS = [
     ("koksma.h", "KOKSMA_MAX_PARAMS", MAX_PARAMS), ("koksma.h", "KOKSMA_MAX_MODIFIERS", MAX_MODIFIERS), ("koksma.h", "KOKSMA_MAX_SPEC", MAX_SPEC),
     ("koksma.h", "KOKSMA_MAX_DIM", MAX_DIM), ("koksma.h", "KOKSMA_MAX_COORDINATES", MAX_COORDINATES),
+    ("mask.h", "KOKSMA_MASK_MIN", MASK_MIN), ("mask.h", "KOKSMA_MASK_MAX", MASK_MAX), ("mask.h", "KOKSMA_MASK_MAX_SIDE", MASK_MAX_SIDE),
     ("spectrum.h", "KOKSMA_SPECTRUM_MAX_HALF", MAX_HALF), ("render.h", "KOKSMA_MAX_SPP", MAX_SPP), ("render.h", "KOKSMA_MAX_DEPTH", MAX_DEPTH), ("render.h", "KOKSMA_MAX_AOVS", MAX_AOVS),
     ("render.h", "KOKSMA_N_USES", N_USES), ("render.h", "KOKSMA_MAX_USE_GROUPS", MAX_USE_GROUPS),
     ("image.h", "KOKSMA_MAX_IMAGE_SIDE", MAX_IMAGE_SIDE), ("koksma.h", "(size_t)INT_MAX", MAX_INT),
@@ -424,6 +448,8 @@ LAYOUTS = [
     ("koksma.h", "koksma_points", Points), ("koksma.h", "koksma_param", Param), ("koksma.h", "koksma_run", Run), ("core/parallel.h", "koksma__pacing", Pacing),
     ("koksma.h", "koksma_pattern", Pattern), ("koksma.h", "koksma_measure", Measure),
     ("koksma.h", "koksma_modifier", Modifier), ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
+    ("mask.h", "koksma_mask_space", MaskSpace), ("mask.h", "koksma_mask_filter", MaskFilter), ("mask.h", "koksma_mask_options", MaskOptions),
+    ("mask.h", "koksma_mask_quality", MaskQuality), ("maskfile.h", "koksma_mask", Mask),
     ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),
     ("optimise.h", "koksma_optimum", Optimum), ("optimise.h", "koksma_optimise_options", OptimiseOptions),
     ("integrate.h", "koksma_integrand", Integrand), ("integrate.h", "koksma_function", Function),

@@ -44,6 +44,7 @@ class WrongArguments(unittest.TestCase):
         plan = {"name": "m", "title": "M", "discrepancies": [{"id": "d", "patterns": ["random"], "measures": ["star"], "n": [4], "trials": 2}]}
         koksma.write("p.npy", points)
         koksma.write_image("i.pfm", image)
+        koksma.write_mask("m.npy", image)
         koksma.write_image("i_1.pfm", image)
         with koksma.Study(plan, "done") as study:
             study.run()
@@ -56,6 +57,8 @@ class WrongArguments(unittest.TestCase):
                 (koksma.canonical, dict(text_of_spec="sobol")), (koksma.has_ranges, dict(pattern="sobol")),
                 (koksma.integrand, dict(name="genz-gaussian")), (koksma.integrate, dict(function="genz-gaussian", pattern="sobol", n=4)),
                 (koksma.sensitivity, dict(function="genz-gaussian", axes=1)), (koksma.optimise, dict(measure="l2-star", n=4, steps=1)),
+                (koksma.mask, dict(filter="box:size=2", size=(4, 5), swaps=2)), (koksma.mask_quality, dict(mask=image, filter="box:size=2", tests=2)),
+                (koksma.read_mask, dict(path="m.npy")), (koksma.write_mask, dict(path="n.npy", mask=image)),
                 (koksma.radial_power, dict(target="step", n=4)), (koksma.render, dict(scene="ball", spp=1, size=small)),
                 (koksma.rank, dict(scene="ball", patterns=["random"], spp=1, size=small, one_size=True, max_trials=8)),
                 (koksma.compare, dict(images=image, reference=image)), (koksma.read_image, dict(path="i.pfm")),
