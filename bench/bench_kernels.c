@@ -85,7 +85,8 @@ RUN(open_quarters, N, sink += t->open_quarters(&cells, 33000000, found))
 RUN(covers, 64, sink += t->covers(64, units, units + N, 0.5, 0.5, 0.02, 0.02, 0.01))
 RUN(nearest_offset, 100 * 64, t->nearest_offset(64, units, units + N, 100, units, 0.3, out[0]))
 RUN(pair_counts, N, t->pair_counts(N, units, units + N, 0.4, 0.6, 0.09, 600, 200, counts))
-RUN(mask_growth, 13 * 16, sums[0][0] += (double)t->mask_growth(13, 16, 16, 300, 2, floats, floats, floats, floats + 2))
+RUN(mask_growth, 13 * 16,
+    sums[0][0] += (double)t->mask_growth(13, 16, 16, 300, 2, floats, floats, floats, floats + 2))
 RUN(gauss_force, 80, t->gauss_force(4, runs, units, units + N, 0.4, 0.6, -48, 0.25, sums[0]))
 RUN(source_force, 80, const double *const sources[] = {units, units + N, units, units + N, units};
     const double x[] = {0.4, 0.6, 0.5}; t->source_force(4, runs, sources, x, 0.01, 12, 6e-6, sums[0]))

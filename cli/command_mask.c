@@ -382,7 +382,7 @@ const cli_command cli_command_mask = {
         "Equal options give equal bits on every machine and with any number of threads (the search uses one). "
         "A mask with borders (--open) has the error that the filter leaves if all beyond is exact.\n",
     .examples = "koksma mask -o m.png --filter gaussian:sigma=1 --size 64x64\n"
-                "koksma mask -o v.npy --filter box:size=3 --size 32x48 --space vector2 --swaps 500\n"
+                "koksma mask -o v.npy -f box:size=3 --size 32x48 --space vector2\n"
                 "koksma mask check m.png\n"
                 "koksma mask check m.png --rings 16\n",
     .options = options,

@@ -30,6 +30,7 @@ FILES = {  # what each pattern that reads a file (`koksma list patterns`) is sho
     "lattice-vector": ("1:182667", None),
     "exec": ("./stratified.py", None),
     "plugin": ("./rank1.so", None),
+    "mask-file": ("mask.npy", None),
     "net-file": ("net.txt", "d s a m_i\n2 1 0 1\n"),
 }
 COMPARED = ("random", "jittered", "n-rooks", "sobol:scramble=owen")  # the curves of a chart
@@ -270,6 +271,7 @@ def main():
     pictures.mkdir(parents=True, exist_ok=True)
     program = Program(str(Path(arguments.program).resolve()), pictures, arguments.quick)
     program.try_run("generate", "r-sequence", "-n", "256", "-q", "-o", FILES["file"][0])
+    program.try_run("mask", "--size", "4x4", "-q", "-o", FILES["mask-file"][0])
     examples = ROOT / "examples/samplers"
     shutil.copy(examples / FILES["exec"][0], pictures)
     subprocess.run(["cc", "-shared", "-fPIC", "-I", ROOT / "include", "-o", pictures / FILES["plugin"][0], examples / "rank1.c"], check=True)

@@ -92,7 +92,8 @@ with tempfile.TemporaryDirectory() as folder:
 
     # Files to write, by the nouns of options and operands.
     writes = {"generate": ["sobol@4", "-o"], "optimise": ["star", "-n", "4", "--steps", "1", "-o"], "curve": ["power", "sobol@16", "-o"],
-              "plot": ["sobol@16", "-o"], "datasheet": ["sobol", "-o"], "render": ["ball", "-o"], "compare": ["a.pfm", "b.pfm", "-o"]}
+              "plot": ["sobol@16", "-o"], "datasheet": ["sobol", "-o"], "render": ["ball", "-o"], "compare": ["a.pfm", "b.pfm", "-o"],
+              "mask": ["--size", "8x8", "--swaps", "1", "-o"]}
     folders = ("reproduce", "study")
     for name, text in helps.items():
         output = re.search(r"^  -o, --output (\S+)", text, re.M)

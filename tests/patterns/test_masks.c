@@ -371,9 +371,87 @@ static void neighbours_errors_cancel(void **state)
     }
 }
 
+/* The pattern mask-file. A mask of one number gives the same points for any map that keeps the order of its numbers; each
+   pixel's points are a net; other seeds give other points, and a mask of two numbers is shifted alone. */
+static void masks_in_files_vary_the_pixels(void **state)
+{
+    (void)state;
+    enum { W = 6, H = 4, N = W * H, SPP = 16 };
+    koksma_points numbers = {N, 1, (double[N]){0}}, squares = {N, 1, (double[N]){0}};
+    for (int p = 0; p < N; p++) {
+        numbers.xs[p] = (p * 7 % N + 0.5) / N;
+        squares.xs[p] = numbers.xs[p] * numbers.xs[p];
+    }
+    const koksma_points *const both[] = {&numbers, &squares};
+    for (int f = 0; f < 2; f++) { /* .npy of shape (H, W), as others write them */
+        FILE *file = fopen(f ? "squares.npy" : "numbers.npy", "wb");
+        char head[119];
+        snprintf(head, sizeof head, "%-117s\n", "{'descr': '<f8', 'fortran_order': False, 'shape': (4, 6), }");
+        fprintf(file, "%cNUMPY%c%c%c%c%s", 0x93, 1, 0, 118, 0, head);
+        fwrite(both[f]->xs, sizeof(double), N, file);
+        fclose(file);
+    }
+    koksma_points a = test_points("mask-file:numbers.npy", N * SPP, 2, 3);
+    koksma_points b = test_points("mask-file:squares.npy", N * SPP, 2, 3);
+    koksma_points c = test_points("mask-file:numbers.npy", N * SPP, 2, 4);
+    assert_memory_equal(a.xs, b.xs, sizeof(double) * N * SPP * 2);
+    assert_memory_not_equal(a.xs, c.xs, sizeof(double) * N * SPP * 2);
+    for (int p = 0; p < N; p++) { /* one point in each of 4 x 4 cells, and in each of 16 columns and rows */
+        unsigned cells = 0, columns = 0, rows = 0;
+        for (int s = 0; s < SPP; s++) {
+            const double *x = a.xs + 2 * (p * SPP + s);
+            cells |= 1u << ((int)(4 * x[0]) + 4 * (int)(4 * x[1]));
+            columns |= 1u << (int)(16 * x[0]);
+            rows |= 1u << (int)(16 * x[1]);
+        }
+        assert_true(cells == 0xffff && columns == 0xffff && rows == 0xffff);
+    }
+    koksma_points_fini(&a);
+    koksma_points_fini(&b);
+    koksma_points_fini(&c);
+}
+
+static void vectors_in_files_are_the_samples(void **state)
+{
+    (void)state;
+    enum { W = 5, H = 4, N = W * H };
+    float v[2 * N];
+    FILE *file = fopen("vectors.npy", "wb");
+    char head[119];
+    for (int i = 0; i < 2 * N; i++) {
+        v[i] = (float)((i * 11 % (2 * N) + 0.5) / (2 * N));
+    }
+    snprintf(head, sizeof head, "%-117s\n", "{'descr': '<f4', 'fortran_order': False, 'shape': (4, 5, 2), }");
+    fprintf(file, "%cNUMPY%c%c%c%c%s", 0x93, 1, 0, 118, 0, head);
+    fwrite(v, sizeof *v, 2 * N, file);
+    fclose(file);
+    for (uint64_t seed = 0; seed < 5; seed++) {
+        koksma_points points = test_points("mask-file:vectors.npy", N, 2, seed);
+        int shifts = 0;
+        for (int shift = 0; shift < N; shift++) {
+            bool equal = true;
+            for (int p = 0; p < N && equal; p++) {
+                const int from = (p / W + shift / W) % H * W + (p % W + shift % W) % W;
+                equal = points.xs[2 * p] == (double)v[2 * from] && points.xs[2 * p + 1] == (double)v[2 * from + 1];
+            }
+            shifts += equal;
+        }
+        assert_int_equal(shifts, 1);
+        koksma_points_fini(&points);
+    }
+    koksma_spec spec;
+    koksma_points two;
+    assert_ok(koksma_pattern_spec("mask-file:vectors.npy", &spec));
+    assert_ok(koksma_points_init(&two, 2 * N, 2));
+    assert_int_equal(koksma_generate(&spec, 0, NULL, &two), KOKSMA_N);
+    koksma_points_fini(&two);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(masks_in_files_vary_the_pixels),
+        cmocka_unit_test(vectors_in_files_are_the_samples),
         cmocka_unit_test(masks_are_ulichneys),
         cmocka_unit_test(masks_keep_their_bits),
         cmocka_unit_test(the_header_has_the_patterns_points),

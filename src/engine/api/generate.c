@@ -103,7 +103,8 @@ static koksma_status generate(const koksma_spec *spec, const koksma_pattern *p, 
     KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
     KOKSMA__TRY(p->runs_code ? check_permission(spec, p, run) : KOKSMA_OK);
     const char kept = koksma__call_begin();
-    const bool of_file = koksma__names_path(p) && !p->runs_code;
+    /* sets are kept for all seeds */
+    const bool of_file = koksma__names_path(p) && p->claims & KOKSMA_CLAIM_DETERMINISTIC;
     KOKSMA__TRY(koksma__call_end(kept,
                                  of_file ? koksma__file_points(p, seed, &args, out) : p->generate(seed, &args, out),
                                  "koksma_pattern.generate"));

@@ -19,49 +19,13 @@
  * are paired with those in x.
  */
 #include <koksma/mask.h>
-#include <koksma/sampler.h>
 
 #include <stdlib.h>
 
-#include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "patterns/masks/mask_tile.h"
 #include "patterns/patterns.h"
-
-enum { BLOCK = 4096, MASKS = 3, VALUE_LANE = 1 };
-
-typedef struct filling {
-    uint64_t seed;
-    size_t spp, pixels;
-    const uint32_t *ranks;
-    koksma_points *out;
-} filling;
-
-/* Computes the values of the three masks at a pixel. */
-static void values_at(const filling *f, size_t pixel, uint32_t values[MASKS])
-{
-    uint32_t random[4];
-    koksma_words(f->seed, KOKSMA_FOR_SHIFT, pixel, VALUE_LANE, random);
-    for (size_t k = 0; k < MASKS; k++) {
-        values[k] = koksma_mask_value(f->ranks[k * f->pixels + pixel], (uint32_t)f->pixels, random[k]);
-    }
-}
-
-static koksma_status fill_block(void *context, size_t block)
-{
-    const filling *f = context;
-    const koksma_sobol sequence = koksma_sobol_of((koksma_domain){f->seed});
-    const size_t end = (block + 1) * BLOCK < f->out->n ? (block + 1) * BLOCK : f->out->n;
-    uint32_t values[MASKS];
-    values_at(f, block * BLOCK / f->spp, values);
-    for (size_t i = block * BLOCK; i < end; i++) {
-        if (i % f->spp == 0) {
-            values_at(f, i / f->spp, values);
-        }
-        koksma_mask_2d(&sequence, values, (uint32_t)(i % f->spp), (uint32_t)f->spp, f->out->xs + 2 * i);
-    }
-    return KOKSMA_OK;
-}
 
 /* Fills the tile with one vector a pixel. */
 static koksma_status fill_vectors(uint64_t seed, const koksma_args *args, size_t width, koksma_points *out)
@@ -69,10 +33,7 @@ static koksma_status fill_vectors(uint64_t seed, const koksma_args *args, size_t
     KOKSMA__FAIL_IF(width > KOKSMA_MASK_MAX_VECTORS, KOKSMA_ARGUMENT,
                     "mask-offset: width=%zu is above %d, the most with masks=vectors", width,
                     KOKSMA_MASK_MAX_VECTORS);
-    KOKSMA__FAIL_IF(
-        out->n != width * width, KOKSMA_N,
-        "mask-offset: masks=vectors has one sample in each of the %zu pixels, not n = %zu; n = %zu would do",
-        width * width, out->n, width * width);
+    KOKSMA__TRY(koksma__tile_check("mask-offset", width * width, true, out));
     return koksma_mask_vectors((int)width, 2, seed, args->run, out->xs);
 }
 
@@ -82,19 +43,16 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (args->params[1] != 0) {
         return fill_vectors(seed, args, width, out);
     }
-    KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
-                    "mask-offset: n = %zu is not a multiple of the %zu pixels; n = %zu would do", out->n, pixels,
-                    (out->n / pixels + 1) * pixels);
-    uint32_t *ranks = malloc(MASKS * pixels * sizeof *ranks);
-    KOKSMA__REQUIRE_MEMORY(ranks, MASKS * pixels * sizeof *ranks);
+    KOKSMA__TRY(koksma__tile_check("mask-offset", pixels, false, out));
+    uint32_t *ranks = malloc(KOKSMA__TILE_MASKS * pixels * sizeof *ranks);
+    KOKSMA__REQUIRE_MEMORY(ranks, KOKSMA__TILE_MASKS * pixels * sizeof *ranks);
     koksma_status status = KOKSMA_OK;
-    for (size_t k = 0; k < MASKS && !status; k++) {
+    for (size_t k = 0; k < KOKSMA__TILE_MASKS && !status; k++) {
         status = koksma_mask_void_and_cluster((int)width, koksma__random_seed(seed, k, KOKSMA__PURPOSE_SHIFT),
                                               args->run, ranks + k * pixels);
     }
     if (!status) {
-        filling f = {seed, out->n / pixels, pixels, ranks, out};
-        status = koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, fill_block, &f);
+        status = koksma__tile_fill(seed, args->run, pixels, ranks, out);
     }
     free(ranks);
     return status;
