@@ -10,7 +10,7 @@
  *     3 numbers           their ranks vary the sequence
  *
  * A rank is a number's position in the sorted list of all numbers of its kind; equal numbers are in the order of the
- * pixels. In the renderer the tile is the whole image (--scope image).
+ * pixels. The renderer repeats the tile over the image.
  */
 #include <koksma/mask.h>
 

@@ -20,6 +20,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/files/files.h"
+#include "patterns/masks/tile_size.h"
 #include "render/samples/uses.h"
 
 /* base of the keys for the random numbers of permutations, above the keys of all uses */
@@ -37,6 +38,9 @@ typedef struct pixel_samples {
        one; otherwise it is NULL. */
     float *fixed[KOKSMA_N_USES];
     size_t fixed_sets[KOKSMA_N_USES];
+    /* width and height of the tile of a pattern by masks, whose sets `fixed` has, one for each pixel of the tile, which
+       repeats over the image; 0: the pattern has none */
+    size_t tiles[KOKSMA_N_USES][2];
     int dims[KOKSMA_N_USES]; /* number of dimensions of the generated sets */
     koksma__float_set floats[KOKSMA_N_USES];
     bool shuffles[KOKSMA_N_USES];
@@ -207,6 +211,20 @@ static void prepare(const koksma__sampler *sampler, uint64_t first, size_t count
     draw_words(sampler->made, &d, first, room->count, room);
 }
 
+/* Returns which of the fixed sets a pixel takes. A tile is shifted for each use and bounce, so that these differ. */
+static size_t chosen_set(const pixel_samples *samples, int u, uint64_t pixel, uint32_t use)
+{
+    const koksma_render_options *options = samples->options;
+    const size_t *tile = samples->tiles[u], width = (size_t)options->width;
+    if (!tile[0]) {
+        return (size_t)(koksma__random_seed(options->seed, pixel, use) % samples->fixed_sets[u]);
+    }
+    const koksma__words shift = koksma__random(options->seed, KOKSMA__PURPOSE_SHIFT, use, 1);
+    const size_t x = ((size_t)pixel % width + koksma__below(shift.w[0], (uint32_t)tile[0])) % tile[0];
+    const size_t y = ((size_t)pixel / width + koksma__below(shift.w[1], (uint32_t)tile[1])) % tile[1];
+    return y * tile[0] + x;
+}
+
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_scratch *room, float *pairs)
 {
@@ -230,7 +248,7 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
         return KOKSMA_OK;
     }
     if (from && samples->fixed_sets[u] > 1) {
-        from += 2 * n * (koksma__random_seed(samples->options->seed, pixel, use) % samples->fixed_sets[u]);
+        from += 2 * n * chosen_set(samples, u, pixel, use);
     }
     if (!from) {
         const koksma_status status = draw_set(sampler, pixel, use, offset, room, d.shuffles ? room->pairs : pairs);
@@ -363,6 +381,28 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
     return status;
 }
 
+/* Makes the sets of all pixels of a tile, for one use. */
+static koksma_status make_tile(const koksma_render_options *options, const koksma_spec *spec, int u, int dims,
+                               const koksma_run *run, const size_t tile[2], float **fixed)
+{
+    static const float nowhere[2] = {0, 0};
+    const size_t n = (size_t)options->spp * tile[0] * tile[1];
+    KOKSMA__FAIL_IF(n > MAX_KEPT / 2, KOKSMA_ARGUMENT,
+                    "%s: a tile of %zu x %zu pixels can have %zu samples a pixel, not %d", spec->pattern->name,
+                    tile[0], tile[1], MAX_KEPT / 2 / (tile[0] * tile[1]), options->spp);
+    double *xs = malloc(2 * n * sizeof *xs);
+    *fixed = malloc(2 * n * sizeof **fixed);
+    koksma_status status = xs && *fixed ? KOKSMA_OK : koksma__fail_memory(2 * n * sizeof *xs);
+    status = status ? status
+                    : generate(spec, koksma__random_seed(options->seed, (uint64_t)u, KOKSMA__PURPOSE_SHIFT), n, dims,
+                               run, xs);
+    if (!status) {
+        koksma__batch()->place(xs, n, nowhere, *fixed);
+    }
+    free(xs);
+    return status;
+}
+
 static koksma_status try_uses(pixel_samples *samples, const koksma_run *run)
 {
     const koksma_render_options *options = samples->options;
@@ -381,6 +421,15 @@ static koksma_status try_uses(pixel_samples *samples, const koksma_run *run)
         samples->shuffles[u] =
             options->pairing == KOKSMA_PAIRING_SHUFFLED && !(spec->pattern->claims & KOKSMA_CLAIM_EXCHANGEABLE);
         if (!koksma__use_is_there(&samples->uses, u)) {
+            continue;
+        }
+        status = koksma__tile_size(spec, samples->tiles[u]);
+        if (!status && samples->tiles[u][0]) {
+            samples->fixed_sets[u] = samples->tiles[u][0] * samples->tiles[u][1];
+            status = make_tile(options, spec, u, dims, run, samples->tiles[u], &samples->fixed[u]);
+            continue;
+        }
+        if (status) {
             continue;
         }
         if (own) {
