@@ -5,6 +5,7 @@
 #                    DEMO=DIR: where (demo); TRIALS=N: trials for each table row (fewer than in the papers)
 #   make install     install the release build; PREFIX=/usr/local, DESTDIR= as usual
 #   make explorer    build the page for a browser: build/explorer/koksma-explorer.html
+#   make masks       make blue-noise masks for common filters, 64 to 256 pixels, with their errors: build/masks (10 minutes)
 #   make docs        write the documents to build/docs: tutorial, commands, C and Python reference, a page for every pattern,
 #                    measure, scene, ..., findings; with the explorer if it is built
 #
@@ -34,7 +35,7 @@ TRIALS ?=
 BASE ?= main
 MACHINES ?= aarch64
 
-.PHONY: help demo check test test-all bench install docs explorer wheel deb dist dist-test cross release clean
+.PHONY: help demo check test test-all bench install masks docs explorer wheel deb dist dist-test cross release clean
 
 help:
 	@sed -n 's/^#   //p; s/^#$$//p' Makefile | sed '1{/^$$/d}'
@@ -66,6 +67,9 @@ test-all:
 
 bench: release
 	@scripts/bench
+
+masks: release
+	@scripts/masks build/release/koksma build/masks
 
 install: release
 	cmake --install build/release
