@@ -146,7 +146,7 @@ static void intervals_cover(void **state)
     (void)state;
     enum { N = 60 };
     const size_t runs = test_repeats(400, 10);
-    const koksma_points u = test_points("random", runs * N, 1, 5);
+    koksma_points u = test_points("random", runs * N, 1, 5);
     const koksma_interval *interval;
     for (size_t i = 0; (interval = koksma_interval_at(i)); i++) {
         if (!strcmp(interval->name, "quantile")) {
@@ -168,6 +168,7 @@ static void intervals_cover(void **state)
             fail_msg("%s covers in %zu of %zu runs, mean width %g", interval->name, covered, runs, width);
         }
     }
+    koksma_points_fini(&u);
 }
 
 /* ---- A tolerance ------------------------------------------------------------------------------------------------- */
