@@ -101,8 +101,8 @@ static bool read_options(estimating *e)
     return true;
 }
 
-/* Opens operand i, a pattern, with its size and dimension; without a size the tolerance chooses it. i past the last operand:
-   the default pattern. Returns the exit code. */
+/* Opens operand i, a pattern, with its size and dimension; without a size the tolerance chooses it. i past the last
+   operand: the default pattern. Returns the exit code. */
 static int open_source(estimating *e, int i)
 {
     cli_source *source = &e->source;

@@ -120,9 +120,10 @@ typedef struct koksma_tolerance {
 
    The confidence is divided by Bonferroni over the steps that are allowed: with K steps each interval misses with a
    probability of (1 - confidence) / K, so that the last interval holds with the stated confidence no matter when the
-   search ends. An interval of width 0 is widened by one point's share of the range of the values so far, (largest - least)
-   / n, on both sides: functions with jumps give equal estimates that are off by less than that. While all values of the function have been equal, which tells nothing of rare peaks, no step but the
-   last one ends the search before 2^16 points.
+   search ends. An interval of width 0 is widened by one point's share of the range of the values so far, (largest -
+   least) / n, on both sides: functions with jumps give equal estimates that are off by less than that. While all values
+   of the function have been equal, which tells nothing of rare peaks, no step but the last one ends the search before
+   2^16 points.
 
      values, context  the function
      pattern          one whose sets are random and unbiased (koksma_is_unbiased)

@@ -116,8 +116,8 @@ typedef struct koksma_integration_row {
     double z; /* mean minus integral, divided by the standard error of the mean, sd / sqrt(trials); NaN with one set,
                     if the integral is not known, and if the difference is only rounding. The estimates are taken as
                     biased if z is beyond the two-sided quantile of Student's t at the level of 4 standard deviations
-                    (6.3e-5), or of .001 divided by koksma_integration_options.tests if that is less, and, where the interval is approximate, the difference is beyond 4 standard errors of
-                    random points, too */
+                    (6.3e-5), or of .001 divided by koksma_integration_options.tests if that is less, and, where the
+                    interval is approximate, the difference is beyond 4 standard errors of random points, too */
     bool
         approximate; /* whether the interval may hold rmse less often than in 93 % of cases: there are fewer than 16 sets,
                          or their errors are so skewed or heavy-tailed that the variance of their squares is more than

@@ -67,8 +67,8 @@ static void intervals_are_their_formulas(void **state)
     assert_non_null(strstr(koksma_error_text(), "takes 6"));
 }
 
-/* Most values near 3 and two far off: the median, if they differ by less than .7 of a point's share; else, and for values spread
-   evenly, the mean. */
+/* Most values near 3 and two far off: the median, if they differ by less than .7 of a point's share; else, and for values
+   spread evenly, the mean. */
 static void auto_takes_the_median_of_heavy_tails(void **state)
 {
     (void)state;

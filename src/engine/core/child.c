@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Runs a program as a child process, for samplers and integrands that are programs. The program leads a process group of
- * its own, with a limit on memory and no core file; at its end, or when the caller stops it, the whole group is killed. A process that
- * leaves the group (setsid) is not followed. Between fork and exec the child makes only calls that are safe after fork in
- * a process of several threads.
+ * its own, with a limit on memory and no core file; at its end, or when the caller stops it, the whole group is killed.
+ * A process that leaves the group (setsid) is not followed. Between fork and exec the child makes only calls that are
+ * safe after fork in a process of several threads.
  */
 #define _GNU_SOURCE /* pipe2 */
 #include "core/child.h"

@@ -265,9 +265,9 @@ static koksma_status bootstrap(sample *s, double *low, double *high)
     return status;
 }
 
-/* Both intervals with half of the risk; the quantile's is taken where it is narrower, and all y differ by less than SPREAD of
-   a point's share. The second is for functions with jumps. Sets that differ by one point on one side of a jump give
-   estimates in two clusters, of which the median's interval is one, and the integral may be between them. */
+/* Both intervals with half of the risk; the quantile's is taken where it is narrower, and all y differ by less than
+   SPREAD of a point's share. The second is for functions with jumps. Sets that differ by one point on one side
+   of a jump give estimates in two clusters, of which the median's interval is one, and the integral may be between them. */
 static koksma_status choose(sample *s, double *low, double *high)
 {
     sample half = *s;
