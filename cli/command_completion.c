@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include <koksma/adaptive.h>
+#include <koksma/estimate.h>
 #include <koksma/integrate.h>
 #include <koksma/study.h>
 #include <koksma/verify.h>
@@ -24,6 +25,8 @@
 NAME_AT(pattern, koksma_pattern_at)
 NAME_AT(measure, koksma_measure_at)
 NAME_AT(integrand, koksma_integrand_at)
+NAME_AT(estimator, koksma_estimator_at)
+NAME_AT(interval, koksma_interval_at)
 NAME_AT(integrator, koksma_integrator_at)
 NAME_AT(filter, koksma_filter_at)
 NAME_AT(adaptive, koksma_adaptive_at)
@@ -45,6 +48,8 @@ static const struct {
     {"PATTERN", pattern_name, false},
     {"MEASURE", measure_name, false},
     {"INTEGRAND", integrand_name, false},
+    {"ESTIMATOR", estimator_name, false},
+    {"INTERVAL", interval_name, false},
     {"SCENE", koksma_scene_name_at, true},
     {"INTEGRATOR", integrator_name, false},
     {"FILTER", filter_name, false},

@@ -464,7 +464,7 @@ const cli_command cli_command_integrate = {
     .summary = "integrate functions with known integrals; print errors against n",
     .synopsis =
         "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]\n"
-        "INTEGRAND,..|--with COMMAND --tolerance ERROR [--relative] [--confidence C] [-p PATTERN,..] [-d DIM]",
+        "INTEGRAND,..|--with PROGRAM --tolerance ERROR [--relative] [--confidence C] [-p PATTERN,..] [-d DIM]",
     .details =
         "rmse is the root mean square, over the trials, of the estimate minus the integral, with its 95 % interval. "
         "With a single set, which is all that deterministic patterns have, it is the absolute error. gain is the "
@@ -509,7 +509,7 @@ const cli_command cli_command_integrate = {
         "points that a tolerance out of reach would take by it, with its approximate 95 % interval. Patterns must "
         "be unbiased over their seeds ('koksma list claims').\n"
         "\n"
-        "COMMAND runs in the shell, with your permissions, for up to 2^16 points at a time: it reads a point a line "
+        "PROGRAM runs in the shell, with your permissions, for up to 2^16 points at a time: it reads a point a line "
         "from "
         "stdin and prints a value for each. --exec-seconds limits each run.\n",
     .examples = "koksma integrate quarter-disk,quarter-gaussian -p random,halton -n 16,64,256\n"

@@ -243,7 +243,7 @@ int cli_run_estimates(const cli_arguments *arguments)
     cli_integrands integrands = {.arguments = arguments};
     if (arguments->n_operands < first) {
         return cli_usage_error(arguments,
-                               "it takes an integrand, or --with COMMAND; 'koksma list integrands' names them");
+                               "it takes an integrand, or --with PROGRAM; 'koksma list integrands' names them");
     }
     if (!cli_work_begin(arguments, "integrating", &e.work) || !read_options(&e)) {
         return CLI_USAGE;

@@ -20,8 +20,9 @@
         {0, "confidence", "C", "of the interval, above 0 and below 1 (default: 0.95)"},                              \
         {0, "range", "LOW,HIGH", "bounds of the function's values, for intervals that need them"},                   \
     {                                                                                                                \
-        0, "with", "COMMAND",                                                                                        \
-            "estimate the function that COMMAND computes: points on its stdin, values on its stdout"                 \
+        0, "with", "PROGRAM",                                                                                        \
+            "estimate the function that the shell command PROGRAM computes: points on its stdin, values on its "     \
+            "stdout"                                                                                                 \
     }
 
 /* Integrands of the first operand, with the libraries that have them. */
