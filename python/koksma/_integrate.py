@@ -374,7 +374,10 @@ def integrate(function: Function, pattern: Union[str, SupportsIndex, None] = Non
 
 def integrate(function: Function, pattern: Any = None, n: Any = None, dim: SupportsIndex = 2, *, trials: SupportsIndex = 32,
               seed: SupportsIndex = 0, integral: float = math.nan, variance: float = math.nan, anova: bool = False,
-              samples: SupportsIndex = 0, threads: SupportsIndex = 0, tolerance: Optional[float] = None, **of_tolerance: Any) -> Any:
+              samples: SupportsIndex = 0, threads: SupportsIndex = 0, tolerance: Optional[float] = None, relative: bool = False,
+              estimator: Optional[str] = None, interval: Optional[str] = None, confidence: float = 0.95,
+              replicates: SupportsIndex = 15, max_points: SupportsIndex = 1 << 24, value_range: Optional[Sequence[float]] = None,
+              bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None) -> Any:
     """Integrates a function by sets of a pattern, and measures the error; or, with a tolerance, to that tolerance.
 
     Parameters
@@ -451,9 +454,14 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
                                 "is replicates")
         if hasattr(pattern, "__index__"):
             pattern, dim = None, pattern
-        return _to_tolerance(function, pattern, n, dim, tolerance, seed=seed, threads=threads, **of_tolerance)
-    if of_tolerance:
-        raise TypeError(f"{next(iter(of_tolerance))} has an effect only with a tolerance")
+        return integrate_to(_opened, function, pattern, n, dim, tolerance=tolerance, relative=relative, estimator=estimator,
+                            interval=interval, confidence=confidence, replicates=replicates, max_points=max_points,
+                            value_range=value_range, bounds=bounds, warp=warp, seed=seed, threads=threads)
+    numbers_given = real("confidence", confidence), whole("replicates", replicates, 2, 100000), whole("max_points", max_points, 2, 1 << 40)
+    if flag("relative", relative) or numbers_given != (0.95, 15, 1 << 24) or any(
+            x is not None for x in (estimator, interval, value_range, bounds, warp)):
+        raise TypeError("relative, estimator, interval, confidence, replicates, max_points, value_range, bounds and warp have an effect "
+                        "only with a tolerance")
     if pattern is None:
         raise TypeError("pattern must be a str or points, or tolerance a number")
     sizes: List[int]
@@ -495,16 +503,6 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
                        slope=result.slope.value, slope_error=result.slope.standard_error, slope_low=result.slope.low,
                        slope_high=result.slope.high, slope_approximate=result.slope.approximate, slope_sizes=result.slope.count,
                        integral=integral, variance=variance, components=components, bias=result.bias.decode())
-
-
-def _to_tolerance(function: Function, pattern: Optional[str], n: Optional[SupportsIndex], dim: SupportsIndex, tolerance: float, *,
-                  relative: bool = False, estimator: Optional[str] = None, interval: Optional[str] = None, confidence: float = 0.95,
-                  replicates: SupportsIndex = 15, max_points: SupportsIndex = 1 << 24, value_range: Optional[Sequence[float]] = None,
-                  bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None, seed: SupportsIndex,
-                  threads: SupportsIndex) -> Integral:
-    return integrate_to(_opened, function, pattern, n, dim, tolerance=tolerance, relative=relative, estimator=estimator,
-                        interval=interval, confidence=confidence, replicates=replicates, max_points=max_points,
-                        value_range=value_range, bounds=bounds, warp=warp, seed=seed, threads=threads)
 
 
 def _pattern(pattern: Any) -> str:

@@ -170,7 +170,7 @@ ALLOWED = [
     r"\w+ (spec|pattern)->measure = NULL .*", r"\w+ (spec|measure)->pattern = NULL .*l2-disk.*", r"\w+ measure->pattern = NULL .*",
     r"\w+ \w+->path = .*(l2-disk|edge).*", r"\w+ \w+->params.* = 0 .*", r"\w+ \w+->params.*file:.*",
     r"koksma_integral_of_function function->(name = \"[/%n]|max_dim = INT_MAX).*", r"koksma_integral_sensitivity samples = 0.*",
-    r"koksma_integration_summary (value|variance|estimates|options->sizes).*",
+    r"koksma_integration_summary (value|variance|estimates|options->sizes).*", r"koksma_integration_(errors|summary) options->tests .*",
     r"koksma_generate_(range|write) first = 0.*", r"koksma_generate_rectangle (map = NULL|(width|height) = (2|5)) .*", r"koksma_generate_range n = UINT64_MAX.*", # of a sequence n is unused
     r"koksma_generate_whole dim = 0 .*", r"koksma_local_discrepancy x\[0\] = 0 .*", r"\w+ n_sizes = 0 .*",
     r"koksma_warp_evaluate measure->params.*", r"\w+ (options->witness->|panels->scatter\.)(dim|count|columns|rows) = .*",
