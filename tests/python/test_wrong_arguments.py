@@ -105,8 +105,9 @@ class WrongArguments(unittest.TestCase):
                     with self.subTest(function=getattr(function, "__qualname__", function), parameter=name, wrong=repr(wrong)):
                         with self.assertRaisesRegex(TypeError, f"^{name} must be True or False, not "):
                             self.call(function, {**given, name: wrong})
+                needs = dict(tolerance=1.0, pattern="random") if name == "relative" else {}
                 for right in (True, False, np.True_, np.False_):
-                    self.call(function, {**given, name: right})
+                    self.call(function, {**given, **needs, name: right})
         self.assertLessEqual({"allow_exec", "anova", "exact", "layers", "local_discrepancy", "one_size", "prefixes", "quick", "splat"}, seen)
 
     def test_numbers_that_are_none(self):
