@@ -10,9 +10,9 @@ A fault is a change of one line of C: a constant, a dropped term, an off-by-one 
 lines at random: every line that can be changed, and that is in the tree once, is as likely as another. With OLD, a checkout
 of another commit, only lines are taken that are there once as well, wherever they lie, so that both commits' tests can be
 asked about the same fault. `run` works in the checkout that it is in, which must be clean: it edits the file, builds and
-tests in BUILD (a folder of ninja) in three steps, and puts the file back. The first step's tests have a word of the file's
-name in theirs, the second's belong to the area, the third's are all others; each stops at the first failure, and the first
-builds nothing but its own programs. CTEST are arguments of ctest; without them no test runs that is nightly or that reads
+tests in BUILD (a folder of ninja) in four steps, and puts the file back. The first step's tests have a word of the file's
+name in theirs, the second's the folder's, the third's belong to the area, the fourth's are all others; each stops at the
+first failure, and the first two build nothing but their own programs. CTEST are arguments of ctest; without them no test runs that is nightly or that reads
 the sources' texts (lint). A fault that does not compile is said to be so, and the next of its area takes its place.
 """
 import json
@@ -122,11 +122,12 @@ class Planted:
 
 
 def steps(path, area, build, arguments):
-    """Three lists of names of tests, the likeliest to find a fault in `path` first."""
+    """Four lists of names of tests, the likeliest to find a fault in `path` first."""
     shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1", *arguments], capture_output=True, text=True, check=True)
     names = [test["name"] for test in json.loads(shown.stdout)["tests"]]
     words = [w for w in re.split(r"[_.]", os.path.basename(path)[:-2]) if len(w) > 2]
-    ways = ["|".join(words) or "$^", AREAS[area][1], ""]
+    folder = os.path.basename(os.path.dirname(path)).rstrip("s")
+    ways = ["|".join(words) or "$^", folder, AREAS[area][1], ""]
     taken, out = set(), []
     for way in ways:
         out.append([n for n in names if n not in taken and re.search(way, n)])
@@ -163,7 +164,7 @@ def attempt(fault, build, arguments):
         ran = 0
         for number, tests in enumerate(steps(planted.path, fault["area"], build, arguments)):
             own = [t for t in tests if "\n%s: phony" % t in targets]
-            if not built(build, ["koksma-program", *own] if number == 0 else []):
+            if not built(build, ["koksma-program", *own] if number < 2 else []):
                 return "does not compile", 0, 0
             found = failure(build, tests) if tests else None
             ran += len(tests)
