@@ -192,13 +192,13 @@ TEST_CASE(pictures_ask_within_a_set)
     assert_true(asked >= 100 && asked < 200);
 }
 
-/* Sets that take seconds to minutes, in each dimension that a pattern has up to 8, told to stop at the 20th question. */
+/* Sets that take seconds to minutes, in 1, 2, 3 and 8 dimensions or a pattern's own, told to stop at the 20th question. */
 TEST_CASE(every_pattern_asks_often)
 {
     const koksma_pattern *pattern;
     for (size_t i = 0; (pattern = koksma_pattern_at(i)); i++) {
         const int last = pattern->max_dim < 8 ? pattern->max_dim : 8;
-        for (int dim = pattern->min_dim; dim <= last; dim++) {
+        for (int dim = pattern->min_dim; dim <= last; dim = dim < 3 || dim == last ? dim + 1 : last) {
             koksma_points p;
             koksma_spec spec;
             watch w = {.asked = 0};

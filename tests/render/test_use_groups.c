@@ -79,7 +79,7 @@ TEST_CASE(samples_are_the_points_of_one_set)
                 koksma__sample_scratch room;
                 float place[128], time[128];
                 open(&options, &sampler, &room);
-                for (uint64_t pixel = 0; pixel < test_repeats(12, 3); pixel++) {
+                for (uint64_t pixel = 0; pixel < test_repeats(4, 2); pixel++) {
                     assert_ok(koksma_generate(&spec, koksma__random_seed(options.seed, pixel, KOKSMA__USE_PIXEL),
                                               NULL, &points));
                     draw(&sampler, &room, pixel, pixel % 2 ? KOKSMA__USE_TIME : KOKSMA__USE_PIXEL,
