@@ -148,29 +148,20 @@ static void advise_behind(const koksma_rank_options *options, const koksma_rank_
     }
 }
 
-/* Returns the row of the advised pattern, or else of the best pattern so far whose error has no bands; 0 if all
-   errors have bands. */
-static size_t best_row(const koksma_rank_row *rows, const koksma_ranking *ranking)
-{
-    size_t best = ranking->n;
-    for (size_t i = 0; i < ranking->n; i++) {
-        if (!rows[i].coherence.coherent && (best == ranking->n || rows[i].mean < rows[best].mean)) {
-            best = i;
-        }
-    }
-    return ranking->advised ? ranking->advised_row : best < ranking->n ? best : 0;
-}
-
 static void advise_best(const koksma_rank_options *options, const koksma_rank_row *rows,
                         const koksma_ranking *ranking)
 {
-    const size_t best = best_row(rows, ranking);
+    const size_t best = ranking->use_row;
     const char *name = name_of(options, rows[best].pattern);
     if (ranking->n_coherent == ranking->n) {
         fprintf(stderr, "the error of every pattern has visible bands; %s leaves the least", name);
         print_coherence(&rows[best]);
     } else if (ranking->advised) {
         fprintf(stderr, "use %s", name);
+        if (ranking->n_slow) {
+            fprintf(stderr, " (the time was too short to rank %zu of %zu patterns)", ranking->n_slow,
+                    options->n_patterns);
+        }
     } else {
         fprintf(stderr, "undecided which pattern without bands leaves the least error; so far it is %s", name);
     }
@@ -203,15 +194,19 @@ static void advise_undecided(const koksma_rank_options *options, const koksma_ra
     if (ranking->n_slow) {
         fprintf(stderr, "; the time was too short to rank %zu of %zu patterns", ranking->n_slow, options->n_patterns);
     }
-    if (first == 1) {
-        fprintf(stderr, "; of the others %s leaves the least error%s", name_of(options, rows[0].pattern),
-                in_bands(&rows[0]));
+    if (ranking->n) {
+        size_t least = 0;
+        for (size_t i = 1; i < ranking->n; i++) {
+            least = rows[i].mean < rows[least].mean ? i : least;
+        }
+        fprintf(stderr, "; so far %s leaves the least error%s", name_of(options, rows[least].pattern),
+                in_bands(&rows[least]));
     }
     if (ranking->n && ranking->n_coherent == ranking->n) {
         fprintf(stderr, "; the error of every%s pattern has visible bands", ranking->n_slow ? " ranked" : "");
-    } else if (ranking->advised && ranking->n_coherent) {
-        fprintf(stderr, "; of those without bands %s leaves the least error",
-                name_of(options, rows[ranking->advised_row].pattern));
+    } else if (ranking->n_coherent) {
+        fprintf(stderr, "; of those without bands %s leaves the least%s",
+                name_of(options, rows[ranking->use_row].pattern), ranking->advised ? "" : " so far");
     }
     if (!ranking->needed_trials) {
         fprintf(
@@ -270,7 +265,7 @@ static void advise_sizes(const koksma_rank_options *options, const koksma_rank_r
             break;
         case KOKSMA_RANK_OVERTURNED:
             fprintf(stderr, "the order changes: %s is the best%s, and %s leaves ", name_of(options, advice->pattern),
-                    advice->coherent ? " (in bands)" : "", name_of(options, rows[best_row(rows, ranking)].pattern));
+                    advice->coherent ? " (in bands)" : "", name_of(options, rows[ranking->use_row].pattern));
             print_percent(advice->behind, advice->behind_low, advice->behind_high, "more");
             break;
         case KOKSMA_RANK_UNSETTLED:
@@ -357,6 +352,20 @@ static void warn_of_few_pixels(const koksma_rank_options *options, const koksma_
     }
 }
 
+/* Prints what the best pattern saves: how many random samples its samples are worth. */
+static void say_worth(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
+{
+    const size_t best = ranking->use_row;
+    if (isfinite(ranking->random_spp) && strcmp(options->patterns[rows[best].pattern], "random") != 0) {
+        fprintf(stderr, "  %d samples of %s are as good as %.0f random samples", options->spp,
+                name_of(options, rows[best].pattern), ranking->random_spp);
+        if (isfinite(ranking->random_spp_low) && isfinite(ranking->random_spp_high)) {
+            fprintf(stderr, " (%.0f to %.0f)", ranking->random_spp_low, ranking->random_spp_high);
+        }
+        fputs("\n", stderr);
+    }
+}
+
 void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
 {
     fprintf(stderr, "%s at %d samples a pixel, %d x %d pixels: ", base_of(options->scene), options->spp,
@@ -385,7 +394,9 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
     warn_of_few_pixels(options, rows, ranking->n);
     warn_of_bias(options, rows, ranking->n);
     say_of_method(options, ranking);
-    if (ranking->settled && ranking->n > 1 && !options->one_size && (!options->render || options->width)) {
+    if (ranking->settled && ranking->n > 1 && !options->one_size && !options->reference_image &&
+        (!options->render || options->width)) {
         advise_sizes(options, rows, ranking);
     }
+    say_worth(options, rows, ranking);
 }

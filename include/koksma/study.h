@@ -366,6 +366,9 @@ typedef struct koksma_rank_options {
     void *render_context;
     const char *reference; /* for an external renderer: pattern of the reference image. Its images must be unbiased
                               and depend on the seed (NULL: the first pattern) */
+    const koksma_image
+        *reference_image; /* a finished reference, taken as exact: linear light of the size of the images,
+                                            which has no checks at other sizes (NULL: references are rendered) */
     /* true: end when it is decided which pattern has the least error, without advice, checks at other sizes, or the
        order of the other patterns */
     bool best_only;
@@ -441,23 +444,31 @@ typedef struct koksma_rank_check {
 typedef struct koksma_ranking {
     size_t n;         /* number of ranked patterns, which are in rows 0 .. n - 1; the other patterns follow */
     size_t n_slow;    /* number of patterns that were too slow */
-    bool settled;     /* true: it is decided that the pattern in row 0 is the best */
+    bool settled;     /* true: it is decided that the pattern in row 0 is the best of the n ranked ones */
     bool complete;    /* true: every pair of patterns is decided */
     bool cut_short;   /* true: the time limit ended the work */
     long long trials; /* largest number of trials of one pattern */
     /* if not settled: approximate number of trials of each pattern that would decide which is the best; 0: unknown */
     long long needed_trials;
-    bool undecidable; /* true: not settled, and by the spread of 128 trials or more not even KOKSMA_MAX_RANK_TRIALS
+    bool undecidable; /* true: not settled, and by the spread of 256 trials or more not even KOKSMA_MAX_RANK_TRIALS
                          would decide which is the best: the reference is too noisy, or the difference too small */
     double needed_s;  /* seconds that needed_trials would take; 0: unknown */
     int width, height;
-    double reference_error; /* expected mean absolute error of the reference (NaN: the reference was not finished) */
+    double
+        reference_error; /* expected mean absolute error of the last reference (NaN: none was finished, or it was given) */
     koksma_rank_check checks[KOKSMA_RANK_CHECKS]; /* checks at half and at twice the image size */
     double seconds;
     bool advised;       /* true: it is decided which pattern has the least error among those whose error is not
                            coherent */
     size_t advised_row; /* row of that pattern, if `advised` is true */
     size_t n_coherent;  /* number of ranked patterns whose error is coherent */
+    size_t
+        use_row; /* row of the pattern to use: the advised one; if there is none, that with the least error so far of
+                           those whose error is not coherent, or of all if every error is */
+    /* how many samples of the pattern random leave as much error as spp samples of the pattern to use, because the error
+       of random falls as n^-1/2; with an interval, NaN at both ends if it is not known. NaN: random is not ranked, or the
+       metric follows no power law */
+    double random_spp, random_spp_low, random_spp_high;
 } koksma_ranking;
 
 /* Renders the scene with every pattern, trial by trial, and ranks the patterns by the error of the image: the
@@ -471,8 +482,10 @@ typedef struct koksma_ranking {
    decisions at the requested size are correct, and with 99.5 % probability all decisions of a check. A time limit
    ends this sequence early. A longer limit gives the same best pattern, or a best pattern where a shorter limit
    gave none. A pattern whose first round exceeds its part of the time limit is postponed until the other patterns
-   are decided, and no pattern is reported as best while one is postponed; two others that are 1 to 2 % apart may
-   then be found equal instead of different, because its pairs keep their part of the error rate. The trials of a
+   are decided; if the limit ends the work before that round is complete, it has no part in the decisions. The trials are
+   compared with the mean of 16 independent images, each of spp samples, at least 16; from 24 trials of a pattern on each
+   has 4 times as many samples, and from 96 trials 16 times as many. All intervals include the error of these references.
+   The trials of a
    pattern are independent of each other and of the trials of other patterns.
      rows  receives options->n_patterns rows
    A pattern that has no set of spp points is not ranked, and its row says why. A pattern whose file is missing or

@@ -16,8 +16,10 @@ from ._library import ArgumentError, call, flag, in_python, lab, pair, quoted, s
 from ._points import canonical
 from ._render import _found, _scene_name
 
+MODERN = ("sobol:scramble=owen", "pmj02", "correlated-multi-jittered", "multi-jittered", "n-rooks", "jittered", "random")
 THESIS = ("n-rooks", "jittered", "half-jittered", "poisson-disk:d=0.2", "poisson-disk:d=0.1", "regular", "random")
 
+_LISTS = {"modern": MODERN, "thesis": THESIS}
 _STATES = ("ranked", "too-slow", "refused")
 _DECISIONS = ("undecided", "best", "equal", "worse")
 _CHECKS = ("unchecked", "confirmed", "overturned", "unsettled")
@@ -80,12 +82,16 @@ class Ranking:
     needed_trials: Optional[int]  #: not settled: about so many trials of a pattern would decide; None: not known
     needed_seconds: Optional[float]
     size: Tuple[int, int]
-    reference_error: float
+    reference_error: float  #: of the last reference; NaN: it was given
     checks: Tuple[SizeCheck, ...]
     seconds: float
     advised: Optional[str]  #: decided to leave the least of those whose error is not coherent; None: undecided, or no such
     metric: str  #: what error is
-    undecidable: bool  #: by 128 trials or more, 65,536 would not decide either: a noisy reference, or a small difference
+    undecidable: bool  #: by 256 trials or more, 65,536 would not decide either: a noisy reference, or a small difference
+    use: str  #: `advised`; if there is none, the least error so far of those that are not coherent, or of all if all are
+    spp: int
+    random_spp: float  #: so many samples of the pattern random leave as much error as those of `use`; NaN: random is not ranked
+    random_spp_interval: Tuple[float, float]
 
     @property
     def best(self) -> Optional[str]:
@@ -101,6 +107,9 @@ class Ranking:
         for r in self.rows:
             error = f"{number(r.error)} ({number(r.interval[0], 3)} to {number(r.interval[1], 3)})" if r.position else r.reason or r.state
             lines.append(f"{r.position or '-':>4}  {r.pattern:{width}}  {error}{', bands' * r.coherent}{', not unbiased' * (r.unbiased is False)}")
+        if not math.isnan(self.random_spp) and self.use != "random":
+            lines.append(f"{self.spp} samples of {self.use} are as good as {self.random_spp:.0f} random samples "
+                         f"({self.random_spp_interval[0]:.0f} to {self.random_spp_interval[1]:.0f})")
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -155,7 +164,7 @@ class _Renderer:
             return self._SYSTEM
 
 
-def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS, spp: SupportsIndex = 16, *,
+def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[str]] = "modern", spp: SupportsIndex = 16, *,
          size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
          filter: Optional[str] = None, adaptive: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
          one_size: bool = False, threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
@@ -166,8 +175,9 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     ----------
     scene : str or path
         As of `render`.
-    patterns : sequence of str
-        Each once; those of Shirley's thesis when left out. One that has no set of spp points is not ranked (`reason` of its row);
+    patterns : "modern", "thesis" or sequence of str
+        Each once. "modern", the default: those that the project's own studies put first, and plainer ones to compare with;
+        "thesis": the seven of Shirley 1991. One that has no set of spp points is not ranked (`reason` of its row);
         one whose file is missing or malformed, or whose program may not run, raises.
     spp : int
         Samples a pixel.
@@ -194,8 +204,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         one thread unless `threads` says more. Without size, the pictures' own is taken, and other sizes are not checked. A
         ValueError of the renderer leaves its pattern out of the ranking, another exception ends it.
     reference : str, optional
-        With renderer, the pattern of the reference (the first one when left out): the mean of 16 pictures of 16 times as many
-        samples a pixel, which must depend on the seed.
+        With renderer, the pattern of the reference (the first one when left out): the mean of 16 pictures of spp samples a pixel,
+        at least 16, later of 4 and of 16 times as many, which must depend on the seed.
 
     Returns
     -------
@@ -214,6 +224,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     if renderer is not None and not callable(renderer):
         raise TypeError(f"renderer must be callable, not {quoted(renderer)}")
     other = _Renderer(renderer) if renderer is not None else None
+    if isinstance(patterns, str):
+        patterns = _LISTS.get(patterns, patterns)
     names = [canonical(pattern) if other is None else pattern for pattern in texts("patterns", patterns)]
     if not names or len(set(names)) < len(names):
         raise ArgumentError("patterns must be one or more, each once")
@@ -258,7 +270,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         reference_error=out.reference_error, seconds=out.seconds,
         advised=names[rows[out.advised_row].pattern] if out.advised else None,
         checks=tuple(_check(c, names) for c in out.checks), metric=metric,
-        undecidable=out.undecidable)
+        undecidable=out.undecidable, use=names[rows[out.use_row].pattern], spp=int(options.spp), random_spp=out.random_spp,
+        random_spp_interval=(out.random_spp_low, out.random_spp_high))
 
 
 def _result(result: s.RankCheckResult, names: Sequence[str]) -> FirstPlace:

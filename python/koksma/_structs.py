@@ -352,7 +352,7 @@ class RankOptions(Structure):
     _fields_ = [("scene", c_char_p), ("patterns", POINTER(c_char_p)), ("n_patterns", c_size_t), ("spp", c_int),
                 ("width", c_int), ("height", c_int), ("integrator", c_void_p), ("filter", c_void_p), ("adaptive", c_char_p),
                 ("metric", POINTER(MetricSpec)), ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool), ("render", RankRenderer),
-                ("render_context", c_void_p), ("reference", c_char_p), ("best_only", c_bool)]
+                ("render_context", c_void_p), ("reference", c_char_p), ("reference_image", POINTER(Image)), ("best_only", c_bool)]
 
 
 class SceneGain(Structure):
@@ -425,7 +425,8 @@ class Ranking(Structure):
                 ("undecidable", c_bool), ("needed_s", c_double), ("width", c_int), ("height", c_int),
                 ("reference_error", c_double),
                 ("checks", RankCheck * RANK_CHECKS), ("seconds", c_double), ("advised", c_bool),
-                ("advised_row", c_size_t), ("n_coherent", c_size_t)]
+                ("advised_row", c_size_t), ("n_coherent", c_size_t), ("use_row", c_size_t),
+                ("random_spp", c_double), ("random_spp_low", c_double), ("random_spp_high", c_double)]
 
 
 #: Header, C name and value of the limits above.

@@ -583,7 +583,7 @@ static void adaptive_rankings_are_those_of_the_pictures(void **state)
         koksma_coherence_find(&sums, &values);
         assert_true(row->trials == TRIALS && row->biased);
         assert_near(row->mean / means[p], 1, 0.01);
-        assert_near(row->robust / robust, 1, 0.01);
+        assert_near(row->robust / robust, 1, 0.04); /* the reference has up to 1/4 of the error, so up to 1/32 more */
         assert_near(row->coherence.coherence / values.coherence, 1, 0.05);
         assert_true(row->coherence.coherent == values.coherent);
         koksma_coherence_fini(&sums);
@@ -751,8 +751,14 @@ static double leaping(void)
     return (double)call + (call >= first_leap ? 6000 : 0) + (call >= second_leap ? 6000 : 0);
 }
 
-/* A trial that takes more than its pattern's share puts the pattern off, and the others are ranked without it: they
-   are ranked when the time ends before its turn comes again, and all are when it does not, with the same best
+/* The best of the patterns of `whole`, or of those but the last of `rows`, which has no rank. */
+static size_t best_but(const koksma_rank_row *whole, const koksma_rank_row *rows)
+{
+    return whole[rows && whole[0].pattern == rows[2].pattern].pattern;
+}
+
+/* A trial that takes more than its pattern's share puts the pattern off, and the others are ranked without it: their best
+   is decided when the time ends before its turn comes again, and all are ranked when it does not, with the same best
    pattern. */
 static void slow_patterns_are_put_off(void **state)
 {
@@ -760,29 +766,31 @@ static void slow_patterns_are_put_off(void **state)
     koksma_rank_row whole[3], rows[3];
     koksma_rank_options options = small();
     static const unsigned long long gaps[] = {145, 190, 1000000};
-    size_t left_out = 0, settled = 0;
+    size_t left_out = 0, settled = 0, settled_without = 0;
     options.one_size = true;
     rank_small(&options, 1, whole);
     options.time_limit_s = 10000;
     koksma__set_clock(leaping);
-    for (unsigned long long call = 100; call < 160; call += test_repeats(4, 8)) {
+    for (unsigned long long call = 30; call < 150; call += test_repeats(4, 8)) {
         for (int g = 0; g < 3; g++) {
             atomic_store(&ticks, 0);
             first_leap = call;
             second_leap = call + gaps[g];
             const koksma_ranking r = rank_small(&options, 1, rows);
             settled += r.settled;
-            assert_true(r.n + r.n_slow == 3 && (!r.settled || rows[0].pattern == whole[0].pattern));
+            assert_true(r.n + r.n_slow == 3 &&
+                        (!r.settled || rows[0].pattern == best_but(whole, r.n < 3 ? rows : NULL)));
             if (r.n == 2) {
                 left_out++;
-                assert_true(r.cut_short && !r.settled && !r.complete && r.needed_trials > 0 && r.needed_s > 0);
+                settled_without += r.settled;
+                assert_true(r.cut_short && !r.complete && (r.settled || (r.needed_trials > 0 && r.needed_s > 0)));
                 assert_true(rows[0].position == 1 && rows[2].state == KOKSMA_RANK_TOO_SLOW && rows[2].position == 0);
                 assert_true(!rows[1].decision || rows[1].decision == KOKSMA_RANK_WORSE);
             }
         }
     }
     koksma__set_clock(NULL);
-    assert_true(left_out >= test_repeats(2, 1) && settled >= 3);
+    assert_true(left_out >= test_repeats(2, 1) && settled_without >= 1 && settled >= 3);
 }
 
 static void patterns_that_cannot_serve(void **state)
@@ -849,14 +857,14 @@ static koksma_ranking rank_noise(double reference, long long trials)
     return rank_small(&options, 1, rows);
 }
 
-/* That no number of trials would decide is said after 128 trials or more, and only where the reference is to blame. */
+/* That no number of trials would decide is said after 256 trials or more, and only where the reference is to blame. */
 static void undecidable_only_after_many_trials(void **state)
 {
     (void)state;
     const koksma_ranking few = rank_noise(16, 8), many = rank_noise(16, 1024), good = rank_noise(0.001, 128),
                          more = rank_noise(0.001, 65536);
     assert_true(!few.settled && !few.undecidable && few.trials == 8);
-    assert_true(!many.settled && many.undecidable && !many.needed_trials && many.trials >= 128 && many.trials < 1024);
+    assert_true(!many.settled && many.undecidable && !many.needed_trials && many.trials >= 256 && many.trials < 1024);
     assert_true(!good.settled && !good.undecidable && good.needed_trials > 128);
     assert_true(more.settled && !more.undecidable && !more.needed_trials && more.trials >= good.needed_trials / 4);
 }

@@ -27,6 +27,7 @@
 #include "image/image.h"
 #include "study/plan/variants.h"
 #include "study/ranking/ranking_contest.h"
+#include "study/ranking/ranking_rows.h"
 
 #define ALPHA 0.04
 #define CHECK_ALPHA 0.005
@@ -110,15 +111,6 @@ static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHE
     return n;
 }
 
-/* Stores the excess of a quotient over 1 with its interval, which is NaN at both ends if one of them is not known. */
-static void put_behind(koksma__estimate q, double *behind, double *low, double *high)
-{
-    const bool known = isfinite(q.low) && isfinite(q.high);
-    *behind = q.value - 1;
-    *low = known ? q.low - 1 : (double)NAN;
-    *high = known ? q.high - 1 : (double)NAN;
-}
-
 /* The result of a check of contestant i: whether `best`, the contestant that was decided to be the best at the
    checked size, is i. */
 static koksma_rank_check_result conclude(const koksma__contest *c, size_t i, size_t best)
@@ -130,7 +122,7 @@ static koksma_rank_check_result conclude(const koksma__contest *c, size_t i, siz
         const koksma__estimate q = koksma__rank_compare(&c->table, i, best);
         result.pattern = c->contestants[best].pattern;
         result.coherent = c->contestants[best].coherence.coherent;
-        put_behind(q, &result.behind, &result.behind_low, &result.behind_high);
+        koksma__rank_put_behind(q, &result.behind, &result.behind_low, &result.behind_high);
     }
     return result;
 }
@@ -229,130 +221,24 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
     if (!needed) {
         return;
     }
-    if (c->reference.made < KOKSMA__RANK_REPLICATES) { /* the cost of a trial is estimated by its number of samples */
-        const double part = fmax(c->reference.made + r->control.fraction, 0.01) / KOKSMA__RANK_REPLICATES;
-        const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(r->options->spp);
+    const double made = c->references[0].made + r->control.fraction; /* another renderer tells no fraction */
+    if (c->references[0].made < KOKSMA__RANK_REPLICATES) { /* a trial is estimated by its number of samples */
+        const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(r->options->spp, 0);
         const double trials = (double)(needed * open) * r->options->spp / samples;
-        out->needed_s = elapsed_s * (1 + trials) / part;
+        out->needed_s = made > 0 ? elapsed_s * (1 + trials) * KOKSMA__RANK_REPLICATES / made : 0;
         return;
     }
     for (size_t i = 0; i < c->n; i++) {
-        const size_t made = koksma__contest_errors(c, i).n;
+        const size_t done = koksma__contest_errors(c, i).n;
         bool more = !c->table.entrants[i].n_rounds;
         for (size_t j = 0; j < c->n; j++) {
             more |= koksma__rank_matters(&c->table, i, j, KOKSMA__RANK_FIND_LEADER);
         }
-        if (more && !c->table.entrants[i].out && made < needed) {
-            threads_s += (double)(needed - made) * trial_s(c, i);
+        if (more && !c->table.entrants[i].out && done < needed) {
+            threads_s += (double)(needed - done) * trial_s(c, i);
         }
     }
     out->needed_s = elapsed_s + threads_s / threads;
-}
-
-/* ---- Rows ------------------------------------------------------------------------------------------------ */
-
-/* Whether contestant a comes before b in the rows: the leader is first, then contestants follow by position and mean
-   error, then those without a complete round, and last those that are excluded. */
-static bool is_before(const koksma__contest *c, size_t a, size_t b)
-{
-    const koksma__rank_errors *mine = koksma__rank_latest(&c->table, a), *other = koksma__rank_latest(&c->table, b);
-    const bool a_out = c->table.entrants[a].out, b_out = c->table.entrants[b].out;
-    if (a_out || b_out || !mine || !other) {
-        return a_out != b_out ? b_out : !a_out && mine && !other;
-    }
-    const size_t place = koksma__rank_position(&c->table, a), other_place = koksma__rank_position(&c->table, b);
-    if (a == c->table.leader || b == c->table.leader) {
-        return a == c->table.leader;
-    }
-    return place != other_place ? place < other_place : mine->mean < other->mean;
-}
-
-static koksma_rank_decision decision_of(const koksma__rank_table *table, size_t i, size_t first)
-{
-    const koksma__rank_verdict verdict = table->pairs[i * table->n + first].verdict;
-    return i == first                     ? (table->leader == i ? KOKSMA_RANK_BEST : KOKSMA_RANK_UNDECIDED)
-           : verdict == KOKSMA__RANK_MORE ? KOKSMA_RANK_WORSE
-           : verdict == KOKSMA__RANK_SAME ? KOKSMA_RANK_EQUAL
-                                          : KOKSMA_RANK_UNDECIDED;
-}
-
-static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_rank_row *row)
-{
-    const koksma__rank_table *table = &c->table;
-    const koksma__rank_errors e = koksma__contest_errors(c, i), best = koksma__contest_errors(c, first);
-    *row = (koksma_rank_row){
-        .pattern = c->contestants[i].pattern, .mean = NAN, .low = NAN, .high = NAN, .robust = NAN, .top_share = NAN};
-    row->behind = row->behind_low = row->behind_high = NAN;
-    row->biased =
-        !c->options->render &&
-        (c->options->adaptive || koksma__image_pattern_is_biased(c->options->patterns[c->contestants[i].pattern]));
-    row->coherence = c->contestants[i].coherence;
-    row->trials = (long long)e.n;
-    row->state = table->entrants[i].out        ? KOKSMA_RANK_REFUSED
-                 : table->entrants[i].n_rounds ? KOKSMA_RANK_RANKED
-                                               : KOKSMA_RANK_TOO_SLOW;
-    if (row->state == KOKSMA_RANK_REFUSED) {
-        row->trials = 0;
-        koksma_coherence_find(&(koksma_coherence){0}, &row->coherence);
-        snprintf(row->reason, sizeof row->reason, "%s", c->contestants[i].reason);
-        return;
-    }
-    if (row->state == KOKSMA_RANK_TOO_SLOW) {
-        snprintf(row->reason, sizeof row->reason,
-                 "too slow: only %zu of its first %d trials were done within the time limit", e.n,
-                 KOKSMA__RANK_FIRST_ROUND);
-    } else {
-        row->position = koksma__rank_position(table, i);
-        row->decision = decision_of(table, i, first);
-    }
-    if (e.n) {
-        const koksma__estimate mean = koksma__rank_error(&e, koksma__rank_error_level(table));
-        row->mean = mean.value;
-        row->low = mean.low;
-        row->high = mean.high;
-        row->robust = e.robust;
-        row->top_share = e.top_share;
-    }
-    if (e.n && best.n) {
-        const koksma__estimate q = i == first ? (koksma__estimate){1, 1, 1}
-                                   : row->position
-                                       ? koksma__rank_compare(table, i, first)
-                                       : koksma__rank_quotient(&e, &best, koksma__rank_error_level(table));
-        put_behind(q, &row->behind, &row->behind_low, &row->behind_high);
-    }
-}
-
-static koksma_status fill_rows(const koksma__contest *c, koksma_rank_row *rows, koksma_ranking *out)
-{
-    size_t *order = malloc(c->n * sizeof *order);
-    KOKSMA__REQUIRE_MEMORY(order, c->n * sizeof *order);
-    out->complete = true;
-    for (size_t i = 0; i < c->n; i++) {
-        size_t at = i;
-        for (; at > 0 && is_before(c, i, order[at - 1]); at--) {
-            order[at] = order[at - 1];
-        }
-        order[at] = i;
-    }
-    for (size_t k = 0; k < c->n; k++) {
-        fill_row(c, order[k], order[0], &rows[k]);
-        out->n += rows[k].state == KOKSMA_RANK_RANKED;
-        out->n_coherent += rows[k].state == KOKSMA_RANK_RANKED && rows[k].coherence.coherent;
-        if (order[k] == c->table.advised) {
-            out->advised = true;
-            out->advised_row = k;
-        }
-        out->n_slow += rows[k].state == KOKSMA_RANK_TOO_SLOW;
-        out->trials = rows[k].trials > out->trials ? rows[k].trials : out->trials;
-        for (size_t j = 0; j < c->n; j++) {
-            out->complete &= j == k || c->table.entrants[k].out || c->table.entrants[j].out ||
-                             c->table.pairs[k * c->n + j].verdict;
-        }
-    }
-    out->complete &= !out->n_slow;
-    out->settled = c->table.leader != NOBODY;
-    free(order);
-    return KOKSMA_OK;
 }
 
 /* ---- The whole ranking ---------------------------------------------------------------------------------- */
@@ -371,7 +257,7 @@ static koksma_status nobody_can_serve(const koksma__contest *c)
    renderer is used and the options give no size, none are checked, because that renderer may support only one size. */
 static bool check_sizes(const koksma_rank_options *options)
 {
-    return !options->one_size && (!options->render || options->width);
+    return !options->one_size && !options->reference_image && (!options->render || options->width);
 }
 
 static koksma_status do_sequence(ranking *r, koksma_ranking *out)
@@ -407,9 +293,13 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
         out->cut_short = true;
         status = KOKSMA_OK;
     }
-    const bool whole = r->contest.reference.made == KOKSMA__RANK_REPLICATES;
-    out->reference_error = whole ? r->contest.reference.error : (double)NAN;
-    status = status ? status : fill_rows(&r->contest, rows, out);
+    out->reference_error = NAN;
+    for (int stage = 0; stage < KOKSMA__RANK_STAGES; stage++) {
+        const koksma__rank_reference *reference = &r->contest.references[stage];
+        out->reference_error = reference->made == KOKSMA__RANK_REPLICATES ? reference->error : out->reference_error;
+    }
+    status = status || !out->cut_short ? status : koksma__rank_settle_without_slow(&r->contest.table);
+    status = status ? status : koksma__rank_fill_rows(&r->contest, rows, out);
     if (!status && !out->settled) {
         estimate_need(r, out);
     }

@@ -29,6 +29,7 @@ enum { BATCH = 64, FIRST = KOKSMA__RANK_FIRST_ROUND, ERRORS = KOKSMA__RANK_ERROR
 /* Trials of one round that are rendered in parallel. */
 typedef struct batch {
     koksma__contest *contest;
+    const koksma__rank_reference *reference;
     const size_t *active; /* indices of the contestants that make the round */
     size_t n_active, first, count;
     bool first_round;
@@ -115,20 +116,20 @@ static koksma_status add_coherence(const koksma__contest *c, koksma__contestant 
     return status;
 }
 
-static koksma_status measure_coherence(koksma__contest *c, koksma__contestant *p, size_t trial,
-                                       const koksma_image *image)
+static koksma_status measure_coherence(const batch *b, koksma__contestant *p, size_t trial, const koksma_image *image)
 {
-    double *errors = malloc(c->reference.pixels * sizeof *errors);
-    KOKSMA__REQUIRE_MEMORY(errors, c->reference.pixels * sizeof *errors);
-    koksma__rank_reference_subtract(&c->reference, image, errors);
-    return add_coherence(c, p, trial, errors);
+    double *errors = malloc(b->reference->pixels * sizeof *errors);
+    KOKSMA__REQUIRE_MEMORY(errors, b->reference->pixels * sizeof *errors);
+    koksma__rank_reference_subtract(b->reference, image, errors);
+    return add_coherence(b->contest, p, trial, errors);
 }
 
 /* Renders a trial and measures its errors. In the first round, also adds the errors of its pixels to the sums from
    which the coherence of the pattern's error is computed. */
-static koksma_status render_trial(koksma__contest *c, koksma__contestant *p, size_t trial, const koksma_run *run,
+static koksma_status render_trial(const batch *b, koksma__contestant *p, size_t trial, const koksma_run *run,
                                   double errors[ERRORS])
 {
+    const koksma__contest *c = b->contest;
     const char *pattern = c->options->patterns[p->pattern];
     koksma_image image;
     const koksma__picture picture = {.pattern = pattern,
@@ -141,11 +142,11 @@ static koksma_status render_trial(koksma__contest *c, koksma__contestant *p, siz
                                                               c->scene.height, trial)};
     koksma_status status = koksma__study_render(&c->scene, &picture, run, &image);
     if (!status) {
-        status = koksma__rank_reference_compare(&c->reference, &image, errors);
+        status = koksma__rank_reference_compare(b->reference, &image, errors);
         status = status || isfinite(errors[0])
                      ? status
                      : koksma__fail(KOKSMA_IMPOSSIBLE, "pixels of trial %zu are not finite numbers", trial);
-        status = status || trial >= FIRST ? status : measure_coherence(c, p, trial, &image);
+        status = status || trial >= FIRST ? status : measure_coherence(b, p, trial, &image);
         koksma_image_fini(&image);
     }
     return status;
@@ -163,7 +164,7 @@ static koksma_status do_trial(void *context, size_t i)
     timed work = {.contest = c, .contestant = p, .start_s = koksma__now_s()};
     const koksma_run run = run_in_share(&work);
     double *errors = b->first_round ? p->first[t] : b->errors + (a * b->count + t) * ERRORS;
-    const koksma_status status = render_trial(c, p, b->first + t, &run, errors);
+    const koksma_status status = render_trial(b, p, b->first + t, &run, errors);
     atomic_fetch_add(&p->busy_ns, since_ns(work.start_s));
     if (!status && b->first_round) {
         atomic_store(&p->done[t], true);
@@ -222,11 +223,33 @@ static koksma_status do_batch(batch *b)
     return status;
 }
 
+static const char *reference_pattern(const koksma_rank_options *options)
+{
+    return !options->render ? "sobol:scramble=owen" : options->reference ? options->reference : options->patterns[0];
+}
+
+/* Makes the reference of a stage, unless it has been made. */
+static koksma_status make_reference(koksma__contest *c, int stage)
+{
+    const koksma_rank_options *options = c->options;
+    koksma__rank_reference *reference = &c->references[stage];
+    return reference->pixels ? KOKSMA_OK
+           : options->reference_image
+               ? koksma__rank_reference_take(reference, options->metric, &c->scene, options->reference_image)
+               : koksma__rank_reference_init(reference, options->metric, &c->scene, reference_pattern(options),
+                                             c->variant, options->spp, stage, &c->control->run);
+}
+
 static koksma_status do_round(koksma__contest *c, int round, const size_t *active, size_t n_active)
 {
+    const int stage = c->options->reference_image ? 0 : koksma__rank_reference_stage(round);
+    KOKSMA__TRY(make_reference(c, stage));
     const size_t end = koksma__rank_trials(round);
-    batch b = {
-        .contest = c, .active = active, .n_active = n_active, .first = round ? koksma__rank_trials(round - 1) : 0};
+    batch b = {.contest = c,
+               .reference = &c->references[stage],
+               .active = active,
+               .n_active = n_active,
+               .first = round ? koksma__rank_trials(round - 1) : 0};
     b.first_round = round == 0;
     b.errors = b.first_round ? NULL : malloc(n_active * BATCH * ERRORS * sizeof *b.errors);
     koksma_status status =
@@ -315,20 +338,13 @@ static void set_share(koksma__contest *c, double part)
             : 0;
 }
 
-static const char *reference_pattern(const koksma_rank_options *options)
-{
-    return !options->render ? "jittered" : options->reference ? options->reference : options->patterns[0];
-}
-
 koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
 {
     koksma_status status = KOKSMA_OK;
     size_t *active = malloc(c->n * sizeof *active), n_active;
     KOKSMA__REQUIRE_MEMORY(active, c->n * sizeof *active);
-    if (!c->reference.pixels) {
-        status =
-            koksma__rank_reference_init(&c->reference, c->options->metric, &c->scene, reference_pattern(c->options),
-                                        c->variant, c->options->spp, &c->control->run);
+    if (!c->references[0].pixels) {
+        status = make_reference(c, 0);
         set_share(c, 1);
     }
     while (!status && !koksma__rank_reached(&c->table, goal)) {
@@ -411,7 +427,9 @@ void koksma__contest_fini(koksma__contest *c)
     if (c->contestants) {
         pthread_mutex_destroy(&c->lock);
     }
-    koksma__rank_reference_fini(&c->reference);
+    for (int stage = 0; stage < KOKSMA__RANK_STAGES; stage++) {
+        koksma__rank_reference_fini(&c->references[stage]);
+    }
     koksma__rank_table_fini(&c->table);
     free(c->contestants);
     *c = (koksma__contest){0};

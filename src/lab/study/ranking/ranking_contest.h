@@ -45,8 +45,8 @@ typedef struct koksma__contest {
     int max_rounds;
     size_t n;
     koksma__contestant *contestants;
-    koksma__rank_table table; /* entrant i is contestant i */
-    koksma__rank_reference reference;
+    koksma__rank_table table;                               /* entrant i is contestant i */
+    koksma__rank_reference references[KOKSMA__RANK_STAGES]; /* pixels is 0 before a stage is begun */
     unsigned long long share_ns; /* thread time allowed for a pattern's first round; 0: no limit */
     pthread_mutex_t lock;        /* guards `reason` of all contestants */
 } koksma__contest;

@@ -49,9 +49,9 @@
 /* Relative bound of the rounding error in the difference of two values that are equal in exact arithmetic. */
 #define ROUNDING 1e-12
 
-/* A pair is declared hopeless only from 128 trials on: with fewer trials, much of the estimated variance v of the
-   reference (see above) is noise of the trials. */
-enum { SURE_ROUND = 8 };
+/* A pair is declared hopeless only from 256 trials on: with fewer trials, much of the estimated variance v of the
+   reference (see above) is noise of the trials, or that of its earlier stages. */
+enum { SURE_ROUND = 10 };
 
 #define SURE_ERROR 0.0035 /* S, 1.2, 2 % and 1/4 of the head of this file */
 #define OVERLAP 1.2

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The reference of a ranking is the mean of sixteen replicates. Each has 16 times as many samples as the patterns,
- * and at least 64: together 256 times as many, as far as KOKSMA_MAX_SPP allows. Where errors fall as slowly as
- * 1/sqrt N, the reference's error is 1/16 of that of an image with jittered samples; where they fall as N^-3/4, as
- * with jittered samples at edges, it is 1/32. The mean without replicate r is computed as mean - (replicate r -
- * mean) / (k - 1) for k replicates, so that equal replicates give exactly equal means.
+ * The reference of a ranking is the mean of sixteen replicates. At stage 0 each has as many samples as the patterns, and
+ * at least 16; at each further stage 4 times as many, as far as KOKSMA_MAX_SPP allows: at stage 2 the reference has 256
+ * times as many samples as a trial. Where errors fall as slowly as 1/sqrt N, its error is then 1/16 of that of an image
+ * with the same pattern; where they fall as N^-3/4, it is 1/32. Stage 1 begins with 24 trials of a pattern and stage 2
+ * with 96, so that a reference costs at most about as much as the trials of the closest patterns so far, and a ranking
+ * shows its first results after the time of 16 trials and of the first rounds. The mean without replicate r is computed
+ * as mean - (replicate r - mean) / (k - 1) for k replicates, so that equal replicates give exactly equal means.
  */
 #include "study/ranking/ranking_reference.h"
 
@@ -15,12 +17,18 @@
 #include "image/formats.h"
 #include "image/image.h"
 
-enum { REPLICATES = KOKSMA__RANK_REPLICATES, LEAST_SPP = 64, TIMES = 16 };
+enum { REPLICATES = KOKSMA__RANK_REPLICATES, LEAST_SPP = 16, STAGE_1 = 3, STAGE_2 = 7 };
 
-long long koksma__rank_reference_spp(int spp)
+int koksma__rank_reference_stage(int round)
 {
+    return round < STAGE_1 ? 0 : round < STAGE_2 ? 1 : 2;
+}
+
+long long koksma__rank_reference_spp(int spp, int stage)
+{
+    const long long least = (long long)(spp > LEAST_SPP ? spp : LEAST_SPP) << 2 * stage;
     long long side = 1;
-    while (side * side < LEAST_SPP || (side * side < (long long)TIMES * spp && side * side < KOKSMA_MAX_SPP)) {
+    while (side * side < least && side * side < KOKSMA_MAX_SPP) {
         side++;
     }
     return side * side;
@@ -68,12 +76,10 @@ static void finish(koksma__rank_reference *reference, const double *squares)
     reference->error = total / (double)reference->pixels;
 }
 
-koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, const koksma_metric_spec *metric,
-                                          const koksma__study_scene *scene, const char *pattern,
-                                          const char *of_trials, int spp, const koksma_run *run)
+/* Allocates a reference without replicates. Errors: MEMORY. */
+static koksma_status begin(koksma__rank_reference *reference, const koksma_metric_spec *metric,
+                           const koksma__study_scene *scene)
 {
-    char variant[KOKSMA__VARIANT_TEXT];
-    koksma__variant_of_reference(of_trials, variant);
     const size_t pixels = (size_t)scene->width * (size_t)scene->height;
     *reference = (koksma__rank_reference){.metric = metric ? *metric : (koksma_metric_spec){&koksma__metric_mae, {0}},
                                           .width = scene->width,
@@ -82,29 +88,46 @@ koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, con
     reference->values = pixels * (size_t)reference->metric.metric->channels;
     reference->mean = calloc(reference->values, sizeof *reference->mean);
     reference->without = calloc(reference->values, REPLICATES * sizeof *reference->without);
-    double *squares = calloc(pixels, sizeof *squares);
-    koksma_status status =
-        squares && reference->mean && reference->without
-            ? KOKSMA_OK
-            : koksma__fail_memory((reference->values * (REPLICATES + 1) + pixels) * sizeof *squares);
+    return reference->mean && reference->without
+               ? KOKSMA_OK
+               : koksma__fail_memory(reference->values * (REPLICATES + 1) * sizeof *reference->mean);
+}
+
+static koksma_status fail_of_pixels(const koksma__study_scene *scene)
+{
+    return koksma__fail(KOKSMA_IMPOSSIBLE, "%s: pixels of the reference are not finite numbers", scene->name);
+}
+
+static koksma_status render_replicate(koksma__rank_reference *reference, const koksma__study_scene *scene,
+                                      koksma__picture *picture, int stage, double *squares, const koksma_run *run)
+{
+    koksma_image image;
+    picture->seed = koksma__job_seed("rank-reference|%s|%s|%dx%d|%d|%d", scene->hash, picture->variant, scene->width,
+                                     scene->height, stage, reference->made);
+    koksma_status status = koksma__study_render(scene, picture, run, &image);
+    if (!status) {
+        status = add_replicate(reference, &image, squares) ? KOKSMA_OK : fail_of_pixels(scene);
+        koksma_image_fini(&image);
+    }
+    return status;
+}
+
+koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, const koksma_metric_spec *metric,
+                                          const koksma__study_scene *scene, const char *pattern,
+                                          const char *of_trials, int spp, int stage, const koksma_run *run)
+{
+    char variant[KOKSMA__VARIANT_TEXT];
+    koksma__variant_of_reference(of_trials, variant);
+    koksma_status status = begin(reference, metric, scene);
+    double *squares = calloc(reference->pixels, sizeof *squares);
+    koksma__picture picture = {.pattern = pattern,
+                               .variant = variant,
+                               .spp = koksma__rank_reference_spp(spp, stage),
+                               .width = scene->width,
+                               .height = scene->height};
+    status = status || squares ? status : koksma__fail_memory(reference->pixels * sizeof *squares);
     while (!status && reference->made < REPLICATES) {
-        koksma_image image;
-        const koksma__picture picture = {.pattern = pattern,
-                                         .variant = variant,
-                                         .spp = koksma__rank_reference_spp(spp),
-                                         .width = scene->width,
-                                         .height = scene->height,
-                                         .seed =
-                                             koksma__job_seed("rank-reference|%s|%s|%dx%d|%d", scene->hash, variant,
-                                                              scene->width, scene->height, reference->made)};
-        status = koksma__study_render(scene, &picture, run, &image);
-        if (!status) {
-            const bool finite = add_replicate(reference, &image, squares);
-            koksma_image_fini(&image);
-            status = finite ? KOKSMA_OK
-                            : koksma__fail(KOKSMA_IMPOSSIBLE, "%s: pixels of the reference are not finite numbers",
-                                           scene->name);
-        }
+        status = render_replicate(reference, scene, &picture, stage, squares, run);
     }
     if (!status) {
         finish(reference, squares);
@@ -117,6 +140,26 @@ koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, con
     }
     free(squares);
     return status;
+}
+
+koksma_status koksma__rank_reference_take(koksma__rank_reference *reference, const koksma_metric_spec *metric,
+                                          const koksma__study_scene *scene, const koksma_image *image)
+{
+    KOKSMA__FAIL_IF(image->width != scene->width || image->height != scene->height, KOKSMA_ARGUMENT,
+                    "the reference has %d x %d pixels, and the images of the patterns %d x %d: choose its size",
+                    image->width, image->height, scene->width, scene->height);
+    KOKSMA__TRY(begin(reference, metric, scene));
+    koksma__metric_values(reference->metric.metric, image, reference->mean);
+    bool finite = true;
+    for (size_t v = 0; v < reference->values; v++) {
+        finite &= (bool)isfinite(reference->mean[v]);
+    }
+    for (size_t i = 0; i < REPLICATES * reference->values; i++) {
+        reference->without[i] = reference->mean[i % reference->values];
+    }
+    reference->made = REPLICATES;
+    reference->error = NAN;
+    return finite ? KOKSMA_OK : fail_of_pixels(scene);
 }
 
 void koksma__rank_reference_fini(koksma__rank_reference *reference)
