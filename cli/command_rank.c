@@ -343,8 +343,13 @@ static int run(const cli_arguments *arguments)
     const koksma_filter *filter = koksma_filter_find("box");
     const char *list = cli_text(arguments, "spp", "16"), *command = cli_text(arguments, "with", NULL);
     if (command && !strcmp(command, "mitsuba")) {
-        command =
-            "\"${KOKSMA_PYTHON:-python3}\" -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out}";
+        command = /* the last line that is printed is the reason of a failure: LLVM aborts without one */
+            "\"${KOKSMA_PYTHON:-python3}\" -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out} "
+            "|| "
+            "{ code=$?; [ $code -lt 128 ] || echo \"Mitsuba's process was killed by signal $((code - 128)); variants "
+            "llvm_... "
+            "need LLVM 17 or later: DRJIT_LIBLLVM_PATH=/path/to/libLLVM.so, or KOKSMA_MITSUBA_VARIANT=scalar_rgb\"; "
+            "exit $code; }";
     }
     if (!options_fit(arguments)) {
         return CLI_USAGE;

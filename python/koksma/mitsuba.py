@@ -367,8 +367,9 @@ class Renderer:
         place = mi.Properties.ResolvedReference(len(state.nodes) - 1)
         for node in state.nodes:
             if node.type == mi.ObjectType.Sensor:
-                for name, reference in list(node.props.references()):
-                    if state.nodes[reference.index()].type == mi.ObjectType.Sampler:
+                for name in list(node.props.keys()):  # not references(), which lacks those without a name of an XML file
+                    if node.props.type(name) == mi.Properties.Type.ResolvedReference \
+                            and state.nodes[node.props[name].index()].type == mi.ObjectType.Sampler:
                         del node.props[name]
                 node.props["sampler"] = place
             elif node.type == mi.ObjectType.Film and size:

@@ -195,6 +195,45 @@ class Rankings(unittest.TestCase):
         self.assertEqual([row.state for row in ranking.rows], ["ranked", "refused"])
         self.assertIn("5", ranking.rows[1].reason)
 
+    def test_a_sampler_is_replaced_however_it_is_written(self):
+        """Files as people write them: the ranking's sampler takes the place of the file's, of which there may be none."""
+        lines = '<integer name="sample_count" value="9"/>'
+        plain = f'<sampler type="multijitter">{lines}</sampler>'
+        film = '<film type="hdrfilm"><integer name="width" value="7"/><integer name="height" value="5"/></film>'
+        view = '<transform name="to_world"><lookat origin="0, 0, 5" target="0, 0, 0" up="0, 1, 0"/></transform>'
+        sensor = '<sensor type="perspective">{0}</sensor>'
+        styles = {
+            "without a name": sensor.format(view + plain + film),
+            "with a name": sensor.format(view + plain.replace("type", 'name="sampler" type') + film),
+            "with another name": sensor.format(view + plain.replace("type", 'name="my_sampler" type') + film),
+            "with an id": sensor.format(view + film + plain.replace("type", 'id="sampler" type')),
+            "in one tag": sensor.format(view + '<sampler type="independent"/>' + film),
+            "none": sensor.format(view + film),
+            "before everything, in single quotes": sensor.format(f"<sampler type='ldsampler' >\n{lines}<!-- 9 --></sampler>\n" + film + view),
+            "defaults": '<default name="spp" value="9"/><default name="kind" value="stratified"/>' + sensor.format(
+                view + '<sampler type="$kind"><integer name="sample_count" value="$spp"/></sampler>' + film),
+            "referred to": plain.replace("type", 'id="s" type') + sensor.format(view + '<ref id="s"/>' + film),
+            "referred to by a name": plain.replace("type", 'id="s" type') + sensor.format(view + '<ref name="sampler" id="s"/>' + film),
+            "two sensors": 2 * sensor.format(view + plain + film),
+            "in an included file": '<include filename="camera.xml"/>',
+            "an older version": sensor.format(view.replace("to_world", "toWorld") + plain.replace("sample_count", "sampleCount") + film),
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "camera.xml"), "w", encoding="utf-8") as file:
+                file.write(f'<scene version="3.0.0">{sensor.format(view + plain + film)}</scene>')
+            for style, text in styles.items():
+                path = os.path.join(folder, "scene.xml")
+                version = "0.6.0" if style == "an older version" else "3.0.0"
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(f'<?xml version="1.0"?>\n<scene version="{version}"><integrator type="direct"/>{text}'
+                               '<shape type="sphere"/><emitter type="constant"/></scene>')
+                for pattern, kind in (("jittered", "KoksmaSampler"), ("independent", "IndependentSampler")):
+                    with self.subTest(style=style, pattern=pattern):
+                        scene = km.Renderer(path).load(pattern, 4, (6, 4))
+                        for camera in scene.sensors():
+                            self.assertEqual((camera.sampler().sample_count(), tuple(camera.film().size())), (4, (6, 4)))
+                            self.assertIn(kind, str(camera.sampler()))
+
     def test_xml_and_command(self):
         with tempfile.TemporaryDirectory() as folder:
             scene, out = os.path.join(folder, "scene.xml"), os.path.join(folder, "out.exr")
