@@ -32,6 +32,14 @@ static const char *const lists[][2] = {
               "gaussian-blue-noise"},
 };
 
+/* --with mitsuba. The last line that is printed is the reason of a failure: LLVM aborts without one. */
+static const char mitsuba[] =
+    "\"${KOKSMA_PYTHON:-python3}\" -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out} || "
+    "{ code=$?; [ $code -lt 128 ] || echo \"Mitsuba's process was killed by signal $((code - 128)); variants "
+    "llvm_... "
+    "need LLVM 17 or later: DRJIT_LIBLLVM_PATH=/path/to/libLLVM.so, or KOKSMA_MITSUBA_VARIANT=scalar_rgb\"; "
+    "exit $code; }";
+
 typedef struct patterns {
     char texts[MAX_PATTERNS][KOKSMA_MAX_SPEC];
     const char *at[MAX_PATTERNS];
@@ -125,7 +133,7 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
                         size_t advised)
 {
     if (options->render) {
-        cli_row_text(rows, "with", options->render_context);
+        cli_row_text(rows, "with", ((const cli_outside *)options->render_context)->command);
     } else {
         cli_row_text(rows, "integrator", options->integrator->name);
         cli_row_text(rows, "filter", options->filter->name);
@@ -293,7 +301,8 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
 /* Returns false, after an error, if an option is given that has no effect with, or without, --with. */
 static bool options_fit(const cli_arguments *arguments)
 {
-    static const char *const own[] = {"integrator", "filter", "adaptive", "unknown", "allow-exec"};
+    static const char *const own[] = {"integrator", "filter",   "depth",   "lights",
+                                      "scope",      "adaptive", "unknown", "allow-exec"};
     const bool with = cli_text(arguments, "with", NULL);
     for (size_t i = 0; with && i < sizeof own / sizeof *own; i++) {
         if (cli_flag(arguments, own[i])) {
@@ -310,9 +319,13 @@ static bool options_fit(const cli_arguments *arguments)
                         (int)strcspn(adaptive, ":"), adaptive);
         return false;
     }
-    if (!with && cli_text(arguments, "reference", NULL)) {
-        cli_usage_error(arguments,
-                        "--reference needs --with, because Koksma's own references always use the pattern jittered");
+    const char *reference = cli_text(arguments, "reference", NULL);
+    if (!with && reference && !cli_is_image(reference)) {
+        cli_usage_error(
+            arguments,
+            "--reference %s: without --with it takes an image, such as reference.exr; Koksma's own references "
+            "use the pattern sobol:scramble=owen",
+            reference);
         return false;
     }
     return true;
@@ -331,89 +344,143 @@ static int parse_adaptive(const cli_arguments *arguments, char text[KOKSMA_MAX_S
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
-static int run(const cli_arguments *arguments)
-{
-    cli_work work;
-    patterns p = {.n = 0};
+/* What the options say, except the number of samples. */
+typedef struct request {
+    patterns p;
+    uint64_t spp; /* N of a pattern SPEC@N, or 0 */
+    char adaptive[KOKSMA_MAX_SPEC], variant[256];
+    cli_metrics metric;
+    koksma_image reference; /* without pixels: references are rendered */
+    cli_outside outside;
     double time_limit_s;
-    int width = 0, height = 0;
-    uint64_t max_trials;
-    cli_metrics metric = {.n = 0};
-    const koksma_integrator *integrator = koksma_integrator_find("distribution");
-    const koksma_filter *filter = koksma_filter_find("box");
-    const char *list = cli_text(arguments, "spp", "16"), *command = cli_text(arguments, "with", NULL);
-    if (command && !strcmp(command, "mitsuba")) {
-        command = /* the last line that is printed is the reason of a failure: LLVM aborts without one */
-            "\"${KOKSMA_PYTHON:-python3}\" -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out} "
-            "|| "
-            "{ code=$?; [ $code -lt 128 ] || echo \"Mitsuba's process was killed by signal $((code - 128)); variants "
-            "llvm_... "
-            "need LLVM 17 or later: DRJIT_LIBLLVM_PATH=/path/to/libLLVM.so, or KOKSMA_MITSUBA_VARIANT=scalar_rgb\"; "
-            "exit $code; }";
+    koksma_rank_options options;
+} request;
+
+/* Writes --scope, --lights and --depth as a plan's options; options->variant stays NULL without them. */
+static void parse_variant(const cli_arguments *arguments, request *r)
+{
+    static const char *const names[] = {"scope", "lights", "depth"};
+    size_t used = 0;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const char *word = cli_text(arguments, names[i], NULL);
+        if (word) {
+            used += (size_t)snprintf(r->variant + used, sizeof r->variant - used, "%s%s=%.64s", used ? ";" : "",
+                                     names[i], word);
+            r->options.variant = r->variant;
+        }
     }
+}
+
+/* Reads --with and --reference. Returns the exit code. */
+static int parse_outside(const cli_arguments *arguments, request *r)
+{
+    koksma_rank_options *o = &r->options;
+    const char *reference = cli_text(arguments, "reference", NULL), *command = cli_text(arguments, "with", NULL);
+    if (cli_is_image(reference)) {
+        const koksma_status status = koksma_image_read(reference, &r->reference);
+        if (status) {
+            return cli_fail(arguments, status);
+        }
+        o->reference_image = &r->reference;
+        o->width = o->width || command ? o->width : r->reference.width;
+        o->height = o->height || command ? o->height : r->reference.height;
+    } else {
+        o->reference = reference;
+    }
+    if (command) {
+        r->outside = (cli_outside){.command = strcmp(command, "mitsuba") != 0 ? command : mitsuba,
+                                   .patterns = r->p.n,
+                                   .quiet = cli_flag(arguments, "quiet"),
+                                   .reference = !o->reference_image};
+        o->render = cli_render_outside;
+        o->render_context = &r->outside;
+    }
+    return CLI_YES;
+}
+
+/* Reads all options but --spp. Returns the exit code. */
+static int parse_request(const cli_arguments *arguments, request *r)
+{
+    koksma_rank_options *o = &r->options;
+    uint64_t max_trials;
     if (!options_fit(arguments)) {
         return CLI_USAGE;
     }
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
     }
-    uint64_t spp = 0;
-    char counted[24], method[KOKSMA_MAX_SPEC];
-    const char *adaptive;
-    int code = parse_adaptive(arguments, method, &adaptive);
-    code = code ? code : parse_patterns(arguments, &p, &spp);
+    int code = parse_adaptive(arguments, r->adaptive, &o->adaptive);
+    code = code ? code : parse_patterns(arguments, &r->p, &r->spp);
     if (code) {
         return code;
     }
-    if (spp) {
-        snprintf(counted, sizeof counted, "%llu", (unsigned long long)spp);
-        if (strcmp(cli_text(arguments, "spp", counted), counted) != 0) {
-            return cli_usage_error(arguments, "-p has @%s and -n %s", counted, list);
-        }
-        list = counted;
-    }
-    size_t spps[KOKSMA_MAX_SIZES], n_spp;
-    if (!cli_sizes(arguments, "spp", list, "", KOKSMA_MAX_SPP, spps, &n_spp)) {
+    o->scene = arguments->operands[0];
+    o->patterns = r->p.at;
+    o->n_patterns = r->p.n;
+    o->integrator = koksma_integrator_find("distribution");
+    o->filter = koksma_filter_find("box");
+    o->one_size = cli_flag(arguments, "one-size");
+    o->metric = r->metric.specs;
+    parse_variant(arguments, r);
+    if (!cli_real(arguments, "time-limit", 60, 0, 1e9, &r->time_limit_s) ||
+        !cli_integrator_and_filter(arguments, &o->integrator, &o->filter) ||
+        !cli_size(arguments, &o->width, &o->height) ||
+        !cli_whole(arguments, "max-trials", 4096, 8, KOKSMA_MAX_RANK_TRIALS, &max_trials) ||
+        !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &o->seed) || !cli_one_metric(arguments, &r->metric)) {
         return CLI_USAGE;
     }
-    if (!cli_real(arguments, "time-limit", 60, 0, 1e9, &time_limit_s) ||
-        !cli_integrator_and_filter(arguments, &integrator, &filter) || !cli_size(arguments, &width, &height) ||
-        !cli_whole(arguments, "max-trials", 4096, 8, KOKSMA_MAX_RANK_TRIALS, &max_trials) ||
-        !cli_one_metric(arguments, &metric) || !cli_work_begin(arguments, "ranking", &work)) {
+    o->max_trials = (long long)max_trials;
+    return parse_outside(arguments, r);
+}
+
+/* Makes a ranking for each number of samples. Returns the exit code. */
+static int rank_all(const cli_arguments *arguments, request *r, const size_t *spps, size_t n_spp)
+{
+    cli_work work;
+    if (!cli_work_begin(arguments, "ranking", &work)) {
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     koksma_status status = KOKSMA_OK;
     bool all_settled = true;
     const double start_s = work.started_s;
-    work.limit_s = time_limit_s;
+    work.limit_s = r->time_limit_s;
     for (size_t i = 0; !status && i < n_spp; i++) {
         cli_work_part(&work, i, n_spp);
-        const double left_s = fmax(time_limit_s - (cli_seconds() - start_s), time_limit_s > 0 ? 1e-3 : 0);
+        const double left_s = fmax(r->time_limit_s - (cli_seconds() - start_s), r->time_limit_s > 0 ? 1e-3 : 0);
         bool settled = false;
-        const koksma_rank_options options = {.scene = arguments->operands[0],
-                                             .patterns = p.at,
-                                             .n_patterns = p.n,
-                                             .spp = (int)spps[i],
-                                             .width = width,
-                                             .height = height,
-                                             .integrator = integrator,
-                                             .filter = filter,
-                                             .adaptive = adaptive,
-                                             .metric = metric.specs,
-                                             .time_limit_s = left_s / (double)(n_spp - i),
-                                             .max_trials = (long long)max_trials,
-                                             .one_size = cli_flag(arguments, "one-size"),
-                                             .render = command ? koksma_rank_by_command : NULL,
-                                             .render_context = (void *)command,
-                                             .reference = cli_text(arguments, "reference", NULL)};
-        status = rank_at(arguments, &options, &work, rows, &settled);
+        r->options.spp = r->outside.spp = (int)spps[i];
+        r->options.time_limit_s = left_s / (double)(n_spp - i);
+        atomic_store(&r->outside.timed, false);
+        status = rank_at(arguments, &r->options, &work, rows, &settled);
         all_settled &= settled;
     }
     cli_work_end();
-    code = status ? cli_fail(arguments, status) : all_settled ? CLI_YES : CLI_NO;
+    const int code = status ? cli_fail(arguments, status) : all_settled ? CLI_YES : CLI_NO;
     const int rows_code = cli_rows_close(rows);
     return code > CLI_NO || !rows_code ? code : rows_code;
+}
+
+static int run(const cli_arguments *arguments)
+{
+    request r = {.spp = 0};
+    const char *list = cli_text(arguments, "spp", "16");
+    char counted[24];
+    size_t spps[KOKSMA_MAX_SIZES], n_spp;
+    int code = parse_request(arguments, &r);
+    if (!code && r.spp) {
+        snprintf(counted, sizeof counted, "%llu", (unsigned long long)r.spp);
+        if (strcmp(cli_text(arguments, "spp", counted), counted) != 0) {
+            code = cli_usage_error(arguments, "-p has @%s and -n %s", counted, list);
+        }
+        list = counted;
+    }
+    if (!code && !cli_sizes(arguments, "spp", list, "", KOKSMA_MAX_SPP, spps, &n_spp)) {
+        code = CLI_USAGE;
+    }
+    code = code ? code : rank_all(arguments, &r, spps, n_spp);
+    koksma_image_fini(&r.reference);
+    return code;
 }
 
 static const cli_option options[] = {
@@ -422,10 +489,15 @@ static const cli_option options[] = {
     {0, "size", "WxH", "image size (default: that of the scene, halved until it has at most 19,200 pixels)"},
     {0, "with", "RENDERER|mitsuba",
      "shell command of another renderer, with {scene}, {pattern}, {spp}, {seed}, {out}"},
-    {0, "reference", "PATTERN", "with --with: the sampler of the reference (default: the first)"},
+    {0, "reference", "FILE|PATTERN",
+     "a finished reference, taken as exact; with --with also the sampler of the reference (default: the first)"},
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
+    {0, "depth", "D", "the most bounces (default: the integrator's)"},
+    {0, "lights", "all|one|power|uniform|auto", "lights that get a shadow ray, as in 'koksma render' (default: all)"},
+    {0, "scope", "pixel|image", "what one point set covers (default: pixel)"},
+    {'s', "seed", "S", "seed of all images: another one gives an independent ranking (default: 0)"},
     {0, "adaptive", "METHOD", "render all patterns adaptively, N being the budget; see 'koksma list adaptive'"},
     {'m', "metric", "METRIC",
      "error metric by which patterns are ranked: mae (default), rmse, relmse, smape, grain, ldr-flip or hdr-flip, "
@@ -443,7 +515,8 @@ const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "rank patterns by the error that they leave in a scene",
     .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|modern|thesis|later|all] [--size WxH] [--one-size] "
-                "[--integrator INTEGRATOR] [--filter FILTER] [--adaptive METHOD] [--metric METRIC] "
+                "[--integrator INTEGRATOR] [--filter FILTER] [--depth D] [--lights all|one|power|uniform|auto] "
+                "[--scope pixel|image] [--seed S] [--reference FILE] [--adaptive METHOD] [--metric METRIC] "
                 "[--time-limit S] [--max-trials N] [--with RENDERER [--reference PATTERN]] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
@@ -476,7 +549,11 @@ const cli_command cli_command_rank = {
         "as the\n"
         "patterns, at least 16. From 24 trials of a pattern on they have 4 times as many samples, and from 96 trials "
         "16 times\n"
-        "as many, so that the first rows need little time. All intervals include the reference's own error.\n"
+        "as many, so that the first rows need little time. All intervals include the reference's own error. "
+        "--reference FILE\n"
+        "takes an image in their place, as if it had no error; it must have the size of the images (default: they "
+        "have its "
+        "size), and no other sizes are checked.\n"
         "\n"
         "coherence: the peak of the error's power spectrum divided by its mean, with the allowance for blue noise "
         "that\n"
@@ -522,8 +599,11 @@ const cli_command cli_command_rank = {
         "shell's arithmetic needs a variable: s={seed}; echo $((s % 3)). SCENE and PATTERN can then be any texts. "
         "Without --size images have the default size of the renderer, and other sizes are not checked. The reference "
         "is the mean\n"
-        "of 16 images of 16 times as many samples by the sampler --reference, which must be unbiased and depend on "
-        "the seed. Only this option runs commands. --integrator, --filter, --adaptive, --unknown and --allow-exec, "
+        "of 16 images by the sampler --reference, which must be unbiased and depend on the seed. If the pictures of "
+        "the first "
+        "rows take more than 5 s, a line after the first picture says how long. Only this option runs commands. "
+        "--integrator, "
+        "--filter, --depth, --lights, --scope, --adaptive, --unknown and --allow-exec, "
         "which concern "
         "Koksma's own renderer, are refused with it. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of\n"
         "Koksma in a scene of Mitsuba. It needs a Python interpreter in which koksma and mitsuba are installed\n"

@@ -3,6 +3,8 @@
 #ifndef KOKSMA_CLI_STUDYING_H
 #define KOKSMA_CLI_STUDYING_H
 
+#include <stdatomic.h>
+
 #include <koksma/study.h>
 
 #include "cli.h"
@@ -60,5 +62,23 @@ int cli_study_audit(const cli_arguments *arguments);
 
 /* Prints on stderr which pattern to use or what is undecided, and how many trials were made. */
 void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking);
+
+/* ---- `koksma rank --with` ------------------------------------------------------------------------------ */
+
+/* The command of --with, and what its first picture tells of the time. */
+typedef struct cli_outside {
+    const char *command;
+    size_t patterns;
+    int spp;
+    bool quiet, reference; /* reference: the first pictures are those of a reference */
+    atomic_bool timed;     /* a picture of the full number of samples has been timed */
+} cli_outside;
+
+/* Renders a picture for a koksma_rank_renderer whose context is a cli_outside. */
+koksma_status cli_render_outside(void *context, const koksma_rank_picture *picture, const koksma_run *run,
+                                 koksma_image *image);
+
+/* Whether the text of --reference names an image file, by its ending. */
+bool cli_is_image(const char *text);
 
 #endif

@@ -369,6 +369,10 @@ typedef struct koksma_rank_options {
     const koksma_image
         *reference_image; /* a finished reference, taken as exact: linear light of the size of the images,
                                             which has no checks at other sizes (NULL: references are rendered) */
+    uint64_t seed;        /* key of the random numbers of all images: rankings with different seeds are independent */
+    /* further settings of the images, as the options of a study's plan: "scope=image;lights=one;depth=4" (NULL: defaults).
+       Unused with an external renderer */
+    const char *variant;
     /* true: end when it is decided which pattern has the least error, without advice, checks at other sizes, or the
        order of the other patterns */
     bool best_only;

@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex,
 import numpy.typing as npt
 
 from . import _structs as s
-from ._compare import as_image, _metric
+from ._compare import as_image, _metric, view_image
 from ._library import ArgumentError, call, flag, in_python, lab, pair, quoted, seconds_of, text, texts, whole
 from ._points import canonical
 from ._render import _found, _scene_name
@@ -168,7 +168,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
          size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
          filter: Optional[str] = None, adaptive: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
          one_size: bool = False, threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
-         reference: Optional[str] = None) -> Ranking:
+         reference: Union[str, npt.ArrayLike, None] = None, seed: SupportsIndex = 0, depth: Optional[SupportsIndex] = None,
+         lights: Optional[str] = None, scope: Optional[str] = None) -> Ranking:
     """Ranks patterns by the error of the pictures that they make of a scene, as `koksma rank` does.
 
     Parameters
@@ -203,9 +204,14 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
         koksma.mitsuba.Renderer is one of Mitsuba 3. Scene and patterns are then any texts that it knows, and it is called on
         one thread unless `threads` says more. Without size, the pictures' own is taken, and other sizes are not checked. A
         ValueError of the renderer leaves its pattern out of the ranking, another exception ends it.
-    reference : str, optional
-        With renderer, the pattern of the reference (the first one when left out): the mean of 16 pictures of spp samples a pixel,
+    reference : array of pixels or str, optional
+        A finished reference, taken as exact: an array of linear light as koksma.compare takes it, of the size of the images; no
+        other sizes are checked then. As a str with renderer, the pattern of the reference (the first one when left out): the mean of 16 pictures of spp samples a pixel,
         at least 16, later of 4 and of 16 times as many, which must depend on the seed.
+    seed : int
+        Rankings with different seeds are independent.
+    depth, lights, scope : optional
+        As of `render`, but all lights get a shadow ray when lights is left out. Not with renderer.
 
     Returns
     -------
@@ -218,8 +224,12 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
     >>> ranking.best
     'jittered'
     """
-    if renderer is None and reference is not None:
-        raise ArgumentError("reference has an effect only with renderer: Koksma's own references are jittered")
+    if renderer is None and isinstance(reference, str):
+        raise ArgumentError("a pattern as reference has an effect only with renderer: Koksma's own references are of sobol:scramble=owen")
+    settings = {"scope": scope, "lights": lights, "depth": None if depth is None else whole("depth", depth, 0, s.MAX_DEPTH)}
+    variant = ";".join(f"{name}={word}" for name, word in settings.items() if word is not None)
+    if renderer is not None and variant:
+        raise ArgumentError(f"{variant.split('=')[0]} has no effect with renderer, which reads the scene and makes the images")
     time_limit = seconds_of("time_limit", time_limit)
     if renderer is not None and not callable(renderer):
         raise TypeError(f"renderer must be callable, not {quoted(renderer)}")
@@ -236,14 +246,21 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
                             max_trials=whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS),
                             integrator=_found("integrator", "distribution" if integrator is None else integrator),
                             filter=_found("filter", "box" if filter is None else filter), metric=pointer(spec),
-                            adaptive=None if adaptive is None else text(adaptive, "adaptive"))
+                            adaptive=None if adaptive is None else text(adaptive, "adaptive"),
+                            seed=whole("seed", seed, 0, 2**64 - 1), variant=text(variant, "scope") if variant else None)
     if size is not None:
         width, height = pair("size", size)
         options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
         options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
+    if reference is not None and not isinstance(reference, str):
+        pixels = as_image(reference)
+        exact = view_image(pixels)
+        options.reference_image = pointer(exact)
+        if size is None and other is None:
+            options.height, options.width = pixels.shape[:2]
     if other is not None:
         options.render, threads = other.callback, threads or 1
-        options.reference = None if reference is None else text(reference, "reference")
+        options.reference = text(reference, "reference") if isinstance(reference, str) else None
     rows, out = (s.RankRow * len(names))(), s.Ranking()
     try:
         call(lab().koksma_rank_patterns, byref(options), rows, byref(out), threads=threads, run_at=1)

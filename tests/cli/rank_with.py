@@ -107,7 +107,7 @@ def main():
         check("nothing is left after failures", not os.listdir(os.environ["TMPDIR"]))
 
         for arguments, reason in ((["--with", command], "--with needs --patterns"),
-                                  (["--reference", "random"], "--reference needs --with"),
+                                  (["--reference", "random"], "--reference random: without --with it takes an image"),
                                   *((["-p", "fine,coarse", "--with", command, *option], f"{option[0]} has no effect with --with")
                                     for option in (["--integrator", "path"], ["--filter", "box"], ["--unknown", "refuse"], ["--allow-exec"]))):
             done = subprocess.run([PROGRAM, "rank", "ball", *arguments], capture_output=True, text=True)

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """koksma.rank with another renderer: errors that follow from the noise that it adds, exceptions, sizes."""
+import json
 import math
+import os
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -31,7 +34,7 @@ class Renderers(unittest.TestCase):
             low, high = row.interval
             self.assertTrue(low <= DEVIATIONS[row.pattern] / 2 * math.sqrt(2 / math.pi) <= high, row)
         self.assertEqual({a.scene for a in asked}, {"any text"})
-        self.assertEqual({a.spp for a in asked}, {1, 4, 64}, "a first picture, the trials, the reference")
+        self.assertEqual({a.spp for a in asked}, {1, 4, 16}, "a first picture, the trials, the reference")
         self.assertTrue(all(0 <= a.seed < 1 << 31 for a in asked))
         self.assertEqual(len({(a.pattern, a.spp, a.seed) for a in asked}), len(asked), "a seed came twice")
         self.assertEqual([check.state for check in ranking.checks], ["unchecked"] * 2, "a size that nobody set")
@@ -64,10 +67,42 @@ class Renderers(unittest.TestCase):
             koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)))
         with self.assertRaisesRegex(ValueError, "^renderer: fine: an image must be an array"):
             koksma.rank("any", ["fine", "coarse"], 4, renderer=lambda asked: None)
-        with self.assertRaisesRegex(ValueError, "reference has an effect only with renderer"):
+        with self.assertRaisesRegex(ValueError, "a pattern as reference has an effect only with renderer"):
             koksma.rank("ball", ["random"], 4, reference="random")
         with self.assertRaisesRegex(ValueError, "instead of 8 x 8"):
             koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)), size=(8, 8))
+
+    def test_a_finished_reference(self):
+        """Against an exact reference the error of a pattern is the mean of the images' errors: here of a constant."""
+        scene = {"camera": {"eye": [0, 2, 6], "target": [0, 1, 0], "fov_deg": 40}, "background": 0.4,
+                 "materials": [{"name": "m", "kind": "lambert", "albedo": 0.5}],
+                 "shapes": [{"kind": "sphere", "centre": [0, 1, 50], "radius": 1, "material": "m"}]}
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "flat.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(scene, file)
+            ranking = koksma.rank(path, ["random"], 4, reference=np.full((6, 8), .25), max_trials=8)
+        self.assertEqual((ranking.size, math.isnan(ranking.reference_error)), ((8, 6), True))
+        self.assertAlmostEqual(ranking.rows[0].error, .15, 6)
+
+    def test_settings(self):
+        """Each setting makes other images, and its default the same."""
+        def error(**more):
+            return koksma.rank("cornell", ["random"], 4, size=(8, 6), max_trials=8, one_size=True, integrator="path", **more).rows[0].error
+        errors = [error(), error(seed=1), error(depth=1), error(scope="image")]
+        self.assertEqual(len(set(errors)), 4)
+        self.assertEqual(error(seed=0, scope="pixel", lights="all"), errors[0])
+        with self.assertRaisesRegex(ValueError, "depth has no effect with renderer"):
+            koksma.rank("any", ["fine"], 4, renderer=renderer, depth=1)
+
+    def test_the_default_and_what_it_saves(self):
+        ranking = koksma.rank("ball", size=(24, 18), max_trials=8, one_size=True)
+        self.assertEqual({r.pattern for r in ranking.rows}, {"sobol:scramble=owen", "pmj02", "correlated-multi-jittered", "multi-jittered",
+                                                             "n-rooks", "jittered", "random"})
+        error = {r.pattern: r.error for r in ranking.rows}
+        self.assertAlmostEqual(ranking.random_spp, 16 * (error["random"] / error[ranking.use])**2, 6)
+        self.assertIn("are as good as", repr(ranking))
+        self.assertEqual(len(koksma.rank("ball", "thesis", 4, size=(8, 6), max_trials=8, one_size=True).rows), 7)
 
 
 if __name__ == "__main__":

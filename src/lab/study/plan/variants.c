@@ -88,6 +88,18 @@ static koksma_status set_adaptive(koksma__variant *variant, const char *word)
     return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &variant->adaptive) : KOKSMA_OK;
 }
 
+static koksma_status set_depth(koksma__variant *variant, const char *word)
+{
+    char *end;
+    const long depth = strtol(word, &end, 10);
+    if (strcmp(word, "default") != 0) {
+        KOKSMA__FAIL_IF(end == word || *end || depth < 0 || depth > KOKSMA_MAX_DEPTH, KOKSMA_ARGUMENT,
+                        "depth '%s': it takes default, or a number of bounces from 0 to %d", word, KOKSMA_MAX_DEPTH);
+        variant->render.depth = (int)depth;
+    }
+    return KOKSMA_OK;
+}
+
 /* The options that studies may vary, one a line. Splatting comes before the filter, so that the rows of older
    versions are not found: these wrote "filter=...;splat=yes", and compared such images with references that were not
    splatted. */
@@ -95,7 +107,7 @@ static const option known[] = {
     {"pairing", "shuffled", NEVER, set_pairing}, {"scope", "pixel", NEVER, set_scope},
     {"lights", "all", NEVER, set_lights},        {"splat", "no", UNLESS_BOX, set_splat},
     {"filter", "box", ALWAYS, set_filter},       {"integrator", "distribution", ALWAYS, set_integrator},
-    {"adaptive", "none", NEVER, set_adaptive},
+    {"adaptive", "none", NEVER, set_adaptive},   {"depth", "default", ALWAYS, set_depth},
 };
 
 enum { N_KNOWN = sizeof known / sizeof *known };
@@ -162,24 +174,16 @@ void koksma__variant_of_reference(const char *text, char *out)
     }
 }
 
-koksma_status koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
-                                   const char *adaptive, char out[KOKSMA__VARIANT_TEXT])
+koksma_status koksma__variant_check_names(const char *text)
 {
-    koksma_adaptive_options options;
-    char method[KOKSMA_MAX_SPEC];
-    out[0] = '\0';
-    if (adaptive) {
-        KOKSMA__TRY(koksma_adaptive_parse(adaptive, &options));
-        koksma_adaptive_text(&options, method);
-    }
-    for (int i = 0; i < N_KNOWN; i++) {
-        if (known[i].set == set_filter && filter) {
-            append(out, &known[i], filter->name);
-        } else if (known[i].set == set_integrator && integrator) {
-            append(out, &known[i], integrator->name);
-        } else if (known[i].set == set_adaptive && adaptive) {
-            append(out, &known[i], method);
+    for (const char *at = text; *at; at += strcspn(at, ";"), at += *at == ';') {
+        const size_t length = strcspn(at, "=;");
+        int i = 0;
+        while (i < N_KNOWN && (strlen(known[i].name) != length || strncmp(at, known[i].name, length) != 0)) {
+            i++;
         }
+        KOKSMA__FAIL_IF(i == N_KNOWN || at[length] != '=', KOKSMA_ARGUMENT,
+                        "'%.40s': it takes options of a plan's images, as in scope=image;depth=4", at);
     }
     return KOKSMA_OK;
 }

@@ -38,14 +38,12 @@ int koksma__variant_first_spp(const koksma__variant *variant, int spp);
 koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__variant *variant, const koksma_run *run,
                                      koksma_image *out);
 
+/* Fails unless each part of the text is "name=word" with the name of an option. Errors: ARGUMENT. */
+koksma_status koksma__variant_check_names(const char *text);
+
 /* Writes the canonical text of a variant; of words that it does not know, nothing. Errors: ARGUMENT (the value of an
    option, or options that can't be combined). */
 koksma_status koksma__variant_canonical(const char *text, char out[KOKSMA__VARIANT_TEXT]);
-
-/* Writes the canonical text of an integrator, a filter and the text of an adaptive method, each NULL for the default.
-   Errors: those of koksma_adaptive_parse. */
-koksma_status koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
-                                   const char *adaptive, char out[KOKSMA__VARIANT_TEXT]);
 
 /* Writes the canonical text of the options that change the exact image. */
 void koksma__variant_of_reference(const char *text, char *out);

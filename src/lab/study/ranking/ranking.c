@@ -348,16 +348,26 @@ static koksma_status ask_size(const koksma_rank_options *options, koksma__run_co
                : status;
 }
 
+/* The seeds of all images depend on the scene's hash, which the ranking's seed changes. */
+static void set_hash(koksma__study_scene *scene, uint64_t hash, uint64_t seed)
+{
+    snprintf(scene->hash, sizeof scene->hash, "%016llx", (unsigned long long)hash);
+    if (seed) {
+        const uint64_t other = koksma__job_seed("rank|%s|%llu", scene->hash, (unsigned long long)seed);
+        snprintf(scene->hash, sizeof scene->hash, "%016llx", (unsigned long long)other);
+    }
+}
+
 static koksma_status open_scene(const koksma_rank_options *options, koksma__run_control *control,
                                 koksma__study_scene *scene)
 {
     if (options->render) {
         const uint64_t hash = koksma__hash(scene->name, strlen(scene->name));
-        snprintf(scene->hash, sizeof scene->hash, "%016llx", (unsigned long long)hash);
+        set_hash(scene, hash, options->seed);
         return ask_size(options, control, scene);
     }
     KOKSMA__TRY(koksma_scene_open(options->scene, &scene->scene));
-    snprintf(scene->hash, sizeof scene->hash, "%016llx", (unsigned long long)koksma_scene_hash(scene->scene));
+    set_hash(scene, koksma_scene_hash(scene->scene), options->seed);
     choose_size(options, scene);
     return KOKSMA_OK;
 }
@@ -414,6 +424,21 @@ static koksma_status check(const koksma_rank_options *options)
     return status;
 }
 
+/* Writes the canonical text of the settings of all images. */
+static koksma_status write_variant(const koksma_rank_options *options, char out[KOKSMA__VARIANT_TEXT])
+{
+    char text[KOKSMA__VARIANT_TEXT];
+    const char *more = options->variant ? options->variant : "";
+    KOKSMA__TRY(koksma__variant_check_names(more));
+    const int length = snprintf(text, sizeof text, "integrator=%s;filter=%s;adaptive=%s;%s",
+                                options->integrator ? options->integrator->name : "distribution",
+                                options->filter ? options->filter->name : "box",
+                                options->adaptive ? options->adaptive : "none", more);
+    KOKSMA__FAIL_IF(length >= (int)sizeof text, KOKSMA_ARGUMENT, "options->variant: longer than %zu characters",
+                    sizeof text / 2);
+    return koksma__variant_canonical(text, out);
+}
+
 koksma_status koksma_rank_patterns(const koksma_rank_options *options, const koksma_run *run, koksma_rank_row *rows,
                                    koksma_ranking *out)
 {
@@ -428,7 +453,7 @@ koksma_status koksma_rank_patterns(const koksma_rank_options *options, const kok
     koksma__run_control_begin(run, options->time_limit_s, &r.control);
     r.control.by_time = true; /* progress counts time, because the number of rounds is unknown */
     *out = (koksma_ranking){.reference_error = NAN};
-    koksma_status status = koksma__variant_text(options->integrator, options->filter, options->adaptive, r.variant);
+    koksma_status status = write_variant(options, r.variant);
     status = status ? status : open_scene(options, &r.control, &r.scene);
     if (!status) {
         set_sizes(&r.scene, out);
