@@ -2,6 +2,7 @@
 /* `koksma compare`: compares images with a reference. Prints how large the errors are, as means over the images, and
    the coherence of the errors of all images. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,75 +11,86 @@
 #include "cli.h"
 #include "rendering.h"
 
-/* Sums over the images that have been compared so far. */
-typedef struct comparison {
-    koksma_image reference;
-    koksma_coherence coherence;
+/* The errors of one image, or sums over several. */
+typedef struct errors {
     size_t images;
-    koksma_image_error error;                    /* sums over the images */
-    cli_metrics metrics;                         /* rmse, and the metrics of --metric */
-    koksma_metric_value values[CLI_MAX_METRICS]; /* sums over the images, except `top`, which is that of the last
-                                                    image */
-    /* the path of the image that is being compared, or NULL */
-    const char *compared;
+    koksma_image_error error;
+    koksma_metric_value
+        values[CLI_MAX_METRICS]; /* sums, except `top` and `caveat`, which are those of the last image */
+    koksma_coherence coherence;
+} errors;
+
+typedef struct comparison {
+    const char *reference_path;
+    koksma_image reference;
+    cli_metrics metrics;  /* rmse, and the metrics of --metric */
+    errors all;           /* of all images so far */
+    const char *compared; /* the path of the image that is being compared, or NULL */
+    bool json;
+    int n; /* number of images on the command line */
+    cli_rows *rows;
 } comparison;
 
 /* Adds the columns of the metrics. The first metric is rmse, which put_row prints already. JSON rows also have the
    value without the 0.1 % of the pixels that have the largest error, and the fraction of the error in these pixels.
    */
-static void put_metrics(cli_rows *rows, const comparison *c, bool json)
+static void put_metrics(const comparison *c, const errors *e, const char *image)
 {
     for (size_t i = 0; i < c->metrics.n; i++) {
         char name[KOKSMA_MAX_SPEC], text[KOKSMA_MAX_SPEC + 16];
         koksma_metric_text(&c->metrics.specs[i], name);
-        const koksma_metric_value *sum = &c->values[i];
-        const double images = (double)c->images;
+        const koksma_metric_value *sum = &e->values[i];
+        const double images = (double)e->images;
         const koksma_metric_value mean = {sum->value / images, sum->robust / images, sum->top_share / images,
                                           sum->top, sum->caveat};
         if (i) {
-            cli_row_number(rows, name, mean.value);
+            cli_row_number(c->rows, name, mean.value);
         }
-        if (json) {
+        if (c->json) {
             snprintf(text, sizeof text, "%s_robust", name);
-            cli_row_number(rows, text, mean.robust);
+            cli_row_number(c->rows, text, mean.robust);
             snprintf(text, sizeof text, "%s_top_share", name);
-            cli_row_number(rows, text, mean.top_share);
+            cli_row_number(c->rows, text, mean.top_share);
         }
-        cli_warn_of_value("compare", c->images > 1 ? "mean of the images" : "image", name, &mean);
+        if (e == &c->all) { /* once for all images */
+            cli_warn_of_value("compare", c->n > 1 ? "mean of the images" : image, name, &mean);
+        }
     }
 }
 
-static int put_row(const cli_arguments *arguments, const comparison *c)
+/* Prints a row. image: its name; with several images the last row has their mean. */
+static void put_row(const comparison *c, const errors *e, const char *image)
 {
-    const bool json = cli_flag(arguments, "json");
-    const double images = (double)c->images;
+    const double images = (double)e->images;
     koksma_coherence_values values;
-    koksma_coherence_find(&c->coherence, &values);
-    cli_rows *rows = cli_rows_open(json);
-    cli_row_number(rows, "mean", c->error.mean / images);
-    cli_row_number(rows, "sd", c->error.sd / images);
-    cli_row_number(rows, "max", c->error.max / images);
-    cli_row_number(rows, "rmse", c->error.rmse / images);
-    put_metrics(rows, c, json);
-    cli_row_number(rows, "coherence", values.coherence);
-    if (json) {
-        cli_row_number(rows, "coherence_low", values.low);
-        cli_row_number(rows, "coherence_high", values.high);
-        cli_row_number(rows, "noise_low", values.noise_low);
+    koksma_coherence_find(&e->coherence, &values);
+    cli_row_text(c->rows, "image", image);
+    if (c->json) {
+        cli_row_text(c->rows, "reference", c->reference_path);
     }
-    cli_row_number(rows, "noise_high", values.noise_high);
-    if (json) {
-        cli_row_number(rows, "p", values.p);
-        cli_row_number(rows, "frequency_x", values.frequency_x);
-        cli_row_number(rows, "frequency_y", values.frequency_y);
-        cli_row_number(rows, "common", values.common);
+    cli_row_number(c->rows, "mean", e->error.mean / images);
+    cli_row_number(c->rows, "sd", e->error.sd / images);
+    cli_row_number(c->rows, "max", e->error.max / images);
+    cli_row_number(c->rows, "rmse", e->error.rmse / images);
+    put_metrics(c, e, image);
+    cli_row_number(c->rows, "coherence", values.coherence);
+    if (c->json) {
+        cli_row_number(c->rows, "coherence_low", values.low);
+        cli_row_number(c->rows, "coherence_high", values.high);
+        cli_row_number(c->rows, "noise_low", values.noise_low);
     }
-    cli_row_flag(rows, "coherent", values.coherent);
-    if (json || c->images > 1) {
-        cli_row_whole(rows, "images", c->images);
+    cli_row_number(c->rows, "noise_high", values.noise_high);
+    if (c->json) {
+        cli_row_number(c->rows, "p", values.p);
+        cli_row_number(c->rows, "frequency_x", values.frequency_x);
+        cli_row_number(c->rows, "frequency_y", values.frequency_y);
+        cli_row_number(c->rows, "common", values.common);
     }
-    cli_row_end(rows);
-    return cli_rows_close(rows);
+    cli_row_flag(c->rows, "coherent", values.coherent);
+    if (c->json || c->n > 1) {
+        cli_row_whole(c->rows, "images", e->images);
+    }
+    cli_row_end(c->rows);
 }
 
 static koksma_status read_numbers(const char *path, koksma_image *image)
@@ -103,91 +115,167 @@ static koksma_status write_difference(const char *path, const koksma_image *imag
 
 /* Prints an error. If two images could not be compared, the message names both, because either may be the wrong
    one. */
-static int fail(const cli_arguments *arguments, const comparison *c, const char *reference, koksma_status status)
+static int fail(const cli_arguments *arguments, const comparison *c, koksma_status status)
 {
     if (!c->compared) {
         return cli_fail(arguments, status);
     }
-    cli_say("compare", "%s and %s: %s", c->compared, reference, koksma_error_text());
+    cli_say("compare", "%s and %s: %s", c->compared, c->reference_path, koksma_error_text());
     return koksma_status_exit_code(status);
 }
 
-static koksma_status add_metrics(comparison *c, const koksma_image *image)
+static koksma_status add_metrics(const comparison *c, const koksma_image *image, errors *e)
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < c->metrics.n; i++) {
         koksma_metric_value value;
         status = koksma_metric_evaluate(&c->metrics.specs[i], image, &c->reference, &value);
         if (!status) {
-            c->values[i].value += value.value;
-            c->values[i].robust += value.robust;
-            c->values[i].top_share += value.top_share;
-            c->values[i].top = value.top;
-            c->values[i].caveat = value.caveat; /* of the reference: the same for all images */
+            e->values[i].value += value.value;
+            e->values[i].robust += value.robust;
+            e->values[i].top_share += value.top_share;
+            e->values[i].top = value.top;
+            e->values[i].caveat = value.caveat; /* of the reference: the same for all images */
         }
     }
     return status;
 }
 
+/* Adds the errors of an image. */
+static koksma_status add_errors(const comparison *c, const koksma_image *image, errors *e)
+{
+    koksma_image_error error;
+    koksma_status status = koksma_image_compare(image, &c->reference, &error);
+    status = status ? status : koksma_coherence_add(&e->coherence, image, &c->reference);
+    status = status ? status : add_metrics(c, image, e);
+    if (!status) {
+        e->images++;
+        e->error.mean += error.mean;
+        e->error.sd += error.sd;
+        e->error.max += error.max;
+        e->error.rmse += error.rmse;
+    }
+    return status;
+}
+
+/* The row of one of several images. */
+static koksma_status put_one(const comparison *c, const koksma_image *image, const char *path)
+{
+    errors one = {.images = 0};
+    koksma_status status = koksma_coherence_init(&one.coherence, c->reference.width, c->reference.height);
+    status = status ? status : add_errors(c, image, &one);
+    if (!status) {
+        put_row(c, &one, path);
+    }
+    koksma_coherence_fini(&one.coherence);
+    return status;
+}
+
+/* The difference between a pixel's first channel and the mean of its neighbours at the left and right. */
+static double roughness(const koksma_image *image, size_t p)
+{
+    const ptrdiff_t channels = image->channels;
+    const float *x = image->pixels + p * (size_t)channels;
+    return (double)x[0] - ((double)x[-channels] + (double)x[channels]) / 2;
+}
+
+/* Warns where the first operand looks like the reference, which other programs want first. Let x and y be the squared
+   roughness of the first image and of the reference and d that of their difference: if only the reference has noise,
+   independent of the picture, y = x + d; if only the image has noise, x = y + d. Half way between is (y - x) / d = 1/2:
+   the reference has 3 times the image's variance. */
+static void warn_of_order(const comparison *c, const koksma_image *first, const char *path)
+{
+    enum { LEAST = 256 };
+    const size_t width = (size_t)first->width, n = width * (size_t)first->height;
+    double x = 0, y = 0, d = 0;
+    for (size_t p = 1; n >= LEAST && p + 1 < n; p++) {
+        if (p % width && (p + 1) % width) {
+            const double of_first = roughness(first, p), of_last = roughness(&c->reference, p);
+            x += of_first * of_first;
+            y += of_last * of_last;
+            d += (of_first - of_last) * (of_first - of_last);
+        }
+    }
+    if (2 * (y - x) > d) {
+        cli_say(
+            "compare",
+            "warning: %s has less noise than %s, which is taken as the reference; if %s is the reference, name it "
+            "last or by --reference",
+            path, c->reference_path, path);
+    }
+}
+
 /* Adds the errors of the image in the file `path`. difference: the file for an image of the errors, or NULL. */
-static koksma_status add_image(comparison *c, const char *path, const char *difference)
+static koksma_status add_image(comparison *c, const char *path, const char *difference, bool check_order)
 {
     koksma_image image = {0};
-    koksma_image_error error;
     koksma_status status = read_numbers(path, &image);
     c->compared = status ? NULL : path;
-    status = status ? status : koksma_image_compare(&image, &c->reference, &error);
-    status = status ? status : koksma_coherence_add(&c->coherence, &image, &c->reference);
-    status = status ? status : add_metrics(c, &image);
+    status = status ? status : add_errors(c, &image, &c->all);
+    status = status || c->n < 2 ? status : put_one(c, &image, path);
     if (!status) {
         c->compared = NULL;
-        c->images++;
-        c->error.mean += error.mean;
-        c->error.sd += error.sd;
-        c->error.max += error.max;
-        c->error.rmse += error.rmse;
         status = difference ? write_difference(difference, &image, &c->reference) : KOKSMA_OK;
+    }
+    if (!status && check_order) {
+        warn_of_order(c, &image, path);
     }
     koksma_image_fini(&image);
     return status;
 }
 
+/* Compares the n images of the operands. Returns the exit code. */
+static int compare_all(const cli_arguments *arguments, comparison *c, const char *output, bool check_order)
+{
+    koksma_status status = read_numbers(c->reference_path, &c->reference);
+    status = status ? status : koksma_coherence_init(&c->all.coherence, c->reference.width, c->reference.height);
+    c->rows = cli_rows_open(c->json);
+    for (int i = 0; !status && i < c->n; i++) {
+        status = add_image(c, arguments->operands[i], output, check_order && !i);
+    }
+    if (!status) {
+        put_row(c, &c->all, c->n > 1 ? "mean" : arguments->operands[0]);
+    }
+    const int code = status ? fail(arguments, c, status) : CLI_YES, rows_code = cli_rows_close(c->rows);
+    koksma_coherence_fini(&c->all.coherence);
+    koksma_image_fini(&c->reference);
+    return code ? code : rows_code;
+}
+
 static int run(const cli_arguments *arguments)
 {
-    comparison c = {.metrics = {.n = 1, .specs = {{.metric = koksma_metric_find("rmse")}}}};
+    const char *output = cli_text(arguments, "output", NULL), *reference = cli_text(arguments, "reference", NULL);
+    const int operands = (int)arguments->n_operands;
+    comparison c = {.metrics = {.n = 1, .specs = {{.metric = koksma_metric_find("rmse")}}},
+                    .json = cli_flag(arguments, "json"),
+                    .n = reference ? operands : operands - 1};
     double most;
-    const char *output = cli_text(arguments, "output", NULL);
-    const int last = (int)arguments->n_operands - 1;
-    if (last < 1) {
-        return cli_usage_error(arguments, "it takes one image or more, and then the reference");
+    if (c.n < 1) {
+        return cli_usage_error(arguments, reference ? "it takes one image or more beside --reference"
+                                                    : "it takes one image or more, and then the reference");
     }
-    int n_stdin = 0;
-    for (int i = 0; i <= last; i++) {
+    c.reference_path = reference ? reference : arguments->operands[c.n];
+    int n_stdin = !strcmp(c.reference_path, "-");
+    for (int i = 0; i < c.n; i++) {
         n_stdin += !strcmp(arguments->operands[i], "-");
     }
     if (n_stdin > 1) {
         return cli_usage_error(arguments, "-: stdin can be read only once");
     }
-    if (output && last > 1) {
-        return cli_usage_error(
-            arguments, "--output: it draws the errors of one image, but the command line has %d images", last);
+    if (output && c.n > 1) {
+        return cli_usage_error(arguments,
+                               "--output: it draws the errors of one image, but the command line has %d images", c.n);
     }
     if (!cli_real(arguments, "max-mean", INFINITY, 0, 1e300, &most) ||
         !cli_metrics_parse(arguments, false, &c.metrics)) {
         return CLI_USAGE;
     }
-    koksma_status status = read_numbers(arguments->operands[last], &c.reference);
-    status = status ? status : koksma_coherence_init(&c.coherence, c.reference.width, c.reference.height);
-    for (int i = 0; !status && i < last; i++) {
-        status = add_image(&c, arguments->operands[i], output);
-    }
-    const int code = status ? fail(arguments, &c, arguments->operands[last], status) : put_row(arguments, &c);
-    koksma_coherence_fini(&c.coherence);
-    koksma_image_fini(&c.reference);
-    return code ? code : c.error.mean <= most * (double)c.images ? CLI_YES : CLI_NO;
+    const int code = compare_all(arguments, &c, output, !reference);
+    return code ? code : c.all.error.mean <= most * (double)c.all.images ? CLI_YES : CLI_NO;
 }
 
 static const cli_option options[] = {
+    {'r', "reference", "FILE{images}", "the reference; all operands are images then"},
     {'o', "output", "FILE{images}", "write an image of the absolute error (only for a single image)"},
     {'m', "metric", "METRIC,..|all",
      "print further metrics, such as relmse, smape or hdr-flip ('koksma list metrics')"},
@@ -199,10 +287,14 @@ static const cli_option options[] = {
 const cli_command cli_command_compare = {
     .name = "compare",
     .summary = "compare images with a reference: size and kind of the error",
-    .synopsis = "IMAGE... REFERENCE [-m METRIC,..] [-o DIFFERENCE] [--max-mean E]",
+    .synopsis = "IMAGE... REFERENCE | IMAGE... -r REFERENCE [-m METRIC,..] [-o DIFFERENCE] [--max-mean E]",
     .details =
         "Prints mean, standard deviation and maximum of the absolute error in luminance, and the root mean square\n"
-        "error. With several images (one pattern with several seeds) it prints their means.\n"
+        "error. Several images, such as those of one pattern with several seeds, have a row each, and a last row has "
+        "their "
+        "means and the coherence of all errors together. A warning appears if the first image has less noise "
+        "than the "
+        "reference: it may be the reference.\n"
         "--metric adds a column for each metric: its mean over the pixels, for rmse the root of the mean square. A "
         "warning appears if the 0.1 % of the pixels with the largest error (fireflies) have at least half of the "
         "total error; --json has this fraction, and the value without these pixels (..._robust). 0.1 % is rounded "
