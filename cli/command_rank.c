@@ -141,6 +141,10 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     if (options->adaptive) {
         cli_row_text(rows, "adaptive", options->adaptive);
     }
+    if (options->process) {
+        char text[CLI_PROCESS_TEXT];
+        cli_row_text(rows, "filter_with", cli_process_text(options, text));
+    }
     cli_row_number(rows, "reference_error", ranking->reference_error);
     cli_row_flag(rows, "settled", ranking->settled);
     cli_row_flag(rows, "complete", ranking->complete);
@@ -352,6 +356,7 @@ typedef struct request {
     cli_metrics metric;
     koksma_image reference; /* without pixels: references are rendered */
     cli_outside outside;
+    double blur; /* of --filter-with blur:sd=S */
     double time_limit_s;
     koksma_rank_options options;
 } request;
@@ -398,6 +403,32 @@ static int parse_outside(const cli_arguments *arguments, request *r)
     return CLI_YES;
 }
 
+/* Reads --filter-with: "blur:sd=S", or a command. Returns false after an error. */
+static bool parse_process(const cli_arguments *arguments, request *r)
+{
+    static const char blur[] = "blur:sd=";
+    const char *text = cli_text(arguments, "filter-with", NULL);
+    if (text && !strncmp(text, blur, strlen(blur))) {
+        char *end;
+        r->blur = strtod(text + strlen(blur), &end);
+        if (end == text + strlen(blur) || *end || !(r->blur > 0 && r->blur <= 100)) {
+            cli_usage_error(arguments,
+                            "--filter-with %s: it takes a standard deviation of 0 to 100 pixels, as in blur:sd=1.5",
+                            text);
+            return false;
+        }
+        r->options.process = cli_blur;
+        r->options.process_context = &r->blur;
+    } else if (text && !strchr(text, '{')) {
+        cli_usage_error(arguments, "--filter-with %s: it takes blur:sd=S, or a command with {in} and {out}", text);
+        return false;
+    } else if (text) {
+        r->options.process = koksma_rank_process_by_command;
+        r->options.process_context = (void *)text;
+    }
+    return true;
+}
+
 /* Reads all options but --spp. Returns the exit code. */
 static int parse_request(const cli_arguments *arguments, request *r)
 {
@@ -426,7 +457,8 @@ static int parse_request(const cli_arguments *arguments, request *r)
         !cli_integrator_and_filter(arguments, &o->integrator, &o->filter) ||
         !cli_size(arguments, &o->width, &o->height) ||
         !cli_whole(arguments, "max-trials", 4096, 8, KOKSMA_MAX_RANK_TRIALS, &max_trials) ||
-        !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &o->seed) || !cli_one_metric(arguments, &r->metric)) {
+        !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &o->seed) || !cli_one_metric(arguments, &r->metric) ||
+        !parse_process(arguments, r)) {
         return CLI_USAGE;
     }
     o->max_trials = (long long)max_trials;
@@ -491,6 +523,9 @@ static const cli_option options[] = {
      "shell command of another renderer, with {scene}, {pattern}, {spp}, {seed}, {out}"},
     {0, "reference", "FILE|PATTERN",
      "a finished reference, taken as exact; with --with also the sampler of the reference (default: the first)"},
+    {0, "filter-with", "blur:sd=S|COMMAND",
+     "process each image, not the reference: a Gaussian blur, or a shell command with {in} and {out}, such as a "
+     "denoiser"},
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
@@ -517,7 +552,8 @@ const cli_command cli_command_rank = {
     .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|modern|thesis|later|all] [--size WxH] [--one-size] "
                 "[--integrator INTEGRATOR] [--filter FILTER] [--depth D] [--lights all|one|power|uniform|auto] "
                 "[--scope pixel|image] [--seed S] [--reference FILE] [--adaptive METHOD] [--metric METRIC] "
-                "[--time-limit S] [--max-trials N] [--with RENDERER [--reference PATTERN]] [--json]",
+                "[--time-limit S] [--max-trials N] [--with RENDERER [--reference PATTERN]] [--filter-with "
+                "blur:sd=S|COMMAND] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
         "mean over the images of --metric, by default the mean absolute error in luminance. Each pattern is used "
@@ -601,7 +637,8 @@ const cli_command cli_command_rank = {
         "is the mean\n"
         "of 16 images by the sampler --reference, which must be unbiased and depend on the seed. If the pictures of "
         "the first "
-        "rows take more than 5 s, a line after the first picture says how long. Only this option runs commands. "
+        "rows take more than 5 s, a line after the first picture says how long. Only this option and --filter-with "
+        "run commands. "
         "--integrator, "
         "--filter, --depth, --lights, --scope, --adaptive, --unknown and --allow-exec, "
         "which concern "
@@ -609,6 +646,15 @@ const cli_command cli_command_rank = {
         "Koksma in a scene of Mitsuba. It needs a Python interpreter in which koksma and mitsuba are installed\n"
         "(environment variable KOKSMA_PYTHON; default: python3). It starts Mitsuba for every image and takes\n"
         "seconds for each; koksma.mitsuba.rank in Python starts it once.\n"
+        "\n"
+        "--filter-with tells whether the order stays after a denoiser or a filter: COMMAND is run for every image, "
+        "with the "
+        "EXR file\n"
+        "to read in place of {in} and the one to write in place of {out}; {in.pfm}, {in.png}, {out.pfm} and "
+        "{out.png} are files "
+        "of other formats. The error is that of the processed image against the reference, which is not processed: "
+        "what a "
+        "filter blurs counts as error. --metric rmse:blur=S instead blurs both.\n"
         "\n"
         "A pattern that has no set of N points is left out, and a message says why. A pattern whose file is missing\n"
         "or malformed, or whose program fails or may not run (--allow-exec), ends the ranking before it renders.\n"

@@ -379,10 +379,15 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
     char metric[KOKSMA_MAX_SPEC];
     koksma_metric_text(options->metric, metric);
     if (options->render) {
-        fprintf(stderr, "by the command, error by %s) in ", metric);
+        fprintf(stderr, "by the command, error by %s", metric);
     } else {
-        fprintf(stderr, "%s, %s filter, error by %s) in ", options->integrator->name, options->filter->name, metric);
+        fprintf(stderr, "%s, %s filter, error by %s", options->integrator->name, options->filter->name, metric);
     }
+    if (options->process) {
+        char text[CLI_PROCESS_TEXT];
+        fprintf(stderr, " after %s", cli_one_line(cli_process_text(options, text)));
+    }
+    fputs(") in ", stderr);
     print_seconds(ranking->seconds);
     if (isfinite(ranking->reference_error)) {
         fprintf(stderr, "; the reference's own error is %.1g", ranking->reference_error);

@@ -3,6 +3,7 @@
    which the first rows wait, before most of that time is over. */
 #include "studying.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include <koksma/image.h>
@@ -36,4 +37,20 @@ bool cli_is_image(const char *text)
 {
     const char *dot = text ? strrchr(text, '.') : NULL;
     return dot && koksma_image_check_path(text) != KOKSMA_ARGUMENT;
+}
+
+koksma_status cli_blur(void *context, const koksma_image *image, const koksma_run *run, koksma_image *out)
+{
+    (void)run;
+    return koksma_image_blur(image, *(const double *)context, out);
+}
+
+const char *cli_process_text(const koksma_rank_options *options, char text[CLI_PROCESS_TEXT])
+{
+    char number[CLI_NUMBER];
+    if (options->process != cli_blur) {
+        return options->process_context;
+    }
+    snprintf(text, CLI_PROCESS_TEXT, "blur:sd=%s", cli_number(*(const double *)options->process_context, number));
+    return text;
 }

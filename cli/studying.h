@@ -78,6 +78,13 @@ typedef struct cli_outside {
 koksma_status cli_render_outside(void *context, const koksma_rank_picture *picture, const koksma_run *run,
                                  koksma_image *image);
 
+/* The text of --filter-with. text: room for "blur:sd=" and a number. */
+enum { CLI_PROCESS_TEXT = CLI_NUMBER + 16 };
+const char *cli_process_text(const koksma_rank_options *options, char text[CLI_PROCESS_TEXT]);
+
+/* Blurs a trial's image for a koksma_rank_process whose context is a standard deviation (double). */
+koksma_status cli_blur(void *context, const koksma_image *image, const koksma_run *run, koksma_image *out);
+
 /* Whether the text of --reference names an image file, by its ending. */
 bool cli_is_image(const char *text);
 

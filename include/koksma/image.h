@@ -120,6 +120,10 @@ KOKSMA_API koksma_status koksma_image_compare(const koksma_image *image, const k
 KOKSMA_API koksma_status koksma_image_difference(const koksma_image *image, const koksma_image *reference,
                                                  koksma_image *out);
 
+/* Convolves each channel with a Gaussian of standard deviation sd, 0 to 100 pixels, whose weights are normalised at the
+   edges. Allocates out. Errors: ARGUMENT, MEMORY. */
+KOKSMA_API koksma_status koksma_image_blur(const koksma_image *image, double sd, koksma_image *out);
+
 /* ---- Metrics of the error ------------------------------------------------------------------------------------ */
 
 /* The two images that a metric compares: width x height pixels of metric->channels values each, row by row from the

@@ -340,6 +340,16 @@ typedef koksma_status (*koksma_rank_renderer)(void *context, const koksma_rank_p
 KOKSMA_API koksma_status koksma_rank_by_command(void *context, const koksma_rank_picture *picture,
                                                 const koksma_run *run, koksma_image *image);
 
+/* A function that processes the image of a trial, such as a denoiser: allocates *out, of the same size. Up to run->threads
+   threads may call it at once. Errors are as those of a koksma_rank_renderer. */
+typedef koksma_status (*koksma_rank_process)(void *context, const koksma_image *image, const koksma_run *run,
+                                             koksma_image *out);
+
+/* Processes by a command line as koksma_rank_by_command renders by one: {in} is the EXR file of the image, {out} the one to
+   write; {in.pfm}, {in.png}, {out.pfm} and {out.png} are files of other formats. Errors: as koksma_rank_by_command. */
+KOKSMA_API koksma_status koksma_rank_process_by_command(void *context, const koksma_image *image,
+                                                        const koksma_run *run, koksma_image *out);
+
 /* Options of koksma_rank_patterns. */
 typedef struct koksma_rank_options {
     const char *scene;           /* as for koksma_scene_open */
@@ -369,7 +379,10 @@ typedef struct koksma_rank_options {
     const koksma_image
         *reference_image; /* a finished reference, taken as exact: linear light of the size of the images,
                                             which has no checks at other sizes (NULL: references are rendered) */
-    uint64_t seed;        /* key of the random numbers of all images: rankings with different seeds are independent */
+    koksma_rank_process
+        process; /* processes the images of the trials, not those of the reference (NULL: nothing does) */
+    void *process_context;
+    uint64_t seed; /* key of the random numbers of all images: rankings with different seeds are independent */
     /* further settings of the images, as the options of a study's plan: "scope=image;lights=one;depth=4" (NULL: defaults).
        Unused with an external renderer */
     const char *variant;

@@ -8,6 +8,7 @@ from ctypes import byref, c_char_p, memmove, pointer
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
@@ -139,23 +140,23 @@ class _Renderer:
 
     _ARGUMENT, _SYSTEM = 1, 10  # KOKSMA_ARGUMENT, KOKSMA_SYSTEM
 
-    def __init__(self, renderer: Callable[[Asked], npt.ArrayLike]) -> None:
-        self.renderer = renderer
+    def __init__(self, renderer: Optional[Callable[[Asked], npt.ArrayLike]],
+                 process: Optional[Callable[[npt.NDArray[np.float32]], npt.ArrayLike]] = None) -> None:
+        self.renderer, self.process = renderer, process
         self.raised: List[BaseException] = []
         self.reasons: Dict[str, str] = {}
-        self.callback = s.RankRenderer(self._render)
+        self.callback = s.RankRenderer(self._render if renderer is not None else 0)
+        self.processed = s.RankProcess(self._process if process is not None else 0)
 
     def _render(self, _context: Any, picture: Any, _run: Any, image: Any) -> int:
         p = picture.contents
         asked = Asked(os.fsdecode(p.scene), os.fsdecode(p.pattern), p.spp, (p.width, p.height) if p.width else None, p.seed)
         try:
-            pixels = as_image(self.renderer(asked))
-            height, width, channels = pixels.shape
-            status = lab().koksma_image_init(image, width, height, channels)
+            assert self.renderer is not None
+            status = self._put(self.renderer(asked), image)
             if status == 0:
-                memmove(image.contents.pixels, pixels.ctypes.data, pixels.nbytes)
                 self.reasons.pop(asked.pattern, None)  # that of a picture that only asked for the size
-            return int(status)
+            return status
         except ValueError as error:
             self.reasons.setdefault(asked.pattern, str(error))
             return self._ARGUMENT
@@ -163,13 +164,33 @@ class _Renderer:
             self.raised.append(error)
             return self._SYSTEM
 
+    def _process(self, _context: Any, image: Any, _run: Any, out: Any) -> int:
+        try:
+            assert self.process is not None
+            given = image.contents
+            pixels = np.ctypeslib.as_array(given.pixels, (given.height, given.width, given.channels)).copy()
+            return self._put(self.process(pixels), out)
+        except BaseException as error:  # noqa: BLE001
+            self.raised.append(error)
+            return self._SYSTEM
+
+    @staticmethod
+    def _put(given: npt.ArrayLike, image: Any) -> int:
+        pixels = as_image(given)
+        height, width, channels = pixels.shape
+        status = lab().koksma_image_init(image, width, height, channels)
+        if status == 0:
+            memmove(image.contents.pixels, pixels.ctypes.data, pixels.nbytes)
+        return int(status)
+
 
 def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[str]] = "modern", spp: SupportsIndex = 16, *,
          size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
          filter: Optional[str] = None, adaptive: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
          one_size: bool = False, threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
          reference: Union[str, npt.ArrayLike, None] = None, seed: SupportsIndex = 0, depth: Optional[SupportsIndex] = None,
-         lights: Optional[str] = None, scope: Optional[str] = None) -> Ranking:
+         lights: Optional[str] = None, scope: Optional[str] = None,
+         process: Optional[Callable[[npt.NDArray[np.float32]], npt.ArrayLike]] = None) -> Ranking:
     """Ranks patterns by the error of the pictures that they make of a scene, as `koksma rank` does.
 
     Parameters
@@ -212,6 +233,10 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
         Rankings with different seeds are independent.
     depth, lights, scope : optional
         As of `render`, but all lights get a shadow ray when lights is left out. Not with renderer.
+    process : callable, optional
+        Processes the images of the patterns, but not the reference, as a denoiser does: a function of an array of shape
+        (height, width, channels) that returns one of this size. It is called on one thread unless `threads` says more; its
+        exceptions end the ranking.
 
     Returns
     -------
@@ -233,7 +258,9 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
     time_limit = seconds_of("time_limit", time_limit)
     if renderer is not None and not callable(renderer):
         raise TypeError(f"renderer must be callable, not {quoted(renderer)}")
-    other = _Renderer(renderer) if renderer is not None else None
+    if process is not None and not callable(process):
+        raise TypeError(f"process must be callable, not {quoted(process)}")
+    other = _Renderer(renderer, process) if renderer is not None else None
     if isinstance(patterns, str):
         patterns = _LISTS.get(patterns, patterns)
     names = [canonical(pattern) if other is None else pattern for pattern in texts("patterns", patterns)]
@@ -259,14 +286,19 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
         if size is None and other is None:
             options.height, options.width = pixels.shape[:2]
     if other is not None:
-        options.render, threads = other.callback, threads or 1
+        options.render = other.callback
         options.reference = text(reference, "reference") if isinstance(reference, str) else None
+    calls = other if other is not None or process is None else _Renderer(None, process)
+    if calls is not None:
+        threads = threads or 1
+        if process is not None:
+            options.process = calls.processed
     rows, out = (s.RankRow * len(names))(), s.Ranking()
     try:
         call(lab().koksma_rank_patterns, byref(options), rows, byref(out), threads=threads, run_at=1)
     except Exception as error:
-        if other is not None and other.raised:
-            raise other.raised[0] from None
+        if calls is not None and calls.raised:
+            raise calls.raised[0] from None
         if other is not None and other.reasons and isinstance(error, ArgumentError):  # the reference's pattern is left out
             pattern, reason = next(iter(other.reasons.items()))
             raise ArgumentError(f"renderer: {pattern}: {reason}") from None

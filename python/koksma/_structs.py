@@ -345,6 +345,7 @@ class RankPicture(Structure):
                 ("seed", c_uint64)]
 
 
+RankProcess = CFUNCTYPE(c_int, c_void_p, POINTER(Image), POINTER(Run), POINTER(Image))
 RankRenderer = CFUNCTYPE(c_int, c_void_p, POINTER(RankPicture), POINTER(Run), POINTER(Image))
 
 
@@ -352,7 +353,7 @@ class RankOptions(Structure):
     _fields_ = [("scene", c_char_p), ("patterns", POINTER(c_char_p)), ("n_patterns", c_size_t), ("spp", c_int),
                 ("width", c_int), ("height", c_int), ("integrator", c_void_p), ("filter", c_void_p), ("adaptive", c_char_p),
                 ("metric", POINTER(MetricSpec)), ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool), ("render", RankRenderer),
-                ("render_context", c_void_p), ("reference", c_char_p), ("reference_image", POINTER(Image)), ("seed", c_uint64),
+                ("render_context", c_void_p), ("reference", c_char_p), ("reference_image", POINTER(Image)), ("process", RankProcess), ("process_context", c_void_p), ("seed", c_uint64),
                 ("variant", c_char_p), ("best_only", c_bool)]
 
 

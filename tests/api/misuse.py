@@ -131,6 +131,7 @@ VALID = {
     "koksma_scene_optimum *": "a_buffer(sizeof(koksma_scene_optimum))", "koksma_scene_optimum_fini.best": "a_zero(sizeof(koksma_scene_optimum))",
     "koksma_rank_by_command.context": "a_copy(\"printf 'Pf\\n1 1\\n-1\\nabcd' >{out.pfm}\", 35)",
     "koksma_rank_by_command.image": "a_buffer(sizeof(koksma_image))",
+    "koksma_rank_process_by_command.context": "a_copy(\"cp {in.pfm} {out.pfm}\", 22)",
     # Inline functions.
     "koksma_domain": "{7}", "koksma_sobol *": "a_sequence()", "koksma_keys *": "some_keys()", "koksma_keys_of.pair": "0", "uint32_t": "1", "const uint32_t *": "a_buffer(3 * sizeof(uint32_t))",
     "int": "1", "koksma_permute.n": "8", "koksma_cmj_2d.columns": "4", "koksma_cmj_2d.rows": "4", "koksma_mask_value.pixels": "16",

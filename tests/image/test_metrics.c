@@ -135,6 +135,30 @@ TEST_CASE(pointwise_metrics_are_their_formulas)
     release(&p);
 }
 
+/* A Gaussian of deviation s blurs an impulse to exp(-r^2 / (2 s^2)) / (2 pi s^2), whose squares have the sum 1 / (4 pi s^2), and
+   leaves a constant up to the edges. */
+TEST_CASE(errors_are_blurred_by_gaussians)
+{
+    const double sd = 1.5;
+    pair p = make(41, 31, 1);
+    memset(p.image.pixels, 0, 41 * 31 * sizeof(float));
+    memset(p.reference.pixels, 0, 41 * 31 * sizeof(float));
+    p.image.pixels[15 * 41 + 20] = 2;
+    expect("rmse:blur=1.5", &p, 2 * sqrt(1 / (4 * M_PI * sd * sd) / (41 * 31)), 1e-5);
+    expect("mae:blur=1.5", &p, 2.0 / (41 * 31), 1e-12);
+    koksma_image blurred;
+    assert_ok(koksma_image_blur(&p.image, sd, &blurred));
+    assert_near((double)blurred.pixels[15 * 41 + 20], 2 / (2 * M_PI * sd * sd), 1e-4);
+    assert_near((double)(blurred.pixels[15 * 41 + 21] / blurred.pixels[15 * 41 + 20]), exp(-1 / (2 * sd * sd)), 1e-6);
+    koksma_image_fini(&blurred);
+    assert_int_equal(koksma_image_blur(&p.image, -1, &blurred), KOKSMA_ARGUMENT);
+    for (size_t i = 0; i < 41 * 31; i++) {
+        p.image.pixels[i] = 0.25F;
+    }
+    expect("rmse:blur=20", &p, 0.25, 1e-12);
+    release(&p);
+}
+
 /* Waves of amplitude A have a mean square of A^2 / 2 at their frequency alone: those below 0.05 cycles a pixel are grain,
    and neither those above nor the mean. */
 TEST_CASE(grain_is_the_power_of_coarse_waves)

@@ -95,6 +95,20 @@ class Renderers(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "depth has no effect with renderer"):
             koksma.rank("any", ["fine"], 4, renderer=renderer, depth=1)
 
+    def test_processed(self):
+        """The images of the patterns are processed and the reference is not: a copy changes nothing, a constant makes its error."""
+        more = {"size": (8, 6), "max_trials": 8, "one_size": True}
+        plain = koksma.rank("ball", ["random"], 4, **more).rows[0].error
+        self.assertEqual(koksma.rank("ball", ["random"], 4, process=lambda image: image, **more).rows[0].error, plain)
+        ranking = koksma.rank("ball", ["random"], 4, process=lambda image: 0 * image + 2, reference=np.ones((6, 8)), max_trials=8)
+        self.assertAlmostEqual(ranking.rows[0].error, 1, 6)
+        noisy = koksma.rank("any", ["fine"], 4, renderer=renderer, process=lambda image: image + 1, max_trials=8).rows[0].error
+        self.assertAlmostEqual(noisy, 1, 1)
+        with self.assertRaisesRegex(ZeroDivisionError, "division"):
+            koksma.rank("ball", ["random"], 4, process=lambda image: 1 / 0, **more)
+        with self.assertRaisesRegex(ValueError, "4 x 4 pixels instead of 8 x 6"):
+            koksma.rank("ball", ["random"], 4, process=lambda image: np.ones((4, 4)), **more)
+
     def test_the_default_and_what_it_saves(self):
         ranking = koksma.rank("ball", size=(24, 18), max_trials=8, one_size=True)
         self.assertEqual({r.pattern for r in ranking.rows}, {"sobol:scramble=owen", "pmj02", "correlated-multi-jittered", "multi-jittered",

@@ -15,23 +15,44 @@
  *           sum |x - x_ref| / (|x| + |x_ref| + epsilon) / (3 n), epsilon = 0.01 (Vogels et al. 2018, section 4.2). The
  *           error of a pixel is at most 1, so that fireflies contribute little: this is the most robust of the relative
  *           metrics
+ *
+ * With blur > 0, mae and rmse are those of Y - Y_ref after convolution with a Gaussian of that standard deviation: what is
+ * left of an error where eyes, or a filter of both images, do not resolve single pixels.
  */
 #include <math.h>
 
+#include "image/image.h"
 #include "image/metrics/metrics.h"
+
+static const koksma_param blur_params[] = {
+    {"blur", "standard deviation in pixels of a Gaussian that blurs both images before", 0, 0, KOKSMA__MOST_BLUR,
+     NULL, false},
+    {0},
+};
+
+/* The differences of the pixels, blurred. */
+static koksma_status differences(const koksma_metric_input *in, double *out)
+{
+    for (size_t p = 0; p < koksma__metric_pixels(in); p++) {
+        out[p] = in->image[p] - in->reference[p];
+    }
+    return koksma__blur(in->width, in->height, in->params[0], out);
+}
 
 static koksma_status mae_errors(const koksma_metric_input *in, double *out)
 {
+    const koksma_status status = differences(in, out);
     for (size_t p = 0; p < koksma__metric_pixels(in); p++) {
-        out[p] = fabs(in->image[p] - in->reference[p]);
+        out[p] = fabs(out[p]);
     }
-    return KOKSMA_OK;
+    return status;
 }
 
 const koksma_metric koksma__metric_mae = {
     .name = "mae",
     .title = "mean absolute error in luminance",
     .cite = "shirley1991",
+    .params = blur_params,
     .channels = 1,
     .order = 1,
     .in_all_studies = true,
@@ -40,17 +61,18 @@ const koksma_metric koksma__metric_mae = {
 
 static koksma_status rmse_errors(const koksma_metric_input *in, double *out)
 {
+    const koksma_status status = differences(in, out);
     for (size_t p = 0; p < koksma__metric_pixels(in); p++) {
-        const double e = in->image[p] - in->reference[p];
-        out[p] = e * e;
+        out[p] *= out[p];
     }
-    return KOKSMA_OK;
+    return status;
 }
 
 const koksma_metric koksma__metric_rmse = {
     .name = "rmse",
     .title = "root mean square error in luminance",
     .cite = "shirley1991",
+    .params = blur_params,
     .channels = 1,
     .root = true,
     .order = 1,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Runs another renderer by a command line (koksma_rank_by_command). Every picture has its own temporary directory,
+ * Runs another renderer, or what processes images, by a command line (koksma_rank_by_command). Every picture has its own temporary directory,
  * so that the program may write other files beside the picture. The shell leads a process group of its own (core/child.h),
  * so that a stop kills all processes that it started. What the command prints goes to standard error, of which the last
  * line is part of the error message if the command fails.
@@ -21,9 +21,24 @@
 
 enum { LONGEST = 1 << 16 };
 
-static const char *const words[] = {"scene",  "pattern", "spp",     "seed",   "width",
-                                    "height", "out",     "out.pfm", "out.png"};
-enum { OUT = 6, N_WORDS = sizeof words / sizeof *words };
+enum { OUT = 6, FORMATS = 3, N_WORDS = OUT + FORMATS };
+
+/* The placeholders of a command. The last FORMATS are names of the file to write. */
+typedef struct placeholders {
+    const char *words[N_WORDS + 1];
+    int n;
+    const char *known;
+} placeholders;
+
+static const placeholders of_renderer = {
+    {"scene", "pattern", "spp", "seed", "width", "height", "out", "out.pfm", "out.png"},
+    N_WORDS,
+    "{scene}, {pattern}, {spp}, {seed}, {width}, {height} and {out}, {out.pfm} or {out.png}"};
+static const placeholders of_process = {{"in", "in.pfm", "in.png", "out", "out.pfm", "out.png"},
+                                        2 * FORMATS,
+                                        "{in}, {in.pfm} or {in.png} and {out}, {out.pfm} or {out.png}"};
+
+static const char *const endings[FORMATS] = {"exr", "pfm", "png"};
 
 /* ---- The command ---------------------------------------------------------------------------------------- */
 
@@ -41,17 +56,17 @@ static bool append_quoted(char *command, size_t *length, const char *text)
     return !*text;
 }
 
-/* Index in `words` of the placeholder in braces that begins at `text`; N_WORDS: no placeholder begins here (as in
+/* Index of the placeholder in braces that begins at `text`; N_WORDS: no placeholder begins here (as in
    ${HOME}, {1..3}, { ls; }); -1: an unknown placeholder. */
-static int word_at(const char *template, const char *text, size_t *length)
+static int word_at(const placeholders *p, const char *template, const char *text, size_t *length)
 {
     const size_t n = text[0] == '{' ? strspn(text + 1, "abcdefghijklmnopqrstuvwxyz.") : 0;
     if (!n || text[1 + n] != '}' || (text > template && text[-1] == '$')) {
         return N_WORDS;
     }
     *length = n + 2;
-    for (int w = 0; w < N_WORDS; w++) {
-        if (strlen(words[w]) == n && !memcmp(words[w], text + 1, n)) {
+    for (int w = 0; w < p->n; w++) {
+        if (strlen(p->words[w]) == n && !memcmp(p->words[w], text + 1, n)) {
             return w;
         }
     }
@@ -60,24 +75,22 @@ static int word_at(const char *template, const char *text, size_t *length)
 
 /* Replaces the placeholders of the template by their values. *out gets the index of the placeholder that names the
    picture's file. Errors: ARGUMENT. */
-static koksma_status expand(const char *template, const char *const values[N_WORDS], char *command, int *out)
+static koksma_status expand(const placeholders *p, const char *template, const char *const values[N_WORDS],
+                            char *command, int *out)
 {
     size_t length = 0, taken = 0;
     *out = -1;
     for (const char *at = template; *at; at += taken) {
-        const int word = word_at(template, at, &taken);
+        const int word = word_at(p, template, at, &taken);
         if (word < 0) {
-            return koksma__fail(KOKSMA_ARGUMENT,
-                                "%.*s is unknown in the command; use {scene}, {pattern}, {spp}, {seed}, {width}, "
-                                "{height} and {out}, {out.pfm} or {out.png}",
-                                (int)taken, at);
+            return koksma__fail(KOKSMA_ARGUMENT, "%.*s is unknown in the command; use %s", (int)taken, at, p->known);
         }
         bool fits = length < LONGEST - 8;
         if (word == N_WORDS && fits) {
             command[length++] = *at;
             taken = 1;
         } else if (fits) {
-            *out = word >= OUT ? word : *out;
+            *out = word >= p->n - FORMATS ? word : *out;
             fits = append_quoted(command, &length, values[word]);
         }
         KOKSMA__FAIL_IF(!fits, KOKSMA_ARGUMENT, "the command is longer than %d characters", LONGEST);
@@ -125,26 +138,16 @@ static koksma_status run_command(char *command, const koksma_run *run)
     return status == KOKSMA_MALFORMED ? KOKSMA_IMPOSSIBLE : status; /* the text is that of its end */
 }
 
-static koksma_status render_in(const char *folder, const char *template, const koksma_rank_picture *picture,
-                               const koksma_run *run, koksma_image *image)
+/* Runs the template with these values in place of its placeholders and reads the image that it writes. */
+static koksma_status run_template(const placeholders *p, const char *template, const char *const values[N_WORDS],
+                                  const koksma_run *run, koksma_image *image)
 {
     static const char to_error[] = "exec >&2\n";
-    char spp[16], seed[24], width[16], height[16], files[N_WORDS - OUT][KOKSMA_MAX_SPEC];
     char *command = malloc(sizeof to_error + LONGEST);
     int out;
     KOKSMA__REQUIRE_MEMORY(command, sizeof to_error + LONGEST);
-    snprintf(spp, sizeof spp, "%d", picture->spp);
-    snprintf(seed, sizeof seed, "%" PRIu64, picture->seed);
-    snprintf(width, sizeof width, "%d", picture->width);
-    snprintf(height, sizeof height, "%d", picture->height);
-    static const char *const endings[] = {"exr", "pfm", "png"};
-    for (int e = 0; e < N_WORDS - OUT; e++) {
-        snprintf(files[e], sizeof files[e], "%s/picture.%s", folder, endings[e]);
-    }
-    const char *const values[] = {picture->scene, picture->pattern, spp,      seed,    width,
-                                  height,         files[0],         files[1], files[2]};
     strcpy(command, to_error);
-    koksma_status status = expand(template, values, command + strlen(to_error), &out);
+    koksma_status status = expand(p, template, values, command + strlen(to_error), &out);
     status = status ? status : run_command(command, run);
     if (!status && (status = koksma_image_read(values[out], image))) {
         status = koksma__fail(status == KOKSMA_MEMORY ? status : KOKSMA_IMPOSSIBLE,
@@ -154,6 +157,49 @@ static koksma_status render_in(const char *folder, const char *template, const k
     }
     free(command);
     return status;
+}
+
+/* Names of files in the folder, one for each format. */
+static void name_files(const char *folder, const char *name, char files[FORMATS][KOKSMA_MAX_SPEC])
+{
+    for (int e = 0; e < FORMATS; e++) {
+        snprintf(files[e], KOKSMA_MAX_SPEC, "%s/%s.%s", folder, name, endings[e]);
+    }
+}
+
+static koksma_status render_in(const char *folder, const char *template, const koksma_rank_picture *picture,
+                               const koksma_run *run, koksma_image *image)
+{
+    char spp[16], seed[24], width[16], height[16], files[FORMATS][KOKSMA_MAX_SPEC];
+    snprintf(spp, sizeof spp, "%d", picture->spp);
+    snprintf(seed, sizeof seed, "%" PRIu64, picture->seed);
+    snprintf(width, sizeof width, "%d", picture->width);
+    snprintf(height, sizeof height, "%d", picture->height);
+    name_files(folder, "picture", files);
+    const char *const values[N_WORDS] = {picture->scene, picture->pattern, spp,      seed,    width,
+                                         height,         files[0],         files[1], files[2]};
+    return run_template(&of_renderer, template, values, run, image);
+}
+
+/* Writes the image in the formats that the template names, and runs it. */
+static koksma_status process_in(const char *folder, const char *template, const koksma_image *image,
+                                const koksma_run *run, koksma_image *out)
+{
+    char in[FORMATS][KOKSMA_MAX_SPEC], files[FORMATS][KOKSMA_MAX_SPEC];
+    bool any = false;
+    name_files(folder, "in", in);
+    name_files(folder, "out", files);
+    for (int e = 0; e < FORMATS; e++) {
+        char word[16];
+        snprintf(word, sizeof word, "{%s}", of_process.words[e]);
+        if (strstr(template, word)) {
+            any = true;
+            KOKSMA__TRY(koksma_image_write(in[e], image, NULL));
+        }
+    }
+    KOKSMA__FAIL_IF(!any, KOKSMA_ARGUMENT, "the command lacks {in}, the name of the image to process");
+    const char *const values[N_WORDS] = {in[0], in[1], in[2], files[0], files[1], files[2]};
+    return run_template(&of_process, template, values, run, out);
 }
 
 koksma_status koksma_rank_by_command(void *context, const koksma_rank_picture *picture, const koksma_run *run,
@@ -166,6 +212,20 @@ koksma_status koksma_rank_by_command(void *context, const koksma_rank_picture *p
     koksma_status status = make_folder(folder, sizeof folder);
     if (!status) {
         status = render_in(folder, context, picture, run, image);
+        remove_folder(folder);
+    }
+    return status;
+}
+
+koksma_status koksma_rank_process_by_command(void *context, const koksma_image *image, const koksma_run *run,
+                                             koksma_image *out)
+{
+    KOKSMA__REQUIRE(context, image, out);
+    KOKSMA__REQUIRE_RUN(run);
+    char folder[KOKSMA_MAX_SPEC / 2];
+    koksma_status status = make_folder(folder, sizeof folder);
+    if (!status) {
+        status = process_in(folder, context, image, run, out);
         remove_folder(folder);
     }
     return status;

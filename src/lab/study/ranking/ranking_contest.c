@@ -124,6 +124,23 @@ static koksma_status measure_coherence(const batch *b, koksma__contestant *p, si
     return add_coherence(b->contest, p, trial, errors);
 }
 
+/* Replaces the image of a trial by what options->process makes of it; frees it after an error. */
+static koksma_status process(const koksma__contest *c, const koksma_run *run, koksma_image *image)
+{
+    koksma_image out = {0};
+    const char kept = koksma__call_begin();
+    koksma_status status = koksma__call_end(kept, c->options->process(c->options->process_context, image, run, &out),
+                                            "options->process");
+    if (!status && (out.width != image->width || out.height != image->height)) {
+        status = koksma__fail(KOKSMA_IMPOSSIBLE, "the processed image has %d x %d pixels instead of %d x %d",
+                              out.width, out.height, image->width, image->height);
+        koksma_image_fini(&out);
+    }
+    koksma_image_fini(image);
+    *image = out;
+    return status;
+}
+
 /* Renders a trial and measures its errors. In the first round, also adds the errors of its pixels to the sums from
    which the coherence of the pattern's error is computed. */
 static koksma_status render_trial(const batch *b, koksma__contestant *p, size_t trial, const koksma_run *run,
@@ -141,6 +158,7 @@ static koksma_status render_trial(const batch *b, koksma__contestant *p, size_t 
                                                               c->variant, c->options->spp, c->scene.width,
                                                               c->scene.height, trial)};
     koksma_status status = koksma__study_render(&c->scene, &picture, run, &image);
+    status = status || !c->options->process ? status : process(c, run, &image);
     if (!status) {
         status = koksma__rank_reference_compare(b->reference, &image, errors);
         status = status || isfinite(errors[0])

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "study/plan/variants.h"
 
@@ -107,9 +108,9 @@ static void find_worth(const koksma_rank_options *options, const koksma_rank_row
             const bool itself = i == best, first = best == 0; /* the first row is compared without an interval */
             const double power = 2.0 / order, low = (1 + r->behind_low) / (first ? 1 : 1 + b->behind_high),
                          high = (1 + r->behind_high) / (first ? 1 : 1 + b->behind_low);
-            out->random_spp = options->spp * pow(r->mean / b->mean, power);
-            out->random_spp_low = itself ? options->spp : options->spp * pow(low, power);
-            out->random_spp_high = itself ? options->spp : options->spp * pow(high, power);
+            out->random_spp = options->spp * koksma__pow(r->mean / b->mean, power);
+            out->random_spp_low = itself ? options->spp : options->spp * koksma__pow(low, power);
+            out->random_spp_high = itself ? options->spp : options->spp * koksma__pow(high, power);
         }
     }
 }
