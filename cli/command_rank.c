@@ -3,7 +3,7 @@
  * `koksma rank`: ranks patterns by the error that they leave in a scene, separately for each number of samples.
  * koksma_rank_patterns computes a ranking. This file has the lists of patterns, divides the time limit among the
  * rankings, prints the rows, and returns the exit code (1: the best pattern is undecided). rank_advice.c prints the
- * advice.
+ * advice. Long because the options, what they exclude and their help stand together.
  */
 #include <math.h>
 #include <stdio.h>

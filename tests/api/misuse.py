@@ -191,7 +191,7 @@ ALLOWED = [
     r"koksma_study_audit options->(rows = LLONG_MAX|rows = 0|differs.*) .*", r"koksma_text_escape (size|text) = .*", r"koksma_optimise options->(steps|seed|first) = .*",
     r"koksma_optimise options->(projections = NULL|n_projections = 0|weights = NULL|processes = NULL|power = NULL|rings = 0) .*",
     r"koksma_rank_by_command picture->(scene|pattern) = (\"|long_text).*", r"koksma_rank_by_command picture->(spp|width|height|seed) = .*",  # its affair
-    r"koksma_rank_patterns options->(render|render_context|reference) = .*",
+    r"koksma_rank_patterns options->(render|render_context|reference|reference_image|process|process_context|variant) = .*",
     r"koksma_optimise_scene options->(candidates|phases|n_held_out|held_out|against) = (0|NULL) .*",
     r"koksma_datasheet options->(beside = NULL|scenes = NULL|n_beside = 0|n_scenes = 0|metric = NULL) .*",
     r"koksma_estimate_integral values.*",

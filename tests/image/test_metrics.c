@@ -135,8 +135,8 @@ TEST_CASE(pointwise_metrics_are_their_formulas)
     release(&p);
 }
 
-/* A Gaussian of deviation s blurs an impulse to exp(-r^2 / (2 s^2)) / (2 pi s^2), whose squares have the sum 1 / (4 pi s^2), and
-   leaves a constant up to the edges. */
+/* A Gaussian of deviation s blurs an impulse to exp(-r^2 / (2 s^2)) / (2 pi s^2), whose squares have the sum
+   1 / (4 pi s^2), and leaves a constant up to the edges. */
 TEST_CASE(errors_are_blurred_by_gaussians)
 {
     const double sd = 1.5;

@@ -330,7 +330,7 @@ class Rankings(unittest.TestCase):
         ranking = koksma.rank("balls", ["n-rooks", "random"], 65536, size=(640, 480), time_limit=1e-3)
         self.assertEqual((ranking.best, ranking.cut_short), (None, True))
         self.assertEqual({row.state for row in ranking.rows}, {"too-slow"})
-        self.assertGreater(ranking.needed_seconds, 0)
+        self.assertTrue(ranking.needed_seconds is None or ranking.needed_seconds > 0)  # None: before the first ray
 
     def test_arguments(self):
         for wrong in ({"patterns": []}, {"patterns": ["random", "random"]}, {"time_limit": 0}, {"max_trials": 7},
@@ -441,7 +441,8 @@ class Compare(unittest.TestCase):
             for count in (1, 3):
                 metrics = ["rmse", "relmse:epsilon=0.001", "hdr-flip"]
                 row = json.loads(subprocess.run([PROGRAM, "compare", *names[:count], names[3], "--json", "-m",
-                                                 ",".join(metrics)], check=True, capture_output=True).stdout)
+                                                 ",".join(metrics)], check=True, capture_output=True).stdout.splitlines()[-1])
+                self.assertEqual((row.pop("image"), row.pop("reference")), (names[0] if count == 1 else "mean", names[3]))
                 ours = koksma.compare(iter(images[:count]), reference, metrics=metrics[1:], coherence=True)
                 self.assertEqual(list(ours.metrics), metrics)
                 for name, found in ours.metrics.items():

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Blurs pictures by a Gaussian: rows and then columns, with weights exp(-x^2 / (2 sd^2)) for |x| <= 4 sd, divided by the sum of
- * those that lie inside the picture, so that a constant stays constant up to the edges. O(n sd).
+ * Blurs pictures by a Gaussian: rows and then columns, with weights exp(-x^2 / (2 sd^2)) for |x| <= 4 sd, divided by the
+ * sum of those that lie inside the picture, so that a constant stays constant up to the edges. O(n sd).
  */
+#include "image/blur.h"
+
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/elementary.h"
 #include "core/status.h"
-#include "image/image.h"
 
 /* Blurs `lines` lines of `length` numbers: number i of line l is at index l * next + i * stride. scratch: `length`
    numbers. */

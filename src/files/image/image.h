@@ -116,11 +116,4 @@ static inline unsigned char koksma__srgb_table_byte(const koksma__srgb_table *t,
     }
     return (unsigned char)b;
 }
-
-enum { KOKSMA__MOST_BLUR = 100 };
-
-/* Convolves width x height numbers with a Gaussian of standard deviation sd, in pixels, 0 to KOKSMA__MOST_BLUR (0: changes
-   nothing), whose weights are normalised at the edges. Errors: MEMORY. */
-koksma_status koksma__blur(int width, int height, double sd, double *values);
-
 #endif

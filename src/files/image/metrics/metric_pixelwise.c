@@ -21,7 +21,7 @@
  */
 #include <math.h>
 
-#include "image/image.h"
+#include "image/blur.h"
 #include "image/metrics/metrics.h"
 
 static const koksma_param blur_params[] = {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Runs another renderer, or what processes images, by a command line (koksma_rank_by_command). Every picture has its own temporary directory,
- * so that the program may write other files beside the picture. The shell leads a process group of its own (core/child.h),
- * so that a stop kills all processes that it started. What the command prints goes to standard error, of which the last
- * line is part of the error message if the command fails.
+ * Runs another renderer, or what processes images, by a command line (koksma_rank_by_command). Every picture has its own
+ * temporary directory, so that the program may write other files beside the picture. The shell leads a process group of
+ * its own (core/child.h), so that a stop kills all processes that it started. What the command prints goes to standard
+ * error, of which the last line is part of the error message if the command fails.
  */
 #include <koksma/study.h>
 
