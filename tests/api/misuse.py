@@ -81,7 +81,8 @@ VALID = {
     "koksma_image_check_path.path": "\"a.png\"", "koksma_image_has_layers.path": "\"a.exr\"",
     "koksma_image_write.path": "work_path(\"out.pfm\")", "koksma_image_write_layers.path": "work_path(\"out.exr\")",
     "koksma_image_write_layers.n": "2", "koksma_image_check_finite.name": "\"image\"",
-    "koksma_image_difference.out": "a_buffer(sizeof(koksma_image))", "koksma_coherence_init.coherence": "a_buffer(sizeof(koksma_coherence))",
+    "koksma_image_difference.out": "a_buffer(sizeof(koksma_image))", "koksma_image_blur.out": "a_buffer(sizeof(koksma_image))",
+    "koksma_rank_process_by_command.out": "a_buffer(sizeof(koksma_image))", "koksma_coherence_init.coherence": "a_buffer(sizeof(koksma_coherence))",
     "koksma_coherence_init.width": "4", "koksma_coherence_init.height": "4", "koksma_coherence_fini.coherence": "a_zero(sizeof(koksma_coherence))",
     "koksma_scene_open.name_or_path": "\"ball\"", "koksma_scene_warning.size": "256", "koksma_scene_unknown.size": "256", "koksma_integrator_find.name": "\"whitted\"",
     "koksma_filter_find.name": "\"tent\"", "koksma_render_warning.size": "256", "koksma_layers_fini.layers": "a_zero(sizeof(koksma_layers))",
@@ -197,7 +198,7 @@ ALLOWED = [
     r"koksma_estimate_integral values.*",
     r"koksma_(estimate_integral|integrate_to) options->\S*(estimator|interval) = NULL .*", r"koksma_integrate_to options->(seed|replicates = 0|first_n = 0|most_points) .*",
     r"koksma_integrate_to options->most_points = .*", r"koksma_integrate_to pattern->(params|path|modifiers|measure).*",
-    r"koksma_study_images metric = NULL .*", r"koksma_plan_write made = NULL .*",
+    r"koksma_study_images metric = NULL .*", r"koksma_image_blur sd = 0 .*", r"koksma_plan_write made = NULL .*",
     r"koksma_mask_\w+ (space|options->space|options->from|filter|from|result) = .*", r"koksma_mask_\w+ options->(levels|done) = 0 .*", r"koksma_mask_\w+ bits = 0.*", r"koksma_mask_rings anisotropy = NULL.*",
     r"koksma_mask_write_recipe options->(levels|done|from) = .*",
     r"(\w+ path|koksma_plan_write folder) = .(%s%n|nothing:of).*",  # names of files like others

@@ -10,6 +10,7 @@
 
 #include "core/elementary.h"
 #include "core/status.h"
+#include "image/image.h"
 
 /* Blurs `lines` lines of `length` numbers: number i of line l is at index l * next + i * stride. scratch: `length`
    numbers. */
@@ -55,6 +56,7 @@ koksma_status koksma__blur(int width, int height, double sd, double *values)
 koksma_status koksma_image_blur(const koksma_image *image, double sd, koksma_image *out)
 {
     KOKSMA__REQUIRE(image, out);
+    KOKSMA__TRY(koksma__image_usable(image));
     KOKSMA__FAIL_IF(!(sd >= 0 && sd <= KOKSMA__MOST_BLUR), KOKSMA_ARGUMENT, "sd = %g: it must be 0 to %d pixels", sd,
                     KOKSMA__MOST_BLUR);
     const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;

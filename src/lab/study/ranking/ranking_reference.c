@@ -145,6 +145,7 @@ koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, con
 koksma_status koksma__rank_reference_take(koksma__rank_reference *reference, const koksma_metric_spec *metric,
                                           const koksma__study_scene *scene, const koksma_image *image)
 {
+    KOKSMA__TRY(koksma__image_usable(image));
     KOKSMA__FAIL_IF(image->width != scene->width || image->height != scene->height, KOKSMA_ARGUMENT,
                     "the reference has %d x %d pixels, and the images of the patterns %d x %d: choose its size",
                     image->width, image->height, scene->width, scene->height);
