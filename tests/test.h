@@ -17,7 +17,7 @@
 void test_add(const char *name, CMUnitTestFunction function, int line);
 void test_around(CMFixtureFunction begin, CMFixtureFunction end);
 
-/* TEST_CASE(name) { ... } is a test of cmocka, which the main of tests/main.c runs; `state` is what the group's beginning
+/* TEST_CASE(name) { ... } is a test of cmocka, which tests/run_tests.c runs; `state` is what the group's beginning
    left. A file that needs more, as a function after each test, has a list and a main of its own. */
 #define TEST_CASE(name)                                                                                              \
     static void name(void **state);                                                                                  \
