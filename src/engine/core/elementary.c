@@ -6,31 +6,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/double_double.h"
+
 #define PI_LOW 0x1.1a62633145c07p-53 /* pi less its double */
-
-typedef struct two_parts {
-    double high, low; /* their sum is the number, |low| <= ulp(high) / 2 */
-} two_parts;
-
-static two_parts sum_of(double large, double small) /* |large| >= |small| */
-{
-    const double high = large + small;
-    return (two_parts){high, small - (high - large)};
-}
-
-/* The product without an error, by Dekker's splitting (1971), for numbers below 2^996. */
-static two_parts product(double a, double b)
-{
-    const double wide_a = 134217729 * a, wide_b = 134217729 * b; /* 2^27 + 1 */
-    const double a1 = wide_a - (wide_a - a), a2 = a - a1, b1 = wide_b - (wide_b - b), b2 = b - b1, high = a * b;
-    return (two_parts){high, ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2};
-}
-
-static two_parts times(two_parts a, two_parts b)
-{
-    const two_parts p = product(a.high, b.high);
-    return sum_of(p.high, p.low + (a.high * b.low + a.low * b.high));
-}
 
 double koksma__sin(double x)
 {
@@ -57,15 +35,15 @@ double koksma__tan(double x)
    that of 1/a. The rest is at most 1/15, and Taylor's series up to its 15th power leaves out less than 2^-67 of it. */
 double koksma__atan(double x)
 {
-    static const two_parts eighths[] = {{0, 0},
-                                        {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
-                                        {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
-                                        {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
-                                        {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
-                                        {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
-                                        {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
-                                        {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
-                                        {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
+    static const koksma__dd eighths[] = {{0, 0},
+                                         {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
+                                         {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
+                                         {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
+                                         {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
+                                         {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
+                                         {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
+                                         {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
+                                         {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
     const double a = fabs(x);
     if (!(a < 0x1p60)) {
         return isnan(x) ? x : copysign(M_PI_2, x);
@@ -76,13 +54,13 @@ double koksma__atan(double x)
     for (int k = 13; k >= 3; k -= 2) {
         series = series * z + (k % 4 == 1 ? 1.0 : -1.0) / k;
     }
-    const double rest = eighths[i].low + t * z * series; /* all but atan(i/8) + t */
+    const double rest = eighths[i].lo + t * z * series; /* all but atan(i/8) + t */
     if (a <= 1) {
-        const two_parts r = i > 0 ? sum_of(eighths[i].high, t) : sum_of(t, 0);
-        return copysign(r.high + (r.low + rest), x);
+        const koksma__dd r = i > 0 ? koksma__dd_quick_sum(eighths[i].hi, t) : koksma__dd_quick_sum(t, 0);
+        return copysign(r.hi + (r.lo + rest), x);
     }
-    const two_parts r = sum_of(M_PI_2, -eighths[i].high), q = sum_of(r.high, -t);
-    return copysign(q.high + (q.low + (r.low + PI_LOW / 2 - rest)), x);
+    const koksma__dd r = koksma__dd_quick_sum(M_PI_2, -eighths[i].hi), q = koksma__dd_quick_sum(r.hi, -t);
+    return copysign(q.hi + (q.lo + (r.lo + PI_LOW / 2 - rest)), x);
 }
 
 double koksma__atan2(double y, double x)
@@ -191,7 +169,7 @@ double koksma__hypot(double x, double y)
 
 /* log(x) in two parts: with f = (m - 1) / (m + 1), x = 2^e m, it is e ln 2 + 2 f + 2/3 f^3 + 2/5 f^5 + ...; what is
    computed with one part only begins at f^7 2/7 < 2^-19. */
-static two_parts long_log(double x)
+static koksma__dd long_log(double x)
 {
     int e;
     double m = frexp(x, &e);
@@ -199,39 +177,40 @@ static two_parts long_log(double x)
         m *= 2;
         e--;
     }
-    const two_parts above = sum_of(fmax(m, 1), fmin(m, 1)); /* m - 1 has no error */
-    const double quotient = (m - 1) / above.high;
-    const two_parts back = product(quotient, above.high);
-    const two_parts f = sum_of(quotient, (((m - 1) - back.high) - back.low - quotient * above.low) / above.high);
-    const two_parts square = times(f, f);
+    const koksma__dd above = koksma__dd_quick_sum(fmax(m, 1), fmin(m, 1)); /* m - 1 has no error */
+    const double quotient = (m - 1) / above.hi;
+    const koksma__dd back = koksma__dd_product(quotient, above.hi);
+    const koksma__dd f =
+        koksma__dd_quick_sum(quotient, (((m - 1) - back.hi) - back.lo - quotient * above.lo) / above.hi);
+    const koksma__dd square = koksma__dd_mul(f, f);
     double rest = 0;
     for (int i = 25; i >= 7; i -= 2) {
-        rest = rest * square.high + 1.0 / i;
+        rest = rest * square.hi + 1.0 / i;
     }
-    static const two_parts fifth = {0x1.999999999999ap-3, -0x1.999999999999ap-57},
-                           third = {0x1.5555555555555p-2, 0x1.5555555555555p-56};
-    two_parts series = sum_of(fifth.high, fifth.low + rest * square.high);
-    series = times(series, square);
-    const two_parts sum = sum_of(third.high, series.high);
-    series = times(times(sum_of(sum.high, sum.low + third.low + series.low), square), f);
-    const two_parts whole = sum_of(f.high, series.high);
-    const two_parts of_m = sum_of(2 * whole.high, 2 * (whole.low + f.low + series.low));
+    static const koksma__dd fifth = {0x1.999999999999ap-3, -0x1.999999999999ap-57},
+                            third = {0x1.5555555555555p-2, 0x1.5555555555555p-56};
+    koksma__dd series = koksma__dd_quick_sum(fifth.hi, fifth.lo + rest * square.hi);
+    series = koksma__dd_mul(series, square);
+    const koksma__dd sum = koksma__dd_quick_sum(third.hi, series.hi);
+    series = koksma__dd_mul(koksma__dd_mul(koksma__dd_quick_sum(sum.hi, sum.lo + third.lo + series.lo), square), f);
+    const koksma__dd whole = koksma__dd_quick_sum(f.hi, series.hi);
+    const koksma__dd of_m = koksma__dd_quick_sum(2 * whole.hi, 2 * (whole.lo + f.lo + series.lo));
     const double high = e * 0x1.62e42fefap-1, low = e * 0x1.cf79abc9e3b3ap-40; /* ln 2; the first product is exact */
     if (e == 0) {
         return of_m;
     }
-    const two_parts total = sum_of(high, of_m.high);
-    const two_parts small = sum_of(total.low, low);
-    return sum_of(total.high, small.high + (small.low + of_m.low));
+    const koksma__dd total = koksma__dd_quick_sum(high, of_m.hi);
+    const koksma__dd small = koksma__dd_sum(total.lo, low);
+    return koksma__dd_quick_sum(total.hi, small.hi + (small.lo + of_m.lo));
 }
 
 /* x^n for whole n >= 0, with two parts. */
-static two_parts whole_power(double x, int n)
+static koksma__dd whole_power(double x, int n)
 {
-    two_parts power = {1, 0}, square = {x, 0};
+    koksma__dd power = {1, 0}, square = {x, 0};
     for (; n > 0; n /= 2) {
-        power = n % 2 ? times(power, square) : power;
-        square = n > 1 ? times(square, square) : square;
+        power = n % 2 ? koksma__dd_mul(power, square) : power;
+        square = n > 1 ? koksma__dd_mul(square, square) : square;
     }
     return power;
 }
@@ -252,18 +231,18 @@ double koksma__pow(double x, double y)
     if (isinf(y)) {
         return a == 1 ? 1 : (a > 1) == (y > 0) ? (double)INFINITY : 0;
     }
-    const two_parts l = long_log(a);
-    const double exponent = y * l.high;
+    const koksma__dd l = long_log(a);
+    const double exponent = y * l.hi;
     if (fabs(exponent) > 800) {
         return exponent > 0 ? sign * (double)INFINITY : sign * 0;
     }
     if (whole && fabs(y) <= 1024 && fabs(exponent) < 660) {
-        const two_parts power = whole_power(a, (int)fabs(y));
-        return sign * (y > 0 ? power.high : (1 - power.low / power.high) / power.high);
+        const koksma__dd power = whole_power(a, (int)fabs(y));
+        return sign * (y > 0 ? power.hi : (1 - power.lo / power.hi) / power.hi);
     }
-    const two_parts p = product(y, l.high);
-    const double half = koksma__exp(p.high / 2); /* the whole may be subnormal */
-    return sign * (half * (1 + (p.low + y * l.low)) * half);
+    const koksma__dd p = koksma__dd_product(y, l.hi);
+    const double half = koksma__exp(p.hi / 2); /* the whole may be subnormal */
+    return sign * (half * (1 + (p.lo + y * l.lo)) * half);
 }
 
 double koksma__cbrt(double x)
@@ -285,13 +264,13 @@ double koksma__erfc(double x)
     if (x > 27) {
         return 0;
     }
-    const two_parts square = product(x, x);
-    double sum = 0.5 / square.high;
+    const koksma__dd square = koksma__dd_product(x, x);
+    double sum = 0.5 / square.hi;
     for (int k = 13; k >= 1; k--) {
-        sum += koksma__exp(-0.25 * k * k) / (0.25 * k * k + square.high);
+        sum += koksma__exp(-0.25 * k * k) / (0.25 * k * k + square.hi);
     }
     const double residue = x < 2 * M_PI ? 2 / koksma__expm1(4 * M_PI * x) : 0;
-    return koksma__exp(-square.high) * (1 - square.low) * x * sum / M_PI - residue;
+    return koksma__exp(-square.hi) * (1 - square.lo) * x * sum / M_PI - residue;
 }
 
 /* Stirling's series from 9 on, whose terms after these are below 1e-16; below, the argument is raised by whole steps. */
