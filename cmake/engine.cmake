@@ -14,7 +14,7 @@ macro(koksma_engine_sources folder)
   set(engine ${CMAKE_CURRENT_SOURCE_DIR}/${folder})
   file(GLOB ENGINE_SOURCES CONFIGURE_DEPENDS ${engine}/core/*.c ${engine}/api/*.c ${engine}/patterns/*.c ${engine}/patterns/*/*.c
        ${engine}/measures/*.c ${engine}/measures/*/*.c ${engine}/warps/*.c ${engine}/integrands/*.c ${engine}/verify/*.c
-       ${engine}/masks/*.c ${engine}/optimise/*.c ${engine}/kernels/kernels*.c)
+       ${engine}/masks/*.c ${engine}/optimise/*.c ${engine}/identify/*.c ${engine}/kernels/kernels*.c)
   foreach(part mean_square quantiles running_stats) # the rest of stats/ is koksma-lab's
     list(APPEND ENGINE_SOURCES ${engine}/stats/${part}.c)
   endforeach()

@@ -35,6 +35,7 @@ MAY_USE = {
     "api": "core patterns measures warps",
     "integrands": "core stats patterns api verify",
     "verify": "core patterns measures api",
+    "identify": "core patterns api verify",
     "optimise": "core kernels patterns measures api",
     "modules": "core",
     "image": "core kernels stats modules",
@@ -52,7 +53,7 @@ MAY_USE = {
     "study/report": "core stats patterns measures warps integrands image plot render study/plan study/store study/run "
                     "api",
     "study/sheet": "core stats patterns measures integrands verify api image scene render study/plan study/run study/ranking study/report",
-    "cli": "core kernels stats masks maskfiles patterns measures warps integrands api verify optimise image domains scene plot render "
+    "cli": "core kernels stats masks maskfiles patterns measures warps integrands api verify identify optimise image domains scene plot render "
            "study/plan study/run study/ranking study/images study/report study/sheet",
 }
 
@@ -343,7 +344,7 @@ ABOUT = {
     "kernels": "fast loops per instruction set",
     "warps": "maps of the square to a domain", "json": "JSON reader with line numbers",
     "stats": "statistics", "patterns": "one file a pattern", "measures": "one file a measure",
-    "api": "generate, evaluate", "verify": "proved properties",
+    "api": "generate, evaluate", "verify": "proved properties", "identify": "whose points",
     "masks": "masks for a filter", "maskfiles": "files of masks",
     "integrands": "functions, errors", "optimise": "searches for points", "image": "images, formats, spectra",
     "meshes": "mesh readers", "domains": "points by density, on models", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",

@@ -154,6 +154,10 @@ KOKSMA_API void koksma_points_fini(koksma_points *points);
    Errors: MISSING, MALFORMED (names file, line and reason), MEMORY. */
 KOKSMA_API koksma_status koksma_points_read(const char *path, koksma_points *points);
 
+/* Reads points like koksma_points_read, but accepts all finite coordinates, such as those that koksma_points_write_mapped
+   wrote or that another library scales to [-1,1]. */
+KOKSMA_API koksma_status koksma_points_read_mapped(const char *path, koksma_points *points);
+
 /* Writes points to a file, completely or not at all.
      path     its ending selects the format: .csv, .npy, or text for any other ending. "-" writes text to standard
               output

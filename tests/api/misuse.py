@@ -52,12 +52,14 @@ VALID = {
     "koksma_images_row **": "a_buffer(sizeof(void *))", "koksma_rank_options *": "rank_options()",
     "koksma_rank_row *": "a_buffer(2 * sizeof(koksma_rank_row))", "koksma_ranking *": "a_buffer(sizeof(koksma_ranking))",
     "koksma_verify_sets.sets": "many_sets()", "koksma_verify_sets.n_sets": "KOKSMA_VERIFY_SETS",
-    "koksma_findings *": "a_buffer(sizeof(koksma_findings))",
+    "koksma_findings *": "a_buffer(sizeof(koksma_findings))", "koksma_identities *": "a_buffer(sizeof(koksma_identities))",
+    "koksma_identity *": "a_zero(sizeof(koksma_identity))",
     "koksma_points_init.n": "4", "koksma_points_init.dim": "2", "koksma_points_init.points": "a_buffer(sizeof(koksma_points))",
     "koksma_points_fini.points": "a_zero(sizeof(koksma_points))", "koksma_points_read.path": "work_path(\"in.npy\")",
     "koksma_points_read.points": "a_buffer(sizeof(koksma_points))", "koksma_generate_whole.out": "a_buffer(sizeof(koksma_points))",
     "koksma_generate_range.spec": "a_pattern(\"sobol\")", "koksma_generate_sets.sets": "4", "koksma_evaluate_sets.sets": "2",
     "koksma_evaluate_sets.spec": "a_measure(\"l2-disk\")", "koksma_generate_write.spec": "a_pattern(\"sobol\")",
+    "koksma_points_read_mapped.path": "work_path(\"in.npy\")", "koksma_points_read_mapped.points": "a_buffer(sizeof(koksma_points))",
     "koksma_generate_write.n": "7", "koksma_generate_write.dim": "2", "koksma_has_ranges.spec": "a_pattern(\"sobol\")",
     "koksma_generate_whole.dim": "2", "koksma_generate_whole.spec": "a_pattern(work_path(\"file:in.npy\"))",
     "koksma_pattern_spec.spec": "a_buffer(sizeof(koksma_spec))", "koksma_measure_spec.spec": "a_buffer(sizeof(koksma_spec))",
@@ -137,7 +139,7 @@ VALID = {
     "koksma_domain": "{7}", "koksma_sobol *": "a_sequence()", "koksma_keys *": "some_keys()", "koksma_keys_of.pair": "0", "uint32_t": "1", "const uint32_t *": "a_buffer(3 * sizeof(uint32_t))",
     "int": "1", "koksma_permute.n": "8", "koksma_cmj_2d.columns": "4", "koksma_cmj_2d.rows": "4", "koksma_mask_value.pixels": "16",
     "koksma_mask_2d.spp": "4", "koksma_part_of_sample.s": "0", "float *": "a_buffer(4 * sizeof(float))", "koksma_domain *": "a_buffer(sizeof(koksma_domain))",
-    "koksma_findings_fini.findings": "a_zero(sizeof(koksma_findings))",
+    "koksma_findings_fini.findings": "a_zero(sizeof(koksma_findings))", "koksma_identities_fini.identities": "a_zero(sizeof(koksma_identities))",
 }
 
 # Members of the library's tables, which are constant: a copy of one, with one pointer NULL, must not crash a call.

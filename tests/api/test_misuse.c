@@ -34,6 +34,7 @@ static void asserted(const char *condition);
 #include <koksma/series.h>
 #include <koksma/study.h>
 #include <koksma/verify.h>
+#include <koksma/identify.h>
 
 #include "test.h"
 

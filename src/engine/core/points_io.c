@@ -11,7 +11,7 @@
 #include "core/points.h"
 #include "core/status.h"
 
-koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points)
+koksma_status koksma__points_read(const char *path, koksma__named by, bool mapped, koksma_points *points)
 {
     FILE *stream;
     *points = (koksma_points){0};
@@ -19,8 +19,8 @@ koksma_status koksma__points_read(const char *path, koksma__named by, koksma_poi
     const char *name = stream == stdin ? "standard input" : path;
     const int first = getc(stream); /* first byte of "\x93NUMPY"; no text file begins with this byte */
     ungetc(first, stream);
-    const koksma_status status = first == 0x93 ? koksma__points_read_npy(stream, name, points)
-                                               : koksma__points_read_text(stream, name, points);
+    const koksma_status status = first == 0x93 ? koksma__points_read_npy(stream, name, mapped, points)
+                                               : koksma__points_read_text(stream, name, mapped, points);
     koksma__file_close(stream);
     return status;
 }
@@ -28,7 +28,13 @@ koksma_status koksma__points_read(const char *path, koksma__named by, koksma_poi
 koksma_status koksma_points_read(const char *path, koksma_points *points)
 {
     KOKSMA__REQUIRE(path, points);
-    return koksma__points_read(path, KOKSMA__BY_USER, points);
+    return koksma__points_read(path, KOKSMA__BY_USER, false, points);
+}
+
+koksma_status koksma_points_read_mapped(const char *path, koksma_points *points)
+{
+    KOKSMA__REQUIRE(path, points);
+    return koksma__points_read(path, KOKSMA__BY_USER, true, points);
 }
 
 static bool ends_with(const char *text, const char *end)

@@ -12,9 +12,9 @@
 #include "core/files.h"
 #include "core/visibility.h"
 
-/* Does the same as koksma_points_read; `by` tells who named the file and thus which kinds of files may be opened
-   (core/files.h). */
-koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points);
+/* Does the same as koksma_points_read or, if mapped, koksma_points_read_mapped; `by` tells who named the file and thus which
+   kinds of files may be opened (core/files.h). */
+koksma_status koksma__points_read(const char *path, koksma__named by, bool mapped, koksma_points *points);
 
 /* A file of n points that is written piece by piece, in the format given by the ending of its name. Coordinates may
    be any numbers. */
@@ -49,8 +49,9 @@ typedef struct koksma__progress {
     double done, share;
 } koksma__progress;
 
-/* Reads points. Error messages call the stream `name`. On failure points is left empty. */
-koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_points *points);
+/* Reads points. Error messages call the stream `name`. mapped: coordinates may be any finite numbers, not only those in
+   [0,1]. On failure points is left empty. */
+koksma_status koksma__points_read_text(FILE *stream, const char *name, bool mapped, koksma_points *points);
 
 /* Writes the header, which is before the points. */
 void koksma__points_begin_text(FILE *stream, uint64_t n, int dim, const char *comment);
@@ -61,8 +62,9 @@ koksma_status koksma__points_put_rows(FILE *stream, const koksma_points *points,
 
 /* ---- NumPy's .npy ---- */
 
-/* Reads points. Error messages call the stream `name`. On failure points is left empty. */
-koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points);
+/* Reads points. Error messages call the stream `name`. mapped: coordinates may be any finite numbers, not only those in
+   [0,1]. On failure points is left empty. */
+koksma_status koksma__points_read_npy(FILE *stream, const char *name, bool mapped, koksma_points *points);
 
 /* Reads a mask: an array of shape (height, width) or (height, width, numbers), of up to `most` pixels a side and 4 numbers;
    shape[2] is 1 for the first. An unsigned integer of b bits becomes the middle of its interval, (k + 1/2) / 2^b. The

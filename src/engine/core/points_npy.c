@@ -22,6 +22,7 @@ typedef struct layout {
     size_t item_size;
     char kind; /* NumPy's: f, u or i */
     bool big_endian, fortran_order;
+    bool mapped; /* take all finite coordinates, not only those in [0,1] */
 } layout;
 
 static koksma_status malformed(const char *name, const char *reason)
@@ -170,11 +171,12 @@ static double decode(const unsigned char *bytes, const layout *l)
     return x;
 }
 
-/* Stores number `item` of the file in the points; fails if the number is not in [0,1]. */
+/* Stores number `item` of the file in the points; fails if the number is not in [0,1] or, where l->mapped, not finite. */
 static koksma_status put_item(const char *name, const layout *l, size_t item, double x, koksma_points *points)
 {
-    KOKSMA__FAIL_IF(!(x >= 0 && x <= 1), KOKSMA_MALFORMED, "%s: item %zu: coordinate %.17g is outside [0,1]", name,
-                    item, x);
+    KOKSMA__FAIL_IF(l->mapped ? !isfinite(x) : !(x >= 0 && x <= 1), KOKSMA_MALFORMED,
+                    "%s: item %zu: coordinate %.17g is %s", name, item, x,
+                    l->mapped ? "not finite" : "outside [0,1]");
     const size_t place = l->fortran_order ? item % l->n * l->dim + item / l->n : item;
     points->xs[place] = x == 0 ? 0.0 : x;
     return KOKSMA_OK;
@@ -286,9 +288,9 @@ koksma_status koksma__npy_read_mask(const char *path, koksma__named by, size_t m
     return status;
 }
 
-koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points)
+koksma_status koksma__points_read_npy(FILE *stream, const char *name, bool mapped, koksma_points *points)
 {
-    layout l = {.most_axes = 2};
+    layout l = {.most_axes = 2, .mapped = mapped};
     *points = (koksma_points){0};
     koksma_status status = read_header(stream, name, &l);
     if (!status) {

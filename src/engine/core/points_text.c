@@ -8,6 +8,7 @@
 #include "core/points_io.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,6 +22,7 @@ enum { MAX_LINE = 1 << 18, BLOCK = 2 * MAX_LINE, SHOWN = 40 };
 typedef struct reader {
     FILE *stream;
     const char *name;
+    bool mapped; /* take all finite coordinates, not only those in [0,1] */
     char *block; /* BLOCK + 1 bytes; those from `at` to `held` have not been used yet */
     size_t at, held;
     bool at_end;
@@ -209,8 +211,9 @@ static koksma_status read_row(reader *r, const char *s)
         if (end == s || !(is_separator(*end) || !*end)) {
             return bad_number(r, s);
         }
-        KOKSMA__FAIL_IF(!(x >= 0 && x <= 1), KOKSMA_MALFORMED, "%s: line %zu: coordinate %.17g is outside [0,1]",
-                        r->name, r->line_number, x);
+        KOKSMA__FAIL_IF(r->mapped ? !isfinite(x) : !(x >= 0 && x <= 1), KOKSMA_MALFORMED,
+                        "%s: line %zu: coordinate %.17g is %s", r->name, r->line_number, x,
+                        r->mapped ? "not finite" : "outside [0,1]");
         if (++fields > KOKSMA_MAX_DIM) {
             return malformed(r, "more than 4096 coordinates");
         }
@@ -303,10 +306,10 @@ static koksma_status check_promises(const reader *r, size_t n)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_points *points)
+koksma_status koksma__points_read_text(FILE *stream, const char *name, bool mapped, koksma_points *points)
 {
     *points = (koksma_points){0};
-    reader r = {.stream = stream, .name = name, .points = points, .block = malloc(BLOCK + 1)};
+    reader r = {.stream = stream, .name = name, .mapped = mapped, .points = points, .block = malloc(BLOCK + 1)};
     koksma_status status = r.block ? KOKSMA_OK : koksma__fail_memory(BLOCK + 1);
     while (!status && read_line(&r, &status)) {
         status = take_line(&r);

@@ -33,8 +33,9 @@ static koksma_status parse(const char *name, char *text, size_t size, const koks
     KOKSMA__FAIL_IF(!size, KOKSMA_MALFORMED, "%s: it printed nothing", name);
     FILE *stream = fmemopen(text, size, "rb");
     KOKSMA__REQUIRE_MEMORY(stream, size);
-    koksma_status status = size > 6 && !memcmp(text, "\x93NUMPY", 6) ? koksma__points_read_npy(stream, name, out)
-                                                                     : koksma__points_read_text(stream, name, out);
+    koksma_status status = size > 6 && !memcmp(text, "\x93NUMPY", 6)
+                               ? koksma__points_read_npy(stream, name, false, out)
+                               : koksma__points_read_text(stream, name, false, out);
     fclose(stream);
     KOKSMA__TRY(status);
     if (out->n != wanted->n || out->dim != wanted->dim) {

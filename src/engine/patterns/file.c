@@ -24,7 +24,7 @@ static koksma_status read_set(size_t n, uint64_t seed, const koksma_args *args, 
     KOKSMA__FAIL_IF(!n && koksma__file_has(args->path, "{n}"), KOKSMA_N, "file:%s: the number of points is missing",
                     args->path);
     koksma_status status = koksma__file_name(args->path, n, seed, path);
-    status = status ? status : koksma__points_read(path, KOKSMA__BY_FILE, out);
+    status = status ? status : koksma__points_read(path, KOKSMA__BY_FILE, false, out);
     if (status == KOKSMA_MISSING && strcmp(path, args->path) != 0) {
         status = koksma__fail(KOKSMA_MISSING, "file:%s: there is no file %s", args->path, path);
     }

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* `koksma identify`: says which known points a set is, or by which map it arises from them. */
+#include <koksma/identify.h>
+
+#include <string.h>
+
+#include "cli.h"
+#include "source.h"
+
+static void put_rows(cli_rows *rows, const char *source, const koksma_points *points,
+                     const koksma_identities *identities)
+{
+    for (size_t i = 0; i < identities->count; i++) {
+        const koksma_identity *said = &identities->items[i];
+        cli_row_text(rows, "source", source);
+        cli_row_whole(rows, "n", points->n);
+        cli_row_whole(rows, "dim", (uint64_t)points->dim);
+        cli_row_text(rows, "relation", said->relation);
+        cli_row_text(rows, "what", *said->what ? said->what : "-");
+        cli_row_text(rows, "spec", *said->spec ? said->spec : "-");
+        cli_row_whole(rows, "first", said->first);
+        cli_row_whole(rows, "seed", said->seed);
+        cli_row_text(rows, "detail", said->detail);
+        cli_row_end(rows);
+    }
+}
+
+/* Reads an operand: coordinates of files may be any numbers. Returns the exit code. */
+static int read_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
+                       koksma_points *points)
+{
+    *points = (koksma_points){0};
+    if (cli_source_is_pattern(source)) {
+        return cli_source_points(arguments, source, seed, run, points);
+    }
+    const koksma_status status = koksma_points_read_mapped(source, points);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
+static int run(const cli_arguments *arguments)
+{
+    uint64_t seed;
+    cli_work work;
+    if (arguments->n_operands == 0) {
+        return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
+    }
+    if (!cli_sources_check(arguments, 0, 1, 0) || !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) ||
+        !cli_work_begin(arguments, "identifying", &work)) {
+        return CLI_USAGE;
+    }
+    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    bool named = true;
+    int code = CLI_YES;
+    for (int i = 0; i < arguments->n_operands && !code; i++) {
+        koksma_points points;
+        koksma_identities identities = {0};
+        const char *source = arguments->operands[i];
+        cli_work_part(&work, (size_t)i, (size_t)arguments->n_operands);
+        code = read_points(arguments, source, seed, &work.run, &points);
+        if (!code) {
+            cli_work_unknown(&work, "identifying");
+            const koksma_status status = koksma_identify(&points, &work.run, &identities);
+            cli_work_end();
+            code = status ? cli_fail(arguments, status) : CLI_YES;
+        }
+        bool one = false;
+        for (size_t k = 0; k < identities.count; k++) {
+            one = one || koksma_identity_names(&identities.items[k]);
+        }
+        named = named && one;
+        put_rows(rows, source, &points, &identities);
+        koksma_identities_fini(&identities);
+        koksma_points_fini(&points);
+    }
+    const int rows_code = cli_rows_close(rows);
+    return code ? code : rows_code ? rows_code : named ? CLI_YES : CLI_NO;
+}
+
+static const cli_option options[] = {
+    CLI_SOURCE_OPTIONS, {'s', "seed", "S", "seed of patterns (default: 0)"}, CLI_ROW_OPTIONS, CLI_RUN_OPTIONS, {0},
+};
+
+const cli_command cli_command_identify = {
+    .name = "identify",
+    .summary = "say which known points a set is",
+    .synopsis = "FILE|-|SPEC@N[@DIM]... [--json]",
+    .details =
+        "Compares points with the sequences, lattices and patterns that are known here, and says how the points "
+        "arise "
+        "from them. Sequences are those of Sobol' (direction numbers of Joe & Kuo, Bratley & Fox and ours), "
+        "Niederreiter in base 2, Halton and Faure, from any first point, in natural order and that of Gray's code; "
+        "then rank-1 lattices and lattice sequences, additive recurrences, Hammersley points, grids, and every "
+        "pattern "
+        "of 'koksma list patterns' with seeds from 0 on. Coordinates may be permuted, points in another order or "
+        "left "
+        "out, numbers rounded to float, to few digits, or scaled to [-1,1] or a box.\n"
+        "relation: equal, reordered, part: the points are those, another order or some of what the row names; spec "
+        "makes them, 'first' is the index of the first. shifted: one vector was added modulo 1. digital-shift, "
+        "digit-permutation, linear-scramble, nested-scramble: what happened to the digits; nested-scramble is Owen's "
+        "or one of its hashes. lattice, recurrence, grid: 'detail' has the numbers. scaled, rounded: how the numbers "
+        "were read. property: a net, a Latin hypercube, distances. Each statement was tested for every point.\n"
+        "unknown: nothing that is known here makes these points. That is an answer, too; the docs page "
+        "conventions-of-others.md has the conventions of other libraries.\n"
+        "Exit codes: 0 when all sets are named; 1 when one is unknown; 2 for a wrong command line; 3 for points that "
+        "are missing or malformed.",
+    .examples = "koksma identify points.txt\n"
+                "koksma identify sobol:scramble=owen@256@4 --seed 5\n",
+    .options = options,
+    .run = run,
+};

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The numbers of points: how they lie in the unit cube, and how they were rounded.
+ *
+ * Coordinates outside [0,1] are taken for whole numbers below n (divided by n), for [-1,1], or for a box whose bounds are the
+ * roundest decimals within 3/n of its width around the points. Numbers that all are floats, all multiples of 2^-k with
+ * k <= 32, or all decimals of up to 12 places may be rounded ones: they are compared within such a rounding, after an attempt
+ * with the precision of double.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "core/status.h"
+#include "identify/identify.h"
+
+/* Returns the decimal with the fewest digits in [lo, hi]. */
+static double roundest(double lo, double hi)
+{
+    if (lo <= 0 && hi >= 0) {
+        return 0;
+    }
+    for (int e = 18; e >= -18; e--) {
+        const double unit = pow(10, e), up = ceil(lo / unit - 1e-12);
+        if (up * unit <= hi + 1e-12 * fabs(hi)) {
+            return e < 0 ? up / pow(10, -e) : up * unit;
+        }
+    }
+    return lo;
+}
+
+typedef struct bounds {
+    double lo, hi;
+} bounds;
+
+static void map_coordinate(koksma_points *points, int k, bounds b)
+{
+    for (size_t i = 0; i < points->n; i++) {
+        double *x = &points->xs[i * (size_t)points->dim + (size_t)k];
+        *x = fmin(1, fmax(0, (*x - b.lo) / (b.hi - b.lo)));
+    }
+}
+
+koksma_status koksma__map_to_cube(koksma__sample *s)
+{
+    koksma_points *points = &s->points;
+    const size_t n = points->n, dim = (size_t)points->dim;
+    double least = INFINITY, most = -INFINITY;
+    bool whole = true;
+    for (size_t i = 0; i < n * dim; i++) {
+        KOKSMA__FAIL_IF(!isfinite(points->xs[i]), KOKSMA_ARGUMENT, "identify: point %zu: a coordinate is not finite",
+                        i / dim);
+        least = fmin(least, points->xs[i]);
+        most = fmax(most, points->xs[i]);
+        whole = whole && points->xs[i] == floor(points->xs[i]);
+    }
+    if (least >= 0 && most <= 1) {
+        return KOKSMA_OK;
+    }
+    char text[400] = "";
+    const bool indices = whole && least >= 0 && most < (double)n, centred = least >= -1 && most <= 1;
+    for (size_t k = 0; k < dim; k++) {
+        bounds b = {0, (double)n};
+        if (centred && !indices) {
+            b = (bounds){-1, 1};
+        } else if (!indices) {
+            bounds x = {INFINITY, -INFINITY};
+            for (size_t i = 0; i < n; i++) {
+                x.lo = fmin(x.lo, points->xs[i * dim + k]);
+                x.hi = fmax(x.hi, points->xs[i * dim + k]);
+            }
+            const double margin = 3 * (x.hi - x.lo) / (double)n + (x.hi == x.lo);
+            b = (bounds){roundest(x.lo - margin, x.lo), roundest(x.hi, x.hi + margin)};
+        }
+        koksma__append(text, sizeof text, "%s[%g, %g]", k ? " x " : "", b.lo, b.hi);
+        map_coordinate(points, (int)k, b);
+    }
+    koksma_identity *said =
+        koksma__identity(s, "scaled", indices ? "whole numbers, divided by n: %s" : "from %s", text);
+    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
+    snprintf(said->what, sizeof said->what, "mapped to the unit cube");
+    return KOKSMA_OK;
+}
+
+static bool all_multiples(const koksma_points *points, double scale, double slack)
+{
+    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
+        const double x = points->xs[i] * scale;
+        if (fabs(x - nearbyint(x)) > slack) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool all_floats(const koksma_points *points)
+{
+    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
+        if ((double)(float)points->xs[i] < points->xs[i] || (double)(float)points->xs[i] > points->xs[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+int koksma__precisions(const koksma_points *points, double tolerances[KOKSMA__PRECISIONS])
+{
+    int count = 0;
+    tolerances[count++] = 0x1p-50;
+    for (int b = 16; b <= 32; b++) {
+        if (all_multiples(points, ldexp(1, b), 0)) {
+            tolerances[count++] = ldexp(1, -b);
+            break;
+        }
+    }
+    if (count == 1 || tolerances[1] < 0x1p-24) {
+        for (int d = 4; d <= 12; d++) {
+            if (all_multiples(points, pow(10, d), 1e-3 * pow(10, d - 12))) {
+                tolerances[count++] = pow(10, -d);
+                return count;
+            }
+        }
+    }
+    if (all_floats(points)) {
+        tolerances[count++] = 0x1p-24;
+    }
+    return count;
+}

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Sequences without a shift or scrambling: each coordinate gives the index of its point.
+ *
+ * For every coordinate k of the points and every coordinate j of a sequence the indices of four points are computed. Where
+ * the points are some of the sequence's, all k give the same four for the right j, whatever the order of points and
+ * coordinates and however many are left out. So these quadruples are sorted, the one that most k share is taken, all indices
+ * are computed from one coordinate, and every coordinate of every point is compared. If one coordinate has no such j, it may
+ * be the equidistant one of Hammersley's points, which is linear in the index.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "identify/identify.h"
+
+enum { PROBES = 4, LEAST_POINTS = 2, NEAR = 16 };
+
+#define MOST_INDEX ((uint64_t)1 << 48)
+
+typedef struct hit {
+    uint64_t indices[PROBES];
+    int k, j;
+} hit;
+
+typedef struct plain {
+    koksma__sample *s;
+    const koksma__source *source;
+    koksma__coordinate *coordinates;
+    int n_coordinates;
+    hit *hits;
+    size_t n_hits, capacity;
+    int *columns; /* columns[k]: coordinate of the source, or -1 */
+    uint64_t *indices;
+} plain;
+
+static double x_at(const plain *p, size_t i, int k)
+{
+    return p->s->points.xs[i * (size_t)p->s->points.dim + (size_t)k];
+}
+
+static bool is_at(const plain *p, size_t i, int k, int j, uint64_t index)
+{
+    const koksma__coordinate *c = &p->coordinates[j];
+    return fabs(x_at(p, i, k) - (double)koksma__numerator(c, index) / c->whole) <= p->s->tolerance;
+}
+
+static size_t probe_at(const plain *p, int probe)
+{
+    const size_t n = p->s->points.n;
+    return probe < 2 ? (size_t)probe : probe == 2 ? n / 2 : n - 1;
+}
+
+/* Adds the indices of the probes by coordinates k and j, if they are those of points. */
+static koksma_status look(plain *p, int k, int j)
+{
+    hit h = {.k = k, .j = j};
+    for (int probe = 0; probe < PROBES; probe++) {
+        const size_t i = probe_at(p, probe);
+        const uint64_t index = koksma__index_of(&p->coordinates[j], x_at(p, i, k), p->s->tolerance);
+        if (index >= MOST_INDEX || !is_at(p, i, k, j, index)) {
+            return KOKSMA_OK;
+        }
+        h.indices[probe] = index;
+    }
+    if (p->n_hits == p->capacity) {
+        const size_t more = 2 * p->capacity + 1024;
+        hit *hits = realloc(p->hits, more * sizeof *hits);
+        KOKSMA__REQUIRE_MEMORY(hits, more * sizeof *hits);
+        p->hits = hits;
+        p->capacity = more;
+    }
+    p->hits[p->n_hits++] = h;
+    return KOKSMA_OK;
+}
+
+static int by_indices(const void *a, const void *b)
+{
+    const hit *g = a, *h = b;
+    for (int probe = 0; probe < PROBES; probe++) {
+        if (g->indices[probe] != h->indices[probe]) {
+            return g->indices[probe] < h->indices[probe] ? -1 : 1;
+        }
+    }
+    return g->k != h->k ? g->k - h->k : g->j - h->j;
+}
+
+/* Assigns coordinates of the source by the hits [first, last), which have the same indices. Returns how many. */
+static int assign(plain *p, size_t first, size_t last)
+{
+    int assigned = 0;
+    for (int k = 0; k < p->s->points.dim; k++) {
+        p->columns[k] = -1;
+    }
+    for (size_t h = first; h < last; h++) { /* the same coordinate where that will do, else the first */
+        const int k = p->hits[h].k;
+        assigned += p->columns[k] < 0;
+        p->columns[k] = p->columns[k] < 0 || p->hits[h].j == k ? p->hits[h].j : p->columns[k];
+    }
+    return assigned;
+}
+
+/* Computes all indices and compares all points with them; without coordinate `except`, if that is not -1. */
+static bool confirm(plain *p, int except)
+{
+    const int lead = except == 0;
+    for (size_t i = 0; i < p->s->points.n; i++) {
+        const uint64_t index = koksma__index_of(&p->coordinates[p->columns[lead]], x_at(p, i, lead), p->s->tolerance);
+        if (index >= MOST_INDEX) {
+            return false;
+        }
+        p->indices[i] = index;
+        for (int k = 0; k < p->s->points.dim; k++) {
+            if (k != except && !is_at(p, i, k, p->columns[k], index)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* ---- The order of the indices ---- */
+
+typedef struct order {
+    uint64_t least, most, first, step;
+    bool stepped, gray, distinct;
+} order;
+
+static int by_value(const void *a, const void *b)
+{
+    const uint64_t *u = a, *v = b;
+    return (*u > *v) - (*u < *v);
+}
+
+static order order_of(const uint64_t *indices, size_t n, uint64_t *scratch)
+{
+    order o = {.least = UINT64_MAX,
+               .first = indices[0],
+               .step = indices[1] - indices[0],
+               .stepped = true,
+               .gray = true,
+               .distinct = true};
+    for (size_t i = 0; i < n; i++) {
+        o.least = indices[i] < o.least ? indices[i] : o.least;
+        o.most = indices[i] > o.most ? indices[i] : o.most;
+        o.stepped = o.stepped && indices[i] == o.first + o.step * i;
+        o.gray = o.gray && koksma__from_gray(indices[i]) == koksma__from_gray(indices[0]) + i;
+    }
+    memcpy(scratch, indices, n * sizeof *scratch);
+    qsort(scratch, n, sizeof *scratch, by_value);
+    for (size_t i = 1; i < n; i++) {
+        o.distinct = o.distinct && scratch[i] != scratch[i - 1];
+    }
+    return o;
+}
+
+static koksma_status say(plain *p, const order *o, int except, const char *linear)
+{
+    const size_t n = p->s->points.n;
+    const uint64_t span = o->most - o->least + 1;
+    const bool whole = o->distinct && span == n, equal = o->stepped && o->step == 1;
+    bool in_order = true;
+    double difference = 0;
+    for (int k = 0; k < p->s->points.dim; k++) {
+        in_order = in_order && (k == except || p->columns[k] == k);
+        for (size_t i = 0; i < n && k != except; i++) {
+            const koksma__coordinate *c = &p->coordinates[p->columns[k]];
+            difference =
+                fmax(difference, fabs(x_at(p, i, k) - (double)koksma__numerator(c, p->indices[i]) / c->whole));
+        }
+    }
+    char text[200] = "";
+    if (o->gray && !equal) {
+        snprintf(text, sizeof text, "Gray order from number %llu; ", (unsigned long long)koksma__from_gray(o->first));
+    } else if (o->stepped && !equal) {
+        snprintf(text, sizeof text, "every %lldth point; ", (long long)o->step);
+    } else if (!equal && whole) {
+        snprintf(text, sizeof text, "another order of points %llu to %llu; ", (unsigned long long)o->least,
+                 (unsigned long long)o->most);
+    } else if (!equal) {
+        snprintf(text, sizeof text, "%zu of points %llu to %llu%s; ", n, (unsigned long long)o->least,
+                 (unsigned long long)o->most, o->distinct ? "" : ", some repeated");
+    }
+    koksma_identity *said =
+        koksma__identity(p->s,
+                         equal              ? "equal"
+                         : o->gray || whole ? "reordered"
+                                            : "part",
+                         "%s%slargest difference %.3g in %zu points", linear, text, difference, n);
+    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
+    said->first = o->gray && !equal ? koksma__from_gray(o->first) : equal ? o->first : o->least;
+    snprintf(said->what, sizeof said->what, "%s%s%s", except < 0 ? "" : "Hammersley: ", p->source->what,
+             o->gray && !equal ? ", Gray order" : "");
+    snprintf(said->spec, sizeof said->spec, "%s", in_order && except < 0 ? p->source->spec : "");
+    for (int k = 0; k < p->s->points.dim && (!in_order || except >= 0); k++) {
+        koksma__append(said->what, sizeof said->what, k == except ? "%s i/n" : "%s %d", k ? "" : ", coordinates",
+                       p->columns[k]);
+    }
+    p->s->named = true;
+    return KOKSMA_OK;
+}
+
+/* Whether coordinate k is (index + offset) / N with a whole number N of n or nearly n; describes it. */
+static bool is_linear(plain *p, int k, const order *o, char text[160])
+{
+    const size_t n = p->s->points.n;
+    size_t low = 0, high = 0;
+    for (size_t i = 0; i < n; i++) {
+        low = p->indices[i] < p->indices[low] ? i : low;
+        high = p->indices[i] > p->indices[high] ? i : high;
+    }
+    const double from = x_at(p, low, k), step = (x_at(p, high, k) - from) / (double)(o->most - o->least);
+    const double whole = nearbyint(1 / step), offset = from * whole - (double)o->least;
+    for (size_t i = 0; i < n; i++) {
+        const double there = from + step * (double)(p->indices[i] - o->least);
+        if (!(fabs(x_at(p, i, k) - there) <= 2 * p->s->tolerance + 0x1p-50)) {
+            return false;
+        }
+    }
+    snprintf(text, 160, "coordinate %d is (i%+.6g) / %.0f, i the index; ", k, offset, whole);
+    return fabs(1 / step - whole) < 1e-6 * whole && whole + 2 >= (double)n && whole <= (double)o->most + 3;
+}
+
+/* Looks at the hits [first, last), whose indices agree. */
+static koksma_status judge(plain *p, size_t first, size_t last, uint64_t *scratch)
+{
+    const int dim = p->s->points.dim, assigned = assign(p, first, last);
+    int except = -1;
+    if (assigned + 1 < dim || (assigned < dim && dim < 2)) {
+        return KOKSMA_OK;
+    }
+    for (int k = 0; k < dim && assigned < dim; k++) {
+        except = p->columns[k] < 0 ? k : except;
+    }
+    if (!confirm(p, except)) {
+        return KOKSMA_OK;
+    }
+    const order o = order_of(p->indices, p->s->points.n, scratch);
+    char text[160] = "";
+    /* One coordinate has an index for all numbers: without others that agree, only an order says something. */
+    const bool ordered = o.gray || (o.stepped && o.step == 1);
+    const bool evident = except >= 0 ? o.distinct && is_linear(p, except, &o, text)
+                                     : ordered || (dim > 1 && p->s->points.n * (size_t)(dim - 1) >= 4) ||
+                                           (o.distinct && o.most - o.least + 1 == p->s->points.n);
+    return evident ? say(p, &o, except, text) : KOKSMA_OK;
+}
+
+static koksma_status compare_source(plain *p)
+{
+    const int dim = p->s->points.dim;
+    uint64_t *scratch = malloc(p->s->points.n * sizeof *scratch);
+    KOKSMA__REQUIRE_MEMORY(scratch, p->s->points.n * sizeof *scratch);
+    koksma_status status = koksma__ask(p->s->run);
+    p->n_hits = 0;
+    for (int k = 0; k < dim && !status; k++) {
+        for (int j = 0; j < p->n_coordinates && !status; j++) {
+            if (dim <= 64 || abs(j - k) <= NEAR) {
+                status = look(p, k, j);
+            }
+        }
+    }
+    if (p->n_hits) {
+        qsort(p->hits, p->n_hits, sizeof *p->hits, by_indices);
+    }
+    for (size_t first = 0, last; first < p->n_hits && !status && !p->s->named; first = last) {
+        for (last = first + 1;
+             last < p->n_hits && !memcmp(p->hits[first].indices, p->hits[last].indices, sizeof p->hits->indices);) {
+            last++;
+        }
+        status = judge(p, first, last, scratch);
+    }
+    free(scratch);
+    return status;
+}
+
+koksma_status koksma__identify_plain(koksma__sample *s)
+{
+    const koksma__source *source;
+    const int dim = s->points.dim;
+    if (s->points.n < LEAST_POINTS) {
+        return KOKSMA_OK;
+    }
+    plain p = {.s = s};
+    p.columns = malloc((size_t)dim * sizeof *p.columns);
+    p.indices = malloc(s->points.n * sizeof *p.indices);
+    koksma_status status = p.columns && p.indices ? KOKSMA_OK : koksma__fail_memory(s->points.n * sizeof *p.indices);
+    for (size_t i = 0; (source = koksma__source_at(i)) && !status && !s->named; i++) {
+        p.source = source;
+        p.coordinates = calloc((size_t)source->dims, sizeof *p.coordinates);
+        status = p.coordinates ? KOKSMA_OK : koksma__fail_memory((size_t)source->dims * sizeof *p.coordinates);
+        int n = 0;
+        for (; !status && n < source->dims && source->invertible; n++) {
+            status = koksma__coordinate_init(source, dim, n, &p.coordinates[n]);
+        }
+        p.n_coordinates = n;
+        status = status ? status : compare_source(&p);
+        for (int j = 0; p.coordinates && j < n; j++) {
+            koksma__coordinate_fini(&p.coordinates[j]);
+        }
+        free(p.coordinates);
+    }
+    free(p.hits);
+    free(p.columns);
+    free(p.indices);
+    return status;
+}

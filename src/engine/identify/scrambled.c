@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Sequences behind a shift or a scrambling, in natural order or that of Gray's code, from any first point up to 2^20.
+ *
+ * What a shift modulo 1 leaves alone are differences of points, and what every nested permutation leaves alone is the number
+ * of leading digits that two points share. So for each first point p the differences between point p and the 16 after it are
+ * compared with those of the sample, in up to three coordinates; nearly all p fail at the first. Those that pass are compared
+ * in full (scramble.c). If no p passes, coordinates in another order are tried for a list of usual first points.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "identify/identify.h"
+
+enum { FIRSTS = 1 << 20, PAIRS = 16, SCANNED = 3, ATTEMPTS = 8, SHOWN = 5 };
+
+typedef struct scan {
+    koksma__sample *s;
+    const koksma__source *source;
+    bool gray, digits;               /* digits: test for nested permutations, else for a shift */
+    koksma__coordinate *coordinates; /* all that the source has, or the sample's number */
+    int n_coordinates, *columns; /* columns[k]: the coordinate of the source that the sample's k is compared with */
+    uint64_t *indices;
+    koksma__relation best; /* the strongest so far */
+    size_t before;         /* number of statements before that one, which a stronger one replaces */
+} scan;
+
+static uint64_t index_at(const scan *c, uint64_t position)
+{
+    return c->gray ? koksma__gray(position) : position;
+}
+
+static double x_at(const scan *c, size_t i, int k)
+{
+    return c->s->points.xs[i * (size_t)c->s->points.dim + (size_t)k];
+}
+
+/* The number of leading digits that a and b have in common, of `known` ones. */
+static int common_digits(const koksma__coordinate *c, uint64_t a, uint64_t b, int known)
+{
+    if (c->base == 2) {
+        const int common = a ^ b ? __builtin_clzll(a ^ b) - (64 - c->digits) : c->digits;
+        return common < known ? common : known;
+    }
+    for (int l = 0; l < known; l++) {
+        const uint64_t unit = c->powers[c->digits - 1 - l];
+        if (a / unit != b / unit) {
+            return l;
+        }
+    }
+    return known;
+}
+
+/* Whether points 0 and i of the sample differ in coordinate k as do a and b, coordinates of the sequence. */
+static bool alike(const scan *c, const koksma__coordinate *coordinate, int k, size_t i, uint64_t a, uint64_t b)
+{
+    const double x = x_at(c, 0, k), y = x_at(c, i, k), tolerance = c->s->tolerance;
+    if (!c->digits) {
+        const double theirs = ((double)b - (double)a) / coordinate->whole;
+        return fabs(koksma__turn(y - x - theirs)) <= 2 * tolerance + 0x1p-50;
+    }
+    for (int level = 1; level <= coordinate->digits; level++) {
+        const double scale = (double)coordinate->powers[level], margin = 2 * tolerance * scale;
+        if (margin > .01 || scale > 4. * (double)c->s->points.n) {
+            return true;
+        }
+        const double u = floor(x * scale + margin), v = floor(y * scale + margin);
+        const bool same = u <= v && u >= v, same_there = common_digits(coordinate, a, b, level) == level;
+        if (same != same_there) {
+            const double rest_x = fabs(x * scale - nearbyint(x * scale)),
+                         rest_y = fabs(y * scale - nearbyint(y * scale));
+            return tolerance > 0x1p-49 && (rest_x < margin || rest_y < margin); /* left open by rounding */
+        }
+        if (!same) {
+            return true;
+        }
+    }
+    return true;
+}
+
+/* Whether the coordinates k < `most` pass the first comparisons with the sequence from `first` on. */
+static bool may_begin(const scan *c, uint64_t first, int most)
+{
+    const size_t pairs = c->s->points.n - 1 < PAIRS ? c->s->points.n - 1 : PAIRS;
+    for (int k = most - 1; k >= 0; k--) {
+        const koksma__coordinate *coordinate = &c->coordinates[c->columns[k]];
+        const uint64_t a = koksma__numerator(coordinate, index_at(c, first));
+        for (size_t i = 1; i <= pairs; i++) {
+            if (!alike(c, coordinate, k, i, a, koksma__numerator(coordinate, index_at(c, first + i)))) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static const char *const names[] = {"equal",           "shifted",        "digital-shift", "digit-permutation",
+                                    "linear-scramble", "nested-scramble"};
+
+/* Compares all points with the sequence from `first` on, and adds a statement if they are related, and more strongly than
+   the one found before. */
+static koksma_status compare(scan *c, uint64_t first, bool *related)
+{
+    koksma__relation weakest = KOKSMA__EQUAL;
+    char details[400] = "", text[120];
+    const int dim = c->s->points.dim;
+    bool in_order = true;
+    *related = false;
+    for (size_t i = 0; i < c->s->points.n; i++) {
+        c->indices[i] = index_at(c, first + i);
+    }
+    for (int k = 0; k < dim; k++) {
+        koksma__relation relation;
+        KOKSMA__TRY(koksma__ask(c->s->run));
+        KOKSMA__TRY(koksma__relate(c->s, k, &c->coordinates[c->columns[k]], c->indices, c->digits, &relation, text));
+        weakest = relation > weakest ? relation : weakest;
+        if (weakest >= c->best || weakest == KOKSMA__NO_RELATION) {
+            return KOKSMA_OK;
+        }
+        in_order = in_order && c->columns[k] == k;
+        if (k < SHOWN && *text) {
+            koksma__append(details, sizeof details, "%s%s", k ? "; " : ": ", text);
+        }
+    }
+    *related = true;
+    c->best = weakest;
+    c->s->found->count = c->before;
+    koksma_identity *said = koksma__identity(c->s, names[weakest], "tested for all %zu points%s%s%s", c->s->points.n,
+                                             weakest == KOKSMA__SHIFTED             ? "; shift"
+                                             : weakest == KOKSMA__DIGITAL_SHIFT     ? "; shift"
+                                             : weakest == KOKSMA__DIGIT_PERMUTATION ? "; digits 0 1 .. become"
+                                                                                    : "",
+                                             weakest < KOKSMA__LINEAR ? details : "",
+                                             weakest < KOKSMA__LINEAR && dim > SHOWN ? "; ..." : "");
+    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
+    said->first = first;
+    snprintf(said->what, sizeof said->what, "%s%s", c->source->what, c->gray ? ", Gray order" : "");
+    snprintf(said->spec, sizeof said->spec, "%s", in_order && !c->gray ? c->source->spec : "");
+    for (int k = 0; k < dim && !in_order; k++) {
+        koksma__append(said->what, sizeof said->what, k ? " %d" : ", coordinates %d", c->columns[k]);
+    }
+    c->s->named = true;
+    return KOKSMA_OK;
+}
+
+/* Tries all first points with the coordinates in order. */
+static koksma_status scan_firsts(scan *c)
+{
+    const int dim = c->s->points.dim, most = dim < SCANNED ? dim : SCANNED;
+    int attempts = 0;
+    for (int k = 0; k < dim; k++) {
+        c->columns[k] = k;
+    }
+    for (uint64_t first = 0; first < FIRSTS && attempts < ATTEMPTS; first++) {
+        if (first % 4096 == 0) {
+            KOKSMA__TRY(koksma__ask(c->s->run));
+        }
+        if (may_begin(c, first, most)) {
+            bool related;
+            attempts++;
+            KOKSMA__TRY(compare(c, first, &related));
+            attempts = related ? ATTEMPTS : attempts;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Returns whether coordinate k passes the first comparisons with coordinate j of the source. */
+static bool may_be(scan *c, int k, int j, uint64_t first)
+{
+    const size_t pairs = c->s->points.n - 1 < 4 * PAIRS ? c->s->points.n - 1 : 4 * PAIRS;
+    const koksma__coordinate *coordinate = &c->coordinates[j];
+    const uint64_t a = koksma__numerator(coordinate, index_at(c, first));
+    for (size_t i = 1; i <= pairs; i++) {
+        if (!alike(c, coordinate, k, i, a, koksma__numerator(coordinate, index_at(c, first + i)))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tries usual first points with coordinates in any order, or some of more dimensions. */
+static koksma_status scan_columns(scan *c)
+{
+    const int dim = c->s->points.dim;
+    for (int f = 0; f < 23; f++) {
+        const uint64_t first = f == 0 ? 0 : f == 22 ? c->s->points.n : (uint64_t)1 << (f - 1);
+        bool all = true;
+        KOKSMA__TRY(koksma__ask(c->s->run));
+        for (int k = 0; k < dim && all; k++) {
+            int j = 0;
+            for (bool used = true; j < c->n_coordinates && used; j += used) {
+                used = !may_be(c, k, j, first);
+                for (int l = 0; l < k && !used; l++) {
+                    used = c->columns[l] == j;
+                }
+            }
+            all = j < c->n_coordinates;
+            c->columns[k] = j;
+        }
+        if (all) {
+            bool related;
+            KOKSMA__TRY(compare(c, first, &related));
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Compares with one source in all ways. */
+static koksma_status compare_source(scan *c, bool columns)
+{
+    koksma_status status = KOKSMA_OK;
+    for (int way = 0; way < 4 && !status && c->best > KOKSMA__SHIFTED; way++) {
+        c->digits = way % 2;
+        c->gray = way / 2;
+        if (!c->gray || c->coordinates[0].directions) {
+            status = columns ? scan_columns(c) : scan_firsts(c);
+        }
+    }
+    return status;
+}
+
+static koksma_status compare_sources(koksma__sample *s, bool columns)
+{
+    const koksma__source *source;
+    const int dim = s->points.dim;
+    scan c = {.s = s, .best = KOKSMA__NO_RELATION, .before = s->found->count};
+    koksma_status status = KOKSMA_OK;
+    c.columns = malloc((size_t)dim * sizeof *c.columns);
+    c.indices = malloc(s->points.n * sizeof *c.indices);
+    if (!c.columns || !c.indices) {
+        status = koksma__fail_memory(s->points.n * sizeof *c.indices);
+    }
+    for (size_t i = 0; (source = koksma__source_at(i)) && !status; i++) {
+        if (dim > source->dims || (columns && !*source->spec)) {
+            continue;
+        }
+        c.source = source;
+        const int count = !columns ? dim : source->dims < 4 * dim + 60 ? source->dims : 4 * dim + 60;
+        c.coordinates = calloc((size_t)count, sizeof *c.coordinates);
+        status = c.coordinates ? KOKSMA_OK : koksma__fail_memory((size_t)count * sizeof *c.coordinates);
+        for (c.n_coordinates = 0; !status && c.n_coordinates < count; c.n_coordinates++) {
+            status = koksma__coordinate_init(source, dim, c.n_coordinates, &c.coordinates[c.n_coordinates]);
+        }
+        status = status ? status : compare_source(&c, columns);
+        for (int j = 0; c.coordinates && j < c.n_coordinates; j++) {
+            koksma__coordinate_fini(&c.coordinates[j]);
+        }
+        free(c.coordinates);
+    }
+    free(c.columns);
+    free(c.indices);
+    return status;
+}
+
+koksma_status koksma__identify_scrambled(koksma__sample *s)
+{
+    if (s->points.n < KOKSMA__LEAST_SCRAMBLED) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(compare_sources(s, false));
+    return s->named || s->points.dim == 1 ? KOKSMA_OK : compare_sources(s, true);
+}

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The digital sequences that points are compared with: those of Sobol' with each set of direction numbers of this library,
+ * that of Niederreiter in base 2 (Bratley, Fox & Niederreiter 1992, as in GSL), radical inverses in the primes (Halton) and
+ * Faure's. A coordinate of point i is a matrix times the digits of i; radical inverses have the unit matrix.
+ *
+ * Niederreiter's matrix for an irreducible polynomial p of degree e has in row q e + u the coefficients of the Laurent series
+ * of x^(e-1-u) / p^(q+1), which a linear recurrence gives.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "identify/identify.h"
+#include "patterns/nets/nets.h"
+
+enum { SOBOL, NIEDERREITER, RADICAL, FAURE };
+
+static const koksma__source sources[] = {
+    {"Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201)", "sobol", SOBOL, KOKSMA__JOE_KUO, 1111, true},
+    {"Halton", "halton", RADICAL, 0, 1111, true},
+    {"Sobol' (Bratley & Fox 1988, ACM 659)", "sobol:numbers=bratley-fox", SOBOL, KOKSMA__BRATLEY_FOX, 40, true},
+    {"Niederreiter in base 2 (Bratley, Fox & Niederreiter 1992)", "", NIEDERREITER, 0, 12, true},
+    {"Faure", "faure", FAURE, 0, 1000, false},
+    {"Sobol' (groups of dimensions, of this library)", "sobol:numbers=groups", SOBOL, KOKSMA__GROUPS, 128, true},
+};
+
+const koksma__source *koksma__source_at(size_t i)
+{
+    return i < sizeof sources / sizeof *sources ? &sources[i] : NULL;
+}
+
+uint64_t koksma__gray(uint64_t i)
+{
+    return i ^ i >> 1;
+}
+
+uint64_t koksma__from_gray(uint64_t g)
+{
+    for (int shift = 32; shift; shift /= 2) {
+        g ^= g >> shift;
+    }
+    return g;
+}
+
+static int degree(uint64_t p)
+{
+    return 63 - __builtin_clzll(p);
+}
+
+static uint64_t product(uint64_t a, uint64_t b)
+{
+    uint64_t c = 0;
+    for (; b; b >>= 1, a <<= 1) {
+        c ^= b & 1 ? a : 0;
+    }
+    return c;
+}
+
+static bool is_irreducible(uint64_t p)
+{
+    for (uint64_t q = 2; 2 * degree(q) <= degree(p); q++) {
+        uint64_t rest = p;
+        while (rest && degree(rest) >= degree(q)) {
+            rest ^= q << (degree(rest) - degree(q));
+        }
+        if (!rest) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Fills the columns of Niederreiter's matrix for the j-th irreducible polynomial, from x on. */
+static void niederreiter(int j, uint32_t columns[32])
+{
+    uint64_t p = 2;
+    for (int seen = 0; seen < j;) {
+        seen += is_irreducible(++p);
+    }
+    const int e = degree(p);
+    uint64_t power = 1;
+    for (int c = 0; c < 32; c++) {
+        columns[c] = 0;
+    }
+    for (int row = 0; row < 32; row++) {
+        power = row % e ? power : product(power, p);
+        uint64_t rest = (uint64_t)1 << (e - 1 - row % e); /* the remainder of a long division by `power` */
+        for (int c = 0; c < 32; c++) {
+            rest <<= 1;
+            if (rest >> degree(power) & 1) {
+                rest ^= power;
+                columns[c] |= 0x80000000u >> row;
+            }
+        }
+    }
+}
+
+/* Reduces the columns, from the first on, to an echelon form: pivots[r] has its highest bit in row r, or is 0. */
+static void reduce_columns(koksma__coordinate *c)
+{
+    for (int b = 0; b < 32; b++) {
+        uint64_t v = c->directions[b], combination = (uint64_t)1 << b;
+        while (v) {
+            const int row = __builtin_clz((uint32_t)v);
+            if (!c->pivots[row]) {
+                c->pivots[row] = v;
+                c->combinations[row] = combination;
+                break;
+            }
+            v ^= c->pivots[row];
+            combination ^= c->combinations[row];
+        }
+    }
+}
+
+koksma_status koksma__coordinate_init(const koksma__source *source, int dim, int j, koksma__coordinate *c)
+{
+    *c = (koksma__coordinate){.source = source, .j = j, .base = 2, .digits = 32};
+    if (source->kind == RADICAL) {
+        c->base = koksma__prime(j);
+    }
+    for (int k = 1; source->kind == FAURE && c->base < (uint32_t)dim; k++) {
+        c->base = koksma__prime(k);
+    }
+    if (source->kind == RADICAL || source->kind == FAURE) {
+        c->digits = koksma__digits_of_double(c->base);
+    }
+    c->powers[0] = 1;
+    for (int k = 1; k <= c->digits; k++) {
+        c->powers[k] = c->powers[k - 1] * c->base;
+    }
+    c->whole = (double)c->powers[c->digits];
+    if (source->kind == FAURE) {
+        const size_t bytes = (size_t)c->digits * (size_t)c->digits * sizeof *c->matrix;
+        c->matrix = malloc(bytes);
+        KOKSMA__REQUIRE_MEMORY(c->matrix, bytes);
+        koksma__pascal_matrix(c->base, j, c->digits, c->matrix);
+    } else if (source->kind == SOBOL) {
+        c->directions = koksma__sobol_directions(j, source->set);
+    } else if (source->kind == NIEDERREITER) {
+        niederreiter(j, c->own);
+        c->directions = c->own;
+    }
+    if (c->directions) {
+        reduce_columns(c);
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__coordinate_fini(koksma__coordinate *c)
+{
+    free(c->matrix);
+    c->matrix = NULL;
+}
+
+/* y = C a, digit by digit, where a are the digits of i. */
+static uint64_t matrix_numerator(const koksma__coordinate *c, uint64_t i)
+{
+    uint32_t a[64];
+    int count = 0;
+    for (; i && count < c->digits; i /= c->base) {
+        a[count++] = (uint32_t)(i % c->base);
+    }
+    uint64_t sum = 0;
+    for (int r = 0; r < count; r++) {
+        uint64_t y = 0;
+        for (int l = r; l < count; l++) {
+            y += (uint64_t)c->matrix[r * c->digits + l] * a[l];
+        }
+        sum += y % c->base * c->powers[c->digits - 1 - r];
+    }
+    return sum;
+}
+
+uint64_t koksma__numerator(const koksma__coordinate *c, uint64_t i)
+{
+    uint64_t sum = 0;
+    if (c->directions) {
+        for (i &= UINT32_MAX; i; i &= i - 1) {
+            sum ^= c->directions[__builtin_ctzll(i)];
+        }
+        return sum;
+    }
+    if (c->matrix) {
+        return matrix_numerator(c, i);
+    }
+    for (int k = c->digits - 1; i && k >= 0; k--, i /= c->base) {
+        sum += i % c->base * c->powers[k];
+    }
+    return sum;
+}
+
+static uint64_t binary_index(const koksma__coordinate *c, double x, double tolerance)
+{
+    int digits = 32;
+    while (digits > 1 && tolerance * ldexp(8, digits) > 1) {
+        digits--;
+    }
+    const double v = nearbyint(ldexp(x, digits));
+    if (v >= ldexp(1, digits)) {
+        return UINT64_MAX;
+    }
+    uint64_t rest = (uint64_t)v << (32 - digits), index = 0;
+    while (rest) {
+        const int row = __builtin_clz((uint32_t)rest);
+        if (!c->pivots[row]) {
+            return UINT64_MAX;
+        }
+        rest ^= c->pivots[row];
+        index ^= c->combinations[row];
+    }
+    return index;
+}
+
+uint64_t koksma__index_of(const koksma__coordinate *c, double x, double tolerance)
+{
+    if (c->directions) {
+        return binary_index(c, x, tolerance);
+    }
+    int digits = c->digits;
+    while (digits > 1 && tolerance * (double)c->powers[digits] > .1) {
+        digits--;
+    }
+    const double v = nearbyint(x * (double)c->powers[digits]);
+    if (c->matrix || v >= (double)c->powers[digits]) {
+        return UINT64_MAX;
+    }
+    uint64_t rest = (uint64_t)v, index = 0;
+    for (int k = 0; k < digits; k++, rest /= c->base) {
+        index = index * c->base + rest % c->base;
+    }
+    return index;
+}
