@@ -61,6 +61,7 @@ MAY_USE = {
 # Headers that declare what several files of their directory define, and why; so do headers that have their directory's name,
 # if no .c file has it (measures/star/star.h).
 INTERNAL = {
+    "src/engine/identify/identify.h": "the points under test and the sequences that the tests compare them with",
     "src/engine/optimise/optimise.h": "what the methods of a search share, a section a file",
     "src/render/scene/import.h": "what the readers of other renderers' scenes share, in one file a subject",
     "src/render/scene/mitsuba.h": "the parts of the reader of Mitsuba's scenes",

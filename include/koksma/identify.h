@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which points are these? Compares a set of points with the sequences, lattices and patterns that this library knows, and
- * says by which map of which of them the points arise: none, another order, a shift, a scrambling. Part of libkoksma.
+ * Which points are these? Compares a set of points with the sequences, lattices and patterns that this library knows,
+ * and says by which map of which of them the points arise: none, another order, a shift, a scrambling. Part of
+ * libkoksma.
  */
 #ifndef KOKSMA_IDENTIFY_H
 #define KOKSMA_IDENTIFY_H
@@ -40,13 +41,14 @@ typedef struct koksma_identities {
     koksma_identity *items;
 } koksma_identities;
 
-/* Returns whether a statement says where points come from: its relation is none of scaled, rounded, property, unknown. */
+/* Returns whether a statement says where points come from: its relation is none of scaled, rounded, property,
+   unknown. */
 KOKSMA_API bool koksma_identity_names(const koksma_identity *identity);
 
-/* Tests where points come from; allocates identities, the strongest statement first. The coordinates may be any finite
-   numbers: those outside [0,1) are mapped first, from [-1,1], from whole numbers or from a box with round bounds.
-   Coordinates that were rounded, to float, to multiples of 2^-k or to decimals, are compared within that rounding. Takes
-   seconds for 2^16 points in 8 dimensions, on one thread. What it doesn't know it calls unknown.
+/* Tests where points come from; allocates identities, the strongest statement first. The coordinates may be any
+   finite numbers: those outside [0,1) are mapped first, from [-1,1], from whole numbers or from a box with round
+   bounds. Coordinates that were rounded, to float, to multiples of 2^-k or to decimals, are compared within that
+   rounding. Takes seconds for 2^16 points in 8 dimensions, on one thread. What it doesn't know it calls unknown.
    Errors: ARGUMENT (no points, a coordinate that is not finite), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_identify(const koksma_points *points, const koksma_run *run,
                                          koksma_identities *identities);

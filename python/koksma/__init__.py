@@ -27,7 +27,7 @@ from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, Mis
 from ._mask import MaskQuality, mask, mask_quality, read_mask, write_mask
 from ._optimise import Optimum, Record, optimise, radial_power, records
 from ._optimise_scene import SceneGain, SceneOptimum, optimise_scene
-from ._points import (Finding, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, local_discrepancy, measure, measures,
+from ._points import (Finding, Identity, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, identify, local_discrepancy, measure, measures,
                       modifiers, patterns, read, verify, verify_sets, warp_points, warps, write)
 from ._plot import Picture, plot, plot_compare, plot_convergence
 from ._rank import Asked, Ranked, Ranking, SizeCheck, rank
@@ -41,17 +41,18 @@ from ._tolerance import Integral, Interval, Step, estimators, intervals
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Cost", "Datasheet", "Engine",
-    "Error", "Finding", "ForbiddenError", "ImageGroup", "Integral", "Integrand", "Integration", "Interval", "Layers",
-    "MalformedError", "MaskQuality", "Member", "MetricValue", "MissingError", "Modifier", "Named", "Optimum",
-    "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "SceneCheck", "SceneGain",
-    "SceneOptimum", "ScenePart", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Step", "Study", "Summary",
-    "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "adaptive", "allow_exec", "audit", "canonical",
-    "check_scene", "compare", "convergence", "datasheet", "estimators", "filters", "generate", "has_ranges",
-    "integrand", "integrands", "integrate", "integrators", "intervals", "local_discrepancy", "mask", "mask_quality",
-    "measure", "measures", "metrics", "modifiers", "optimise", "optimise_scene", "pair_correlation", "patterns",
-    "plans", "plot", "plot_compare", "plot_convergence", "radial_power", "rank", "read", "read_image", "read_mask",
-    "records", "refuse_unknown", "render", "scenes", "sensitivity", "spectrum", "study_images", "trials", "verify",
-    "verify_sets", "version", "warp_points", "warps", "write", "write_image", "write_mask",
+    "Error", "Finding", "ForbiddenError", "Identity", "ImageGroup", "Integral", "Integrand", "Integration",
+    "Interval", "Layers", "MalformedError", "MaskQuality", "Member", "MetricValue", "MissingError", "Modifier",
+    "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "SceneCheck",
+    "SceneGain", "SceneOptimum", "ScenePart", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Step", "Study",
+    "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "adaptive", "allow_exec", "audit",
+    "canonical", "check_scene", "compare", "convergence", "datasheet", "estimators", "filters", "generate",
+    "has_ranges", "identify", "integrand", "integrands", "integrate", "integrators", "intervals", "local_discrepancy",
+    "mask", "mask_quality", "measure", "measures", "metrics", "modifiers", "optimise", "optimise_scene",
+    "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence", "radial_power", "rank",
+    "read", "read_image", "read_mask", "records", "refuse_unknown", "render", "scenes", "sensitivity", "spectrum",
+    "study_images", "trials", "verify", "verify_sets", "version", "warp_points", "warps", "write", "write_image",
+    "write_mask",
 ]
 
 if _typing.TYPE_CHECKING:

@@ -168,6 +168,25 @@ class Finding:
     detail: str
 
 
+@dataclass(frozen=True)
+class Identity:
+    """A statement of identify about where points come from (see `koksma identify --help`).
+
+    relation: "equal", "reordered", "part", "shifted", "digital-shift", "digit-permutation", "linear-scramble",
+    "nested-scramble", "lattice", "recurrence", "grid"; or "scaled", "rounded", "property", "unknown".
+    spec: a pattern that makes `what`, from index first on and with the seed; "" if there is none.
+    names: whether the statement says where the points come from, as the first eleven relations do.
+    """
+
+    relation: str
+    what: str
+    spec: str
+    first: int
+    seed: int
+    detail: str
+    names: bool
+
+
 def table(at: Any) -> List[Member]:
     """The members of a table of patterns, measures or integrands, by the function that returns member i."""
     members: List[Member] = []
@@ -802,6 +821,39 @@ def verify_sets(sets: Iterable[npt.ArrayLike], *, threads: SupportsIndex = 0) ->
     arrays = [as_points(points) for points in sets]
     c_sets = (s.Points * max(len(arrays), 1))(*map(view, arrays))
     return _findings(core().koksma_verify_sets, c_sets, len(arrays), threads=threads, run_at=2)
+
+
+def identify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Identity]:
+    """Which known points these are, or by which map they arise from them: sequences, lattices, patterns of this package.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, dim)
+        Any finite coordinates: those outside [0,1) are taken for scaled ones.
+    threads : int
+        Up to this number is used by patterns that are tried; 0: one for each processor.
+
+    Returns
+    -------
+    list of Identity
+        The strongest statement first. Each was tested for every point.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> points = koksma.generate("sobol", 69, 3)[5:, ::-1]
+    >>> found = koksma.identify(points)[0]
+    >>> found.relation, found.what, found.first
+    ('equal', "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201), coordinates 2 1 0", 5)
+    """
+    identities = s.Identities()
+    c_points = view(as_points(points))
+    try:
+        call(core().koksma_identify, byref(c_points), byref(identities), threads=threads, run_at=1)
+        return [Identity(i.relation.decode(), i.what.decode(), i.spec.decode(), i.first, i.seed, i.detail.decode(),
+                         core().koksma_identity_names(byref(i))) for i in identities.items[:identities.count]]
+    finally:
+        core().koksma_identities_fini(byref(identities))
 
 
 def _findings(function: Any, *arguments: Any, threads: SupportsIndex, run_at: int) -> List[Finding]:

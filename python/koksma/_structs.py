@@ -76,6 +76,15 @@ class Findings(Structure):
     _fields_ = [("count", c_size_t), ("capacity", c_size_t), ("items", POINTER(Finding))]
 
 
+class Identity(Structure):
+    _fields_ = [("relation", c_char_p), ("what", c_char * 160), ("spec", c_char * 512), ("first", c_uint64),
+                ("seed", c_uint64), ("detail", c_char * 400)]
+
+
+class Identities(Structure):
+    _fields_ = [("count", c_size_t), ("capacity", c_size_t), ("items", POINTER(Identity))]
+
+
 class Optimum(Structure):
     _fields_ = [("points", Points), ("value", c_double), ("lower", c_double), ("steps", c_uint64),
                 ("last_gain", c_uint64), ("method", c_char_p)]
@@ -454,6 +463,7 @@ LAYOUTS = [
     ("mask.h", "koksma_mask_space", MaskSpace), ("mask.h", "koksma_mask_filter", MaskFilter), ("mask.h", "koksma_mask_options", MaskOptions),
     ("mask.h", "koksma_mask_quality", MaskQuality), ("maskfile.h", "koksma_mask", Mask),
     ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),
+    ("identify.h", "koksma_identity", Identity), ("identify.h", "koksma_identities", Identities),
     ("optimise.h", "koksma_optimum", Optimum), ("optimise.h", "koksma_optimise_options", OptimiseOptions),
     ("integrate.h", "koksma_integrand", Integrand), ("integrate.h", "koksma_function", Function),
     ("integrate.h", "koksma_integral_facts", IntegralFacts), ("integrate.h", "koksma_integration_row", IntegrationRow),

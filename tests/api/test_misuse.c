@@ -26,6 +26,7 @@ static void asserted(const char *condition);
 #include <koksma/datasheet.h>
 #include <koksma/density.h>
 #include <koksma/estimate.h>
+#include <koksma/identify.h>
 #include <koksma/integrate.h>
 #include <koksma/keys.h>
 #include <koksma/mask.h>
@@ -34,7 +35,6 @@ static void asserted(const char *condition);
 #include <koksma/series.h>
 #include <koksma/study.h>
 #include <koksma/verify.h>
-#include <koksma/identify.h>
 
 #include "test.h"
 

@@ -45,6 +45,7 @@ OPTIONS = {
               "r-max": "pair_correlation(r_max)", "bins": "pair_correlation(bins)", "output": "write_image"},
     "verify": {**SETS, "expect": "Finding", "record": "records", "measure": "records",
                "seeds": "verify_sets"},
+    "identify": {**SETS, "seed": "generate(seed)"},
     "plot": {**SETS, "output": "Picture.save", "curve": "plot_compare and the methods draw of Spectrum, PairCorrelation and Convergence", "compare": "plot_compare",
              "size": "plot(size)", "title": "plot(title)", "theme": "plot(theme)", "columns": "plot(columns)", "rows": "plot(rows)",
              "grid": "plot(columns) plot(rows)", "rooks": "plot(columns) plot(rows)", "witness": "plot(witness)", "warp": "plot(warp)",

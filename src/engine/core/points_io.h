@@ -12,8 +12,8 @@
 #include "core/files.h"
 #include "core/visibility.h"
 
-/* Does the same as koksma_points_read or, if mapped, koksma_points_read_mapped; `by` tells who named the file and thus which
-   kinds of files may be opened (core/files.h). */
+/* Does the same as koksma_points_read or, if mapped, koksma_points_read_mapped; `by` tells who named the file and
+   thus which kinds of files may be opened (core/files.h). */
 koksma_status koksma__points_read(const char *path, koksma__named by, bool mapped, koksma_points *points);
 
 /* A file of n points that is written piece by piece, in the format given by the ending of its name. Coordinates may

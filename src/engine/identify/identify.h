@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the files of koksma_identify share: the points under test, and the digital sequences with which they are compared.
-   Each section is the interface of the file of its name. */
+/* What the files of koksma_identify share: the points under test, and the digital sequences with which they are
+   compared. Each section is the interface of the file of its name. */
 #ifndef KOKSMA_IDENTIFY_IDENTIFY_H
 #define KOKSMA_IDENTIFY_IDENTIFY_H
 
@@ -13,7 +13,9 @@ typedef struct koksma__sample {
     double tolerance;     /* how much a coordinate may differ from the one that it is compared with */
     const koksma_run *run;
     koksma_identities *found;
-    bool named; /* a statement says where the points come from */
+    bool named;    /* a statement says where the points come from */
+    int scramble;  /* the strongest relation to a sequence so far, of koksma__relation */
+    size_t before; /* number of statements before that one, which a stronger one replaces */
 } koksma__sample;
 
 /* Adds a statement, whose detail is a format; `what` has to be filled by the caller. NULL when memory runs out. */
@@ -100,8 +102,8 @@ typedef enum koksma__relation {
 } koksma__relation;
 
 /* Finds the strongest relation between coordinate k of the sample and coordinate c of a sequence, of which point i of
-   the sample is point indices[i]: with `digits` all but a shift modulo 1, else that or equality. Describes it in `text`,
-   120 bytes: the shift, the permutation, or nothing. Errors: MEMORY. */
+   the sample is point indices[i]: with `digits` all but a shift modulo 1, else that or equality. Describes it in
+   `text`, 120 bytes: the shift, the permutation, or nothing. Errors: MEMORY. */
 koksma_status koksma__relate(const koksma__sample *s, int k, const koksma__coordinate *c, const uint64_t *indices,
                              bool digits, koksma__relation *relation, char text[120]);
 

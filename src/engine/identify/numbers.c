@@ -2,10 +2,10 @@
 /*
  * The numbers of points: how they lie in the unit cube, and how they were rounded.
  *
- * Coordinates outside [0,1] are taken for whole numbers below n (divided by n), for [-1,1], or for a box whose bounds are the
- * roundest decimals within 3/n of its width around the points. Numbers that all are floats, all multiples of 2^-k with
- * k <= 32, or all decimals of up to 12 places may be rounded ones: they are compared within such a rounding, after an attempt
- * with the precision of double.
+ * Coordinates outside [0,1] are taken for whole numbers below n (divided by n), for [-1,1], or for a box whose bounds
+ * are the roundest decimals within 3/n of its width around the points. Numbers that all are floats, all multiples of
+ * 2^-k with k <= 32, or all decimals of up to 12 places may be rounded ones: they are compared within such a
+ * rounding, after an attempt with the precision of double.
  */
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ static double roundest(double lo, double hi)
         return 0;
     }
     for (int e = 18; e >= -18; e--) {
-        const double unit = pow(10, e), up = ceil(lo / unit - 1e-12);
+        const double unit = pow(10, e), up = ceil(lo / unit - 1e-12 * fabs(lo / unit));
         if (up * unit <= hi + 1e-12 * fabs(hi)) {
             return e < 0 ? up / pow(10, -e) : up * unit;
         }
@@ -105,22 +105,23 @@ static bool all_floats(const koksma_points *points)
 int koksma__precisions(const koksma_points *points, double tolerances[KOKSMA__PRECISIONS])
 {
     int count = 0;
+    const double most = 1. / (64 * (double)points->n); /* more would leave little to compare */
+    int bits = 1;
     tolerances[count++] = 0x1p-50;
-    for (int b = 16; b <= 32; b++) {
-        if (all_multiples(points, ldexp(1, b), 0)) {
-            tolerances[count++] = ldexp(1, -b);
-            break;
+    while (bits <= 32 && !all_multiples(points, ldexp(1, bits), 0)) {
+        bits++;
+    }
+    if (bits <= 32 && ldexp(1, -bits) <= most) {
+        tolerances[count++] = ldexp(1, -bits);
+    }
+    for (int d = 4; d <= 12 && bits > 32; d++) {
+        if (all_multiples(points, pow(10, d), 1e-3 * pow(10, d - 12))) {
+            tolerances[count] = pow(10, -d);
+            count += pow(10, -d) <= most;
+            return count;
         }
     }
-    if (count == 1 || tolerances[1] < 0x1p-24) {
-        for (int d = 4; d <= 12; d++) {
-            if (all_multiples(points, pow(10, d), 1e-3 * pow(10, d - 12))) {
-                tolerances[count++] = pow(10, -d);
-                return count;
-            }
-        }
-    }
-    if (all_floats(points)) {
+    if (bits > 24 && 0x1p-24 <= most && all_floats(points)) {
         tolerances[count++] = 0x1p-24;
     }
     return count;

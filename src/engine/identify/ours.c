@@ -2,10 +2,11 @@
 /*
  * The patterns of this library: those without random numbers, and the others with seeds from 0 on.
  *
- * A pattern that makes any point by itself is compared by its first point, so that 2^20 seeds are tried in the time of as many
- * points; of others as many seeds as make some millions of coordinates. If the points are known to be a map of some sequence
- * or lattice, only its patterns are tried, also with modifiers. Otherwise those are left out that would have been recognised,
- * and patterns whose sets always are Latin hypercubes where the points are none, and the other way round.
+ * A pattern that makes any point by itself is compared by its first point, so that 2^20 seeds are tried in the time
+ * of as many points; of others as many seeds as make some millions of coordinates. If the points are known to be a
+ * map of some sequence or lattice, only its patterns are tried, also with modifiers. Otherwise those are left out
+ * that would have been recognised, and patterns whose sets always are Latin hypercubes where the points are none, and
+ * the other way round.
  */
 #include <math.h>
 #include <stdio.h>
@@ -95,7 +96,8 @@ static size_t add_spec(koksma_spec *specs, size_t count, const char *format, con
     return count < VARIANTS && koksma_pattern_spec(text, &specs[count]) == KOKSMA_OK ? count + 1 : count;
 }
 
-/* Lists the specs of a pattern: its default, each word of a parameter, switches; with `modified` also three modifiers. */
+/* Lists the specs of a pattern: its default, each word of a parameter, switches; with `modified` also three
+   modifiers. */
 static size_t specs_of(const koksma_pattern *p, bool modified, koksma_spec specs[VARIANTS])
 {
     size_t count = add_spec(specs, 0, "%s%s%s", p->name, "", "");

@@ -2,11 +2,11 @@
 /*
  * Sequences without a shift or scrambling: each coordinate gives the index of its point.
  *
- * For every coordinate k of the points and every coordinate j of a sequence the indices of four points are computed. Where
- * the points are some of the sequence's, all k give the same four for the right j, whatever the order of points and
- * coordinates and however many are left out. So these quadruples are sorted, the one that most k share is taken, all indices
- * are computed from one coordinate, and every coordinate of every point is compared. If one coordinate has no such j, it may
- * be the equidistant one of Hammersley's points, which is linear in the index.
+ * For every coordinate k of the points and every coordinate j of a sequence the indices of four points are computed.
+ * Where the points are some of the sequence's, all k give the same four for the right j, whatever the order of points
+ * and coordinates and however many are left out. So these quadruples are sorted, the one that most k share is taken,
+ * all indices are computed from one coordinate, and every coordinate of every point is compared. If one coordinate
+ * has no such j, it may be the equidistant one of Hammersley's points, which is linear in the index.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@
 #include "core/status.h"
 #include "identify/identify.h"
 
-enum { PROBES = 4, LEAST_POINTS = 2, NEAR = 16 };
+enum { PROBES = 4, LEAST_POINTS = 2, NEAR = 16, ENOUGH = 512 };
 
 #define MOST_INDEX ((uint64_t)1 << 48)
 
@@ -191,10 +191,11 @@ static koksma_status say(plain *p, const order *o, int except, const char *linea
                                             : "part",
                          "%s%slargest difference %.3g in %zu points", linear, text, difference, n);
     KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    said->first = o->gray && !equal ? koksma__from_gray(o->first) : equal ? o->first : o->least;
+    said->first = equal || whole ? o->least : o->gray ? koksma__from_gray(o->first) : o->least;
     snprintf(said->what, sizeof said->what, "%s%s%s", except < 0 ? "" : "Hammersley: ", p->source->what,
              o->gray && !equal ? ", Gray order" : "");
-    snprintf(said->spec, sizeof said->spec, "%s", in_order && except < 0 ? p->source->spec : "");
+    snprintf(said->spec, sizeof said->spec, "%s",
+             in_order && except < 0 && (!o->gray || whole) ? p->source->spec : "");
     for (int k = 0; k < p->s->points.dim && (!in_order || except >= 0); k++) {
         koksma__append(said->what, sizeof said->what, k == except ? "%s i/n" : "%s %d", k ? "" : ", coordinates",
                        p->columns[k]);
@@ -242,6 +243,12 @@ static koksma_status judge(plain *p, size_t first, size_t last, uint64_t *scratc
     char text[160] = "";
     /* One coordinate has an index for all numbers: without others that agree, only an order says something. */
     const bool ordered = o.gray || (o.stepped && o.step == 1);
+    /* A few points of one digital sequence may be points of some coordinates of another by chance. */
+    for (int k = 0; k < dim && !ordered && !o.stepped && p->s->points.n < ENOUGH; k++) {
+        if (p->columns[k] != k && except < 0) {
+            return KOKSMA_OK;
+        }
+    }
     const bool evident = except >= 0 ? o.distinct && is_linear(p, except, &o, text)
                                      : ordered || (dim > 1 && p->s->points.n * (size_t)(dim - 1) >= 4) ||
                                            (o.distinct && o.most - o.least + 1 == p->s->points.n);

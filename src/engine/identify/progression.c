@@ -5,9 +5,9 @@
  *     f(i) = i                          a rank-1 lattice where all a_k are multiples of 1/N, else an additive recurrence
  *     f(i) = the radical inverse of i, or of its Gray code, in base 2: a lattice sequence, a_k a whole number
  *
- * The increments a_k come from two points and are refined by points twice as far each time, so that they are known to about
- * 2^-50 / n; all points are compared then. Points of a lattice in another order are first sorted by a coordinate that has
- * n equidistant values. Grids are the products of equidistant values.
+ * The increments a_k come from two points and are refined by points twice as far each time, so that they are known to
+ * about 2^-50 / n; all points are compared then. Points of a lattice in another order are first sorted by a
+ * coordinate that has n equidistant values. Grids are the products of equidistant values.
  */
 #include <math.h>
 #include <stdio.h>
@@ -190,7 +190,8 @@ static double increment_of(family f, int dim, int k)
     return a - floor(a);
 }
 
-/* Whether a coordinate is (i + offset) / N with a whole N of at least n - 1; such coordinates are beside the recurrence. */
+/* Whether a coordinate is (i + offset) / N with a whole N of at least n - 1; such coordinates are beside the
+   recurrence. */
 static bool is_equidistant(const progression *p, size_t k)
 {
     const double whole = 1 / p->increments[k];

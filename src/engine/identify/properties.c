@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What can be said of points whose origin nobody knows: whether they are a grid's cells, a Latin hypercube, a net in base 2, 3
- * or 5 and of which quality, whether that net is digital (an affine subspace over GF(2)), and how close points are.
+ * What can be said of points whose origin nobody knows: whether they are a grid's cells, a Latin hypercube, a net in
+ * base 2, 3 or 5 and of which quality, whether that net is digital (an affine subspace over GF(2)), and how close
+ * points are.
  */
 #include <math.h>
 #include <stdio.h>

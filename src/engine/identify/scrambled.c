@@ -2,14 +2,16 @@
 /*
  * Sequences behind a shift or a scrambling, in natural order or that of Gray's code, from any first point up to 2^20.
  *
- * What a shift modulo 1 leaves alone are differences of points, and what every nested permutation leaves alone is the number
- * of leading digits that two points share. So for each first point p the differences between point p and the 16 after it are
- * compared with those of the sample, in up to three coordinates; nearly all p fail at the first. Those that pass are compared
- * in full (scramble.c). If no p passes, coordinates in another order are tried for a list of usual first points.
+ * What a shift modulo 1 leaves alone are differences of points, and what every nested permutation leaves alone is the
+ * number of leading digits that two points share. So for each first point p the differences between point p and the
+ * 16 after it are compared with those of the sample, in up to three coordinates; nearly all p fail at the first.
+ * Those that pass are compared in full (scramble.c). If no p passes, coordinates in another order are tried for a
+ * list of usual first points.
  */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
@@ -21,11 +23,10 @@ typedef struct scan {
     koksma__sample *s;
     const koksma__source *source;
     bool gray, digits;               /* digits: test for nested permutations, else for a shift */
+    bool digitwise;                  /* with digits: each digit by itself */
     koksma__coordinate *coordinates; /* all that the source has, or the sample's number */
     int n_coordinates, *columns; /* columns[k]: the coordinate of the source that the sample's k is compared with */
     uint64_t *indices;
-    koksma__relation best; /* the strongest so far */
-    size_t before;         /* number of statements before that one, which a stronger one replaces */
 } scan;
 
 static uint64_t index_at(const scan *c, uint64_t position)
@@ -81,6 +82,32 @@ static bool alike(const scan *c, const koksma__coordinate *coordinate, int k, si
     return true;
 }
 
+/* Whether each digit of the first points of coordinate k depends only on that digit of the sequence. */
+static bool is_digitwise(const scan *c, const koksma__coordinate *coordinate, int k, uint64_t first)
+{
+    enum { BASES = 32, LEVELS = 8 };
+    signed char maps[LEVELS][BASES];
+    memset(maps, -1, sizeof maps);
+    const size_t n = c->s->points.n < 2 * PAIRS ? c->s->points.n : 2 * PAIRS;
+    for (size_t i = 0; i < n && coordinate->base <= BASES; i++) {
+        uint64_t theirs = koksma__numerator(coordinate, index_at(c, first + i));
+        for (int l = 0; l < LEVELS && l < coordinate->digits; l++) {
+            const double scale = (double)coordinate->powers[l + 1], margin = 2 * c->s->tolerance * scale;
+            if (margin > .01) {
+                break;
+            }
+            const uint64_t unit = coordinate->powers[coordinate->digits - 1 - l], digit = theirs / unit;
+            const signed char ours = (signed char)((uint64_t)(x_at(c, i, k) * scale + margin) % coordinate->base);
+            theirs %= unit;
+            if (maps[l][digit] >= 0 && maps[l][digit] != ours) {
+                return false;
+            }
+            maps[l][digit] = ours;
+        }
+    }
+    return true;
+}
+
 /* Whether the coordinates k < `most` pass the first comparisons with the sequence from `first` on. */
 static bool may_begin(const scan *c, uint64_t first, int most)
 {
@@ -93,6 +120,9 @@ static bool may_begin(const scan *c, uint64_t first, int most)
                 return false;
             }
         }
+        if (c->digitwise && !is_digitwise(c, coordinate, k, first)) {
+            return false;
+        }
     }
     return true;
 }
@@ -100,8 +130,8 @@ static bool may_begin(const scan *c, uint64_t first, int most)
 static const char *const names[] = {"equal",           "shifted",        "digital-shift", "digit-permutation",
                                     "linear-scramble", "nested-scramble"};
 
-/* Compares all points with the sequence from `first` on, and adds a statement if they are related, and more strongly than
-   the one found before. */
+/* Compares all points with the sequence from `first` on, and adds a statement if they are related, and more strongly
+   than the one found before. */
 static koksma_status compare(scan *c, uint64_t first, bool *related)
 {
     koksma__relation weakest = KOKSMA__EQUAL;
@@ -117,23 +147,23 @@ static koksma_status compare(scan *c, uint64_t first, bool *related)
         KOKSMA__TRY(koksma__ask(c->s->run));
         KOKSMA__TRY(koksma__relate(c->s, k, &c->coordinates[c->columns[k]], c->indices, c->digits, &relation, text));
         weakest = relation > weakest ? relation : weakest;
-        if (weakest >= c->best || weakest == KOKSMA__NO_RELATION) {
+        if ((int)weakest >= c->s->scramble || weakest == KOKSMA__NO_RELATION) {
             return KOKSMA_OK;
         }
         in_order = in_order && c->columns[k] == k;
-        if (k < SHOWN && *text) {
-            koksma__append(details, sizeof details, "%s%s", k ? "; " : ": ", text);
+        if (k < SHOWN && *text && relation != KOKSMA__EQUAL && (relation != KOKSMA__LINEAR || !*details)) {
+            koksma__append(details, sizeof details, "%s%s", *details ? "; " : ": ", text);
         }
     }
     *related = true;
-    c->best = weakest;
-    c->s->found->count = c->before;
+    c->s->scramble = (int)weakest;
+    c->s->found->count = c->s->before;
     koksma_identity *said = koksma__identity(c->s, names[weakest], "tested for all %zu points%s%s%s", c->s->points.n,
                                              weakest == KOKSMA__SHIFTED             ? "; shift"
                                              : weakest == KOKSMA__DIGITAL_SHIFT     ? "; shift"
                                              : weakest == KOKSMA__DIGIT_PERMUTATION ? "; digits 0 1 .. become"
                                                                                     : "",
-                                             weakest < KOKSMA__LINEAR ? details : "",
+                                             weakest <= KOKSMA__LINEAR ? details : "",
                                              weakest < KOKSMA__LINEAR && dim > SHOWN ? "; ..." : "");
     KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
     said->first = first;
@@ -213,9 +243,13 @@ static koksma_status scan_columns(scan *c)
 static koksma_status compare_source(scan *c, bool columns)
 {
     koksma_status status = KOKSMA_OK;
-    for (int way = 0; way < 4 && !status && c->best > KOKSMA__SHIFTED; way++) {
-        c->digits = way % 2;
-        c->gray = way / 2;
+    for (int way = 0; way < 6 && !status && c->s->scramble > KOKSMA__SHIFTED; way++) {
+        c->digits = way % 3 > 0;
+        c->digitwise = way % 3 == 1;
+        c->gray = way / 3;
+        if (columns && c->digitwise) {
+            continue; /* the nested ones include them */
+        }
         if (!c->gray || c->coordinates[0].directions) {
             status = columns ? scan_columns(c) : scan_firsts(c);
         }
@@ -227,7 +261,7 @@ static koksma_status compare_sources(koksma__sample *s, bool columns)
 {
     const koksma__source *source;
     const int dim = s->points.dim;
-    scan c = {.s = s, .best = KOKSMA__NO_RELATION, .before = s->found->count};
+    scan c = {.s = s};
     koksma_status status = KOKSMA_OK;
     c.columns = malloc((size_t)dim * sizeof *c.columns);
     c.indices = malloc(s->points.n * sizeof *c.indices);
@@ -262,5 +296,5 @@ koksma_status koksma__identify_scrambled(koksma__sample *s)
         return KOKSMA_OK;
     }
     KOKSMA__TRY(compare_sources(s, false));
-    return s->named || s->points.dim == 1 ? KOKSMA_OK : compare_sources(s, true);
+    return s->scramble < KOKSMA__NO_RELATION || s->points.dim == 1 ? KOKSMA_OK : compare_sources(s, true);
 }

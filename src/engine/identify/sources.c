@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The digital sequences that points are compared with: those of Sobol' with each set of direction numbers of this library,
- * that of Niederreiter in base 2 (Bratley, Fox & Niederreiter 1992, as in GSL), radical inverses in the primes (Halton) and
- * Faure's. A coordinate of point i is a matrix times the digits of i; radical inverses have the unit matrix.
+ * The digital sequences that points are compared with: those of Sobol' with each set of direction numbers of this
+ * library, that of Niederreiter in base 2 (Bratley, Fox & Niederreiter 1992, as in GSL), radical inverses in the
+ * primes (Halton) and Faure's. A coordinate of point i is a matrix times the digits of i; radical inverses have the
+ * unit matrix.
  *
- * Niederreiter's matrix for an irreducible polynomial p of degree e has in row q e + u the coefficients of the Laurent series
- * of x^(e-1-u) / p^(q+1), which a linear recurrence gives.
+ * Niederreiter's matrix for an irreducible polynomial p of degree e has in row q e + u the coefficients of the
+ * Laurent series of x^(e-1-u) / p^(q+1), which a linear recurrence gives.
  */
 #include <math.h>
 #include <stdlib.h>
