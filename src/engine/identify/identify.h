@@ -6,7 +6,7 @@
 
 #include <koksma/identify.h>
 
-/* ---- Identify -------------------------------------------------------------------------------------------- */
+/* ---- Statements -------------------------------------------------------------------------------------------- */
 
 typedef struct koksma__sample {
     koksma_points points; /* in [0,1], mapped if the file's were not */

@@ -20,7 +20,7 @@
 
 enum { SEEDS = 1 << 20, SLOW_SEEDS = 2, SLOW_POINTS = 1024, VARIANTS = 16, CANCEL = 256 };
 
-#define COORDINATES (1 << 21) /* made for one spec at most, for patterns that make whole sets only */
+#define COORDINATES (1 << 19) /* made for one spec at most, for patterns that make whole sets only */
 
 typedef struct ours {
     koksma__sample *s;
@@ -157,7 +157,9 @@ static koksma_status compare_fixed(ours *o, const koksma_spec *spec, double *sor
 
 static bool is_slow(const koksma_pattern *p)
 {
-    return p->claims & (KOKSMA_CLAIM_BLUE | KOKSMA_CLAIM_MIN_DISTANCE | KOKSMA_CLAIM_FRACTION);
+    const unsigned quick = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_INDEPENDENT | KOKSMA_CLAIM_LATIN |
+                           KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_NET2_PREFIXES;
+    return !(p->claims & quick) || p->claims & KOKSMA_CLAIM_CLASSES;
 }
 
 /* Whether three sets of a pattern are Latin hypercubes as the sample is, or are none as it is none. */
@@ -235,9 +237,6 @@ static bool is_tried(const koksma__sample *s, const koksma_pattern *p, const kok
     if (!strcmp(known->relation, "lattice")) {
         return p->claims & (KOKSMA_CLAIM_LATTICE | KOKSMA_CLAIM_LATTICE_PREFIXES);
     }
-    if (!strcmp(known->relation, "recurrence")) {
-        return !strcmp(p->name, "r-sequence");
-    }
     const size_t length = strlen(p->name);
     return (!strncmp(known->spec, p->name, length) && (!known->spec[length] || known->spec[length] == ':')) ||
            (s->points.dim == 2 && p->claims & KOKSMA_CLAIM_NET2);
@@ -262,7 +261,7 @@ static bool fits(const koksma_spec *spec, const koksma_identity *known)
 
 static bool is_settled(const koksma_identity *known)
 {
-    static const char *const settled[] = {"equal", "reordered", "part", "grid"};
+    static const char *const settled[] = {"equal", "reordered", "part", "grid", "recurrence"};
     for (size_t i = 0; known && i < sizeof settled / sizeof *settled; i++) {
         if (!strcmp(known->relation, settled[i])) {
             return true;

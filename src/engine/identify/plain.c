@@ -186,9 +186,10 @@ static koksma_status say(plain *p, const order *o, int except, const char *linea
     }
     koksma_identity *said =
         koksma__identity(p->s,
-                         equal              ? "equal"
-                         : o->gray || whole ? "reordered"
-                                            : "part",
+                         equal     ? "equal"
+                         : whole   ? "reordered"
+                         : o->gray ? "equal"
+                                   : "part",
                          "%s%slargest difference %.3g in %zu points", linear, text, difference, n);
     KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
     said->first = equal || whole ? o->least : o->gray ? koksma__from_gray(o->first) : o->least;

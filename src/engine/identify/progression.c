@@ -18,7 +18,7 @@
 #include "core/status.h"
 #include "identify/identify.h"
 
-enum { LEAST_POINTS = 5, FIRSTS = 1 << 20, SHOWN = 12 };
+enum { LEAST_POINTS = 5, FIRSTS = 1 << 16, SHOWN = 12 };
 
 typedef struct progression {
     koksma__sample *s;
@@ -239,7 +239,7 @@ static koksma_status say_recurrence(progression *p)
         }
     }
     char detail[400] = "increments ";
-    double offset;
+    double offset = 0;
     uint64_t first = 0;
     for (size_t k = 0; k < p->dim; k++) {
         if (known && !is_equidistant(p, k)) { /* the known value has more digits */
@@ -258,9 +258,11 @@ static koksma_status say_recurrence(progression *p)
         first = 0;
         append_shift(p, detail, sizeof detail);
     }
-    koksma_identity *said = koksma__identity(p->s, "recurrence", "%s", detail);
+    const bool ours = known && f == PLASTIC && others == (int)p->dim && first > 0 && offset >= .5;
+    koksma_identity *said = koksma__identity(p->s, ours ? "equal" : "recurrence", "%s", detail);
     KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    said->first = first;
+    said->first = ours ? first - 1 : first;
+    snprintf(said->spec, sizeof said->spec, "%s", ours ? "r-sequence" : "");
     snprintf(said->what, sizeof said->what, "%s%s", known ? families[f] : "additive recurrence",
              others < (int)p->dim ? ", with an equidistant coordinate" : "");
     p->s->named = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Sequences behind a shift or a scrambling, in natural order or that of Gray's code, from any first point up to 2^20.
+ * Sequences behind a shift or a scrambling, in natural order or that of Gray's code, from any first point up to 2^16.
  *
  * What a shift modulo 1 leaves alone are differences of points, and what every nested permutation leaves alone is the
  * number of leading digits that two points share. So for each first point p the differences between point p and the
@@ -17,7 +17,7 @@
 #include "core/status.h"
 #include "identify/identify.h"
 
-enum { FIRSTS = 1 << 20, PAIRS = 16, SCANNED = 3, ATTEMPTS = 8, SHOWN = 5 };
+enum { FIRSTS = 1 << 16, PAIRS = 16, SCANNED = 3, ATTEMPTS = 8, SHOWN = 5 };
 
 typedef struct scan {
     koksma__sample *s;

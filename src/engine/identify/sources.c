@@ -5,8 +5,9 @@
  * primes (Halton) and Faure's. A coordinate of point i is a matrix times the digits of i; radical inverses have the
  * unit matrix.
  *
- * Niederreiter's matrix for an irreducible polynomial p of degree e has in row q e + u the coefficients of the
- * Laurent series of x^(e-1-u) / p^(q+1), which a linear recurrence gives.
+ * Niederreiter's matrix for an irreducible polynomial p of degree e has in row q e + u the numbers v_u, v_(u+1), ...
+ * of the linear recurrence of p^(q+1), which begins with e q zeros and e ones, as Bratley, Fox & Niederreiter chose
+ * it.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -84,14 +85,19 @@ static void niederreiter(int j, uint32_t columns[32])
     for (int c = 0; c < 32; c++) {
         columns[c] = 0;
     }
-    for (int row = 0; row < 32; row++) {
-        power = row % e ? power : product(power, p);
-        uint64_t rest = (uint64_t)1 << (e - 1 - row % e); /* the remainder of a long division by `power` */
-        for (int c = 0; c < 32; c++) {
-            rest <<= 1;
-            if (rest >> degree(power) & 1) {
-                rest ^= power;
-                columns[c] |= 0x80000000u >> row;
+    for (int row = 0; row < 32; row += e) {
+        unsigned char v[96] = {0};
+        power = product(power, p);
+        const int m = degree(power);
+        for (int r = m - e; r < 32 + e; r++) {
+            v[r] = r < m;
+            for (int k = 0; k < m && r >= m; k++) {
+                v[r] ^= power >> k & 1 ? v[r - m + k] : 0;
+            }
+        }
+        for (int u = 0; u < e && row + u < 32; u++) {
+            for (int c = 0; c < 32; c++) {
+                columns[c] |= v[c + u] ? 0x80000000u >> (row + u) : 0;
             }
         }
     }

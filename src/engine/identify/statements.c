@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* How the tests of koksma_identify make their statements, and the circle on which coordinates are compared. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/c_locale.h"
+#include "core/capacity.h"
+#include "core/status.h"
+#include "identify/identify.h"
+
+double koksma__turn(double a)
+{
+    return a - nearbyint(a);
+}
+
+void koksma__append(char *text, size_t size, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = koksma__vsnprintf(text + used, size - used, format, arguments);
+    va_end(arguments);
+    if (length > 0 && (size_t)length >= size - used && size > 4) {
+        memcpy(text + size - 4, "...", 4);
+    }
+}
+
+koksma_identity *koksma__identity(koksma__sample *s, const char *relation, const char *detail, ...)
+{
+    koksma_identities *all = s->found;
+    if (koksma__reserve(&all->items, &all->capacity, all->count + 1, sizeof *all->items)) {
+        return NULL;
+    }
+    koksma_identity *said = &all->items[all->count++];
+    *said = (koksma_identity){.relation = relation};
+    va_list arguments;
+    va_start(arguments, detail);
+    koksma__vsnprintf(said->detail, sizeof said->detail, detail, arguments);
+    va_end(arguments);
+    return said;
+}
+
+bool koksma_identity_names(const koksma_identity *identity)
+{
+    KOKSMA__REQUIRE_OR(false, identity);
+    static const char *const none[] = {"scaled", "rounded", "property", "unknown"};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
+        if (identity->relation && !strcmp(identity->relation, none[i])) {
+            return false;
+        }
+    }
+    return identity->relation != NULL;
+}
