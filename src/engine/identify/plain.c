@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "identify/identify.h"
@@ -222,7 +223,7 @@ static bool is_linear(plain *p, int k, const order *o, char text[160])
             return false;
         }
     }
-    snprintf(text, 160, "coordinate %d is (i%+.6g) / %.0f, i the index; ", k, offset, whole);
+    koksma__snprintf(text, 160, "coordinate %d is (i%+.6g) / %.0f, i the index; ", k, offset, whole);
     return fabs(1 / step - whole) < 1e-6 * whole && whole + 2 >= (double)n && whole <= (double)o->most + 3;
 }
 

@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "identify/identify.h"
 
@@ -112,7 +113,7 @@ static bool is_digital_shift(const relating *r)
             all = has_digits(r, i, add_digits(r, r->theirs[i] / below, shift, false));
         }
         if (all) {
-            snprintf(r->text, 120, "%.12g", (double)shift / (double)r->c->powers[r->levels]);
+            koksma__snprintf(r->text, 120, "%.12g", (double)shift / (double)r->c->powers[r->levels]);
             return true;
         }
     }
@@ -368,7 +369,7 @@ koksma_status koksma__relate(const koksma__sample *s, int k, const koksma__coord
         status = relate_digits(&r, relation);
     } else if (is_equal(&r, shift, 2 * s->tolerance + 0x1p-50)) {
         *relation = KOKSMA__SHIFTED;
-        snprintf(text, 120, "%.12g", shift < 0 ? shift + 1 : shift);
+        koksma__snprintf(text, 120, "%.12g", shift < 0 ? shift + 1 : shift);
     }
     free(r.theirs);
     return status;
