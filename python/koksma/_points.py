@@ -841,10 +841,10 @@ def identify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Ident
     Examples
     --------
     >>> import koksma
-    >>> points = koksma.generate("sobol", 69, 3)[5:, ::-1]
+    >>> points = koksma.generate("sobol", 69, 3)[5:]
     >>> found = koksma.identify(points)[0]
     >>> found.relation, found.what, found.first
-    ('equal', "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201), coordinates 2 1 0", 5)
+    ('equal', "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201)", 5)
     """
     identities = s.Identities()
     c_points = view(as_points(points))

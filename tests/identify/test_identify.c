@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* koksma_identify says of points that other packages made what their documents or sources say of them, of points of ours
-   which they are, however they were permuted, cut, scaled or rounded, and of others that it does not know them. The files of
+/* koksma_identify says of points that other packages made what their documents or sources say, of points of ours which they
+   are, however they were permuted, cut, scaled or rounded, and of others that it does not know them. The files of
    `sets` have 64 points each: made by the versions in docs/conventions-of-others.md, with seed 1 where there is one. */
 #include <koksma/identify.h>
 

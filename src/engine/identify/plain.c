@@ -2,9 +2,9 @@
 /*
  * Sequences without a shift or scrambling: each coordinate gives the index of its point.
  *
- * For every coordinate k of the points and every coordinate j of a sequence the indices of four points are computed.
- * Where the points are some of the sequence's, all k give the same four for the right j, whatever the order of points
- * and coordinates and however many are left out. So these quadruples are sorted, the one that most k share is taken,
+ * For every coordinate k of the points and every coordinate j of a sequence the indices of 16 points are computed.
+ * Where the points are some of the sequence's, all k give the same ones for the right j, whatever the order of points
+ * and coordinates and however many are left out. So these are sorted, the one that most k share is taken,
  * all indices are computed from one coordinate, and every coordinate of every point is compared. If one coordinate
  * has no such j, it may be the equidistant one of Hammersley's points, which is linear in the index.
  */
@@ -18,7 +18,7 @@
 #include "core/status.h"
 #include "identify/identify.h"
 
-enum { PROBES = 4, LEAST_POINTS = 2, NEAR = 16, ENOUGH = 512 };
+enum { PROBES = 16, LEAST_POINTS = 2, NEAR = 16, ENOUGH = 512 };
 
 #define MOST_INDEX ((uint64_t)1 << 48)
 
@@ -52,7 +52,7 @@ static bool is_at(const plain *p, size_t i, int k, int j, uint64_t index)
 static size_t probe_at(const plain *p, int probe)
 {
     const size_t n = p->s->points.n;
-    return probe < 2 ? (size_t)probe : probe == 2 ? n / 2 : n - 1;
+    return probe < 2 ? (size_t)probe : (size_t)(probe - 1) * (n - 1) / (PROBES - 2);
 }
 
 /* Adds the indices of the probes by coordinates k and j, if they are those of points. */
@@ -227,8 +227,8 @@ static bool is_linear(plain *p, int k, const order *o, char text[160])
     return fabs(1 / step - whole) < 1e-6 * whole && whole + 2 >= (double)n && whole <= (double)o->most + 3;
 }
 
-/* Looks at the hits [first, last), whose indices agree. */
-static koksma_status judge(plain *p, size_t first, size_t last, uint64_t *scratch)
+/* Looks at the hits [first, last), whose indices agree; in_order: takes only points in a known order. */
+static koksma_status judge(plain *p, size_t first, size_t last, bool in_order, uint64_t *scratch)
 {
     const int dim = p->s->points.dim, assigned = assign(p, first, last);
     int except = -1;
@@ -245,6 +245,9 @@ static koksma_status judge(plain *p, size_t first, size_t last, uint64_t *scratc
     char text[160] = "";
     /* One coordinate has an index for all numbers: without others that agree, only an order says something. */
     const bool ordered = o.gray || (o.stepped && o.step == 1);
+    if (in_order && !ordered) {
+        return KOKSMA_OK;
+    }
     /* A few points of one digital sequence may be points of some coordinates of another by chance. */
     for (int k = 0; k < dim && !ordered && !o.stepped && p->s->points.n < ENOUGH; k++) {
         if (p->columns[k] != k && except < 0) {
@@ -274,12 +277,17 @@ static koksma_status compare_source(plain *p)
     if (p->n_hits) {
         qsort(p->hits, p->n_hits, sizeof *p->hits, by_indices);
     }
-    for (size_t first = 0, last; first < p->n_hits && !status && !p->s->named; first = last) {
+    for (size_t first = 0, last = 0, pass = 0; pass < 2 && !status && !p->s->named; first = last) {
+        if (first >= p->n_hits) {
+            last = 0;
+            pass++;
+            continue;
+        }
         for (last = first + 1;
              last < p->n_hits && !memcmp(p->hits[first].indices, p->hits[last].indices, sizeof p->hits->indices);) {
             last++;
         }
-        status = judge(p, first, last, scratch);
+        status = judge(p, first, last, pass == 0, scratch);
     }
     free(scratch);
     return status;

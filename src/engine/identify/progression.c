@@ -408,8 +408,8 @@ static koksma_status look_grid(progression *p)
     unsigned char *seen = calloc(p->n, 1);
     bool grid = cells && seen;
     for (size_t k = 0; k < p->dim && grid; k++) {
-        size_t count;
-        double first, step;
+        size_t count = 1;
+        double first = 0, step = 1;
         grid = find_values(p, k, &count, &first, &step) && product <= p->n / count;
         for (size_t i = 0; i < p->n && grid; i++) {
             cells[i] = (uint32_t)(cells[i] * count + (size_t)nearbyint((x_at(p, i, k) - first) / step));
