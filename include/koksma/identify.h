@@ -13,7 +13,8 @@
 extern "C" {
 #endif
 
-/* One statement about a set of points. Each was tested for every point. `relation` is one of
+/* One statement about a set of points. Each was tested for every point; a linear scramble may miss up to n / 64 of them,
+   whose number `detail` then has. `relation` is one of
      equal               the points are those of `what`, in its order
      reordered           they are those of `what`, in another order
      part                they are some of the points of `what`

@@ -80,7 +80,7 @@ scene check ^ $(all scenes) FILES
 compare ^ FILES
 compare a b --max-mean ^
 rank ^ $(all scenes) FILES
-rank ball --patterns ^ thesis later all $(all patterns)
+rank ball --patterns ^ modern thesis later all $(all patterns)
 measure x -p ^ all $(all patterns)
 render ball -p sobol:sc^ scramble=
 generate sobol:^ scramble= numbers= shuffle= $modifiers
@@ -114,7 +114,7 @@ study images x --reference ^ FILES
 reproduce ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 reproduce shirley1991 --table ^ all none
 reproduce shirley1991 -o ^ FILES
-list ^ patterns modifiers measures integrands claims properties warps curves scenes materials lights shapes formats integrators pipelines filters uses metrics adaptive methods records plans questions sections parameters
+list ^ patterns modifiers measures integrands estimators intervals claims properties warps curves scenes materials lights shapes formats integrators pipelines filters uses metrics adaptive methods records plans questions sections parameters
 list patterns ^
 completion ^ bash zsh fish words
 manual scen^ scene

@@ -359,7 +359,7 @@ class OddArrays(unittest.TestCase):
         nan, inf = float("nan"), float("inf")
         for bad in ([[0.5, nan]], [[0.5, inf]], [[-0.1, 0.5]], [[0.5, 1.0000001]], [[0.5 + 1j, 0.5]], [["0.5", "0.5"]],
                     np.zeros((2, 2), "M8[s]"), np.ma.array([[0.5, 0.5]], mask=[[True, False]]), [], [[]], np.zeros((0, 2)),
-                    [0.5, 0.5], np.zeros((2, 2, 2)), [[0.1, 0.2], [0.3]], None):
+                    [0.5, 0.5], np.zeros((2, 2, 2, 2)), [[0.1, 0.2], [0.3]], None):
             for function in (koksma.measure, koksma.verify):
                 with self.subTest(bad=bad, function=function.__name__), self.assertRaises(ValueError):
                     function(bad)

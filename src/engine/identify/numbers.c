@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "identify/identify.h"
 
@@ -20,9 +21,9 @@ static double roundest(double lo, double hi)
         return 0;
     }
     for (int e = 18; e >= -18; e--) {
-        const double unit = pow(10, e), up = ceil(lo / unit - 1e-12 * fabs(lo / unit));
+        const double unit = koksma__pow(10, e), up = ceil(lo / unit - 1e-12 * fabs(lo / unit));
         if (up * unit <= hi + 1e-12 * fabs(hi)) {
-            return e < 0 ? up / pow(10, -e) : up * unit;
+            return e < 0 ? up / koksma__pow(10, -e) : up * unit;
         }
     }
     return lo;
@@ -115,9 +116,9 @@ int koksma__precisions(const koksma_points *points, double tolerances[KOKSMA__PR
         tolerances[count++] = ldexp(1, -bits);
     }
     for (int d = 4; d <= 12 && bits > 32; d++) {
-        if (all_multiples(points, pow(10, d), 1e-3 * pow(10, d - 12))) {
-            tolerances[count] = pow(10, -d);
-            count += pow(10, -d) <= most;
+        if (all_multiples(points, koksma__pow(10, d), 1e-3 * koksma__pow(10, d - 12))) {
+            tolerances[count] = koksma__pow(10, -d);
+            count += koksma__pow(10, -d) <= most;
             return count;
         }
     }

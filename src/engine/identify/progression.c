@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "identify/identify.h"
@@ -170,9 +171,9 @@ static double increment_of(family f, int dim, int k)
     if (f == PLASTIC) {
         double g = 2;
         for (int i = 0; i < 200; i++) {
-            g = pow(1 + g, 1. / (dim + 1));
+            g = koksma__pow(1 + g, 1. / (dim + 1));
         }
-        return pow(1 / g, k + 1);
+        return koksma__pow(1 / g, k + 1);
     }
     if (f == ROOTS) {
         int prime = 2;
@@ -186,7 +187,7 @@ static double increment_of(family f, int dim, int k)
         }
         return sqrt(prime) - floor(sqrt(prime));
     }
-    const double a = pow(2, (k + 1.) / (dim + 1));
+    const double a = koksma__pow(2, (k + 1.) / (dim + 1));
     return a - floor(a);
 }
 

@@ -12,6 +12,7 @@
 #include <koksma/verify.h>
 
 #include "core/c_locale.h"
+#include "core/elementary.h"
 #include "core/points.h"
 #include "core/status.h"
 #include "identify/identify.h"
@@ -147,7 +148,7 @@ static koksma_status look_at_distances(koksma__sample *s)
     }
     KOKSMA__TRY(koksma_smallest_distance(p, true, s->run, &distance));
     koksma__snprintf(detail, sizeof detail, "smallest distance on the torus %.6g, times n^(1/dim): %.4g", distance,
-                     distance * pow((double)p->n, 1. / p->dim));
+                     distance * koksma__pow((double)p->n, 1. / p->dim));
     return say(s, distance > 0 ? "distances" : "repeated points", detail);
 }
 
