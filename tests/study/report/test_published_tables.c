@@ -116,3 +116,38 @@ TEST_CASE(slopes_are_of_all_printed_means)
     t.row.published[1].value = 0.00799;
     assert_near(koksma__table_printed_slope(&t.table, &t.row), -0.64361, 1e-4);
 }
+
+/* Which cells a joint test takes does not depend on their z, only on notes and on whether there is chance in them. */
+TEST_CASE(joint_tests_do_not_choose_by_z)
+{
+    one_row t;
+    koksma__z_sums z = {0};
+    set_up(&t, 0.282, 0.0005, 1);
+    for (int i = 0; i < 3; i++) { /* z = 3.3, 0 and rounding alone */
+        const koksma__cell cell = cell_of(i == 1 ? 0.282 : 0.26, i == 2 ? 0 : 0.05, 400);
+        const koksma__verdict v = koksma__table_judge(&t.table, &t.row, 0, &cell);
+        koksma__z_add(&z, &t.table, &v, &cell);
+    }
+    assert_true(z.count == 2 && z.one_set == 1 && z.untested == 0 && z.squares > 9);
+    t.note.untested = true;
+    const koksma__cell cell = cell_of(0.282, 0.05, 400);
+    const koksma__verdict v = koksma__table_judge(&t.table, &t.row, 0, &cell);
+    koksma__z_add(&z, &t.table, &v, &cell);
+    assert_true(z.count == 2 && z.untested == 1);
+}
+
+/* By tables of the normal and chi-squared distributions: two-sided 5 % at 1.960, 5 %/12 at 2.865; chi-squared 95 % of 12
+   at 21.03. */
+TEST_CASE(joint_tests_have_their_limits)
+{
+    koksma__z_sums z = {.count = 4, .sum = 2 * 2.12, .squares = 9.4};
+    assert_true(koksma__z_deviates(&z, 0.05) && !koksma__z_deviates(&z, 0.05 / 12) && !koksma__z_spreads(&z, 0.05));
+    z.sum = 2 * 2.87;
+    assert_true(koksma__z_deviates(&z, 0.05 / 12));
+    z = (koksma__z_sums){.count = 12, .squares = 21.0};
+    assert_false(koksma__z_spreads(&z, 0.05));
+    z.squares = 21.1;
+    assert_true(koksma__z_spreads(&z, 0.05) && !koksma__z_deviates(&z, 0.05));
+    z.count = 1;
+    assert_false(koksma__z_spreads(&z, 0.05));
+}

@@ -118,6 +118,7 @@ typedef struct koksma__note {
     char *reason;
     /* whether `reason` explains the difference; otherwise it lists the explanations that were tried */
     bool explained;
+    bool untested; /* the printed numbers are not means of trials of our procedure: no joint test takes these cells */
 } koksma__note;
 
 typedef struct koksma__table {

@@ -83,7 +83,7 @@ static koksma_status parse_row(const koksma__json_node *node, koksma__spec_parse
 static koksma_status parse_note(const koksma__json_node *node, koksma__spec_parser parser, bool stored,
                                 koksma__note *n)
 {
-    static const char *const keys[] = {"comment", "pattern", "n", "statistic", "reason", "explained", NULL};
+    static const char *const keys[] = {"comment", "pattern", "n", "statistic", "reason", "explained", "untested", NULL};
     static const char *const statistics[] = {"mean", "sd", "max"};
     const char *statistic;
     n->explained = true;
@@ -92,6 +92,7 @@ static koksma_status parse_note(const koksma__json_node *node, koksma__spec_pars
     status = status ? status : koksma__json_get_whole(node, "n", false, 1, (int)KOKSMA_MAX_COORDINATES, &n->n);
     status = status ? status : koksma__plan_text(node, "reason", true, &n->reason);
     status = status ? status : koksma__json_get_flag(node, "explained", false, &n->explained);
+    status = status ? status : koksma__json_get_flag(node, "untested", false, &n->untested);
     status = status ? status : koksma__json_get_text(node, "statistic", true, &statistic);
     for (n->statistic = 0; !status && strcmp(statistics[n->statistic], statistic) != 0;) {
         KOKSMA__JSON_FAIL_IF(++n->statistic == 3, node, "statistic '%s': it takes mean, sd or max", statistic);

@@ -177,17 +177,22 @@ size_t koksma__table_note(const koksma__table *table, const char *pattern, long 
 double koksma__table_printed_slope(const koksma__table *table, const koksma__table_row *row);
 
 /* Sums over the z-values of a table. Chance may explain each z alone but not all of them together, for example if all
-   have the same sign or all are large. Cells that differ for a known reason do not count. */
+   have the same sign or all are large. Whether a cell counts does not depend on its z: all count but those of one set and
+   those that a note leaves out. */
 typedef struct koksma__z_sums {
     size_t count;
+    size_t one_set, untested; /* number of cells without chance, and of those that a note leaves out */
     double sum, squares;
 } koksma__z_sums;
 
-/* Adds the z-value of a cell to the sums, unless the cell differs for a known reason. */
-void koksma__z_add(koksma__z_sums *sums, const koksma__verdict *verdict, const koksma__cell *cell);
+/* Adds the z-value of a cell of a table to the sums, or counts it as left out. */
+void koksma__z_add(koksma__z_sums *sums, const koksma__table *table, const koksma__verdict *verdict,
+                   const koksma__cell *cell);
 
-/* Whether the means deviate to one side: the sum of z over the root of their number, at 5 %. */
-bool koksma__z_deviates(const koksma__z_sums *sums);
+/* Whether the means deviate to one side (the sum of z over the root of their number), and whether they spread too far
+   (the sum of squares), each at the level alpha. */
+bool koksma__z_deviates(const koksma__z_sums *sums, double alpha);
+bool koksma__z_spreads(const koksma__z_sums *sums, double alpha);
 
 /* ---- Sections, questions and conclusions ------------------------------------------------------------------- */
 

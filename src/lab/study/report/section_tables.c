@@ -118,20 +118,39 @@ static void add_verdict(koksma__document *d, const koksma__verdict *v)
     add_mean(d, &(koksma__summary){.mean = NAN, .low = NAN, .high = NAN}, 0, v);
 }
 
-/* Writes a paragraph on the z-values of a table together, if there are two or more. */
+/* Writes a paragraph on the z-values of a table together, and which cells they leave out. */
 static void say_z(koksma__document *d, const koksma__z_sums *z)
 {
-    if (z->count > 1) {
-        const double k = (double)z->count, limit = koksma__chi_squared_quantile(0.95, k);
-        const bool one_side = koksma__z_deviates(z), spread = z->squares > limit;
-        koksma__doc_paragraph(
-            d,
-            "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by "
-            "chance between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one "
-            "side), and the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
-            z->count, one_side || spread ? "fail" : "pass", z->count, z->sum / sqrt(k), one_side ? "fails" : "passes",
-            z->squares, spread ? "fails" : "passes", limit);
+    const double k = (double)z->count;
+    if (!z->count && !z->untested) {
+        return;
     }
+    koksma__doc_paragraph_begin(d);
+    if (z->count > 1) {
+        const bool one_side = koksma__z_deviates(z, 0.05), spread = koksma__z_spreads(z, 0.05);
+        koksma__doc_say(d,
+                        "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by "
+                        "chance between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one "
+                        "side), and the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
+                        z->count, one_side || spread ? "fail" : "pass", z->count, z->sum / sqrt(k),
+                        one_side ? "fails" : "passes", z->squares, spread ? "fails" : "passes",
+                        koksma__chi_squared_quantile(0.95, k));
+    } else {
+        koksma__doc_say(d, "The values of z have no joint test.");
+    }
+    if (z->one_set || z->untested) {
+        koksma__doc_say(d, " Left out whatever their z:");
+    }
+    if (z->one_set) {
+        koksma__doc_say(d, " %zu cell%s of a pattern with one set, which differ by rounding only%s", z->one_set,
+                        koksma__plural((double)z->one_set), z->untested ? ";" : ".");
+    }
+    if (z->untested) {
+        koksma__doc_say(d,
+                        " %zu cell%s whose printed numbers are not means of trials of our procedure (see the notes).",
+                        z->untested, koksma__plural((double)z->untested));
+    }
+    koksma__doc_paragraph_end(d);
 }
 
 /* ---- Discrepancies at one number of points ----------------------------------------------------------------- */
@@ -207,7 +226,7 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
         begin_row(d, t, row);
         add_measure_cells(d, &cell, differ);
         add_verdict(d, &verdict);
-        koksma__z_add(&together, &verdict, &cell);
+        koksma__z_add(&together, t, &verdict, &cell);
         if (t->also) {
             const koksma__cell also = koksma__points_cell(r, t, t->also, row->pattern, t->n.at[0]);
             add_measure_cells(d, &also, differ);
@@ -275,7 +294,7 @@ static void add_our_line(sizes_table *s, const koksma__table_row *row, const cha
         const koksma__verdict verdict = koksma__table_judge(s->table, row, i, &cell);
         add_mean(s->document, &cell.mean, 0, own ? &verdict : NULL);
         if (own) {
-            koksma__z_add(&s->together, &verdict, &cell);
+            koksma__z_add(&s->together, s->table, &verdict, &cell);
             koksma__doc_point(&s->chart, (double)n->at[i], cell.mean.mean, cell.mean.low, cell.mean.high);
         }
         if (cell.mean.n && cell.mean.mean > 0) {

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/status.h"
 #include "study/plan/plan.h"
 #include "study/report/report.h"
@@ -166,27 +167,30 @@ double koksma__table_printed_slope(const koksma__table *t, const koksma__table_r
     return koksma__trend_of(x, means, t->n.n).slope.value;
 }
 
-void koksma__z_add(koksma__z_sums *sums, const koksma__verdict *v, const koksma__cell *cell)
+void koksma__z_add(koksma__z_sums *sums, const koksma__table *t, const koksma__verdict *v, const koksma__cell *cell)
 {
-    /* if the standard deviation is 0, all sets are equal, and the difference is only rounding */
-    if (isfinite(v->z) && cell->sd > 0 && v->kind != KOKSMA_VERDICT_EXPLAINED) {
+    if (!isfinite(v->z)) {
+        return;
+    }
+    if (v->note && t->notes[v->note - 1].untested) {
+        sums->untested++;
+    } else if (!(cell->sd > 0)) { /* all sets are equal, and the difference is only rounding */
+        sums->one_set++;
+    } else {
         sums->count++;
         sums->sum += v->z;
         sums->squares += v->z * v->z;
     }
 }
 
-bool koksma__z_deviates(const koksma__z_sums *z)
+bool koksma__z_deviates(const koksma__z_sums *z, double alpha)
 {
-    return z->count > 1 && fabs(z->sum) > 1.96 * sqrt((double)z->count);
+    return z->count > 1 && z->sum * z->sum > (double)z->count * koksma__chi_squared_quantile(1 - alpha, 1);
 }
 
-/* Whether the values of z fail any of the two tests, each at 5 %: the sum over the root of their number, and the sum of
-   squares. */
-static bool z_fails(const koksma__z_sums *z)
+bool koksma__z_spreads(const koksma__z_sums *z, double alpha)
 {
-    return koksma__z_deviates(z) ||
-           (z->count > 1 && z->squares > koksma__chi_squared_quantile(0.95, (double)z->count));
+    return z->count > 1 && z->squares > koksma__chi_squared_quantile(1 - alpha, (double)z->count);
 }
 
 /* ---- The section that counts them -------------------------------------------------------------------------- */
@@ -195,10 +199,11 @@ static bool z_fails(const koksma__z_sums *z)
    errors; and image errors in scenes that were fitted to the published numbers. */
 enum { MEASURES, IMAGES, FITTED, GROUPS };
 
-/* The verdicts of each group, and the tables of measures whose values of z fail their joint tests. */
+/* The verdicts of each group, where measures differ for a known reason, and the values of z of each table. */
 typedef struct counts {
-    size_t of[GROUPS][KOKSMA_VERDICT_UNEXPLAINED + 1], tested, failed;
-    char ids[256]; /* of the tables that failed */
+    size_t of[GROUPS][KOKSMA_VERDICT_UNEXPLAINED + 1];
+    char explained[256]; /* such as "1 in table 1; 14 in table 3" */
+    koksma__z_sums *z;   /* [table] */
 } counts;
 
 static bool has_tables(const koksma__report *r)
@@ -207,22 +212,22 @@ static bool has_tables(const koksma__report *r)
 }
 
 /* A table over several numbers of points has one mean per row and column, other tables one per row. */
-static void count_table(koksma__report *r, const koksma__table *t, counts *all)
+static void count_table(koksma__report *r, const koksma__table *t, counts *all, koksma__z_sums *z)
 {
     size_t *of = all->of[!t->scene ? MEASURES : t->fitted ? FITTED : IMAGES];
-    koksma__z_sums z = {0};
+    size_t explained = 0;
     for (size_t i = 0; !r->status && i < t->n_rows * t->n.n; i++) {
         const koksma__table_row *row = &t->rows[i / t->n.n];
         const koksma__cell cell = koksma__table_cell(r, t, row->pattern, i % t->n.n);
         const koksma__verdict verdict = koksma__table_judge(t, row, i % t->n.n, &cell);
         of[verdict.kind]++;
-        koksma__z_add(&z, &verdict, &cell);
+        explained += verdict.kind == KOKSMA_VERDICT_EXPLAINED;
+        koksma__z_add(z, t, &verdict, &cell);
     }
-    all->tested += z.count > 1;
-    if (z_fails(&z)) {
-        const size_t used = strlen(all->ids);
-        snprintf(all->ids + used, sizeof all->ids - used, "%s%.40s", used ? "; " : "", t->id);
-        all->failed++;
+    const size_t used = strlen(all->explained);
+    if (explained && !t->scene) {
+        snprintf(all->explained + used, sizeof all->explained - used, "%s%zu in table %.40s", used ? "; " : "",
+                 explained, t->id);
     }
 }
 
@@ -233,14 +238,19 @@ static const char *verb(size_t n)
 
 /* Writes how many published means of a group agree, unless the group has no means to compare. If some differ for an
    unknown reason, a second sentence gives their number and is marked as an undecided answer. */
-static void say_group(koksma__document *d, int group, const size_t *of)
+static void say_group(koksma__document *d, int group, const counts *all)
 {
+    const size_t *of = all->of[group];
     const size_t agree = of[KOKSMA_VERDICT_AGREES] + of[KOKSMA_VERDICT_FITTED],
                  explained = of[KOKSMA_VERDICT_EXPLAINED], unexplained = of[KOKSMA_VERDICT_UNEXPLAINED];
     if (!(agree + explained + unexplained)) {
         return;
     }
-    koksma__doc_answer_begin(d, true);
+    if (group == FITTED) {
+        koksma__doc_paragraph_begin(d); /* by construction, so that it answers nothing */
+    } else {
+        koksma__doc_answer_begin(d, true);
+    }
     koksma__doc_say(d, "%zu of %zu published means ", agree, agree + explained + unexplained);
     if (group == MEASURES) {
         koksma__doc_say(d, "of measures agree, each alone: chance and rounding explain differences of |z| below %.1f",
@@ -252,28 +262,78 @@ static void say_group(koksma__document *d, int group, const size_t *of)
                         group == IMAGES ? "" : ", so their agreement confirms nothing");
     }
     if (explained) {
-        koksma__doc_say(d, "; %zu %s for a reason that a note below the table gives", explained, verb(explained));
+        koksma__doc_say(d, "; %zu %s where a note below the table says how the printed numbers were made", explained,
+                        verb(explained));
+        if (group == MEASURES) {
+            koksma__doc_say(d, " (%s)", all->explained);
+        }
     }
     koksma__doc_say(d, ".");
     koksma__doc_paragraph_end(d);
     if (unexplained) {
         koksma__doc_answer_begin(d, false);
-        koksma__doc_say(d, "%zu of %zu published means of %s %s for an unknown reason: ✗ in the tables.", unexplained,
-                        agree + explained + unexplained, group == MEASURES ? "measures" : "images",
-                        verb(unexplained));
+        koksma__doc_say(d, "%zu of %zu published means of %s %s for an unknown reason%s: ✗ in the tables.",
+                        unexplained, agree + explained + unexplained, group == MEASURES ? "measures" : "images",
+                        verb(unexplained), group == MEASURES ? " (by chance one of 107 does)" : "");
         koksma__doc_paragraph_end(d);
     }
 }
 
-static void say_joint(koksma__document *d, const counts *all)
+static bool fails(const koksma__z_sums *z, double alpha)
 {
-    koksma__doc_verdict_begin(d, all->failed ? KOKSMA__ANSWER_FAILS : KOKSMA__ANSWER_DECIDED);
+    return koksma__z_deviates(z, alpha) || koksma__z_spreads(z, alpha);
+}
+
+/* Lists the tables that fail one of their two tests at 5 %; strict: those that fail at 5 % for all tests of all tables
+   together, otherwise those that do not. */
+static void list_failed(koksma__document *d, const koksma__plan *plan, const koksma__z_sums *z, double all_tests,
+                        bool strict)
+{
+    size_t named = 0;
+    for (size_t i = 0; i < plan->n_tables; i++) {
+        if (fails(&z[i], 0.05) && fails(&z[i], 0.05 / all_tests) == strict) {
+            koksma__doc_say(d, "%s%s", named++ ? "; " : "", plan->tables[i].id);
+        }
+    }
+}
+
+/* Of many tests some fail by chance at 5 % each. A table that fails at 5 % for all tests together is not explained by
+   chance (Bonferroni); otherwise a failure decides nothing. */
+static void say_joint(koksma__document *d, const koksma__plan *plan, const koksma__z_sums *z)
+{
+    size_t tested = 0, failed = 0, strictly = 0, named = 0;
+    for (size_t i = 0; i < plan->n_tables; i++) {
+        tested += z[i].count > 1;
+    }
+    const double all_tests = 2 * (double)tested;
+    for (size_t i = 0; i < plan->n_tables; i++) {
+        failed += fails(&z[i], 0.05);
+        strictly += fails(&z[i], 0.05 / all_tests);
+    }
+    if (!tested) {
+        return;
+    }
+    koksma__doc_verdict_begin(d, strictly ? KOKSMA__ANSWER_FAILS
+                                 : failed ? KOKSMA__ANSWER_UNDECIDED
+                                          : KOKSMA__ANSWER_DECIDED);
     koksma__doc_say(d,
                     "Together, the values of z of %zu of %zu tables pass their joint tests, each at 5 %% for the sum "
                     "and for the squares",
-                    all->tested - all->failed, all->tested);
-    if (all->failed) {
-        koksma__doc_say(d, "; chance alone does not explain the tables that fail: %s", all->ids);
+                    tested - failed, tested);
+    if (strictly) {
+        koksma__doc_say(d, "; chance alone does not explain the tables that fail: ");
+        list_failed(d, plan, z, all_tests, true);
+    }
+    if (failed > strictly) {
+        koksma__doc_say(d, "; undecided: ");
+        list_failed(d, plan, z, all_tests, false);
+        koksma__doc_say(d, ", because of %.0f independent tests one or more fail by chance in %.0f %% of cases",
+                        all_tests, 100 * (1 - koksma__pow(0.95, all_tests)));
+    }
+    for (size_t i = 0; i < plan->n_tables; i++) {
+        if (z[i].count < 2 && z[i].untested) {
+            koksma__doc_say(d, named++ ? ", %s" : ". Not tested, because of a note: %s", plan->tables[i].id);
+        }
     }
     koksma__doc_say(d, ".");
     koksma__doc_paragraph_end(d);
@@ -281,16 +341,17 @@ static void say_joint(koksma__document *d, const counts *all)
 
 static void write_agreement(koksma__report *r, koksma__document *d)
 {
-    counts all = {0};
+    const koksma__plan *plan = &r->study->plan;
+    counts all = {.z = koksma__report_memory(r, plan->n_tables, sizeof *all.z)};
     size_t waiting = 0;
-    for (size_t i = 0; i < r->study->plan.n_tables; i++) {
-        count_table(r, &r->study->plan.tables[i], &all);
+    for (size_t i = 0; all.z && i < plan->n_tables; i++) {
+        count_table(r, &plan->tables[i], &all, &all.z[i]);
     }
-    for (int group = 0; group < GROUPS; group++) {
-        say_group(d, group, all.of[group]);
+    for (int group = 0; !r->status && group < GROUPS; group++) {
+        say_group(d, group, &all);
         waiting += all.of[group][KOKSMA_VERDICT_WAITING];
-        if (group == MEASURES && all.tested) {
-            say_joint(d, &all);
+        if (group == MEASURES) {
+            say_joint(d, plan, all.z);
         }
     }
     if (waiting) {
