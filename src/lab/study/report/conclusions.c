@@ -15,6 +15,9 @@
 /* The number of tests that a conclusion passes, of those that its rows allow; rows that are missing count as `open`. */
 typedef struct tested {
     size_t passed, tests, open;
+    /* of the tests, those by another procedure than the printed one, and those of them that fail: they decide nothing
+       against the paper */
+    size_t other, other_failed;
 } tested;
 
 static void test(tested *t, bool passes)
@@ -120,13 +123,19 @@ static void conclude_order(koksma__report *r, koksma__document *d, const koksma_
             all->open += isnan(ours[i]);
         }
     }
+    bool tied = false;
     koksma__doc_say(d, "Ours by mean rank: ");
     for (size_t i = 0; i < n; i++) {
-        koksma__doc_say(d, "%s%s %.3g", i ? "; " : "", label_of(r, c, c->patterns.at[i]), ranks[i] / (double)tables);
         if (i) {
-            test(all, ranks[i - 1] <= ranks[i] * (1 + 1e-12));
+            const bool falls = ranks[i - 1] > ranks[i] * (1 + 1e-12),
+                       equal = !falls && ranks[i - 1] > ranks[i] * (1 - 1e-12);
+            test(all, !falls);
+            tied |= equal;
+            koksma__doc_say(d, "%s", falls ? " > " : equal ? " = " : " < ");
         }
+        koksma__doc_say(d, "%s %.3g", label_of(r, c, c->patterns.at[i]), ranks[i] / (double)tables);
     }
+    koksma__doc_say(d, "%s", tied ? " (equal ranks neither confirm nor deny their order)" : "");
     koksma__doc_say(d, ". Rank correlation of the printed means with ours:");
     for (size_t t = 0; t < tables; t++) {
         koksma__doc_say(d, "%s %.2f in %s", t ? ";" : "", rho[t], c->tables.at[t]);
@@ -169,12 +178,17 @@ static void conclude_best(koksma__report *r, koksma__document *d, const koksma__
 
 /* ---- predictor: a measure orders the patterns as the errors do --------------------------------------------- */
 
-/* Whether Spearman's correlation of n means is above 0 at 5 %, by t = rho sqrt((n - 2) / (1 - rho^2)) with n - 2 degrees
-   of freedom. */
+/* The Spearman's correlation of n means from which on it is above 0 at 5 %, by t = rho sqrt((n - 2) / (1 - rho^2)) with
+   n - 2 degrees of freedom. */
+static double sure_from(size_t n)
+{
+    const double t = n > 2 ? koksma__student_quantile(0.95, (double)n - 2) : (double)NAN;
+    return t / sqrt((double)n - 2 + t * t);
+}
+
 static bool is_sure(double rho, size_t n)
 {
-    const double t = rho * sqrt(((double)n - 2) / fmax(1 - rho * rho, 1e-12));
-    return n > 2 && t > koksma__student_quantile(0.95, (double)n - 2);
+    return rho > sure_from(n);
 }
 
 /* The measure of the first table of `by` must be surely correlated with the errors of each table, which is a test; the
@@ -190,9 +204,8 @@ static void conclude_predictor(koksma__report *r, koksma__document *d, const kok
     for (size_t by = 0; by < c->by.n; by++) {
         const koksma__table *of = table_of(r, c, c->by.at[by]);
         list_means(r, c, of, x, x_printed);
-        koksma__doc_say(d, "%s", by ? ". " : "Rank correlation with the error, ours (printed), of ");
-        koksma__doc_say(d, of->measure ? "`%s` in table %s:" : "%sthe errors in table %s:",
-                        of->measure ? of->measure : "", of->id);
+        koksma__doc_say(d, "%s%s (table %s):", by ? ". " : "Rank correlation with the error, ours (printed). ",
+                        of->title, of->id);
         for (size_t k = 0; k < c->tables.n; k++) {
             const koksma__table *t = table_of(r, c, c->tables.at[k]);
             list_means(r, c, t, y, y_printed);
@@ -207,15 +220,23 @@ static void conclude_predictor(koksma__report *r, koksma__document *d, const kok
             }
         }
     }
-    koksma__doc_say(d, ".");
+    koksma__doc_say(d, ". Of %zu patterns a correlation is surely above 0 (at 5 %%) from %.2f on.", n, sure_from(n));
 }
 
 /* ---- before: each pattern has a smaller mean than each of `against` ---------------------------------------- */
 
 enum { NAMED = 4 };
 
+/* Whether a note says that a printed mean is not of our procedure. */
+static bool is_untested(const koksma__table *t, const char *pattern, size_t k)
+{
+    const size_t note = koksma__table_note(t, pattern, koksma__table_is_over_n(t) ? t->n.at[k] : 0, 0);
+    return note && t->notes[note - 1].untested;
+}
+
 /* Every comparison in each table at each number of points is a test, by our means; the same comparisons of the printed
-   means stand beside them. NAMED of those that fail are named. */
+   means stand beside them. NAMED of those that fail are named. Where both means are by another procedure than the printed
+   ones, a test that fails leaves the conclusion undecided. */
 static void conclude_before(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
 {
     size_t in_print = 0, printed = 0, failed = 0;
@@ -226,7 +247,10 @@ static void conclude_before(koksma__report *r, koksma__document *d, const koksma
             const char *better = c->patterns.at[j / c->against.n], *worse = c->against.at[j % c->against.n];
             const pair x = means_of(r, t, better, k), y = means_of(r, t, worse, k);
             all->open += isnan(x.ours) || isnan(y.ours);
+            const bool other = is_untested(t, better, k) && is_untested(t, worse, k);
             test(all, x.ours < y.ours);
+            all->other += other;
+            all->other_failed += other && !(x.ours < y.ours);
             printed += !isnan(x.printed) && !isnan(y.printed);
             in_print += x.printed < y.printed;
             if (!(x.ours < y.ours) && failed++ < NAMED) {
@@ -244,6 +268,10 @@ static void conclude_before(koksma__report *r, koksma__document *d, const koksma
     koksma__doc_say(d, "%s", failed ? ". " : "");
     koksma__doc_say(d, "Smaller in %zu of %zu comparisons, in print in %zu of %zu.", all->passed, all->tests,
                     in_print, printed);
+    if (all->other) {
+        koksma__doc_say(d, " %zu of our comparisons are by another procedure than the printed one (see the note).",
+                        all->other);
+    }
 }
 
 /* ---- bands: the errors of the patterns are in visible bands, and those of `against` are not ---------------- */
@@ -293,6 +321,7 @@ static void conclude_metric(koksma__report *r, koksma__document *d, const koksma
 {
     koksma__subject s;
     long long spp;
+    size_t least = SIZE_MAX;
     koksma__doc_say(d, "`%s` of %s over that of %s: ", c->metric, label_of(r, c, c->patterns.at[0]),
                     label_of(r, c, c->against.at[0]));
     for (size_t i = 0; next_images(r, c, &i, &s, &spp);) {
@@ -305,10 +334,15 @@ static void conclude_metric(koksma__report *r, koksma__document *d, const koksma
         const double ratio = x.mean / y.mean;
         const double half = ratio * koksma__hypot((x.high - x.mean) / x.mean, (y.high - y.mean) / y.mean);
         test(all, ratio - half > 1);
-        koksma__doc_say(d, "%s%.3g (%.3g to %.3g) in %s", all->tests > 1 ? "; " : "", ratio, ratio - half,
+        koksma__doc_say(d, "%s%.3f (%.3f to %.3f) in %s", all->tests > 1 ? "; " : "", ratio, ratio - half,
                         ratio + half, s.scene);
+        least = x.n < least ? x.n : least;
+        least = y.n < least ? y.n : least;
     }
-    koksma__doc_say(d, ".");
+    if (all->tests) {
+        koksma__doc_say(d, ", of the means of %zu images; surely above 1 in %zu of %zu scenes.", least, all->passed,
+                        all->tests);
+    }
 }
 
 /* ---- rates: the patterns converge faster than random points ------------------------------------------------ */
@@ -374,7 +408,8 @@ static void conclude_rates(koksma__report *r, koksma__document *d, const koksma_
             test_rates(r, d, c, &s, all);
         }
     }
-    koksma__doc_say(d, "Faster means an exponent surely below %.2f.", -0.5 - TOLERANCE);
+    koksma__doc_say(d, "Faster means an exponent surely below %.2f; one nearer to -1/2 may be that of finite sizes.",
+                    -0.5 - TOLERANCE);
 }
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
@@ -405,12 +440,15 @@ static void add(koksma__report *r, koksma__document *d, const koksma__conclusion
     koksma__document words = {0};
     koksma__doc_words_begin(&words);
     functions[c->kind - koksma__conclusion_kinds](r, &words, c, &all);
-    const koksma__answer_kind answer = all.open || !all.tests    ? KOKSMA__ANSWER_UNDECIDED
+    const bool undecided = all.open || !all.tests || all.other_failed;
+    const koksma__answer_kind answer = undecided                 ? KOKSMA__ANSWER_UNDECIDED
                                        : all.passed == all.tests ? KOKSMA__ANSWER_HOLDS
                                        : all.passed              ? KOKSMA__ANSWER_PARTLY
                                                                  : KOKSMA__ANSWER_FAILS;
     koksma__doc_verdict_begin(d, answer);
-    koksma__doc_say(d, "*%s* _%s._ ", c->says, verdicts[answer]);
+    koksma__doc_say(d, "*%s* _%s._ ", c->says,
+                    all.other_failed && !all.open ? "Not decided: the rows are not by the paper's procedure"
+                                                  : verdicts[answer]);
     koksma__doc_words_append(d, &words);
     if (c->remark) {
         koksma__doc_say(d, " %s", c->remark);

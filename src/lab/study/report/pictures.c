@@ -253,23 +253,26 @@ static void add_coherence(koksma__document *d, const koksma__task *first, const 
                           size_t n)
 {
     char name[64];
-    snprintf(name, sizeof name, "coherence-%.30s-%lld", first->scene->name, first->n);
+    const char *id = first->image->id; /* blocks may have scenes in common */
+    snprintf(name, sizeof name, "coherence-%.20s%s%.20s-%lld", id ? id : "", id ? "-" : "", first->scene->name,
+             first->n);
     koksma__doc_paragraph(
-        d, "Coherence of the error: the peak of its power spectrum over the mean power (of frequencies as high "
-           "if that is larger, so that blue noise counts as noise), from the same trials. Part of an error may be "
-           "common to all trials (column _in common_). For white noise with an "
-           "equally large common part, 95 %% of the coherences lie between the columns _noise from_ and _to_. An "
-           "error whose coherence exceeds that of 99.5 %% of such noise is coherent: it has bands or another "
-           "pattern, which the eye sees sooner than noise of the same size.");
+        d,
+        "Coherence of the error: the peak of its power spectrum over the mean power (of frequencies as high "
+        "if that is larger, so that blue noise counts as noise), from the same trials. Part of an error may be "
+        "common to all trials (column _in common_). For white noise with an "
+        "equally large common part, 95 %% of the coherences lie between the columns _noise from_ and _to_. An "
+        "error is coherent if such noise has a coherence as large with a probability _p_ below %g: it has bands or "
+        "another pattern, which the eye sees sooner than noise of the same size.",
+        KOKSMA_COHERENT_P);
     koksma__doc_table_begin(d, name);
-    koksma__doc_columns(d, "t pattern;i3 coherence;n3 noise from;n3 to;n2 in common;n2 cycles a pixel;t error");
+    koksma__doc_columns(d, "t pattern;n3 coherence;n3 noise from;n3 to;n2 p;n2 in common;n2 cycles a pixel;t error");
     for (size_t p = 0; p < n; p++) {
         const koksma_coherence_values *v = &values[p];
         if (is_served(first->image, p)) {
             koksma__doc_row(d);
-            koksma__doc_cells(d, "tinnnnt", first->image->patterns.at[p],
-                              (koksma__estimate){v->coherence, v->low, v->high}, v->noise_low, v->noise_high,
-                              v->common, koksma__hypot(v->frequency_x, v->frequency_y),
+            koksma__doc_cells(d, "tnnnnnnt", first->image->patterns.at[p], v->coherence, v->noise_low, v->noise_high,
+                              v->p, v->common, koksma__hypot(v->frequency_x, v->frequency_y),
                               v->images == 0 ? "none"
                               : v->coherent  ? "coherent"
                                              : "noise");
@@ -352,7 +355,8 @@ static void add_scene(koksma__report *r, koksma__document *d, const koksma__task
     }
     char name[512];
     koksma__case_name(first->scene->name, first->variant, name, sizeof name);
-    koksma__doc_section(d, NULL, "%s, %lld sample%s a pixel, %d x %d pixels", name, first->n,
+    koksma__doc_section(d, NULL, "%s%s%s, %lld sample%s a pixel, %d x %d pixels",
+                        first->image->id ? first->image->id : "", first->image->id ? ": " : "", name, first->n,
                         koksma__plural((double)first->n), first->width, first->height);
     add_pictures(r, d, first, shown, used);
     if (shown < patterns->n) {

@@ -382,8 +382,8 @@ static void write_point_tables(koksma__report *r, koksma__document *d)
         "tooltip of each mark. The text below each table tests its values of z together: by chance the largest "
         "|z| of k independent values exceeds 2 with probability 1 - 0.954^k^ (25 %% for six), and six values of "
         "-0.8 are as rare as one of -2. _Largest of 100_ is the mean of the largest values in blocks of 100 sets; "
-        "its ± is the SD of these largest values, whereas the other intervals are " KOKSMA__MEAN_INTERVALS
-        ". With fewer than 100 sets it is the largest value of all.",
+        "its ±, from five blocks on, is the SD of these largest values, whereas the other intervals "
+        "are " KOKSMA__MEAN_INTERVALS ". With fewer than 100 sets it is the largest value of all.",
         KOKSMA__AGREEMENT_Z);
     for (const koksma__table *t; !r->status && (t = next_table(r, false, &i));) {
         (koksma__table_is_over_n(t) ? add_sizes_table : add_table)(r, d, t);
@@ -423,7 +423,7 @@ static void add_image_columns(koksma__document *d, const koksma__image_block *bl
     koksma__doc_column(
         d, &(koksma__column){
                .name = "verdict", .title = "mean within 25 %", .group = group, .type = KOKSMA__COLUMN_VERDICT});
-    koksma__doc_columns(d, "n3 coherence;n3 noise below;t in bands");
+    koksma__doc_columns(d, "n3 coherence;n3 noise below;n2 p;t in bands");
     if (block->n_references > 1) {
         snprintf(group, sizeof group, "against %lld × %lld %s samples (%s)", last->replicates, last->spp,
                  last->pattern, last->name);
@@ -446,7 +446,8 @@ static void add_image_row(koksma__report *r, koksma__document *d, const koksma__
     begin_row(d, t, row);
     koksma__doc_cells(d, "inn", koksma__estimate_of(&cell.mean), cell.sd, cell.max);
     add_verdict(d, &verdict);
-    koksma__doc_cells(d, "nnt", v.images ? v.coherence : (double)NAN, v.images ? v.noise_high : (double)NAN,
+    koksma__doc_cells(d, "nnnt", v.images ? v.coherence : (double)NAN, v.images ? v.noise_high : (double)NAN,
+                      v.images ? v.p : (double)NAN,
                       !v.images    ? "not known"
                       : v.coherent ? "yes"
                                    : "no");
@@ -599,14 +600,15 @@ static bool has_image_tables(const koksma__report *r)
 static void write_image_tables(koksma__report *r, koksma__document *d)
 {
     size_t i = 0;
-    koksma__doc_paragraph(d,
-                          "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
-                          "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get "
-                          "no verdict. Coherence is the peak of the mean power spectrum of the errors of the first "
-                          "%d trials over its mean: white noise stays below the next column in 97.5 %% of cases, and "
-                          "an error above 99.5 %% of noise is in bands or another pattern that the eye sees "
-                          "(section _Pictures_).",
-                          KOKSMA__SPECTRUM_TRIALS);
+    koksma__doc_paragraph(
+        d,
+        "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
+        "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get "
+        "no verdict. Coherence is the peak of the mean power spectrum of the errors of the first "
+        "%d trials over its mean: white noise stays below the next column in 97.5 %% of cases, and has as "
+        "large a coherence with probability p. An error with p below %g is in bands or another "
+        "pattern that the eye sees (section _Pictures_).",
+        KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
     for (const koksma__table *t; !r->status && (t = next_table(r, true, &i));) {
         add_image_table(r, d, t);
     }

@@ -69,6 +69,7 @@ koksma__cell koksma__points_cell(koksma__report *r, const koksma__table *t, cons
         cell.mean = koksma__summarize_sets(pattern, results, sets);
         cell.sd = cell.mean.sd;
         koksma__largest_of(results->values, sets, KOKSMA__RESULT_STRIDE, 100, &cell.max, &cell.max_sd);
+        cell.max_sd = sets < 500 ? (double)NAN : cell.max_sd; /* an SD of fewer than five blocks says nothing */
         cell.max = isnan(cell.max) ? cell.mean.max : cell.max;
     }
     free(results);

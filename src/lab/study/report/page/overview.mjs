@@ -36,8 +36,20 @@ function verdict(answers) {
     if (mine.length > mostAnswers) list.append(element("dd", {}, element("a", { href: `#${question.anchor}` }, `${mine.length - mostAnswers} more`)));
   }
   const decided = answers.filter(a => a.block.answer !== "undecided").length;
-  const sure = `The data decide ${decided} of ${answers.length} answers. Intervals and decisions have 95 % confidence.`;
+  const sure = `The data decide ${decided} of ${answers.length} answers; ? marks the others. Intervals are 95 % intervals, approximate where values are skewed.`;
   return element("section", { id: "verdict", "aria-label": "What came out" }, element("h2", {}, "What came out"), list, element("p", {}, sure));
+}
+
+function tablesIn(content) {
+  return content.flatMap(block => block.kind === "section" ? [...block.id?.startsWith("table-") ? [block] : [], ...tablesIn(block.content)] : []);
+}
+
+// What the words of a reproduction's answers mean, and where its tables are.
+function glossary(content) {
+  return element("p", { class: "glossary" }, "Coherence: the peak of the error's spectrum over its mean; beside it what 97.5 % of noise stays below. "
+    + "z: printed mean minus ours, in standard errors. D or D*: star discrepancy; S: its root mean square (l2-star); T: that of all boxes (extreme). "
+    + "grain: amplitude of slow errors. torus=1: distances around the sides. columns=256: strata over the whole image. poisson-disk without d: d = 0.1. Tables:",
+    ...tablesIn(content).flatMap(t => [" ", element("a", { href: `#${t.anchor}` }, t.id.slice(6))]));
 }
 
 function contents(blocks, level = 1) {
@@ -53,6 +65,7 @@ export function overview(report) {
   field.addEventListener("input", () => filterTables(field.value.trim().toLowerCase()));
   return element("header", {}, element("p", { class: "kicker" }, reproduces ? "Koksma reproduces" : report.plan ? `A study by koksma ${report.koksma}: ${report.plan}` : `Made by koksma ${report.koksma}`),
     element("h1", {}, report.title), report.about ? element("p", {}, report.about) : null, answers.length ? verdict(answers) : null,
+    reproduces && answers.length ? glossary(report.content) : null,
     element("nav", { "aria-label": "contents" }, element("details", { open: true }, element("summary", {}, "Contents"), contents(report.content)),
       element("label", { class: "search" }, "Show rows of all tables with ", field)));
 }

@@ -76,7 +76,7 @@ function cellContent(cell, column) {
   else content.push(dash);
   if (data.sets) content.push(" ", small(`(${data.sets} set${data.sets > 1 ? "s" : ""})`));
   if (data.verdict) content.push(" ", verdictMark(data, false));
-  else if (data.note) content.push(element("sup", { class: "note" }, data.note));
+  else if (data.note) content.push("\u00a0", element("sup", { class: "note" }, data.note)); // else copied digits run together
   return content;
 }
 
