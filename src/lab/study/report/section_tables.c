@@ -142,7 +142,7 @@ static void say_z(koksma__document *d, const koksma__z_sums *z)
         koksma__doc_say(d, " Left out whatever their z:");
     }
     if (z->one_set) {
-        koksma__doc_say(d, " %zu cell%s of a pattern with one set, which differ by rounding only%s", z->one_set,
+        koksma__doc_say(d, " %zu cell%s of a pattern with one set, where only the rounding differs%s", z->one_set,
                         koksma__plural((double)z->one_set), z->untested ? ";" : ".");
     }
     if (z->untested) {

@@ -263,8 +263,11 @@ static void say_group(koksma__document *d, int group, const counts *all)
                         group == IMAGES ? "" : ", so their agreement confirms nothing");
     }
     if (explained) {
-        koksma__doc_say(d, "; %zu %s where a note below the table says how the printed numbers were made", explained,
-                        verb(explained));
+        koksma__doc_say(d,
+                        group == MEASURES
+                            ? "; %zu %s where a note below the table says how the printed numbers were made"
+                            : "; %zu %s for a reason that a note below the table gives",
+                        explained, verb(explained));
         if (group == MEASURES) {
             koksma__doc_say(d, " (%s)", all->explained);
         }
