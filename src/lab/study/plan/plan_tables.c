@@ -83,7 +83,8 @@ static koksma_status parse_row(const koksma__json_node *node, koksma__spec_parse
 static koksma_status parse_note(const koksma__json_node *node, koksma__spec_parser parser, bool stored,
                                 koksma__note *n)
 {
-    static const char *const keys[] = {"comment", "pattern", "n", "statistic", "reason", "explained", "untested", NULL};
+    static const char *const keys[] = {"comment", "pattern",   "n",        "statistic",
+                                       "reason",  "explained", "untested", NULL};
     static const char *const statistics[] = {"mean", "sd", "max"};
     const char *statistic;
     n->explained = true;

@@ -194,6 +194,9 @@ void koksma__z_add(koksma__z_sums *sums, const koksma__table *table, const koksm
 bool koksma__z_deviates(const koksma__z_sums *sums, double alpha);
 bool koksma__z_spreads(const koksma__z_sums *sums, double alpha);
 
+/* Writes a paragraph on the values of z of a table together, and on the cells that are left out. */
+void koksma__z_say(koksma__document *d, const koksma__z_sums *sums);
+
 /* ---- Sections, questions and conclusions ------------------------------------------------------------------- */
 
 /* A section of the report; each is a line of sections.def. It writes its content, below its heading; a section without

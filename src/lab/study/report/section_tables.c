@@ -118,41 +118,6 @@ static void add_verdict(koksma__document *d, const koksma__verdict *v)
     add_mean(d, &(koksma__summary){.mean = NAN, .low = NAN, .high = NAN}, 0, v);
 }
 
-/* Writes a paragraph on the z-values of a table together, and which cells they leave out. */
-static void say_z(koksma__document *d, const koksma__z_sums *z)
-{
-    const double k = (double)z->count;
-    if (!z->count && !z->untested) {
-        return;
-    }
-    koksma__doc_paragraph_begin(d);
-    if (z->count > 1) {
-        const bool one_side = koksma__z_deviates(z, 0.05), spread = koksma__z_spreads(z, 0.05);
-        koksma__doc_say(d,
-                        "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by "
-                        "chance between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one "
-                        "side), and the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
-                        z->count, one_side || spread ? "fail" : "pass", z->count, z->sum / sqrt(k),
-                        one_side ? "fails" : "passes", z->squares, spread ? "fails" : "passes",
-                        koksma__chi_squared_quantile(0.95, k));
-    } else {
-        koksma__doc_say(d, "The values of z have no joint test.");
-    }
-    if (z->one_set || z->untested) {
-        koksma__doc_say(d, " Left out whatever their z:");
-    }
-    if (z->one_set) {
-        koksma__doc_say(d, " %zu cell%s of a pattern with one set, where only the rounding differs%s", z->one_set,
-                        koksma__plural((double)z->one_set), z->untested ? ";" : ".");
-    }
-    if (z->untested) {
-        koksma__doc_say(d,
-                        " %zu cell%s whose printed numbers are not means of trials of our procedure (see the notes).",
-                        z->untested, koksma__plural((double)z->untested));
-    }
-    koksma__doc_paragraph_end(d);
-}
-
 /* ---- Discrepancies at one number of points ----------------------------------------------------------------- */
 
 /* *most: the largest number of sets that a pattern of the table has; *differ: whether the patterns that are not
@@ -233,7 +198,7 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
         }
     }
     end_table(d, t);
-    say_z(d, &together);
+    koksma__z_say(d, &together);
     koksma__doc_end(d);
 }
 
@@ -357,7 +322,7 @@ static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma
         }
     }
     end_table(d, t);
-    say_z(d, &s.together);
+    koksma__z_say(d, &s.together);
     count_sets(r, t, &sets, &differ);
     say_means(d, published, sets, differ);
     koksma__doc_end(&s.chart);

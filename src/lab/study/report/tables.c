@@ -194,6 +194,40 @@ bool koksma__z_spreads(const koksma__z_sums *z, double alpha)
     return z->count > 1 && z->squares > koksma__chi_squared_quantile(1 - alpha, (double)z->count);
 }
 
+void koksma__z_say(koksma__document *d, const koksma__z_sums *z)
+{
+    const double k = (double)z->count;
+    if (!z->count && !z->untested) {
+        return;
+    }
+    koksma__doc_paragraph_begin(d);
+    if (z->count > 1) {
+        const bool one_side = koksma__z_deviates(z, 0.05), spread = koksma__z_spreads(z, 0.05);
+        koksma__doc_say(d,
+                        "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by "
+                        "chance between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one "
+                        "side), and the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
+                        z->count, one_side || spread ? "fail" : "pass", z->count, z->sum / sqrt(k),
+                        one_side ? "fails" : "passes", z->squares, spread ? "fails" : "passes",
+                        koksma__chi_squared_quantile(0.95, k));
+    } else {
+        koksma__doc_say(d, "The values of z have no joint test.");
+    }
+    if (z->one_set || z->untested) {
+        koksma__doc_say(d, " Left out whatever their z:");
+    }
+    if (z->one_set) {
+        koksma__doc_say(d, " %zu cell%s of a pattern with one set, where only the rounding differs%s", z->one_set,
+                        koksma__plural((double)z->one_set), z->untested ? ";" : ".");
+    }
+    if (z->untested) {
+        koksma__doc_say(d,
+                        " %zu cell%s whose printed numbers are not means of trials of our procedure (see the notes).",
+                        z->untested, koksma__plural((double)z->untested));
+    }
+    koksma__doc_paragraph_end(d);
+}
+
 /* ---- The section that counts them -------------------------------------------------------------------------- */
 
 /* The groups of tables that are counted separately: means of measures, which are tested statistically; means of image
