@@ -47,6 +47,7 @@ TAKES = {
     "generate": (OPERAND, [], ["-o", "out.txt"], "out.txt"),
     "measure": (OPERAND, [], ["--json"], None),
     "verify": (OPERAND, [], ["--json"], None),
+    "identify": (OPERAND, [], ["--json"], None),
     "curve": (OPERAND, ["power"], ["--json"], None),
     "plot": (OPERAND, [], ["-o", "out.svg"], "out.svg"),
     "render": (OPTION, ["ball"], ["--size", "16x12", "-o", "out.pfm", "--json"], "out.pfm"),
