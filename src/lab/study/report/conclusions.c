@@ -225,7 +225,7 @@ static void conclude_predictor(koksma__report *r, koksma__document *d, const kok
 
 /* ---- before: each pattern has a smaller mean than each of `against` ---------------------------------------- */
 
-enum { NAMED = 4 };
+enum { NAMED = 2 };
 
 /* Whether a note says that a printed mean is not of our procedure. */
 static bool is_untested(const koksma__table *t, const char *pattern, size_t k)
