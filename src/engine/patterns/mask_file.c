@@ -11,6 +11,8 @@
  *
  * A rank is a number's position in the sorted list of all numbers of its kind; equal numbers are in the order of the
  * pixels. The renderer repeats the tile over the image.
+ *
+ * Sources: Georgiev & Fajardo 2016, Donnelly et al. 2024 (masks for a filter); the sequence is mask-offset's.
  */
 #include <koksma/mask.h>
 
