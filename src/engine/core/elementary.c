@@ -10,24 +10,30 @@
 
 #define PI_LOW 0x1.1a62633145c07p-53 /* pi less its double */
 
+/* cos and sin of any x. */
+static void both_of(double x, double *c, double *s)
+{
+    koksma__cos_sin(fabs(x) <= 0x1p20 ? x : fmod(x, 2 * M_PI), c, s);
+}
+
 double koksma__sin(double x)
 {
     double c, s;
-    koksma__cos_sin(fabs(x) <= 0x1p20 ? x : fmod(x, 2 * M_PI), &c, &s);
+    both_of(x, &c, &s);
     return s;
 }
 
 double koksma__cos(double x)
 {
     double c, s;
-    koksma__cos_sin(fabs(x) <= 0x1p20 ? x : fmod(x, 2 * M_PI), &c, &s);
+    both_of(x, &c, &s);
     return c;
 }
 
 double koksma__tan(double x)
 {
     double c, s;
-    koksma__cos_sin(fabs(x) <= 0x1p20 ? x : fmod(x, 2 * M_PI), &c, &s);
+    both_of(x, &c, &s);
     return s / c;
 }
 
