@@ -18,6 +18,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "identify/identify.h"
+#include "patterns/nets/nets.h"
 
 enum { LEAST_POINTS = 5, FIRSTS = 1 << 16, SHOWN = 12 };
 
@@ -176,16 +177,8 @@ static double increment_of(family f, int dim, int k)
         return koksma__pow(1 / g, k + 1);
     }
     if (f == ROOTS) {
-        int prime = 2;
-        for (int seen = 0; seen < k;) {
-            bool composite = false;
-            prime++;
-            for (int q = 2; q * q <= prime; q++) {
-                composite = composite || prime % q == 0;
-            }
-            seen += !composite;
-        }
-        return sqrt(prime) - floor(sqrt(prime));
+        const double root = sqrt(koksma__prime(k));
+        return root - floor(root);
     }
     const double a = koksma__pow(2, (k + 1.) / (dim + 1));
     return a - floor(a);
