@@ -88,6 +88,12 @@ koksma_status koksma__identify_properties(koksma__sample *s); /* properties.c: n
 
 enum { KOKSMA__LEAST_SCRAMBLED = 16 }; /* fewer points are nested permutations of everything */
 
+/* ---- Properties ------------------------------------------------------------------------------------------ */
+
+/* Whether the points are a Latin hypercube, and whether all lie in the middles of its intervals, which is unspecified if they
+   are none. Errors: MEMORY. */
+koksma_status koksma__find_strata(const koksma_points *points, bool *latin, bool *centred);
+
 /* ---- Scramble -------------------------------------------------------------------------------------------- */
 
 /* How one coordinate's digits arise from a sequence's, from the strongest relation to the weakest. */

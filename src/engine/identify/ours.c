@@ -14,7 +14,6 @@
 #include <string.h>
 
 #include "core/parallel.h"
-#include "core/points.h"
 #include "core/status.h"
 #include "identify/identify.h"
 
@@ -28,23 +27,6 @@ typedef struct ours {
     bool latin;    /* the sample is a Latin hypercube */
     double *order; /* scratch: a set, sorted */
 } ours;
-
-static bool is_latin(const koksma_points *p)
-{
-    const size_t dim = (size_t)p->dim;
-    unsigned char *seen = malloc(p->n);
-    bool latin = seen != NULL;
-    for (size_t k = 0; k < dim && latin; k++) {
-        memset(seen, 0, p->n);
-        for (size_t i = 0; i < p->n && latin; i++) {
-            unsigned char *cell = &seen[koksma__stratum(p->xs[i * dim + k], p->n)];
-            latin = !*cell;
-            *cell = 1;
-        }
-    }
-    free(seen);
-    return latin;
-}
 
 static bool are_near(const double *a, const double *b, size_t count, double tolerance)
 {
@@ -166,13 +148,15 @@ static bool is_slow(const koksma_pattern *p)
 static koksma_status could_be(ours *o, const koksma_spec *spec, bool *possible)
 {
     int n_latin = 0;
+    bool latin, centred;
     *possible = false;
     for (uint64_t seed = 0; seed < 3; seed++) {
         const koksma_status status = koksma_generate(spec, seed, o->s->run, &o->made);
         if (status) {
             return passable(status);
         }
-        n_latin += is_latin(&o->made);
+        KOKSMA__TRY(koksma__find_strata(&o->made, &latin, &centred));
+        n_latin += latin;
     }
     *possible = o->made.n < 8 || n_latin == (o->latin ? 3 : 0) || (n_latin > 0 && n_latin < 3);
     return KOKSMA_OK;
@@ -286,13 +270,14 @@ static koksma_status walk(koksma__sample *s, bool seeded)
     double *sorted = malloc(count * sizeof *sorted);
     koksma_status status = koksma_points_init(&o.made, s->points.n, s->points.dim);
     status = status ? status : koksma_points_init(&o.one, 1, s->points.dim);
+    bool centred;
     o.order = malloc(count * sizeof *o.order);
     status = status ? status : o.order && sorted ? KOKSMA_OK : koksma__fail_memory(count * sizeof *sorted);
     if (!status) {
         memcpy(o.order, s->points.xs, count * sizeof *sorted);
         row_size = (size_t)s->points.dim;
         qsort(o.order, s->points.n, row_size * sizeof *sorted, by_row);
-        o.latin = is_latin(&s->points);
+        status = koksma__find_strata(&s->points, &o.latin, &centred);
     }
     const size_t before = s->found->count;
     for (size_t i = 0; (p = koksma_pattern_at(i)) && !status && s->found->count == before; i++) {

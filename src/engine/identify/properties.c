@@ -29,32 +29,34 @@ static koksma_status say(koksma__sample *s, const char *what, const char *detail
     return KOKSMA_OK;
 }
 
-static koksma_status look_at_strata(koksma__sample *s)
+koksma_status koksma__find_strata(const koksma_points *p, bool *latin, bool *centred)
 {
-    const koksma_points *p = &s->points;
     const size_t dim = (size_t)p->dim;
     unsigned char *seen = malloc(p->n);
     KOKSMA__REQUIRE_MEMORY(seen, p->n);
-    int latin = 0, centred = 0;
-    for (size_t k = 0; k < dim; k++) {
-        bool one_each = true, centre = true;
+    *latin = *centred = true;
+    for (size_t k = 0; k < dim && *latin; k++) {
         memset(seen, 0, p->n);
-        for (size_t i = 0; i < p->n; i++) {
-            const double x = p->xs[i * dim + k];
-            unsigned char *cell = &seen[koksma__stratum(x, p->n)];
-            one_each = one_each && !*cell;
+        for (size_t i = 0; i < p->n && *latin; i++) {
+            const double x = p->xs[i * dim + k] * (double)p->n;
+            unsigned char *cell = &seen[koksma__stratum(p->xs[i * dim + k], p->n)];
+            *latin = !*cell;
             *cell = 1;
-            centre = centre && fabs(x * (double)p->n - floor(x * (double)p->n) - .5) < 1e-6;
+            *centred = *centred && fabs(x - floor(x) - .5) < 1e-6;
         }
-        latin += one_each;
-        centred += one_each && centre;
     }
     free(seen);
-    if (latin == p->dim && p->n > 1) {
-        return say(s, centred == p->dim ? "centred Latin hypercube (n-rooks)" : "Latin hypercube (n-rooks)",
-                   "each of n intervals of every coordinate has one point");
-    }
     return KOKSMA_OK;
+}
+
+static koksma_status look_at_strata(koksma__sample *s)
+{
+    bool latin, centred;
+    KOKSMA__TRY(koksma__find_strata(&s->points, &latin, &centred));
+    return latin && s->points.n > 1
+               ? say(s, centred ? "centred Latin hypercube (n-rooks)" : "Latin hypercube (n-rooks)",
+                     "each of n intervals of every coordinate has one point")
+               : KOKSMA_OK;
 }
 
 static double shapes(int m, int dim)
