@@ -126,8 +126,6 @@ static int open_source(estimating *e, int i)
 
 /* What is printed of an integral. */
 typedef struct printed {
-    const koksma_integral *integral;
-    const cli_source *source;
     char name[KOKSMA_MAX_SPEC], pattern[KOKSMA_MAX_SPEC];
     double truth; /* NaN: unknown */
 } printed;
@@ -145,7 +143,7 @@ static void put_step(const estimating *e, const printed *p, const koksma_toleran
     cli_row_text(rows, "integrand", p->name);
     cli_row_text(rows, "source", p->pattern);
     cli_row_whole(rows, "n", step->n);
-    cli_row_whole(rows, "dim", (uint64_t)p->source->dim);
+    cli_row_whole(rows, "dim", (uint64_t)e->source.dim);
     cli_row_whole(rows, "replicates", e->options.replicates);
     cli_row_whole(rows, "points", step->points);
     cli_row_number(rows, "estimate", found->value);
@@ -171,7 +169,7 @@ static void put_end(const estimating *e, const printed *p, const koksma_toleranc
     const koksma_tolerance_step *last = &t->steps[t->n_steps - 1];
     cli_row_text(rows, "tolerance_of", p->name);
     cli_row_text(rows, "source", p->pattern);
-    cli_row_whole(rows, "dim", (uint64_t)p->source->dim);
+    cli_row_whole(rows, "dim", (uint64_t)e->source.dim);
     cli_row_number(rows, "tolerance", fmax(e->options.absolute, e->options.relative));
     cli_row_flag(rows, "relative", e->options.relative > 0);
     cli_row_flag(rows, "reached", t->reached);
@@ -202,7 +200,7 @@ static int put_estimate(const koksma_integral *integral, void *context)
 {
     estimating *e = context;
     const cli_source *source = &e->source;
-    printed p = {.integral = integral, .source = source, .truth = NAN};
+    printed p = {.truth = NAN};
     koksma_tolerance_options o = e->options;
     koksma_integral_facts facts = {.lowest = NAN, .highest = NAN};
     if (integral) {
