@@ -104,6 +104,21 @@ static int ascending(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
+/* Returns how many of the sorted numbers are below x or, with `equal`, not above it. */
+static size_t count_below(const float *sorted, size_t n, float x, bool equal)
+{
+    size_t first = 0, end = n;
+    while (first < end) {
+        const size_t middle = (first + end) / 2;
+        if (equal ? !(x < sorted[middle]) : sorted[middle] < x) {
+            first = middle + 1;
+        } else {
+            end = middle;
+        }
+    }
+    return first;
+}
+
 /* Makes the mean rank of each value, as a share of the pixels. */
 static koksma_status rank(const float *values, size_t n, float *ranks)
 {
@@ -112,17 +127,7 @@ static koksma_status rank(const float *values, size_t n, float *ranks)
     memcpy(sorted, values, n * sizeof *sorted);
     qsort(sorted, n, sizeof *sorted, ascending);
     for (size_t p = 0; p < n; p++) {
-        size_t below = 0, end = n, upto;
-        while (below < end) { /* the first that is not below the value */
-            const size_t middle = (below + end) / 2;
-            if (sorted[middle] < values[p]) {
-                below = middle + 1;
-            } else {
-                end = middle;
-            }
-        }
-        for (upto = below; upto < n && !(values[p] < sorted[upto]); upto++) {
-        }
+        const size_t below = count_below(sorted, n, values[p], false), upto = count_below(sorted, n, values[p], true);
         ranks[p] = (float)((double)(below + upto) / 2 / (double)n);
     }
     free(sorted);
