@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Integrates to a tolerance: R independent random sets, whose number of points doubles until the interval for the integral
- * is narrow enough. The points of several sets are put into batches of up to BATCH points or COORDINATES coordinates,
- * so that functions of other
- * programs and languages are called seldom; the sums of each set are compensated and in the order of its points, so
- * that batches and threads change no bit.
+ * is narrow enough. The points of several sets are put into batches of up to BATCH points or COORDINATES coordinates, so
+ * that functions of other programs and languages are called seldom. The sums of each set are compensated and in the order
+ * of its points, so that batches and threads change no bit.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The weights of filters of masks, by name (koksma/maskfile.h). Those of pixel filters come from libm, whose last bits
- * differ between machines, so they are rounded to multiples of 2^-30: masks then have the same bits everywhere.
+ * The weights of filters of masks, by name (koksma/maskfile.h). Those of pixel filters are rounded to multiples of 2^-30,
+ * so that masks keep their bits where the last digits of a filter change.
  */
 #include <koksma/maskfile.h>
 
