@@ -8,8 +8,16 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "core/visibility.h"
+
+/* Whether a path ends in `ending`, as in ".npy", and has something before it. */
+static inline bool koksma__path_ends_in(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), n = strlen(ending);
+    return length > n && !strcmp(path + length - n, ending);
+}
 
 /* ---- Reading ---- */
 

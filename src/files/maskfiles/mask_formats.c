@@ -117,12 +117,6 @@ static koksma_status read_image(const char *path, numbers *n)
     return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }
 
-static bool ends_in(const char *path, const char *ending)
-{
-    const size_t a = strlen(path), b = strlen(ending);
-    return a > b && !strcmp(path + a - b, ending);
-}
-
 static koksma_status read_npy(const char *path, numbers *n)
 {
     size_t shape[3];
@@ -165,7 +159,7 @@ koksma_status koksma_mask_read(const char *path, const koksma_mask_space *space,
     *out = (koksma_mask){0};
     const koksma_mask_space *checked = space;
     KOKSMA__TRY(koksma__mask_check(KOKSMA_MASK_MIN, KOKSMA_MASK_MIN, &checked, NULL));
-    koksma_status status = ends_in(path, ".npy") ? read_npy(path, &n) : read_image(path, &n);
+    koksma_status status = koksma__path_ends_in(path, ".npy") ? read_npy(path, &n) : read_image(path, &n);
     status = status ? status : to_mask(path, &n, space, out);
     if (status) {
         free(n.values);
@@ -270,10 +264,10 @@ static koksma_status put_stream(const char *path, const koksma_mask *m, int bits
 {
     koksma__atomic_file file;
     KOKSMA__TRY(koksma__atomic_open(NULL, path, &file));
-    if (ends_in(path, ".h")) {
+    if (koksma__path_ends_in(path, ".h")) {
         put_table(file.stream, m, bits);
     } else {
-        if (ends_in(path, ".npy")) {
+        if (koksma__path_ends_in(path, ".npy")) {
             put_header(file.stream, m);
         }
         put_numbers(file.stream, m, bits);
@@ -291,7 +285,7 @@ static koksma_status find_format(const char *path, const koksma_mask_space *spac
 {
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
         const format *f = &formats[i];
-        if (!ends_in(path, f->ending)) {
+        if (!koksma__path_ends_in(path, f->ending)) {
             continue;
         }
         KOKSMA__FAIL_IF(space->dim > f->most, KOKSMA_ARGUMENT,
@@ -316,7 +310,8 @@ koksma_status koksma_mask_check_path(const char *path, const koksma_mask_space *
     const format *f;
     KOKSMA__TRY(koksma__mask_check(KOKSMA_MASK_MIN, KOKSMA_MASK_MIN, &space, NULL));
     KOKSMA__TRY(find_format(path, space, &bits, &f));
-    return ends_in(path, ".png") || ends_in(path, ".exr") ? koksma_image_check_path(path) : KOKSMA_OK;
+    return koksma__path_ends_in(path, ".png") || koksma__path_ends_in(path, ".exr") ? koksma_image_check_path(path)
+                                                                                    : KOKSMA_OK;
 }
 
 koksma_status koksma_mask_write(const char *path, const koksma_mask *mask, int bits)

@@ -16,6 +16,7 @@
 #include <koksma/render.h>
 
 #include "core/elementary.h"
+#include "core/files.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
 
@@ -27,12 +28,6 @@ static const char *const beside_by_default[] = {"random", "jittered", "sobol:scr
 
 /* ---- Texts ------------------------------------------------------------------------------------------------- */
 
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), n = strlen(end);
-    return length > n && !strcmp(text + length - n, end);
-}
-
 /* Whether a text names a file of points. The text of a pattern that has an operand is none, whatever its path is. */
 static bool is_file(const char *text)
 {
@@ -42,8 +37,9 @@ static bool is_file(const char *text)
     if (pattern && pattern->operand) {
         return false;
     }
-    return koksma__file_is_family(text) || ends_with(text, ".npy") || ends_with(text, ".csv") ||
-           ends_with(text, ".txt") || (!koksma_pattern_find(text) && !strchr(text, ':') && !access(text, F_OK));
+    return koksma__file_is_family(text) || koksma__path_ends_in(text, ".npy") || koksma__path_ends_in(text, ".csv") ||
+           koksma__path_ends_in(text, ".txt") ||
+           (!koksma_pattern_find(text) && !strchr(text, ':') && !access(text, F_OK));
 }
 
 static koksma_status parse(const char *text, koksma__sheet_sampler *out)
