@@ -223,7 +223,8 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
     }
     const double made = c->references[0].made + r->control.fraction; /* another renderer tells no fraction */
     if (c->references[0].made < KOKSMA__RANK_REPLICATES) { /* a trial is estimated by its number of samples */
-        const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(r->options->spp, 0);
+        const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(
+                                                             r->options->spp, koksma__contest_stage(r->options, 0));
         const double trials = (double)(needed * open) * r->options->spp / samples;
         out->needed_s = made > 0 ? elapsed_s * (1 + trials) * KOKSMA__RANK_REPLICATES / made : 0;
         return;

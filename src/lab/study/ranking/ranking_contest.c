@@ -255,12 +255,14 @@ static koksma_status make_reference(koksma__contest *c, int stage)
            : options->reference_image
                ? koksma__rank_reference_take(reference, options->metric, &c->scene, options->reference_image)
                : koksma__rank_reference_init(reference, options->metric, &c->scene, reference_pattern(options),
-                                             c->variant, options->spp, stage, &c->control->run);
+                                             c->variant, options->spp, koksma__contest_stage(options, stage),
+                                             &c->control->run);
 }
 
 static koksma_status do_round(koksma__contest *c, int round, const size_t *active, size_t n_active)
 {
-    const int stage = c->options->reference_image ? 0 : koksma__rank_reference_stage(round);
+    const bool one = c->options->reference_image || c->options->full_reference;
+    const int stage = one ? 0 : koksma__rank_reference_stage(round);
     KOKSMA__TRY(make_reference(c, stage));
     const size_t end = koksma__rank_trials(round);
     batch b = {.contest = c,

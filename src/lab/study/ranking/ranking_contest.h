@@ -74,6 +74,12 @@ koksma_status koksma__contest_try_patterns(koksma__contest *contest);
    INTERRUPTED (also when the time limit is reached). */
 koksma_status koksma__contest_run(koksma__contest *contest, koksma__rank_goal goal);
 
+/* The stage of the reference that is references[i]: with full_reference the first is of the last stage, and the only one. */
+static inline int koksma__contest_stage(const koksma_rank_options *options, int i)
+{
+    return options->full_reference ? KOKSMA__RANK_STAGES - 1 : i;
+}
+
 /* The errors of contestant i's trials so far: those of all complete rounds or, before round 0 is complete, of the
    first trials without a gap. Without any trial, n is 0. */
 koksma__rank_errors koksma__contest_errors(const koksma__contest *contest, size_t i);

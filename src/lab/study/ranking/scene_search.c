@@ -198,6 +198,7 @@ static koksma_status rank(search *s, const char *const *patterns, size_t n, koks
                              .max_trials = s->max_trials,
                              .one_size = true,
                              .best_only = true,
+                             .full_reference = true,
                              .render = render,
                              .render_context = s,
                              .reference = "jittered"};
