@@ -389,8 +389,8 @@ typedef struct koksma_rank_options {
     /* true: end when it is decided which pattern has the least error, without advice, checks at other sizes, or the
        order of the other patterns */
     bool best_only;
-    /* true: the reference has all its samples from the first trial on, 256 images' worth, for errors that a few trials of one
-       image have to show exactly (false: it grows with the trials) */
+    /* true: the reference has all its samples from the first trial on, 256 images' worth, for errors that a few trials of
+       one image have to show exactly (false: it grows with the trials) */
     bool full_reference;
 } koksma_rank_options;
 

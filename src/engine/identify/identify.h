@@ -90,8 +90,8 @@ enum { KOKSMA__LEAST_SCRAMBLED = 16 }; /* fewer points are nested permutations o
 
 /* ---- Properties ------------------------------------------------------------------------------------------ */
 
-/* Whether the points are a Latin hypercube, and whether all lie in the middles of its intervals, which is unspecified if they
-   are none. Errors: MEMORY. */
+/* Whether the points are a Latin hypercube, and whether all lie in the middles of its intervals, which is unspecified if
+   they are none. Errors: MEMORY. */
 koksma_status koksma__find_strata(const koksma_points *points, bool *latin, bool *centred);
 
 /* ---- Scramble -------------------------------------------------------------------------------------------- */

@@ -74,7 +74,7 @@ koksma_status koksma__contest_try_patterns(koksma__contest *contest);
    INTERRUPTED (also when the time limit is reached). */
 koksma_status koksma__contest_run(koksma__contest *contest, koksma__rank_goal goal);
 
-/* The stage of the reference that is references[i]: with full_reference the first is of the last stage, and the only one. */
+/* The stage of the reference that is references[i]: with full_reference the first, the only one, is of the last stage. */
 static inline int koksma__contest_stage(const koksma_rank_options *options, int i)
 {
     return options->full_reference ? KOKSMA__RANK_STAGES - 1 : i;
