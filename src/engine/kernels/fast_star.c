@@ -108,7 +108,10 @@ void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, 
 {
     const size_t n_long = na > nb ? na : nb;
     const double *const *shorts = na > nb ? b : a, *const *longs = na > nb ? a : b;
-    convolution s = {.n_short = na > nb ? nb : na, .shorts = {shorts[0], shorts[1]}};
+    convolution s; /* without an initialiser, which would clear all of it */
+    s.n_short = na > nb ? nb : na;
+    s.shorts[0] = shorts[0];
+    s.shorts[1] = shorts[1];
     for (size_t c = 0; c < na + nb - 1 + WIDTH; c++) {
         out[0][c] = 0;
         out[1][c] = 1;
@@ -133,7 +136,10 @@ void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, con
 {
     const size_t n_long = na > nb ? na : nb;
     const double *const *shorts = na > nb ? b : a, *const *longs = na > nb ? a : b;
-    convolution s = {.n_short = na > nb ? nb : na, .shorts = {shorts[0], shorts[1]}};
+    convolution s; /* without an initialiser, which would clear all of it */
+    s.n_short = na > nb ? nb : na;
+    s.shorts[0] = shorts[0];
+    s.shorts[1] = shorts[1];
     const lanes64_d none = lanes64_splat_d(-1);
     lanes64_d deficit = none, excess = none;
     for (size_t first = 0; first < n_long; first += ROOM) {

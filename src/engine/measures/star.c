@@ -25,7 +25,7 @@
 #include "measures/shared/shared.h"
 #include "measures/star/star.h"
 
-enum { FIRST_STEPS = 200, FIRST_RESTARTS = 1 };
+enum { FIRST_STEPS = 40, FIRST_RESTARTS = 1 };
 
 /* Part of the progress that the short search reports. */
 #define SEARCH_SHARE 0.02

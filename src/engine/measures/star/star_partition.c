@@ -22,14 +22,13 @@
 #include "kernels/kernels.h"
 #include "measures/shared/shared.h"
 
-enum { LEAVES_PER_CHECK = 256 };
+enum { LEAVES_PER_CHECK = 256, INSIDE = 1, UNDECIDED = 2 };
 
 typedef struct problem {
     const koksma_points *points;
     size_t n, dim, spacing;
     uint32_t *orders; /* for each coordinate, the points in order of this coordinate */
-    double *cuts;     /* the cuts of the first coordinate */
-    size_t n_cuts;
+    size_t n_cuts;    /* of the first coordinate */
     double deadline_s;
     const koksma_run *run;
     pthread_t caller; /* the caller's thread, which alone may call run->keep_going */
@@ -49,13 +48,15 @@ typedef struct region {
 
 typedef struct searcher {
     problem *p;
-    region *levels;       /* dim + 1 */
-    double *lo, *hi;      /* bounds of the region's slabs for each coordinate */
-    double *cuts;         /* dim rows of n + 2 */
-    uint32_t *sorted;     /* dim rows of n numbers: the points of `inside` in order of the next coordinate */
+    region *levels;   /* dim + 1 */
+    double *lo, *hi;  /* bounds of the region's slabs for each coordinate */
+    double *cuts;     /* dim rows of n + 2: the lower ends of the slabs, and infinity */
+    uint32_t *ends;   /* dim rows of 2 n + 4: for each cut, how many points of `inside` are below it, and how many are
+                             not above it */
+    uint32_t *sorted; /* dim rows of n numbers: the points of `inside` in order of the next coordinate */
     double *sorted_at;    /* dim rows of n numbers: the next coordinate of the points in `sorted` */
     double *undecided_at; /* dim rows of n numbers: the next coordinate of the child's undecided points */
-    bool *flags;          /* n */
+    uint8_t *marks;       /* n of INSIDE, UNDECIDED or 0 */
     double *sides;        /* 2 rows of n + dim numbers: the sides of boxes in a leaf */
     double **products;    /* products of the sides in coordinates 0 .. k, for each k: dim pairs of rows of n + 2 dim +
                           8 numbers */
@@ -155,100 +156,76 @@ static void leaf(searcher *s)
     }
 }
 
-static int compare(const void *a, const void *b)
+/* Puts the points of `inside` in order of coordinate k, and chooses its cuts: 0, the coordinates of all undecided points
+   and of every p->spacing-th point inside, and infinity. Returns the number of slabs. */
+static size_t find_slabs(searcher *s, size_t k)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Chooses the cuts of coordinate k of a region: 0, the coordinates of all undecided points and of every p->spacing-th
-   point inside, and infinity. Returns the number of slabs. */
-static size_t find_cuts(const problem *p, size_t k, const region *r, const uint32_t *sorted, double *cuts)
-{
-    size_t count = 0, kept = 0;
-    cuts[count++] = 0;
+    const problem *p = s->p;
+    const region *r = &s->levels[k];
+    uint32_t *sorted = s->sorted + k * p->n, *ends = s->ends + k * (2 * p->n + 4);
+    double *at = s->sorted_at + k * p->n, *cuts = s->cuts + k * (p->n + 2);
+    size_t count = 0, kept = 1;
+    memset(s->marks, 0, p->n);
+    for (size_t i = 0; i < r->n_inside; i++) {
+        s->marks[r->inside[i]] = INSIDE;
+    }
     for (size_t u = 0; u < r->first[k]; u++) {
-        cuts[count++] = p->points->xs[(size_t)r->undecided[u] * p->dim + k];
+        s->marks[r->undecided[u]] = UNDECIDED;
     }
-    for (size_t i = p->spacing - 1; i < r->n_inside; i += p->spacing) {
-        cuts[count++] = p->points->xs[(size_t)sorted[i] * p->dim + k];
+    for (size_t i = 0; i < p->n; i++) { /* without branches, which nothing could predict */
+        const uint32_t point = p->orders[k * p->n + i];
+        sorted[count] = point;
+        count += s->marks[point] != 0;
     }
-    qsort(cuts, count, sizeof *cuts, compare);
-    for (size_t c = 0; c < count; c++) {
-        if (kept == 0 || cuts[c] != cuts[kept - 1]) {
-            cuts[kept++] = cuts[c];
+    cuts[0] = 0;
+    const size_t chosen = count;
+    count = 0;
+    for (size_t i = 0, to_cut = p->spacing; i < chosen; i++) {
+        const uint32_t point = sorted[i];
+        const bool inside = s->marks[point] == INSIDE;
+        const double x = coordinate(s, point, k);
+        sorted[count] = point;
+        at[count] = x;
+        count += inside;
+        to_cut -= inside;
+        if (!inside || !to_cut) {
+            to_cut = to_cut ? to_cut : p->spacing;
+            kept += x != cuts[kept - 1];
+            cuts[kept - 1] = x;
         }
     }
     cuts[kept] = INFINITY;
+    for (size_t c = 0, below = 0; c <= kept; c++) {
+        while (below < count && at[below] < cuts[c]) {
+            below++;
+        }
+        ends[2 * c] = (uint32_t)below;
+        while (below < count && at[below] == cuts[c]) {
+            below++;
+        }
+        ends[2 * c + 1] = (uint32_t)below;
+    }
     return kept;
 }
 
-static void sort_inside(searcher *s, size_t k, uint32_t *sorted)
-{
-    const region *r = &s->levels[k];
-    const uint32_t *order = s->p->orders + k * s->p->n;
-    size_t count = 0;
-    if (r->n_inside == s->p->n) {
-        memcpy(sorted, order, s->p->n * sizeof *sorted);
-        return;
-    }
-    memset(s->flags, 0, s->p->n * sizeof *s->flags);
-    for (size_t i = 0; i < r->n_inside; i++) {
-        s->flags[r->inside[i]] = true;
-    }
-    for (size_t i = 0; i < s->p->n && count < r->n_inside; i++) {
-        sorted[count] = order[i];
-        count += s->flags[order[i]];
-    }
-}
-
 /* Prepares the slabs of coordinate k of a region: copies the region's undecided points to its child, and looks up
-   coordinate k of these points and of those inside once for all slabs. */
-static void begin_slabs(searcher *s, size_t k, const uint32_t *sorted)
+   coordinate k of these points once for all slabs. */
+static void begin_slabs(searcher *s, size_t k)
 {
     const region *r = &s->levels[k];
     region *child = &s->levels[k + 1];
-    double *inside_at = s->sorted_at + k * s->p->n, *undecided_at = s->undecided_at + k * s->p->n;
+    double *undecided_at = s->undecided_at + k * s->p->n;
     memcpy(child->first, r->first, (k + 1) * sizeof *child->first);
     memcpy(child->undecided, r->undecided, r->first[k] * sizeof *child->undecided);
     for (size_t u = 0; u < r->first[k]; u++) {
         undecided_at[u] = coordinate(s, r->undecided[u], k);
     }
-    for (size_t i = 0; i < r->n_inside; i++) {
-        inside_at[i] = coordinate(s, sorted[i], k);
-    }
-}
-
-/* Sets the child of the region of level k to the slab (a, b], except for the undecided points. Returns how many
-   points become undecided in coordinate k. */
-static size_t place_slab(searcher *s, size_t k, const uint32_t *sorted, double a, double b)
-{
-    const double *at = s->sorted_at + k * s->p->n;
-    const size_t n_inside = s->levels[k].n_inside;
-    region *child = &s->levels[k + 1];
-    size_t low = 0, high = n_inside;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        if (at[middle] <= a) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    while (high < n_inside && at[high] < b) {
-        high++;
-    }
-    child->inside = (uint32_t *)sorted; /* the child's points are the first entries of `sorted`, which nobody changes
-                                           */
-    child->n_inside = low;
-    s->lo[k] = a;
-    s->hi[k] = b;
-    return high - low;
+    child->inside = s->sorted + k * s->p->n; /* its first entries, which nobody changes */
 }
 
 /* Fills the undecided points of the child. Slabs are visited from last to first, so that the points undecided in
    earlier coordinates are a subset of those of the previously visited slab. */
-static void fill_slab(searcher *s, size_t k, const uint32_t *sorted, size_t of_k)
+static void fill_slab(searcher *s, size_t k, size_t of_k)
 {
     region *child = &s->levels[k + 1];
     double *at = s->undecided_at + k * s->p->n;
@@ -265,7 +242,7 @@ static void fill_slab(searcher *s, size_t k, const uint32_t *sorted, size_t of_k
         }
     }
     child->first[k] = used;
-    memcpy(child->undecided + used, sorted + child->n_inside, of_k * sizeof *sorted);
+    memcpy(child->undecided + used, child->inside + child->n_inside, of_k * sizeof *child->undecided);
     child->first[k + 1] = used + of_k;
 }
 
@@ -281,42 +258,49 @@ static void check_stop(searcher *s)
 
 static void search(searcher *s, size_t k);
 
-/* Searches one slab. For a leaf that cannot have a better value than the best so far, the undecided points are not
-   collected. */
-static void descend(searcher *s, size_t k, const uint32_t *sorted, double a, double b)
+/* Searches slab c of coordinate k. high, low: the volumes of the largest and the smallest box of the region. For a leaf
+   that cannot have a better value than the best so far, the undecided points are not collected. Returns false if no
+   earlier slab can have a better value. */
+static bool descend(searcher *s, size_t k, size_t c, double high, double low)
 {
-    const bool is_leaf = k + 1 == s->p->dim;
-    const size_t of_k = place_slab(s, k, sorted, a, b);
-    const region *child = &s->levels[k + 1];
+    const uint32_t *ends = s->ends + k * (2 * s->p->n + 4);
+    region *child = &s->levels[k + 1];
     const double n = (double)s->p->n;
-    double high = 1, low = 1;
-    for (size_t m = 0; m <= k; m++) {
-        high *= s->hi[m] < 1 ? s->hi[m] : 1;
-        low *= s->lo[m];
-    }
+    child->n_inside = ends[2 * c + 1];
+    const size_t of_k = ends[2 * c + 2] - child->n_inside;
     const double fewest = (double)child->n_inside, most = (double)(child->n_inside + child->first[k] + of_k);
-    if (!is_leaf || fmax(high - fewest / n, most / n - low) > s->best->value) {
-        fill_slab(s, k, sorted, of_k);
-        if (is_leaf) {
-            leaf(s);
-        } else if (fmax(high, (double)(child->n_inside + child->first[k + 1]) / n) > s->best->value) {
-            search(s, k + 1);
+    s->lo[k] = s->cuts[k * (s->p->n + 2) + c];
+    s->hi[k] = s->cuts[k * (s->p->n + 2) + c + 1];
+    high *= s->hi[k] < 1 ? s->hi[k] : 1;
+    low *= s->lo[k];
+    if (k + 1 < s->p->dim) {
+        fill_slab(s, k, of_k);
+        if (fmax(high, (double)(child->n_inside + child->first[k + 1]) / n) <= s->best->value) {
+            return false;
         }
+        search(s, k + 1);
+        return true;
     }
-    if (is_leaf && ++s->leaves % LEAVES_PER_CHECK == 0) {
+    if (fmax(high - fewest / n, most / n - low) > s->best->value) {
+        fill_slab(s, k, of_k);
+        leaf(s);
+    }
+    if (++s->leaves % LEAVES_PER_CHECK == 0) {
         check_stop(s);
     }
+    return true;
 }
 
 static void search(searcher *s, size_t k)
 {
-    uint32_t *sorted = s->sorted + k * s->p->n;
-    double *cuts = s->cuts + k * (s->p->n + 2);
-    sort_inside(s, k, sorted);
-    const size_t count = find_cuts(s->p, k, &s->levels[k], sorted, cuts);
-    begin_slabs(s, k, sorted);
-    for (size_t c = count; c-- > 0 && !s->stop;) {
-        descend(s, k, sorted, cuts[c], cuts[c + 1]);
+    double high = 1, low = 1;
+    for (size_t m = 0; m < k; m++) {
+        high *= s->hi[m] < 1 ? s->hi[m] : 1;
+        low *= s->lo[m];
+    }
+    size_t c = find_slabs(s, k);
+    begin_slabs(s, k);
+    while (c-- > 0 && !s->stop && descend(s, k, c, high, low)) {
     }
 }
 
@@ -326,7 +310,7 @@ static bool open_searcher(problem *p, searcher *s)
     *s = (searcher){.p = p};
     const size_t doubles = 2 * dim + dim * (n + 2) + room + 2 * dim * room + 2 * dim * n;
     const size_t bytes = doubles * sizeof(double) + (dim + 1) * (sizeof(region) + (dim + 1) * sizeof(size_t)) +
-                         2 * dim * sizeof(double *) + (2 * dim + 1) * n * sizeof(uint32_t) + n;
+                         2 * dim * sizeof(double *) + ((2 * dim + 1) * n + dim * (2 * n + 4)) * sizeof(uint32_t) + n;
     s->memory = malloc(bytes);
     if (!s->memory) {
         koksma__fail_memory(bytes);
@@ -344,7 +328,8 @@ static bool open_searcher(problem *p, searcher *s)
     s->products = (double **)(firsts + (dim + 1) * (dim + 1));
     s->sorted = (uint32_t *)(s->products + 2 * dim);
     uint32_t *lists = s->sorted + dim * n;
-    s->flags = (bool *)(lists + (dim + 1) * n);
+    s->ends = lists + (dim + 1) * n;
+    s->marks = (uint8_t *)(s->ends + dim * (2 * n + 4));
     for (size_t k = 0; k <= dim; k++) {
         s->levels[k] = (region){.undecided = lists + k * n, .first = firsts + k * (dim + 1)};
     }
@@ -352,6 +337,7 @@ static bool open_searcher(problem *p, searcher *s)
         s->products[k] = rows + k * room;
     }
     memset(s->levels[0].first, 0, (dim + 1) * sizeof(size_t));
+    s->levels[0].inside = p->orders;
     s->levels[0].n_inside = n;
     return true;
 }
@@ -367,8 +353,9 @@ static koksma_status search_slab(void *context, size_t block)
     s.best = &p->values[block];
     check_stop(&s);
     if (!s.stop) {
-        begin_slabs(&s, 0, p->orders);
-        descend(&s, 0, p->orders, p->cuts[c], p->cuts[c + 1]);
+        find_slabs(&s, 0);
+        begin_slabs(&s, 0);
+        descend(&s, 0, c, 1, 1);
     }
     p->cut_short[block] = s.stop;
     atomic_fetch_add(&p->blocks_done, 1);
@@ -383,19 +370,20 @@ koksma_status koksma__star_partition(const koksma_points *points, const koksma_r
     problem p = {
         .points = points, .n = n, .dim = dim, .deadline_s = deadline_s, .run = run, .caller = pthread_self()};
     p.spacing = (size_t)ceil(sqrt((double)n));
-    const size_t bytes = (n + 2) * (sizeof(koksma_value) + sizeof(double) + dim * sizeof(uint32_t) + 1);
+    const size_t bytes = (n + 2) * (sizeof(koksma_value) + dim * sizeof(uint32_t) + 1);
     p.values = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(p.values, bytes);
-    p.cuts = (double *)(p.values + n + 2);
-    p.orders = (uint32_t *)(p.cuts + n + 2);
+    p.orders = (uint32_t *)(p.values + n + 2);
     p.cut_short = (bool *)(p.orders + dim * (n + 2));
     koksma_status status = KOKSMA_OK;
+    searcher first;
     for (size_t k = 0; k < dim && !status; k++) {
         status = koksma__order(run, n, points->xs + k, dim, p.orders + k * n);
     }
+    status = status ? status : open_searcher(&p, &first) ? KOKSMA_OK : KOKSMA_MEMORY;
     if (!status) {
-        const region all = {.n_inside = n, .first = (size_t[1]){0}};
-        p.n_cuts = find_cuts(&p, 0, &all, p.orders, p.cuts);
+        p.n_cuts = find_slabs(&first, 0);
+        free(first.memory);
         for (size_t block = 0; block < p.n_cuts; block++) {
             p.values[block] = *out;
         }
