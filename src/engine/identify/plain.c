@@ -260,7 +260,7 @@ static koksma_status judge(plain *p, size_t first, size_t last, bool in_order, u
     return evident ? say(p, &o, except, text) : KOKSMA_OK;
 }
 
-static koksma_status compare_source(plain *p)
+static koksma_status compare_source(plain *p, bool in_order)
 {
     const int dim = p->s->points.dim;
     uint64_t *scratch = malloc(p->s->points.n * sizeof *scratch);
@@ -277,19 +277,33 @@ static koksma_status compare_source(plain *p)
     if (p->n_hits) {
         qsort(p->hits, p->n_hits, sizeof *p->hits, by_indices);
     }
-    for (size_t first = 0, last = 0, pass = 0; pass < 2 && !status && !p->s->named; first = last) {
-        if (first >= p->n_hits) {
-            last = 0;
-            pass++;
-            continue;
-        }
+    for (size_t first = 0, last; first < p->n_hits && !status && !p->s->named; first = last) {
         for (last = first + 1;
              last < p->n_hits && !memcmp(p->hits[first].indices, p->hits[last].indices, sizeof p->hits->indices);) {
             last++;
         }
-        status = judge(p, first, last, pass == 0, scratch);
+        status = judge(p, first, last, in_order, scratch);
     }
     free(scratch);
+    return status;
+}
+
+static koksma_status compare_with(plain *p, const koksma__source *source, bool in_order)
+{
+    int n = 0;
+    p->source = source;
+    p->coordinates = calloc((size_t)source->dims, sizeof *p->coordinates);
+    koksma_status status =
+        p->coordinates ? KOKSMA_OK : koksma__fail_memory((size_t)source->dims * sizeof *p->coordinates);
+    for (; !status && n < source->dims && source->invertible; n++) {
+        status = koksma__coordinate_init(source, p->s->points.dim, n, &p->coordinates[n]);
+    }
+    p->n_coordinates = n;
+    status = status ? status : compare_source(p, in_order);
+    for (int j = 0; p->coordinates && j < n; j++) {
+        koksma__coordinate_fini(&p->coordinates[j]);
+    }
+    free(p->coordinates);
     return status;
 }
 
@@ -304,20 +318,11 @@ koksma_status koksma__identify_plain(koksma__sample *s)
     p.columns = malloc((size_t)dim * sizeof *p.columns);
     p.indices = malloc(s->points.n * sizeof *p.indices);
     koksma_status status = p.columns && p.indices ? KOKSMA_OK : koksma__fail_memory(s->points.n * sizeof *p.indices);
-    for (size_t i = 0; (source = koksma__source_at(i)) && !status && !s->named; i++) {
-        p.source = source;
-        p.coordinates = calloc((size_t)source->dims, sizeof *p.coordinates);
-        status = p.coordinates ? KOKSMA_OK : koksma__fail_memory((size_t)source->dims * sizeof *p.coordinates);
-        int n = 0;
-        for (; !status && n < source->dims && source->invertible; n++) {
-            status = koksma__coordinate_init(source, dim, n, &p.coordinates[n]);
+    /* Some points of one sequence may be points of permuted coordinates of another: an order says more than no order. */
+    for (int pass = 0; pass < 2 && !status && !s->named; pass++) {
+        for (size_t i = 0; (source = koksma__source_at(i)) && !status && !s->named; i++) {
+            status = compare_with(&p, source, pass == 0);
         }
-        p.n_coordinates = n;
-        status = status ? status : compare_source(&p);
-        for (int j = 0; p.coordinates && j < n; j++) {
-            koksma__coordinate_fini(&p.coordinates[j]);
-        }
-        free(p.coordinates);
     }
     free(p.hits);
     free(p.columns);
