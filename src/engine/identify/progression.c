@@ -35,10 +35,10 @@ static double x_at(const progression *p, size_t i, size_t k)
     return p->xs[i * p->dim + k];
 }
 
-/* How much point i may differ from a sum or product of i terms, each rounded. */
+/* How much point i may differ from a sum or product of terms, each rounded; the index of the first point may be 2^14. */
 static double slack_at(const progression *p, size_t i)
 {
-    return 2 * p->s->tolerance + (double)i * 0x1p-51;
+    return 2 * p->s->tolerance + ((double)i + 0x1p14) * 0x1p-52;
 }
 
 static bool find_increment(const progression *p, size_t k, double *increment)

@@ -10,8 +10,8 @@
  * every digit of every point from a few, and are compared with the points within the tolerance.
  *
  * Rounding may carry into the leading digits of a point. Where the tolerance is more than that of double arithmetic,
- * digits that it leaves open are left out: a point within it of the bound of an interval says nothing about that
- * level.
+ * points near the bound of an interval are first taken to be on it, as those of few digits are; if that fails, they say
+ * nothing about that level.
  */
 #include <math.h>
 #include <stdio.h>
@@ -32,6 +32,7 @@ typedef struct relating {
     size_t n;
     uint64_t *theirs; /* the numerators of the sequence */
     double slack;     /* how far below its first digits a number may be, in units of the last level */
+    bool ends;        /* numbers within the tolerance below the bound of an interval are taken to be on it */
     char *text;
 } relating;
 
@@ -49,8 +50,8 @@ static uint64_t digits_of(const relating *r, size_t i, int level, bool *open)
         *open = false;
         return v < scale ? (uint64_t)v : r->c->powers[level] - 1;
     }
-    const double v = floor(x), rest = x - v;
-    *open = rest < tolerance * scale || 1 - rest < tolerance * scale;
+    const double v = floor(r->ends ? x + tolerance * scale : x), rest = x - v;
+    *open = !r->ends && (rest < tolerance * scale || 1 - rest < tolerance * scale);
     return v < scale ? (uint64_t)v : r->c->powers[level] - 1;
 }
 
@@ -366,7 +367,10 @@ koksma_status koksma__relate(const koksma__sample *s, int k, const koksma__coord
         *relation = KOKSMA__EQUAL;
         snprintf(text, 120, "0");
     } else if (digits) {
-        status = relate_digits(&r, relation);
+        for (int way = 0; way < 2 && !status && *relation == KOKSMA__NO_RELATION; way++) {
+            r.ends = way == 0;
+            status = way == 0 || s->tolerance >= EXACT ? relate_digits(&r, relation) : KOKSMA_OK;
+        }
     } else if (is_equal(&r, shift, 2 * s->tolerance + 0x1p-50)) {
         *relation = KOKSMA__SHIFTED;
         koksma__snprintf(text, 120, "%.12g", shift < 0 ? shift + 1 : shift);

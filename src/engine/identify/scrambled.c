@@ -4,7 +4,7 @@
  *
  * What a shift modulo 1 leaves alone are differences of points, and what every nested permutation leaves alone is the
  * number of leading digits that two points share. So for each first point p the differences between point p and the
- * 16 after it are compared with those of the sample, in up to three coordinates; nearly all p fail at the first.
+ * points 1 to 12 and some further ones after it are compared with those of the sample, in up to three coordinates; nearly all p fail at the first.
  * Those that pass are compared in full (scramble.c). If no p passes, coordinates in another order are tried for a
  * list of usual first points.
  */
@@ -17,7 +17,7 @@
 #include "core/status.h"
 #include "identify/identify.h"
 
-enum { FIRSTS = 1 << 16, PAIRS = 16, SCANNED = 3, ATTEMPTS = 8, SHOWN = 5 };
+enum { FIRSTS = 1 << 16, PAIRS = 24, NEAR = 12, SCANNED = 3, ATTEMPTS = 8, SHOWN = 5 };
 
 typedef struct scan {
     koksma__sample *s;
@@ -108,14 +108,21 @@ static bool is_digitwise(const scan *c, const koksma__coordinate *coordinate, in
     return true;
 }
 
+/* Returns the index of the other point of a pair: 1 to NEAR, then about twice the last each time. */
+static size_t partner(const scan *c, size_t pair)
+{
+    const size_t n = c->s->points.n, far = pair > NEAR ? ((size_t)NEAR << (pair - NEAR)) + pair % 3 : pair;
+    return pair < PAIRS && far < n ? far : n - 1;
+}
+
 /* Whether the coordinates k < `most` pass the first comparisons with the sequence from `first` on. */
 static bool may_begin(const scan *c, uint64_t first, int most)
 {
-    const size_t pairs = c->s->points.n - 1 < PAIRS ? c->s->points.n - 1 : PAIRS;
     for (int k = most - 1; k >= 0; k--) {
         const koksma__coordinate *coordinate = &c->coordinates[c->columns[k]];
         const uint64_t a = koksma__numerator(coordinate, index_at(c, first));
-        for (size_t i = 1; i <= pairs; i++) {
+        for (size_t pair = 1; pair <= PAIRS; pair++) {
+            const size_t i = partner(c, pair);
             if (!alike(c, coordinate, k, i, a, koksma__numerator(coordinate, index_at(c, first + i)))) {
                 return false;
             }
