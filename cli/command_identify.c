@@ -96,6 +96,8 @@ const cli_command cli_command_identify = {
         "spec makes them, 'first' is the index of the first. shifted: one vector was added modulo 1. "
         "digital-shift, digit-permutation, linear-scramble, nested-scramble: what happened to the digits; "
         "nested-scramble is Owen's or one of its hashes. lattice, recurrence, grid: 'detail' has the numbers. "
+        "Where no table here has the source: digital, a digital sequence in base 2 of other matrices; sequence, "
+        "one in base 2 that was scrambled and perhaps shuffled; stratified, a Latin hypercube or jittered points. "
         "scaled, rounded: how the numbers were read. property: a net, a Latin hypercube, distances. Each "
         "statement was tested for every point; a linear scramble may miss one point of 64, and its detail says "
         "how many.\n"

@@ -13,9 +13,11 @@ typedef struct koksma__sample {
     double tolerance;     /* how much a coordinate may differ from the one that it is compared with */
     const koksma_run *run;
     koksma_identities *found;
-    bool named;    /* a statement says where the points come from */
-    int scramble;  /* the strongest relation to a sequence so far, of koksma__relation */
-    size_t before; /* number of statements before that one, which a stronger one replaces */
+    double width, largest; /* of the box of the points in the file, which is mapped; the largest number in it */
+    bool floats;           /* all numbers are floats, and may be rounded to them */
+    bool named;            /* a statement says where the points come from */
+    int scramble;          /* the strongest relation to a sequence so far, of koksma__relation */
+    size_t before;         /* number of statements before that one, which a stronger one replaces */
 } koksma__sample;
 
 /* Adds a statement, whose detail is a format; `what` has to be filled by the caller. NULL when memory runs out. */
@@ -35,8 +37,9 @@ enum { KOKSMA__PRECISIONS = 4 };
 /* Maps the points to [0,1] in place if they are outside, and adds a statement of how. */
 koksma_status koksma__map_to_cube(koksma__sample *s);
 
-/* Lists the tolerances that are worth trying, the smallest first. Returns their number. */
-int koksma__precisions(const koksma_points *points, double tolerances[KOKSMA__PRECISIONS]);
+/* Lists the tolerances of the mapped points that are worth trying, the smallest first, from how `points`, which are not
+   mapped, were rounded. Returns their number. */
+int koksma__precisions(koksma__sample *s, const koksma_points *points, double tolerances[KOKSMA__PRECISIONS]);
 
 /* ---- Sources --------------------------------------------------------------------------------------------- */
 
@@ -84,15 +87,17 @@ koksma_status koksma__identify_progression(koksma__sample *s); /* progression.c:
 koksma_status koksma__identify_scrambled(koksma__sample *s); /* scrambled.c: sequences behind shifts and scrambling */
 koksma_status koksma__identify_fixed(koksma__sample *s);     /* ours.c: patterns without random numbers */
 koksma_status koksma__identify_seeded(koksma__sample *s);    /* ours.c: patterns with a seed */
+koksma_status
+koksma__identify_structure(koksma__sample *s); /* structure.c: sequences, lattices, strata of no known source */
 koksma_status koksma__identify_properties(koksma__sample *s); /* properties.c: nets, strata, affine sets */
 
 enum { KOKSMA__LEAST_SCRAMBLED = 16 }; /* fewer points are nested permutations of everything */
 
 /* ---- Properties ------------------------------------------------------------------------------------------ */
 
-/* Whether the points are a Latin hypercube, and whether all lie in the middles of its intervals, which is unspecified if
+/* Whether the points are a Latin hypercube up to the tolerance, and whether all lie in the middles of its intervals, which is unspecified if
    they are none. Errors: MEMORY. */
-koksma_status koksma__find_strata(const koksma_points *points, bool *latin, bool *centred);
+koksma_status koksma__find_strata(const koksma_points *points, double tolerance, bool *latin, bool *centred);
 
 /* ---- Scramble -------------------------------------------------------------------------------------------- */
 

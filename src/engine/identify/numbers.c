@@ -58,6 +58,8 @@ koksma_status koksma__map_to_cube(koksma__sample *s)
         return KOKSMA_OK;
     }
     char text[400] = "";
+    s->largest = fmax(-least, most);
+    s->width = INFINITY;
     const bool indices = whole && least >= 0 && most < (double)n, centred = least >= -1 && most <= 1;
     for (size_t k = 0; k < dim; k++) {
         bounds b = {0, (double)n};
@@ -74,6 +76,7 @@ koksma_status koksma__map_to_cube(koksma__sample *s)
         }
         koksma__append(text, sizeof text, "%s[%g, %g]", k ? " x " : "", b.lo, b.hi);
         map_coordinate(points, (int)k, b);
+        s->width = fmin(s->width, b.hi - b.lo);
     }
     koksma_identity *said =
         koksma__identity(s, "scaled", indices ? "whole numbers, divided by n: %s" : "from %s", text);
@@ -103,27 +106,29 @@ static bool all_floats(const koksma_points *points)
     return true;
 }
 
-int koksma__precisions(const koksma_points *points, double tolerances[KOKSMA__PRECISIONS])
+int koksma__precisions(koksma__sample *s, const koksma_points *points, double tolerances[KOKSMA__PRECISIONS])
 {
     int count = 0;
-    const double most = 1. / (64 * (double)points->n); /* more would leave little to compare */
+    const double most = s->width / (64 * (double)points->n); /* more would leave little to compare */
+    const double ulp = ldexp(s->largest, -24);
     int bits = 1;
-    tolerances[count++] = 0x1p-50;
+    tolerances[count++] = s->found->count ? fmax(s->largest / s->width, 8) * 0x1p-50 : 0x1p-50;
     while (bits <= 32 && !all_multiples(points, ldexp(1, bits), 0)) {
         bits++;
     }
     if (bits <= 32 && ldexp(1, -bits) <= most) {
-        tolerances[count++] = ldexp(1, -bits);
+        tolerances[count++] = ldexp(1, -bits) / s->width;
     }
     for (int d = 4; d <= 12 && bits > 32; d++) {
         if (all_multiples(points, koksma__pow(10, d), 1e-3 * koksma__pow(10, d - 12))) {
-            tolerances[count] = koksma__pow(10, -d);
+            tolerances[count] = koksma__pow(10, -d) / s->width;
             count += koksma__pow(10, -d) <= most;
             return count;
         }
     }
-    if (bits > 24 && 0x1p-24 <= most && all_floats(points)) {
-        tolerances[count++] = 0x1p-24;
+    s->floats = bits > 24 && ulp <= most && all_floats(points);
+    if (s->floats) {
+        tolerances[count++] = ulp / s->width;
     }
     return count;
 }

@@ -5,27 +5,40 @@
  * A pattern that makes any point by itself is compared by its first point, so that 2^20 seeds are tried in the time
  * of as many points; of others as many seeds as make some millions of coordinates. If the points are known to be a
  * map of some sequence or lattice, only its patterns are tried, also with modifiers. Otherwise those are left out
- * that would have been recognised, and patterns whose sets always are Latin hypercubes where the points are none, and
- * the other way round.
+ * that would have been recognised, and patterns whose sets differ from the points in a trait that no seed changes.
  */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/verify.h>
+
+#include "core/elementary.h"
 #include "core/parallel.h"
+#include "core/points.h"
 #include "core/status.h"
 #include "identify/identify.h"
 
-enum { SEEDS = 1 << 20, SLOW_SEEDS = 2, SLOW_POINTS = 1024, VARIANTS = 16, CANCEL = 256 };
+enum {
+    SEEDS = 1 << 20,
+    SLOW_SEEDS = 2,
+    SLOW_COORDINATES = 2048,
+    FIRSTS = 1 << 14,
+    VARIANTS = 16,
+    CANCEL = 256,
+    LEAST_TRAITS = 16,
+    PREFIXES = 8
+};
 
 #define COORDINATES (1 << 19) /* made for one spec at most, for patterns that make whole sets only */
 
 typedef struct ours {
     koksma__sample *s;
     koksma_points made, one;
-    bool latin;    /* the sample is a Latin hypercube */
-    double *order; /* scratch: a set, sorted */
+    unsigned traits; /* of the sample */
+    bool blue;       /* the sample's points keep a distance */
+    double *order;   /* scratch: a set, sorted */
 } ours;
 
 static bool are_near(const double *a, const double *b, size_t count, double tolerance)
@@ -120,6 +133,30 @@ static int by_row(const void *a, const void *b)
     return 0;
 }
 
+/* Looks for the sample among the points of a sequence after the first. */
+static koksma_status compare_later(ours *o, const koksma_spec *spec)
+{
+    const size_t n = o->made.n, dim = (size_t)o->made.dim;
+    koksma_points all;
+    if (!koksma_has_ranges(spec) || !koksma_is_sequence(spec)) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma_points_init(&all, FIRSTS + n, o->made.dim));
+    koksma_status status = koksma_generate_range(spec, 0, all.n, 0, o->s->run, &all);
+    const size_t firsts = status ? 0 : FIRSTS;
+    status = passable(status);
+    for (size_t first = 1; first < firsts; first++) {
+        if (are_near(&all.xs[first * dim], o->s->points.xs, n * dim, o->s->tolerance)) {
+            memcpy(o->made.xs, &all.xs[first * dim], n * dim * sizeof *all.xs);
+            status = say(o, spec, 0, "equal");
+            o->s->found->items[o->s->found->count - 1].first = first;
+            break;
+        }
+    }
+    koksma_points_fini(&all);
+    return status;
+}
+
 static koksma_status compare_fixed(ours *o, const koksma_spec *spec, double *sorted)
 {
     const size_t n = o->made.n, dim = (size_t)o->made.dim;
@@ -132,7 +169,8 @@ static koksma_status compare_fixed(ours *o, const koksma_spec *spec, double *sor
     }
     memcpy(sorted, o->made.xs, n * dim * sizeof *sorted);
     qsort(sorted, n, dim * sizeof *sorted, by_row);
-    return are_near(sorted, o->order, n * dim, o->s->tolerance) ? say(o, spec, 0, "reordered") : KOKSMA_OK;
+    return are_near(sorted, o->order, n * dim, o->s->tolerance) ? say(o, spec, 0, "reordered")
+                                                                : compare_later(o, spec);
 }
 
 /* ---- Seeds ---- */
@@ -144,21 +182,77 @@ static bool is_slow(const koksma_pattern *p)
     return !(p->claims & quick) || p->claims & KOKSMA_CLAIM_CLASSES;
 }
 
-/* Whether three sets of a pattern are Latin hypercubes as the sample is, or are none as it is none. */
+/* What tells sets of patterns apart at a glance, whatever the seed: each is true or false of nearly all sets of one. */
+enum { LATIN = 1, HALVES = 2, THIRDS = 4, IN_ORDER = 8, TRAITS = 4 };
+
+/* Finds which traits points have: a Latin hypercube; points 2 i and 2 i + 1 in different halves of the first axis, or three in
+   different thirds; the first coordinate rising with the index, as in a grid's cells. */
+static koksma_status find_traits(const koksma_points *p, double tolerance, unsigned *traits)
+{
+    bool latin, centred;
+    KOKSMA__TRY(koksma__find_strata(p, tolerance, &latin, &centred));
+    *traits = HALVES | THIRDS | IN_ORDER | (latin ? LATIN : 0);
+    for (size_t i = 0; i < p->n; i++) {
+        const double x = p->xs[i * (size_t)p->dim];
+        const size_t two = i / 2 * 2, three = i / 3 * 3;
+        for (size_t j = two; j < i; j++) {
+            *traits &=
+                koksma__stratum(x, 2) == koksma__stratum(p->xs[j * (size_t)p->dim], 2) ? ~(unsigned)HALVES : ~0u;
+        }
+        for (size_t j = three; j < i; j++) {
+            *traits &=
+                koksma__stratum(x, 3) == koksma__stratum(p->xs[j * (size_t)p->dim], 3) ? ~(unsigned)THIRDS : ~0u;
+        }
+        *traits &= fabs(x - (double)i / (double)p->n) > .5 ? ~(unsigned)IN_ORDER : ~0u;
+    }
+    return KOKSMA_OK;
+}
+
+/* Whether the sample has the traits that three sets of a pattern have, and lacks those that they lack. */
 static koksma_status could_be(ours *o, const koksma_spec *spec, bool *possible)
 {
-    int n_latin = 0;
-    bool latin, centred;
+    unsigned traits, all = ~0u, any = 0;
     *possible = false;
     for (uint64_t seed = 0; seed < 3; seed++) {
         const koksma_status status = koksma_generate(spec, seed, o->s->run, &o->made);
         if (status) {
             return passable(status);
         }
-        KOKSMA__TRY(koksma__find_strata(&o->made, &latin, &centred));
-        n_latin += latin;
+        KOKSMA__TRY(find_traits(&o->made, 0, &traits));
+        all &= traits;
+        any |= traits;
     }
-    *possible = o->made.n < 8 || n_latin == (o->latin ? 3 : 0) || (n_latin > 0 && n_latin < 3);
+    *possible = o->made.n < LEAST_TRAITS || !((o->traits & ~any) | (all & ~o->traits));
+    return KOKSMA_OK;
+}
+
+/* Sets whose points keep a distance are made only where the sample's do: twice that of independent points at least. */
+static koksma_status could_be_blue(ours *o)
+{
+    double distance, ball = o->s->points.dim % 2 ? 2 : 1; /* the volume of the unit ball */
+    const double n = (double)o->s->points.n;
+    for (int k = o->s->points.dim; k > 1; k -= 2) {
+        ball *= 2 * M_PI / k;
+    }
+    KOKSMA__TRY(koksma_smallest_distance(&o->s->points, true, o->s->run, &distance));
+    o->blue = distance > 2 * koksma__pow(2 / (n * n * ball), 1. / o->s->points.dim);
+    return KOKSMA_OK;
+}
+
+/* Sets *dim to 1 if the first coordinate of first points of some seeds is the same as that of points of one dimension. */
+static koksma_status find_prefix(ours *o, const koksma_spec *spec, int *dim)
+{
+    bool same = true;
+    for (uint64_t seed = 0; seed < PREFIXES && same; seed++) {
+        koksma_status status = koksma_generate_range(spec, seed, o->made.n, 0, o->s->run, &o->one);
+        const double x = o->one.xs[0];
+        o->one.dim = 1;
+        status = status ? status : koksma_generate_range(spec, seed, o->made.n, 0, o->s->run, &o->one);
+        same = !status && o->one.xs[0] <= x && o->one.xs[0] >= x;
+        o->one.dim = o->made.dim;
+        KOKSMA__TRY(passable(status));
+    }
+    *dim = same ? 1 : *dim;
     return KOKSMA_OK;
 }
 
@@ -167,12 +261,18 @@ static koksma_status compare_seeds(ours *o, const koksma_spec *spec)
     const size_t dim = (size_t)o->made.dim, count = o->made.n * dim;
     const bool ranges = koksma_has_ranges(spec);
     uint64_t seeds = ranges ? SEEDS : COORDINATES / count;
-    bool possible;
-    seeds = is_slow(spec->pattern) ? (o->made.n <= SLOW_POINTS ? SLOW_SEEDS : 0) : seeds;
-    if (!seeds) {
-        return KOKSMA_OK;
+    bool possible = true;
+    if (is_slow(spec->pattern)) {
+        seeds =
+            count <= SLOW_COORDINATES && (o->blue || !(spec->pattern->claims & KOKSMA_CLAIM_BLUE)) ? SLOW_SEEDS : 0;
+    } else if (seeds) {
+        KOKSMA__TRY(could_be(o, spec, &possible));
     }
-    KOKSMA__TRY(could_be(o, spec, &possible));
+    int first_dim = o->made.dim; /* coordinates of the first points that are made */
+    if (ranges && seeds && possible) {
+        KOKSMA__TRY(find_prefix(o, spec, &first_dim));
+    }
+    o->one.dim = first_dim;
     for (uint64_t seed = 0; seed < seeds && possible; seed++) {
         if (seed % CANCEL == 0) {
             KOKSMA__TRY(koksma__ask(o->s->run));
@@ -182,7 +282,8 @@ static koksma_status compare_seeds(ours *o, const koksma_spec *spec)
         if (status) {
             return passable(status);
         }
-        if (are_near(ranges ? o->one.xs : o->made.xs, o->s->points.xs, dim, o->s->tolerance)) {
+        if (are_near(ranges ? o->one.xs : o->made.xs, o->s->points.xs, ranges ? (size_t)first_dim : dim,
+                     o->s->tolerance)) {
             status = ranges ? koksma_generate(spec, seed, o->s->run, &o->made) : KOKSMA_OK;
             if (status) {
                 return passable(status);
@@ -220,6 +321,9 @@ static bool is_tried(const koksma__sample *s, const koksma_pattern *p, const kok
     }
     if (!strcmp(known->relation, "lattice")) {
         return p->claims & (KOKSMA_CLAIM_LATTICE | KOKSMA_CLAIM_LATTICE_PREFIXES);
+    }
+    if (!strncmp(known->what, "Hammersley", strlen("Hammersley"))) {
+        return !strcmp(p->name, "hammersley") || !strcmp(p->name, "zaremba");
     }
     const size_t length = strlen(p->name);
     return (!strncmp(known->spec, p->name, length) && (!known->spec[length] || known->spec[length] == ':')) ||
@@ -270,14 +374,14 @@ static koksma_status walk(koksma__sample *s, bool seeded)
     double *sorted = malloc(count * sizeof *sorted);
     koksma_status status = koksma_points_init(&o.made, s->points.n, s->points.dim);
     status = status ? status : koksma_points_init(&o.one, 1, s->points.dim);
-    bool centred;
     o.order = malloc(count * sizeof *o.order);
     status = status ? status : o.order && sorted ? KOKSMA_OK : koksma__fail_memory(count * sizeof *sorted);
     if (!status) {
         memcpy(o.order, s->points.xs, count * sizeof *sorted);
         row_size = (size_t)s->points.dim;
         qsort(o.order, s->points.n, row_size * sizeof *sorted, by_row);
-        status = koksma__find_strata(&s->points, &o.latin, &centred);
+        status = seeded ? find_traits(&s->points, s->tolerance, &o.traits) : KOKSMA_OK;
+        status = status || !seeded || count > SLOW_COORDINATES || s->points.n < 2 ? status : could_be_blue(&o);
     }
     const size_t before = s->found->count;
     for (size_t i = 0; (p = koksma_pattern_at(i)) && !status && s->found->count == before; i++) {

@@ -29,7 +29,34 @@ static koksma_status say(koksma__sample *s, const char *what, const char *detail
     return KOKSMA_OK;
 }
 
-koksma_status koksma__find_strata(const koksma_points *p, bool *latin, bool *centred)
+static int by_value(const void *a, const void *b)
+{
+    const double *u = a, *v = b;
+    return (*u > *v) - (*u < *v);
+}
+
+/* Whether rounding by up to the tolerance may have moved the points of a Latin hypercube here: in order, each is then near
+   its interval. Errors: MEMORY. */
+static koksma_status is_nearly_latin(const koksma_points *p, double tolerance, bool *latin)
+{
+    double *sorted = malloc(p->n * sizeof *sorted);
+    KOKSMA__REQUIRE_MEMORY(sorted, p->n * sizeof *sorted);
+    *latin = true;
+    for (size_t k = 0; k < (size_t)p->dim && *latin; k++) {
+        for (size_t i = 0; i < p->n; i++) {
+            sorted[i] = p->xs[i * (size_t)p->dim + k];
+        }
+        qsort(sorted, p->n, sizeof *sorted, by_value);
+        for (size_t i = 0; i < p->n && *latin; i++) {
+            *latin = sorted[i] >= (double)i / (double)p->n - tolerance &&
+                     sorted[i] <= (double)(i + 1) / (double)p->n + tolerance;
+        }
+    }
+    free(sorted);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__find_strata(const koksma_points *p, double tolerance, bool *latin, bool *centred)
 {
     const size_t dim = (size_t)p->dim;
     unsigned char *seen = malloc(p->n);
@@ -42,17 +69,20 @@ koksma_status koksma__find_strata(const koksma_points *p, bool *latin, bool *cen
             unsigned char *cell = &seen[koksma__stratum(p->xs[i * dim + k], p->n)];
             *latin = !*cell;
             *cell = 1;
-            *centred = *centred && fabs(x - floor(x) - .5) < 1e-6;
+            *centred = *centred && fabs(x - floor(x) - .5) < 1e-6 + tolerance * (double)p->n;
         }
     }
     free(seen);
-    return KOKSMA_OK;
+    return *latin || tolerance <= 0x1p-47 ? KOKSMA_OK : is_nearly_latin(p, tolerance, latin);
 }
 
 static koksma_status look_at_strata(koksma__sample *s)
 {
     bool latin, centred;
-    KOKSMA__TRY(koksma__find_strata(&s->points, &latin, &centred));
+    KOKSMA__TRY(koksma__find_strata(&s->points, s->tolerance, &latin, &centred));
+    for (size_t i = 0; i < s->found->count; i++) {
+        latin = latin && strcmp(s->found->items[i].relation, "stratified");
+    }
     return latin && s->points.n > 1
                ? say(s, centred ? "centred Latin hypercube (n-rooks)" : "Latin hypercube (n-rooks)",
                      "each of n intervals of every coordinate has one point")
