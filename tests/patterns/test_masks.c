@@ -2,6 +2,7 @@
 /* Masks against their definitions, and the pattern that is made of them against independent pixels: the error within
    a pixel is that of independently scrambled points, and neighbours' errors cancel. */
 #include <koksma/mask.h>
+#include <koksma/warp.h>
 
 #include <stdlib.h>
 
@@ -447,9 +448,49 @@ static void vectors_in_files_are_the_samples(void **state)
     koksma_points_fini(&two);
 }
 
+/* Masks of directions and of points of the disk give the points that the warp maps to their values, each once, in one
+   shift of the tile. */
+static void directions_in_files_are_the_samples(void **state)
+{
+    (void)state;
+    enum { W = 9, H = 4, N = W * H };
+    static const char *const spaces[] = {"hemisphere", "disk"}, *const warps[] = {"cosine-hemisphere",
+                                                                                  "concentric-disk"};
+    for (int s = 0; s < 2; s++) {
+        const koksma_mask_space *space = koksma_mask_space_find(spaces[s]);
+        koksma_mask_options options = {.width = W, .height = H, .space = space, .filter = {2, 1, {1, 1}}};
+        const size_t dim = (size_t)space->dim;
+        float v[3 * N];
+        assert_ok(koksma_mask_optimise(&options, NULL, v, NULL));
+        v[0] = 0, v[1] = -1, v[dim - 1] = s ? -1 : 0; /* on the rim */
+        FILE *file = fopen("round.npy", "wb");
+        char head[119];
+        snprintf(head, sizeof head, "{'descr': '<f4', 'fortran_order': False, 'shape': (4, 9, %d), }", space->dim);
+        fprintf(file, "%cNUMPY%c%c%c%c%-117s\n", 0x93, 1, 0, 118, 0, head);
+        fwrite(v, sizeof *v, dim * N, file);
+        fclose(file);
+        koksma_points points = test_points("mask-file:round.npy", N, 2, 5), mapped;
+        assert_ok(koksma_warp_points(koksma_warp_find(warps[s]), &points, &mapped));
+        int shifts = 0;
+        for (int shift = 0; shift < N; shift++) {
+            double worst = 0;
+            for (size_t i = 0; i < dim * N; i++) {
+                const size_t p = i / dim,
+                             from = (p / W + (size_t)shift / W) % H * W + (p % W + (size_t)shift % W) % W;
+                worst = fmax(worst, fabs(mapped.xs[i] - (double)v[from * dim + i % dim]));
+            }
+            shifts += worst < 1e-3; /* of z = sqrt(1 - x^2 - y^2) near the rim */
+        }
+        assert_int_equal(shifts, 1);
+        koksma_points_fini(&points);
+        koksma_points_fini(&mapped);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(directions_in_files_are_the_samples),
         cmocka_unit_test(masks_in_files_vary_the_pixels),
         cmocka_unit_test(vectors_in_files_are_the_samples),
         cmocka_unit_test(masks_are_ulichneys),

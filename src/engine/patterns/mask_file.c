@@ -7,7 +7,11 @@
  *     1 number a pixel    the ranks of three copies of the mask, each with its own shift, vary a (0,2)-sequence as in
  *                         mask-offset, for any number of samples a pixel
  *     2 numbers           a number each in [0,1): the pixel's one sample
+ *     2, some below 0     points of the unit disk (the space disk of koksma_mask_optimise): the pixel's one sample is the
+ *                         point of the square that the warp concentric-disk maps there
  *     3 numbers           their ranks vary the sequence
+ *     3, all unit vectors with z >= 0 (the space hemisphere): the pixel's one sample is the point that the warp
+ *                         cosine-hemisphere maps there, as renderers do for diffuse reflection and ambient occlusion
  *
  * A rank is a number's position in the sorted list of all numbers of its kind; equal numbers are in the order of the
  * pixels. The renderer repeats the tile over the image.
@@ -16,8 +20,11 @@
  */
 #include <koksma/mask.h>
 
+#include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/points_io.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -28,6 +35,9 @@ typedef struct mask {
     size_t width, height, numbers;
     float *values;
 } mask;
+
+/* How far from 1 the square of the length of a unit vector may be: levels of 8 bits are off by 1/256 of the range. */
+static const double LENGTH = 0.03;
 
 typedef struct entry {
     float value;
@@ -67,17 +77,65 @@ static void rank(const mask *m, uint64_t seed, entry *sorted, uint32_t *ranks)
     }
 }
 
+/* Returns whether all pixels have unit vectors of the upper hemisphere. */
+static bool are_directions(const mask *m)
+{
+    bool unit = m->numbers == 3;
+    for (size_t p = 0; p < m->width * m->height && unit; p++) {
+        const float *v = m->values + 3 * p;
+        const double x = (double)v[0], y = (double)v[1], z = (double)v[2];
+        unit = z >= 0 && fabs(x * x + y * y + z * z - 1) < LENGTH;
+    }
+    return unit;
+}
+
+/* Returns whether the numbers are points of the unit disk, not of the unit square. */
+static bool are_in_disk(const mask *m)
+{
+    bool negative = false;
+    for (size_t i = 0; i < 2 * m->width * m->height; i++) {
+        negative |= m->values[i] < 0;
+    }
+    return negative;
+}
+
+/* Makes the point of the square that the concentric map sends to a point of the unit disk (its inverse: a = r and b = r (4
+   / pi) angle in the quarter about the x axis, and likewise in the others). */
+static void unmap_concentric(double x, double y, double u[2])
+{
+    const bool wide = fabs(x) > fabs(y);
+    const double r = fmin(koksma__hypot(x, y), 1), a = copysign(r, wide ? x : y);
+    const double b = r > 0 ? a * (4 / M_PI) * koksma__atan(wide ? y / x : x / y) : 0;
+    u[wide ? 0 : 1] = (a + 1) / 2;
+    u[wide ? 1 : 0] = (b + 1) / 2;
+    for (int k = 0; k < 2; k++) {
+        u[k] = fmin(u[k], 1 - 0x1p-24); /* a point on the rim; the largest float below 1 */
+    }
+}
+
+/* Makes the one sample of each pixel of a mask of points or directions. */
 static koksma_status fill_vectors(const char *path, const mask *m, uint64_t seed, koksma_points *out)
 {
     const size_t pixels = m->width * m->height;
+    const bool round = m->numbers == 3 || are_in_disk(m);
     KOKSMA__TRY(koksma__tile_check("mask-file", pixels, true, out));
     for (size_t p = 0; p < pixels; p++) {
-        const float *v = m->values + 2 * shifted(m, seed, 0, p);
-        KOKSMA__FAIL_IF(!(v[0] >= 0 && v[0] < 1 && v[1] >= 0 && v[1] < 1), KOKSMA_MALFORMED,
-                        "mask-file:%s: a pixel has the vector (%.9g, %.9g); samples are in [0,1)", path, (double)v[0],
-                        (double)v[1]);
-        out->xs[2 * p] = (double)v[0];
-        out->xs[2 * p + 1] = (double)v[1];
+        const float *v = m->values + m->numbers * shifted(m, seed, 0, p);
+        const double x = (double)v[0], y = (double)v[1];
+        if (round) {
+            const double length = m->numbers == 3 ? sqrt(x * x + y * y + (double)v[2] * (double)v[2]) : 1;
+            KOKSMA__FAIL_IF(
+                !(x * x + y * y <= length * length * (1 + LENGTH)), KOKSMA_MALFORMED,
+                "mask-file:%s: a pixel has the vector (%.9g, %.9g); samples are in [0,1), points of a disk "
+                "within a radius of 1",
+                path, x, y);
+            unmap_concentric(x / length, y / length, out->xs + 2 * p);
+        } else {
+            KOKSMA__FAIL_IF(!(x < 1 && y < 1), KOKSMA_MALFORMED,
+                            "mask-file:%s: a pixel has the vector (%.9g, %.9g); samples are in [0,1)", path, x, y);
+            out->xs[2 * p] = x;
+            out->xs[2 * p + 1] = y;
+        }
     }
     return KOKSMA_OK;
 }
@@ -89,7 +147,7 @@ static koksma_status fill(const mask *m, uint64_t seed, const koksma_args *args,
         KOKSMA__FAIL_IF(!(m->values[i] >= -1e30f && m->values[i] <= 1e30f), KOKSMA_MALFORMED,
                         "mask-file:%s: number %zu is not finite", args->path, i);
     }
-    if (m->numbers == 2) {
+    if (m->numbers == 2 || are_directions(m)) {
         return fill_vectors(args->path, m, seed, out);
     }
     KOKSMA__TRY(koksma__tile_check("mask-file", pixels, false, out));
@@ -124,5 +182,6 @@ const koksma_pattern koksma__pattern_mask_file = {
     .min_dim = 2,
     .max_dim = 2,
     .generate = generate,
+    .revision = 1, /* unit vectors and points of the disk are samples */
     .operand = "PATH",
 };
