@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma mask`: arranges a mask for a filter and writes it with a recipe, FILE.json, that makes it again;
    `koksma mask check` measures masks in files, whoever made them. */
+#include <koksma/datasheet.h>
 #include <koksma/maskfile.h>
+#include <koksma/plot.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +12,7 @@
 
 #include "cli.h"
 
-enum { PATH = 4096, MOST_RINGS = 1024 };
+enum { PATH = 4096, MOST_RINGS = 1024, MOST_BINS = 4096, TABLES = 3 };
 
 static const char six[] = "binomial:size=3,binomial:size=4,box:size=3,box:size=5,gaussian:sigma=0.7,gaussian:sigma=1";
 
@@ -167,7 +169,7 @@ static int run_make(const cli_arguments *arguments)
 {
     static const char *const decided[] = {"filter", "size",  "space", "open", "levels",
                                           "swaps",  "until", "seed",  "from", NULL};
-    static const char *const of_check[] = {"tests", "rings"};
+    static const char *const of_check[] = {"tests", "rings", "histogram", "correlation"};
     job j = {.arguments = arguments,
              .output = cli_text(arguments, "output", cli_text(arguments, "resume", NULL)),
              .filter = cli_text(arguments, "filter", "gaussian:sigma=1"),
@@ -175,7 +177,7 @@ static int run_make(const cli_arguments *arguments)
     if (arguments->n_operands) {
         return cli_usage_error(arguments, "%s: it takes 'check' and files, or options alone", arguments->operands[0]);
     }
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; i < sizeof of_check / sizeof *of_check; i++) {
         if (cli_text(arguments, of_check[i], NULL)) {
             return cli_usage_error(arguments, "--%s is of 'koksma mask check'", of_check[i]);
         }
@@ -269,6 +271,55 @@ static int put_rings(const cli_arguments *arguments, cli_rows *rows, const char 
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+/* Prints a row for each number and interval of the histogram. */
+static int put_bins(const cli_arguments *arguments, cli_rows *rows, const char *path, const koksma_mask *mask,
+                    int bins)
+{
+    const koksma_mask_space *space = mask->space;
+    const size_t count = (size_t)space->dim * (size_t)bins;
+    size_t *counts = malloc(count * sizeof *counts);
+    if (!counts) {
+        return cli_no_memory();
+    }
+    const koksma_status status = koksma_mask_histogram(mask, bins, counts);
+    for (size_t i = 0; i < count && !status; i++) {
+        const double from = (double)(i % (size_t)bins) / bins;
+        cli_row_text(rows, "file", path);
+        cli_row_whole(rows, "number", i / (size_t)bins);
+        cli_row_number(rows, "from", space->low + from * (space->high - space->low));
+        cli_row_whole(rows, "pixels", counts[i]);
+        cli_row_end(rows);
+    }
+    free(counts);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
+/* Prints the correlations of two masks, or of one with itself, at the offsets up to `reach` along each axis. */
+static int put_offsets(const cli_arguments *arguments, cli_rows *rows, const char *const paths[2],
+                       const koksma_mask *const masks[2], int reach)
+{
+    const int width = masks[0]->width, height = masks[0]->height;
+    double *all = malloc((size_t)width * (size_t)height * sizeof *all);
+    if (!all) {
+        return cli_no_memory();
+    }
+    const koksma_status status = koksma_mask_correlation(masks[0], masks[1], all);
+    const int across = reach < (width - 1) / 2 ? reach : (width - 1) / 2;
+    const int down = reach < (height - 1) / 2 ? reach : (height - 1) / 2;
+    for (int y = -down; y <= down && !status; y++) {
+        for (int x = -across; x <= across; x++) {
+            cli_row_text(rows, "file", paths[0]);
+            cli_row_text(rows, "with", paths[1]);
+            cli_row_number(rows, "dx", x);
+            cli_row_number(rows, "dy", y);
+            cli_row_number(rows, "correlation", all[(y + height) % height * width + (x + width) % width]);
+            cli_row_end(rows);
+        }
+    }
+    free(all);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
 /* Measures a mask with each filter. */
 static int put_filters(const cli_arguments *arguments, cli_rows *rows, const char *path, const koksma_mask *mask,
                        const koksma_run *run)
@@ -292,13 +343,109 @@ static int put_filters(const cli_arguments *arguments, cli_rows *rows, const cha
     return code;
 }
 
+/* The tables that replace the errors: of rings, of a histogram or of correlations, with their sizes; 0: not asked for. */
+typedef struct tables {
+    uint64_t rings, bins, reach;
+    bool correlation, page;
+} tables;
+
+/* Reads which table is asked for. Returns false after an error. */
+static bool parse_tables(const cli_arguments *arguments, tables *t)
+{
+    const char *const options[TABLES] = {"rings", "histogram", "correlation"};
+    const char *first = NULL, *output = cli_text(arguments, "output", NULL);
+    const size_t length = output ? strlen(output) : 0;
+    for (size_t i = 0; i < TABLES; i++) {
+        const bool given = cli_text(arguments, options[i], NULL) != NULL;
+        if (given && (first || output)) {
+            cli_usage_error(arguments, "--%s: it prints rows in place of %s%s", options[i], output ? "" : "--",
+                            output ? "a page" : first);
+            return false;
+        }
+        first = given ? options[i] : first;
+    }
+    if (output && (length < 6 || strcmp(output + length - 5, ".html") != 0)) {
+        cli_usage_error(arguments, "--output %s: check writes a page, .html", output);
+        return false;
+    }
+    t->page = output != NULL;
+    t->correlation = cli_text(arguments, "correlation", NULL) != NULL;
+    if (t->correlation && arguments->n_operands > 3) {
+        cli_usage_error(arguments, "--correlation: it takes one mask or two, not %d", arguments->n_operands - 1);
+        return false;
+    }
+    return cli_whole(arguments, "rings", 0, 1, MOST_RINGS, &t->rings) &&
+           cli_whole(arguments, "histogram", 0, 1, MOST_BINS, &t->bins) &&
+           cli_whole(arguments, "correlation", 0, 0, KOKSMA_MASK_MAX, &t->reach);
+}
+
+/* Prints the rows of one mask. */
+static int put_mask(const cli_arguments *arguments, const tables *t, cli_rows *rows, const char *path,
+                    const koksma_mask *mask, const koksma_run *run)
+{
+    return t->rings  ? put_rings(arguments, rows, path, mask, (int)t->rings)
+           : t->bins ? put_bins(arguments, rows, path, mask, (int)t->bins)
+                     : put_filters(arguments, rows, path, mask, run);
+}
+
+/* Writes the page of all masks. */
+static int write_page(const cli_arguments *arguments, const koksma_mask *masks, size_t n, const koksma_run *run)
+{
+    const char *output = cli_text(arguments, "output", NULL), *list = cli_text(arguments, "filter", six);
+    char texts[KOKSMA_MAX_SHEET_MASKS + 1][KOKSMA_MAX_SPEC], *json = NULL, *page = NULL;
+    const char *names[KOKSMA_MAX_SHEET_MASKS], *filters[KOKSMA_MAX_SHEET_MASKS + 1];
+    size_t count = 0;
+    while (count <= KOKSMA_MAX_SHEET_MASKS && cli_list_item(list, count, texts[count], sizeof *texts)) {
+        filters[count] = texts[count];
+        count++;
+    }
+    for (size_t i = 0; i < n; i++) {
+        names[i] = arguments->operands[i + 1];
+    }
+    const int code = cli_try_output(arguments, output);
+    if (code) {
+        return code;
+    }
+    koksma_status status = koksma_mask_datasheet(masks, names, n, filters, count, run, &json);
+    cli_work_end();
+    status = status ? status : koksma_datasheet_page(json, &page);
+    status = status ? status : koksma_plot_write(output, (const unsigned char *)page, strlen(page));
+    free(json);
+    free(page);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
+/* Reads all masks at once, which a page and correlations need. */
+static int check_together(const cli_arguments *arguments, const tables *t, const koksma_mask_space *space,
+                          cli_rows *rows, const koksma_run *run)
+{
+    koksma_mask masks[KOKSMA_MAX_SHEET_MASKS] = {{0}};
+    const char *const *paths = (const char *const *)arguments->operands + 1;
+    const size_t n = (size_t)arguments->n_operands - 1;
+    koksma_status status = KOKSMA_OK;
+    if (n > KOKSMA_MAX_SHEET_MASKS) {
+        return cli_usage_error(arguments, "check: a page has up to %d masks, not %zu", KOKSMA_MAX_SHEET_MASKS, n);
+    }
+    for (size_t i = 0; i < n && !status; i++) {
+        status = koksma_mask_read(paths[i], space, &masks[i]);
+    }
+    int code = status    ? cli_fail(arguments, status)
+               : t->page ? write_page(arguments, masks, n, run)
+                         : put_offsets(arguments, rows, (const char *const[]){paths[0], paths[n - 1]},
+                                       (const koksma_mask *const[]){&masks[0], &masks[n - 1]}, (int)t->reach);
+    for (size_t i = 0; i < n; i++) {
+        koksma_mask_fini(&masks[i]);
+    }
+    return code;
+}
+
 static int run_check(const cli_arguments *arguments)
 {
-    static const char *const of_make[] = {"output", "size", "open",   "levels", "swaps",      "until",
-                                          "seed",   "from", "resume", "bits",   "time-limit", NULL};
+    static const char *const of_make[] = {"size", "open",   "levels", "swaps",      "until", "seed",
+                                          "from", "resume", "bits",   "time-limit", NULL};
     const koksma_mask_space *space;
     cli_work work;
-    uint64_t rings;
+    tables t = {0};
     for (const char *const *name = of_make; *name; name++) {
         if (cli_text(arguments, *name, NULL)) {
             return cli_usage_error(arguments, "--%s has no effect on 'check'", *name);
@@ -307,19 +454,18 @@ static int run_check(const cli_arguments *arguments)
     if (arguments->n_operands < 2) {
         return cli_usage_error(arguments, "check: it takes one mask or more");
     }
-    if (!parse_space(arguments, &space) || !cli_whole(arguments, "rings", 0, 1, MOST_RINGS, &rings) ||
+    if (!parse_space(arguments, &space) || !parse_tables(arguments, &t) ||
         !cli_work_begin(arguments, "measuring", &work)) {
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    int code = CLI_YES;
-    for (int i = 1; i < arguments->n_operands && !code; i++) {
+    int code = t.page || t.correlation ? check_together(arguments, &t, space, rows, &work.run) : CLI_YES;
+    for (int i = 1; i < arguments->n_operands && !code && !t.page && !t.correlation; i++) {
         koksma_mask mask;
         const koksma_status status = koksma_mask_read(arguments->operands[i], space, &mask);
         cli_work_part(&work, (size_t)i - 1, (size_t)arguments->n_operands - 1);
-        code = status  ? cli_fail(arguments, status)
-               : rings ? put_rings(arguments, rows, arguments->operands[i], &mask, (int)rings)
-                       : put_filters(arguments, rows, arguments->operands[i], &mask, &work.run);
+        code = status ? cli_fail(arguments, status)
+                      : put_mask(arguments, &t, rows, arguments->operands[i], &mask, &work.run);
         koksma_mask_fini(&mask);
     }
     cli_work_end();
@@ -334,7 +480,9 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'o', "output", "FILE.png|.exr|.npy|.raw|.h", "the mask; FILE.json beside it has what makes it again"},
+    {'o', "output", "FILE.png|.exr|.npy|.raw|.h|.html",
+     "the mask; FILE.json beside it has what makes it again. check: a page, .html, of errors, spectra, histograms, "
+     "correlations and dithering"},
     {'f', "filter", "FILTER",
      "the filter that will be applied: box:size=K, binomial:size=K, gaussian:sigma=S, one of 'koksma list "
      "filters', or file:PATH, rows of numbers (default: gaussian:sigma=1); check: a list (default: six common "
@@ -353,6 +501,9 @@ static const cli_option options[] = {
     {0, "bits", "8|16|32", "bits of a number: .png 16 or 8, .raw 8, 16 or 32 (float), .h 32, 8 or 16"},
     {0, "tests", "N", "check: thresholds or half-spaces (default: 256, 400)"},
     {0, "rings", "N", "check: print the power spectrum in N rings instead of errors"},
+    {0, "histogram", "N", "check: print how many pixels have each number in N equal intervals"},
+    {0, "correlation", "R",
+     "check: print the correlations at offsets up to R pixels: of one mask with itself, or of two with each other"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -363,7 +514,8 @@ const cli_command cli_command_mask = {
     .summary = "make blue-noise masks for a filter, and measure masks",
     .synopsis = "-o FILE [--filter FILTER] [--size WxH] [--space SPACE] [--swaps K]\n"
                 "--resume FILE [-o FILE] [--time-limit SECONDS]\n"
-                "check FILE... [--filter FILTER,..] [--space SPACE] [--tests N] [--rings N]",
+                "check FILE... [--filter FILTER,..] [--space SPACE] [--tests N]\n"
+                "check FILE... --rings N|--histogram N|--correlation R|-o PAGE.html",
     .details =
         "A mask has a number, a vector or a direction for each pixel of a tile. Noise that is made with it, "
         "such as one random number a pixel, nearly vanishes under the filter. The search swaps pixels by "
@@ -373,13 +525,19 @@ const cli_command cli_command_mask = {
         "values in random order. ratio: error / white. inside and seam (check): the error of pixels whose "
         "filter lies within the mask, and of those whose filter spans two opposite sides; a tile repeats "
         "without a visible seam if they are equal. levels, least_often and most_often: the histogram of a mask "
-        "of one number. --rings: the mean power at each frequency, 1 for white noise, and its anisotropy.\n"
+        "of one number. --rings: the mean power at each frequency, 1 for white noise, and its anisotropy. "
+        "--correlation: of all numbers of pixels p of the first mask and p + (dx, dy) of the second, on the torus; "
+        "two "
+        "masks that should be independent have about 0 everywhere. -o PAGE.html has all of this for up to eight "
+        "masks, "
+        "with pictures, and a ramp and a scene dithered by the masks of scalars.\n"
         "Equal options give equal bits on every machine and with any number of threads (the search uses one). "
         "A mask with borders (--open) has the error that the filter leaves if all beyond is exact.\n",
     .examples = "koksma mask -o m.png --filter gaussian:sigma=1 --size 64x64\n"
                 "koksma mask -o v.npy -f box:size=3 --size 32x48 --space vector2\n"
                 "koksma mask check m.png\n"
-                "koksma mask check m.png --rings 16\n",
+                "koksma mask check m.png --rings 16\n"
+                "koksma mask check m.png -o page.html\n",
     .options = options,
     .run = run,
 };

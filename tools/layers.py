@@ -52,7 +52,8 @@ MAY_USE = {
     "study/images": "core stats image study/plan study/run study/report",
     "study/report": "core stats patterns measures warps integrands image plot render study/plan study/store study/run "
                     "api",
-    "study/sheet": "core stats patterns measures integrands verify api image scene render study/plan study/run study/ranking study/report",
+    "study/sheet": "core stats patterns measures integrands verify api image masks maskfiles scene render study/plan study/run study/ranking "
+                   "study/report",
     "cli": "core kernels stats masks maskfiles patterns measures warps integrands api verify identify optimise image domains scene plot render "
            "study/plan study/run study/ranking study/images study/report study/sheet",
 }

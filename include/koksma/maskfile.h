@@ -71,6 +71,24 @@ KOKSMA_API koksma_status koksma_mask_write_recipe(const char *path, const koksma
    Errors: MISSING, MALFORMED (also of another revision of the search), MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_mask_read_recipe(const char *path, koksma_mask_options *out);
 
+/* The power spectrum of a mask on the torus, summed over its numbers.
+     power  receives width * height numbers: power[v * width + u] is that at u cycles along the width and v along the
+            height, divided by the mean over all frequencies but (0, 0), which is 1 of white noise; 0 at (0, 0)
+   Errors: ARGUMENT (numbers outside the space; pixels that are all equal), MEMORY. */
+KOKSMA_API koksma_status koksma_mask_power(const koksma_mask *mask, double *power);
+
+/* The correlation of two masks of equal size on the torus; of a mask with itself, its autocorrelation.
+     out  receives width * height numbers: out[y * width + x] is the sum over pixels p of (a(p) - mean of a) . (b(p + (x,
+          y)) - mean of b), divided by the geometric mean of the sums of |a(p) - mean of a|^2 and |b(p) - mean of b|^2. It
+          lies in [-1, 1]; of two masks of white noise with n pixels its standard deviation is n^(-1/2) for scalars
+   Errors: ARGUMENT (sizes or numbers a pixel that differ; numbers outside the space; pixels that are all equal), MEMORY. */
+KOKSMA_API koksma_status koksma_mask_correlation(const koksma_mask *mask, const koksma_mask *other, double *out);
+
+/* Counts pixels: counts[k * bins + i] have number k within [i, i + 1) / bins of the range of the space, the last with 1.
+     bins  1 to 65536
+   Errors: ARGUMENT. */
+KOKSMA_API koksma_status koksma_mask_histogram(const koksma_mask *mask, int bins, size_t *counts);
+
 /* The radial mean of a mask's power spectrum, summed over its numbers. With P(u, v) the power at u cycles along the width
    and v along the height, ring k of `rings` has the frequencies (k + [0,1)) / (2 rings) of sqrt((u / width)^2 + (v /
    height)^2), cycles a pixel; ring 0 lacks (0, 0).
@@ -78,7 +96,7 @@ KOKSMA_API koksma_status koksma_mask_read_recipe(const char *path, koksma_mask_o
                  NaN for a ring without frequencies
      anisotropy  receives the variance of the power within each ring divided by the square of its mean, in decibels
                  (Ulichney 1988); 0 dB is that of one periodogram of noise without a preferred direction. May be NULL
-   Errors: ARGUMENT (rings from 1 to 1024), MEMORY. */
+   Errors: ARGUMENT (rings from 1 to 1024; pixels that are all equal), MEMORY. */
 KOKSMA_API koksma_status koksma_mask_rings(const koksma_mask *mask, int rings, double *power, double *anisotropy);
 
 #ifdef __cplusplus

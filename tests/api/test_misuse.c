@@ -215,7 +215,24 @@ static void *a_mask_filter(void)
 
 static void *a_mask(void)
 {
-    return COPY(koksma_mask, {8, 8, koksma_mask_space_at(0), a_zero(64 * sizeof(float))});
+    float *values = a_zero(64 * sizeof *values);
+    values[9] = 0.5f; /* equal pixels have no spectrum */
+    return COPY(koksma_mask, {8, 8, koksma_mask_space_at(0), values});
+}
+
+static void *a_circle_mask(void)
+{
+    koksma_mask *mask = a_mask(); /* which its datasheet dithers no picture with */
+    mask->width = 4;
+    mask->space = koksma_mask_space_find("circle");
+    return mask;
+}
+
+static const char **a_text_list(const char *text)
+{
+    static const char *list[1];
+    list[0] = text;
+    return list;
 }
 
 static const char *mask_file(void)

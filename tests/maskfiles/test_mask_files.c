@@ -222,6 +222,63 @@ static void bad_files_are_refused(void **state)
     assert_error(koksma_mask_write("a.npy", &mask, 0), KOKSMA_ARGUMENT, "(1, 0)");
 }
 
+/* Power, correlation and histogram by the sums of their definitions. */
+static void relations_are_those_of_direct_sums(void **state)
+{
+    (void)state;
+    float values[2][2 * N];
+    koksma_mask a = mask_of("vector2", values[0]), b = a;
+    double power[N], correlation[N], mean[2][2] = {{0}}, squares[2] = {0}, all = 0, direct[N];
+    size_t counts[2 * 5], expected[2 * 5] = {0};
+    b.values = values[1];
+    for (int i = 0; i < 2 * N; i++) {
+        values[1][i] = (float)((i * 7 % 31 + 0.5) / 31) * values[0][(i + 6) % (2 * N)];
+        expected[i % 2 * 5 + (int)(values[0][i] * 5)]++;
+        for (int m = 0; m < 2; m++) {
+            mean[m][i % 2] += (double)values[m][i] / N;
+        }
+    }
+    for (int i = 0; i < 4 * N; i++) {
+        const int m = i / (2 * N), k = i % 2;
+        squares[m] += pow((double)values[m][i % (2 * N)] - mean[m][k], 2);
+    }
+    assert_ok(koksma_mask_power(&a, power));
+    assert_ok(koksma_mask_correlation(&a, &b, correlation));
+    assert_ok(koksma_mask_histogram(&a, 5, counts));
+    assert_memory_equal(counts, expected, sizeof counts);
+    for (int v = 0; v < H; v++) {
+        for (int u = 0; u < W; u++) {
+            double product = 0;
+            direct[v * W + u] = 0;
+            for (int k = 0; k < 2; k++) {
+                double re = 0, im = 0;
+                for (int p = 0; p < N; p++) {
+                    const double angle = 2 * M_PI * ((double)u * (p % W) / W + (double)v * (p / W) / H);
+                    const double x = (double)values[0][2 * p + k];
+                    const int q = (p / W + v) % H * W + (p % W + u) % W;
+                    re += x * cos(angle);
+                    im += x * sin(angle);
+                    product += (x - mean[0][k]) * ((double)values[1][2 * q + k] - mean[1][k]);
+                }
+                direct[v * W + u] += re * re + im * im;
+            }
+            assert_near(correlation[v * W + u], product / sqrt(squares[0] * squares[1]), 1e-12);
+            all += u + v ? direct[v * W + u] : 0;
+        }
+    }
+    assert_true(power[0] == 0);
+    for (int i = 1; i < N; i++) {
+        assert_near(power[i], direct[i] * (N - 1) / all, 1e-10);
+    }
+    b.width = H, b.height = W;
+    assert_error(koksma_mask_correlation(&a, &b, correlation), KOKSMA_ARGUMENT, "12 x 9");
+    memset(values, 0, sizeof values);
+    b = a;
+    assert_error(koksma_mask_correlation(&a, &b, correlation), KOKSMA_ARGUMENT, "equal");
+    assert_error(koksma_mask_power(&a, power), KOKSMA_ARGUMENT, "equal");
+    assert_error(koksma_mask_rings(&a, 3, power, NULL), KOKSMA_ARGUMENT, "equal");
+}
+
 static void rings_are_those_of_a_direct_sum(void **state)
 {
     (void)state;
@@ -264,6 +321,7 @@ int main(void)
         cmocka_unit_test(filters_have_their_weights),
         cmocka_unit_test(bad_filters_are_refused),
         cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(relations_are_those_of_direct_sums),
         cmocka_unit_test(rings_are_those_of_a_direct_sum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

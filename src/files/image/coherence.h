@@ -39,4 +39,8 @@ static inline size_t koksma__fourier_columns(int width)
    log n). The bits are the same on every instruction set and for any number of threads. Errors: MEMORY. */
 koksma_status koksma__fourier_power(int width, int height, const double *values, double *power);
 
+/* The same sum before its absolute value is taken: the real part of frequency (u, v) is complex[2 (v * columns + u)],
+   and the imaginary part the next number. */
+koksma_status koksma__fourier_transform(int width, int height, const double *values, double *complex);
+
 #endif

@@ -94,7 +94,8 @@ static void transform_rows(lines *l, size_t width, size_t height, const double *
     }
 }
 
-static void transform_columns(lines *l, size_t columns, size_t height, const double *rows, double *power)
+/* Transforms the columns in place. */
+static void transform_columns(lines *l, size_t columns, size_t height, double *rows)
 {
     for (size_t first = 0; first < columns; first += LANES) {
         const size_t count = columns - first < LANES ? columns - first : LANES;
@@ -109,29 +110,39 @@ static void transform_columns(lines *l, size_t columns, size_t height, const dou
         transform(l, count);
         for (size_t v = 0; v < height; v++) {
             for (size_t i = 0; i < count; i++) {
-                const double re = l->re[LANES * v + i], im = l->im[LANES * v + i];
-                power[v * columns + first + i] = re * re + im * im;
+                double *to = rows + 2 * (v * columns + first + i);
+                to[0] = l->re[LANES * v + i];
+                to[1] = l->im[LANES * v + i];
             }
         }
     }
 }
 
-koksma_status koksma__fourier_power(int width, int height, const double *values, double *power)
+koksma_status koksma__fourier_transform(int width, int height, const double *values, double *complex)
 {
-    const size_t columns = koksma__fourier_columns(width), doubles = 2 * columns * (size_t)height;
     lines along_x = {0}, along_y = {0};
-    double *rows = malloc(doubles * sizeof *rows);
-    koksma_status status = rows ? KOKSMA_OK : koksma__fail_memory(doubles * sizeof *rows);
-    status = status ? status : open_lines((size_t)width, &along_x);
+    koksma_status status = open_lines((size_t)width, &along_x);
     if (!status) {
-        transform_rows(&along_x, (size_t)width, (size_t)height, values, rows);
+        transform_rows(&along_x, (size_t)width, (size_t)height, values, complex);
     }
     close_lines(&along_x);
     status = status ? status : open_lines((size_t)height, &along_y);
     if (!status) {
-        transform_columns(&along_y, columns, (size_t)height, rows, power);
+        transform_columns(&along_y, koksma__fourier_columns(width), (size_t)height, complex);
     }
     close_lines(&along_y);
-    free(rows);
+    return status;
+}
+
+koksma_status koksma__fourier_power(int width, int height, const double *values, double *power)
+{
+    const size_t frequencies = koksma__fourier_columns(width) * (size_t)height;
+    double *complex = malloc(2 * frequencies * sizeof *complex);
+    koksma_status status = complex ? KOKSMA_OK : koksma__fail_memory(2 * frequencies * sizeof *complex);
+    status = status ? status : koksma__fourier_transform(width, height, values, complex);
+    for (size_t i = 0; i < frequencies && !status; i++) {
+        power[i] = complex[2 * i] * complex[2 * i] + complex[2 * i + 1] * complex[2 * i + 1];
+    }
+    free(complex);
     return status;
 }

@@ -1,0 +1,354 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Datasheets of masks: errors by filter, pictures of masks and of their spectra, radial means, autocorrelations, histograms,
+ * correlations of pairs, and dithering (mask_dither.c), in the format and on the page of a sampler's datasheet. `koksma
+ * mask check` prints the same numbers.
+ */
+#include "study/sheet/mask_dither.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clock.h"
+#include "core/parallel.h"
+#include "core/status.h"
+
+enum { RINGS = 32, BINS = 32, FARTHEST = 12, SIDE = 200, WHITE = 2, SCALAR_TESTS = 256, VECTOR_TESTS = 400 };
+
+static size_t pixels_of(const koksma_mask *mask)
+{
+    return (size_t)mask->width * (size_t)mask->height;
+}
+
+/* ---- Errors ---------------------------------------------------------------------------------------------- */
+
+static koksma_status put_errors(const koksma__mask_sheet *s, koksma__document *d)
+{
+    koksma__doc_section(d, "errors", "What filters leave");
+    koksma__doc_paragraph(
+        d,
+        "The root of the mean, over %d thresholds t (of vectors: %d half-spaces), of the variance of the "
+        "filtered image of (value < t). White: of the same values in random order. Inside: of pixels "
+        "whose filter lies within the mask; seam: of those whose filter spans opposite sides. A tile "
+        "repeats without a visible seam if the two are equal.",
+        SCALAR_TESTS, VECTOR_TESTS);
+    koksma__doc_table_begin(d, "errors");
+    koksma__doc_columns(d, "t mask;t space;t filter;n4 error;n4 white;n3 error / white;n4 inside;n4 seam");
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < s->n * s->n_filters && !status; i++) {
+        const size_t f = i / s->n;
+        const koksma_mask *m = &s->masks[i % s->n];
+        koksma_mask_quality q;
+        status = koksma_mask_measure(m->width, m->height, m->space, m->values, &s->filters[f],
+                                     m->space->dim > 1 ? VECTOR_TESTS : SCALAR_TESTS, s->run, &q);
+        if (!status) {
+            koksma__doc_row(d);
+            koksma__doc_cells(d, "tttnnnnn", s->names[i % s->n], m->space->name, s->filter_names[f], q.error, q.white,
+                              q.error / q.white, q.inside, q.seam);
+        }
+    }
+    koksma__doc_table_end(d);
+    koksma__doc_end(d);
+    return status;
+}
+
+/* ---- Pictures -------------------------------------------------------------------------------------------- */
+
+/* Returns by how much a picture is enlarged. */
+static int scale_of(const koksma_mask *m)
+{
+    return m->width >= SIDE ? 1 : (SIDE + m->width - 1) / m->width;
+}
+
+/* Draws the numbers of the pixels: one as a grey, more as red, green and blue. */
+static koksma_status put_mask(const koksma_mask *m, const char *name, koksma__document *d)
+{
+    const int dim = m->space->dim, channels = dim == 1 ? 1 : 3;
+    koksma_image image;
+    KOKSMA__TRY(koksma_image_init(&image, m->width, m->height, channels));
+    for (size_t i = 0; i < pixels_of(m); i++) {
+        for (int k = 0; k < channels && k < dim; k++) {
+            const double v = (double)m->values[i * (size_t)dim + (size_t)k];
+            image.pixels[i * (size_t)channels + (size_t)k] =
+                (float)((v - m->space->low) / (m->space->high - m->space->low));
+        }
+    }
+    const koksma_status status = koksma__doc_image(d, &image, scale_of(m), name);
+    koksma_image_fini(&image);
+    return status;
+}
+
+/* Draws the power with the frequency (0, 0) in the middle. */
+static koksma_status put_power(const koksma_mask *m, koksma__document *d)
+{
+    const size_t width = (size_t)m->width, height = (size_t)m->height;
+    koksma_image image;
+    double *power = malloc(pixels_of(m) * sizeof *power);
+    KOKSMA__REQUIRE_MEMORY(power, pixels_of(m) * sizeof *power);
+    koksma_status status = koksma_mask_power(m, power);
+    status = status ? status : koksma_image_init(&image, m->width, m->height, 1);
+    if (!status) {
+        for (size_t i = 0; i < pixels_of(m); i++) {
+            const size_t u = (i % width + width - width / 2) % width, v = (i / width + height - height / 2) % height;
+            image.pixels[i] = (float)(power[v * width + u] / WHITE);
+        }
+        status = koksma__doc_image(d, &image, scale_of(m), "power spectrum");
+        koksma_image_fini(&image);
+    }
+    free(power);
+    return status;
+}
+
+static koksma_status put_pictures(const koksma__mask_sheet *s, koksma__document *d)
+{
+    koksma__doc_section(d, "pictures", "Masks and their spectra");
+    koksma__doc_paragraph(
+        d,
+        "Left: the numbers of the pixels, from the least (black) to the largest of the space; two or more "
+        "as red, green and blue. Right: the power at each frequency, (0, 0) in the middle; white noise "
+        "has the mean 1, mid-grey, and %d or more is white. A dark disk in the middle is blue noise.",
+        WHITE);
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < s->n && !status; i++) {
+        koksma__doc_figure_begin(d, "mask");
+        status = put_mask(&s->masks[i], s->names[i], d);
+        status = status ? status : put_power(&s->masks[i], d);
+        koksma__doc_caption(d);
+        koksma__doc_say(d, "%s, %d x %d", s->names[i], s->masks[i].width, s->masks[i].height);
+        koksma__doc_figure_end(d);
+    }
+    koksma__doc_end(d);
+    return status;
+}
+
+/* ---- Curves ---------------------------------------------------------------------------------------------- */
+
+/* Puts a chart with a line of `count` numbers for each mask; column: of the two that `make` computes. */
+static koksma_status put_chart(const koksma__mask_sheet *s, const koksma__chart *chart, size_t count, double level,
+                               koksma_status (*make)(const koksma_mask *mask, double *x, double *y),
+                               koksma__document *d)
+{
+    double x[RINGS + BINS], y[RINGS + BINS];
+    koksma_status status = KOKSMA_OK;
+    koksma__doc_chart_begin(d, chart);
+    for (size_t i = 0; i < s->n && !status; i++) {
+        status = make(&s->masks[i], x, y);
+        koksma__doc_series_begin(d, s->names[i], KOKSMA__SERIES_LINE);
+        for (size_t k = 0; k < count && !status; k++) {
+            koksma__doc_point(d, x[k], y[k], NAN, NAN);
+        }
+        koksma__doc_end(d);
+    }
+    koksma__doc_series_begin(d, "white noise", KOKSMA__SERIES_THEORY);
+    koksma__doc_point(d, x[0], level, NAN, NAN);
+    koksma__doc_point(d, x[count - 1], level, NAN, NAN);
+    koksma__doc_end(d);
+    koksma__doc_end(d);
+    return status;
+}
+
+static koksma_status radial(const koksma_mask *m, double *x, double *y)
+{
+    double unused[RINGS];
+    for (int r = 0; r < RINGS; r++) {
+        x[r] = (r + 0.5) / (2 * RINGS);
+    }
+    return koksma_mask_rings(m, RINGS, y, unused);
+}
+
+static koksma_status anisotropy(const koksma_mask *m, double *x, double *y)
+{
+    double power[RINGS];
+    KOKSMA__TRY(radial(m, x, power));
+    return koksma_mask_rings(m, RINGS, power, y);
+}
+
+/* The mean correlation of pixels whose distance rounds to 1, 2, .. */
+static koksma_status autocorrelation(const koksma_mask *m, double *x, double *y)
+{
+    double *all = malloc(pixels_of(m) * sizeof *all);
+    size_t counts[FARTHEST] = {0};
+    KOKSMA__REQUIRE_MEMORY(all, pixels_of(m) * sizeof *all);
+    const koksma_status status = koksma_mask_correlation(m, m, all);
+    for (int r = 0; r < FARTHEST; r++) {
+        x[r] = r + 1;
+        y[r] = 0;
+    }
+    for (int dy = -FARTHEST; dy <= FARTHEST && !status; dy++) {
+        for (int dx = -FARTHEST; dx <= FARTHEST; dx++) {
+            const int r = (int)lrint(sqrt(dx * dx + dy * dy)) - 1;
+            if (r >= 0 && r < FARTHEST) {
+                counts[r]++;
+                y[r] +=
+                    all[(dy + FARTHEST * m->height) % m->height * m->width + (dx + FARTHEST * m->width) % m->width];
+            }
+        }
+    }
+    for (int r = 0; r < FARTHEST && !status; r++) {
+        y[r] /= (double)counts[r];
+    }
+    free(all);
+    return status;
+}
+
+/* The histogram of all numbers of the pixels together, divided by its mean. */
+static koksma_status histogram(const koksma_mask *m, double *x, double *y)
+{
+    size_t counts[4 * BINS];
+    KOKSMA__TRY(koksma_mask_histogram(m, BINS, counts));
+    for (int b = 0; b < BINS; b++) {
+        size_t sum = 0;
+        for (int k = 0; k < m->space->dim; k++) {
+            sum += counts[k * BINS + b];
+        }
+        x[b] = (b + 0.5) / BINS;
+        y[b] = (double)sum * BINS / ((double)pixels_of(m) * m->space->dim);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status put_curves(const koksma__mask_sheet *s, koksma__document *d)
+{
+    koksma__doc_section(d, "spectra", "Spectra, autocorrelation, histogram");
+    koksma__doc_paragraph(
+        d, "Anisotropy: the variance of the power at frequencies of about equal length, divided by the square of "
+           "its mean; that of noise without a preferred direction is 0 dB for one number a pixel, -3 dB "
+           "for two. Autocorrelation: the mean over pixels at about equal distance.");
+    koksma_status status =
+        put_chart(s, &(koksma__chart){"Radial mean of the power", "cycles a pixel", "power", false, false, 0}, RINGS,
+                  1, radial, d);
+    status = status ? status
+                    : put_chart(s, &(koksma__chart){"Anisotropy", "cycles a pixel", "dB", false, false, 0}, RINGS, 0,
+                                anisotropy, d);
+    status =
+        status ? status
+               : put_chart(s, &(koksma__chart){"Autocorrelation", "distance, pixels", "correlation", false, false, 0},
+                           FARTHEST, 0, autocorrelation, d);
+    status = status ? status
+                    : put_chart(s,
+                                &(koksma__chart){"Histogram of all numbers", "share of the range of the space",
+                                                 "pixels, relative to uniform", false, false, 0},
+                                BINS, 1, histogram, d);
+    koksma__doc_end(d);
+    return status;
+}
+
+/* ---- Pairs ----------------------------------------------------------------------------------------------- */
+
+static koksma_status put_pair(const koksma__mask_sheet *s, size_t a, size_t b, koksma__document *d)
+{
+    const koksma_mask *m = &s->masks[a];
+    double *all = malloc(pixels_of(m) * sizeof *all);
+    KOKSMA__REQUIRE_MEMORY(all, pixels_of(m) * sizeof *all);
+    const koksma_status status = koksma_mask_correlation(m, &s->masks[b], all);
+    size_t largest = 0;
+    for (size_t i = 0; i < pixels_of(m) && !status; i++) {
+        largest = fabs(all[i]) > fabs(all[largest]) ? i : largest;
+    }
+    if (!status) {
+        koksma__doc_row(d);
+        koksma__doc_cells(d, "ttnnzz", s->names[a], s->names[b], all[0], all[largest], largest % (size_t)m->width,
+                          largest / (size_t)m->width);
+    }
+    free(all);
+    return status;
+}
+
+static koksma_status put_pairs(const koksma__mask_sheet *s, koksma__document *d)
+{
+    if (s->n < 2) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = KOKSMA_OK;
+    koksma__doc_section(d, "pairs", "Correlation of two masks");
+    koksma__doc_paragraph(
+        d, "At the same pixel, and the largest over all shifts of the second mask on the torus. Near 1: one is "
+           "a shifted copy of the other. Masks of other sizes or numbers have no correlation.");
+    koksma__doc_table_begin(d, "pairs");
+    koksma__doc_columns(d, "t mask;t with;n3 same pixel;n3 largest;n9 at x;n9 at y");
+    for (size_t a = 0; a < s->n; a++) {
+        for (size_t b = a + 1; b < s->n && !status; b++) {
+            const koksma_mask *m = &s->masks[a], *o = &s->masks[b];
+            if (m->width == o->width && m->height == o->height && m->space->dim == o->space->dim) {
+                status = put_pair(s, a, b, d);
+            }
+        }
+    }
+    koksma__doc_table_end(d);
+    koksma__doc_end(d);
+    return status;
+}
+
+/* ---- The sheet ------------------------------------------------------------------------------------------- */
+
+static void put_head(const koksma__mask_sheet *s, koksma__document *d)
+{
+    d->json.in_html = true;
+    koksma__json_begin_object(&d->json, NULL);
+    koksma__json_write_text(&d->json, "format", "koksma-datasheet");
+    koksma__json_write_whole(&d->json, "version", 1);
+    koksma__json_write_text(&d->json, "title", s->n > 1 ? "Datasheet of masks" : "Datasheet of a mask");
+    koksma__json_write_text(&d->json, "about", "");
+    koksma__json_write_text(&d->json, "koksma", koksma_version());
+    koksma__json_begin_array(&d->json, "samplers");
+    for (size_t i = 0; i < s->n; i++) {
+        koksma__json_write_text(&d->json, NULL, s->names[i]);
+    }
+    koksma__json_end(&d->json);
+    koksma__json_begin_array(&d->json, "content");
+}
+
+static koksma_status put_content(const koksma__mask_sheet *s, koksma__document *d)
+{
+    static koksma_status (*const sections[])(const koksma__mask_sheet *, koksma__document *) = {
+        put_errors, put_pictures, put_curves, put_pairs, koksma__mask_sheet_dither};
+    enum { SECTIONS = sizeof sections / sizeof *sections };
+    for (size_t i = 0; i < SECTIONS; i++) {
+        KOKSMA__TRY(sections[i](s, d));
+        KOKSMA__TRY(koksma__ask(s->run));
+    }
+    koksma__json_end(&d->json);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_mask_datasheet(const koksma_mask *masks, const char *const *names, size_t n,
+                                    const char *const *filters, size_t n_filters, const koksma_run *run, char **json)
+{
+    KOKSMA__REQUIRE(masks, names, filters, json);
+    KOKSMA__REQUIRE_RUN(run);
+    *json = NULL;
+    KOKSMA__FAIL_IF(n < 1 || n > KOKSMA_MAX_SHEET_MASKS, KOKSMA_ARGUMENT, "n: %zu masks; a datasheet takes 1 to %d",
+                    n, KOKSMA_MAX_SHEET_MASKS);
+    KOKSMA__FAIL_IF(n_filters < 1 || n_filters > KOKSMA_MAX_SHEET_MASKS, KOKSMA_ARGUMENT,
+                    "n_filters: %zu filters; a datasheet takes 1 to %d", n_filters, KOKSMA_MAX_SHEET_MASKS);
+    for (size_t i = 0; i < n; i++) {
+        KOKSMA__FAIL_IF(!names[i] || !masks[i].space || !masks[i].values, KOKSMA_ARGUMENT,
+                        "mask %zu: its name, space and values must not be NULL", i);
+    }
+    const double start_s = koksma__now_s();
+    koksma__mask_sheet s = {masks, names, n, filters, NULL, n_filters, run};
+    koksma__document d = {0};
+    size_t size;
+    s.filters = malloc(n_filters * sizeof *s.filters);
+    KOKSMA__REQUIRE_MEMORY(s.filters, n_filters * sizeof *s.filters);
+    koksma_status status = KOKSMA_OK;
+    for (size_t f = 0; f < n_filters && !status; f++) {
+        status = koksma_mask_filter_parse(filters[f], &s.filters[f]);
+    }
+    if (!status) {
+        put_head(&s, &d);
+        status = put_content(&s, &d);
+    }
+    if (!status) {
+        koksma__json_break(&d.json);
+        koksma__json_write_rounded(&d.json, "seconds", koksma__now_s() - start_s, 3);
+        koksma__json_end(&d.json);
+        status = koksma__json_finish(&d.json, json, &size);
+    } else {
+        koksma__json_writer_fini(&d.json);
+    }
+    free(s.filters);
+    return status;
+}
