@@ -499,6 +499,12 @@ static int run(const cli_arguments *arguments)
     char counted[24];
     size_t spps[KOKSMA_MAX_SIZES], n_spp;
     int code = parse_request(arguments, &r);
+    if (!code && cli_text(arguments, "target-error", NULL)) {
+        r.options.time_limit_s = r.time_limit_s;
+        code = cli_rank_to_error(arguments, &r.options, r.spp);
+        koksma_image_fini(&r.reference);
+        return code;
+    }
     if (!code && r.spp) {
         snprintf(counted, sizeof counted, "%llu", (unsigned long long)r.spp);
         if (strcmp(cli_text(arguments, "spp", counted), counted) != 0) {
@@ -517,6 +523,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'n', "spp", "N,..", "numbers of samples per pixel; each gets its own ranking (default: 16)"},
     {'p', "patterns", "PATTERN,..|modern|thesis|later|all", "patterns to rank, also SPEC@N (default: modern)"},
+    {0, "target-error", "ERROR", "print how many samples of each pattern leave this error, instead of a ranking"},
     {0, "size", "WxH", "image size (default: that of the scene, halved until it has at most 19,200 pixels)"},
     {0, "with", "RENDERER|mitsuba",
      "shell command of another renderer, with {scene}, {pattern}, {spp}, {seed}, {out}"},
@@ -547,7 +554,8 @@ static const cli_option options[] = {
 const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "rank patterns by the error that they leave in a scene",
-    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|modern|thesis|later|all] [--size WxH] [--one-size] "
+    .synopsis = "SCENE [--spp N,..|--target-error ERROR] [--patterns PATTERN,..|modern|thesis|later|all] [--size "
+                "WxH] [--one-size] "
                 "[--integrator INTEGRATOR] [--filter FILTER] [--depth D] [--lights all|one|power|uniform|auto] "
                 "[--scope pixel|image] [--seed S] [--reference FILE] [--adaptive METHOD] [--metric METRIC] "
                 "[--time-limit S] [--max-trials N] [--with RENDERER [--reference PATTERN]] [--filter-with "
@@ -662,11 +670,27 @@ const cli_command cli_command_rank = {
         "or malformed, or whose program fails or may not run (--allow-exec), ends the ranking before it "
         "renders.\n"
         "\n"
+        "--target-error prints how many samples of each pattern leave this error, fewest first. The errors of 1, 4, "
+        "16, "
+        "... samples, or of the next numbers that the pattern can make, are measured by 8 images each, until one is "
+        "at "
+        "most ERROR; the number is narrowed by the power law of the errors, and checked by 8 images of fresh seeds. "
+        "spp: "
+        "the number found. error, low, high: the mean error of those images with its 95 % interval, the reference's "
+        "own "
+        "error included. needed, needed_low, needed_high: where the mean error is ERROR, by the rate, the slope of "
+        "log "
+        "error against log samples. A pattern that did not get there within the time limit is 'extrapolated' by its "
+        "rate, "
+        "with an interval that follows from the rate's, or 'unknown'.\n"
+        "\n"
         "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at "
         "least\n"
-        "one; 2, 3, 4 and 130 as for all commands (koksma --help).\n",
+        "one, or with --target-error a pattern did not reach it; 2, 3, 4 and 130 as for all commands (koksma "
+        "--help).\n",
     .examples = "koksma rank ball --spp 16 -p random,n-rooks,sobol:scramble=owen\n"
                 "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"
+                "koksma rank ball --target-error 0.01 -p random,n-rooks,sobol:scramble=owen\n"
                 "koksma rank cornell --integrator path --time-limit 300\n"
                 "koksma rank balls --spp 4 --size 32x24 --metric ldr-flip\n"
                 "koksma rank glossy --spp 16 --adaptive contrast -p random,n-rooks,pmj02\n"

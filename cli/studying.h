@@ -63,6 +63,10 @@ int cli_study_audit(const cli_arguments *arguments);
 /* Prints on stderr which pattern to use or what is undecided, and how many trials were made. */
 void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking);
 
+/* Prints how many samples of each pattern leave the error of --target-error. spp: N of a pattern SPEC@N, or 0. Returns the
+   exit code. */
+int cli_rank_to_error(const cli_arguments *arguments, const koksma_rank_options *options, uint64_t spp);
+
 /* ---- `koksma rank --with` ------------------------------------------------------------------------------ */
 
 /* The command of --with, and what its first picture tells of the time. */

@@ -12,6 +12,8 @@
  *
  * A run may be interrupted at any time and in any way; the next run continues, because the database keeps finished
  * results. Results and report do not depend on the number of threads, processes or interruptions.
+ *
+ * Long because studies, rankings and searches of scenes share their patterns, references and reasons.
  */
 #ifndef KOKSMA_STUDY_H
 #define KOKSMA_STUDY_H
@@ -514,6 +516,52 @@ typedef struct koksma_ranking {
    this scene, or max_trials is out of range), MEMORY, INTERRUPTED. A time limit is not an error. */
 KOKSMA_API koksma_status koksma_rank_patterns(const koksma_rank_options *options, const koksma_run *run,
                                               koksma_rank_row *rows, koksma_ranking *out);
+
+/* What koksma_rank_to_error knows of a pattern. */
+typedef enum koksma_target_state {
+    KOKSMA_TARGET_CHECKED,      /* spp samples were found, and their error was measured by images of other seeds */
+    KOKSMA_TARGET_EXTRAPOLATED, /* the target was not reached; `needed` follows from the rate of the errors */
+    KOKSMA_TARGET_UNKNOWN,      /* the target was not reached, and the errors have no rate that leads there */
+    KOKSMA_TARGET_REFUSED,      /* the pattern cannot render this scene with these options; `reason` says why */
+} koksma_target_state;
+
+/* How many samples a pattern needs for an error. NaN marks a missing number. */
+typedef struct koksma_target_row {
+    size_t pattern; /* index into koksma_rank_options.patterns */
+    koksma_target_state state;
+    int spp; /* CHECKED: the samples per pixel, a number that the pattern can make; else 0 */
+    double error, low,
+        high; /* CHECKED: mean error of images of spp samples, corrected for the error of the reference,
+                                and its 95 % interval; else the error at the largest number that was measured */
+    double needed, needed_low,
+        needed_high; /* samples at which the mean error is the target by the rate, with its 95 %
+                                               interval: from that of the error, or if EXTRAPOLATED from that of the rate */
+    double rate,
+        rate_error;   /* slope of log error against log samples over the last levels, and its standard error (NaN
+                                with fewer than three levels) */
+    bool coherent;    /* the errors of the last images have bands or another pattern (koksma_coherence_values) */
+    long long trials; /* number of images */
+    char reason[KOKSMA_RANK_REASON]; /* if REFUSED, or UNKNOWN because the pattern makes no larger numbers */
+} koksma_target_row;
+
+typedef struct koksma_target_ranking {
+    int width, height; /* size of the images */
+    bool cut_short;    /* true: the time limit ended the work */
+    double seconds;
+} koksma_target_ranking;
+
+/* Finds how many samples per pixel of each pattern leave the error `target` in the scene. Measures the errors of 1, 4,
+   16, ... samples, or of the next numbers that the pattern can make, until one is at most the target; narrows the number by
+   the power law of the errors; and measures the error of the number found by 8 images of fresh seeds, with an interval.
+   Equal options give equal results on any number of threads, unless the time limit ends the work; no pattern changes the
+   numbers of another.
+     options  as for koksma_rank_patterns; spp, max_trials, one_size, best_only and full_reference are not used
+     target   error by options->metric, above 0
+     rows     receives options->n_patterns rows, fewest samples first
+   Errors: those of koksma_rank_patterns; ARGUMENT (target). A time limit is not an error. */
+KOKSMA_API koksma_status koksma_rank_to_error(const koksma_rank_options *options, double target,
+                                              const koksma_run *run, koksma_target_row *rows,
+                                              koksma_target_ranking *out);
 
 /* ---- A point set for a scene ------------------------------------------------------------------------------- */
 

@@ -217,6 +217,8 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_datasheet_page", c_char_p, POINTER(c_void_p))
     _declare(library, c_int, "koksma_rank_patterns", POINTER(s.RankOptions), POINTER(s.Run), POINTER(s.RankRow),
              POINTER(s.Ranking))
+    _declare(library, c_int, "koksma_rank_to_error", POINTER(s.RankOptions), c_double, POINTER(s.Run), POINTER(s.TargetRow),
+             POINTER(s.TargetRanking))
     _declare(library, c_int, "koksma_optimise_scene", POINTER(s.SceneSearch), POINTER(s.Run), POINTER(s.SceneOptimum))
     _declare(library, None, "koksma_scene_optimum_fini", POINTER(s.SceneOptimum))
     _declare(library, s.SceneCounts, "koksma_scene_count", c_void_p)

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._compare import as_image, _metric, view_image
-from ._library import ArgumentError, call, flag, in_python, lab, pair, quoted, seconds_of, text, texts, whole
+from ._library import ArgumentError, call, flag, in_python, lab, pair, quoted, real, seconds_of, text, texts, whole
 from ._points import canonical
 from ._render import _found, _scene_name
 
@@ -23,6 +23,7 @@ THESIS = ("n-rooks", "jittered", "half-jittered", "poisson-disk:d=0.2", "poisson
 _LISTS = {"modern": MODERN, "thesis": THESIS}
 _STATES = ("ranked", "too-slow", "refused")
 _DECISIONS = ("undecided", "best", "equal", "worse")
+_TARGETS = ("checked", "extrapolated", "unknown", "refused")
 _CHECKS = ("unchecked", "confirmed", "overturned", "unsettled")
 
 
@@ -125,6 +126,23 @@ class Ranking:
 
 
 @dataclass(frozen=True)
+class Target:
+    """How many samples of a pattern leave an error, as koksma.rank_to_error finds it; NaN: not known."""
+    pattern: str
+    spp: Optional[int]  #: samples a pixel, checked by images of fresh seeds; None: the target was not reached
+    error: float  #: their mean error; without spp that of the largest number that was measured
+    interval: Tuple[float, float]  #: of the error, 95 %
+    needed: float  #: samples at which the mean error is the target, by the rate
+    needed_interval: Tuple[float, float]  #: from that of the error, or of the rate where state is extrapolated
+    rate: float  #: slope of log error against log samples
+    rate_error: float  #: its standard error
+    state: str  #: checked, extrapolated (by the rate), unknown or refused
+    coherent: bool  #: the error has bands or another pattern
+    trials: int  #: images
+    reason: str  #: why it is refused
+
+
+@dataclass(frozen=True)
 class Asked:
     """A picture that a ranking asks of another renderer."""
     scene: str
@@ -182,6 +200,74 @@ class _Renderer:
         if status == 0:
             memmove(image.contents.pixels, pixels.ctypes.data, pixels.nbytes)
         return int(status)
+
+
+class _Request:
+    """The options of a ranking for the library, with all that they point to."""
+
+    def __init__(self, scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[str]], spp: SupportsIndex,
+                 size: Optional[Tuple[SupportsIndex, SupportsIndex]], integrator: Optional[str], filter: Optional[str],
+                 adaptive: Optional[str], metric: str, time_limit: Optional[float],
+                 renderer: Optional[Callable[[Asked], npt.ArrayLike]], reference: Union[str, npt.ArrayLike, None], seed: SupportsIndex,
+                 depth: Optional[SupportsIndex], lights: Optional[str], scope: Optional[str],
+                 process: Optional[Callable[[npt.NDArray[np.float32]], npt.ArrayLike]]) -> None:
+        if renderer is None and isinstance(reference, str):
+            raise ArgumentError("a pattern as reference has an effect only with renderer: Koksma's own references are of sobol:scramble=owen")
+        settings = {"scope": scope, "lights": lights, "depth": None if depth is None else whole("depth", depth, 0, s.MAX_DEPTH)}
+        variant = ";".join(f"{name}={word}" for name, word in settings.items() if word is not None)
+        if renderer is not None and variant:
+            raise ArgumentError(f"{variant.split('=')[0]} has no effect with renderer, which reads the scene and makes the images")
+        time_limit = seconds_of("time_limit", time_limit)
+        if renderer is not None and not callable(renderer):
+            raise TypeError(f"renderer must be callable, not {quoted(renderer)}")
+        if process is not None and not callable(process):
+            raise TypeError(f"process must be callable, not {quoted(process)}")
+        self.other = _Renderer(renderer, process) if renderer is not None else None
+        if isinstance(patterns, str):
+            patterns = _LISTS.get(patterns, patterns)
+        self.names = [canonical(pattern) if self.other is None else pattern for pattern in texts("patterns", patterns)]
+        if not self.names or len(set(self.names)) < len(self.names):
+            raise ArgumentError("patterns must be one or more, each once")
+        self.spec, self.metric = _metric(metric)
+        self.array = (c_char_p * len(self.names))(*[text(name, "patterns") for name in self.names])
+        self.options = options = s.RankOptions(
+            scene=text(_scene_name(scene), "scene"), patterns=self.array, n_patterns=len(self.names), time_limit_s=time_limit or 0.0,
+            spp=whole("spp", spp, 1, s.MAX_SPP), integrator=_found("integrator", "distribution" if integrator is None else integrator),
+            filter=_found("filter", "box" if filter is None else filter), metric=pointer(self.spec),
+            adaptive=None if adaptive is None else text(adaptive, "adaptive"), seed=whole("seed", seed, 0, 2**64 - 1),
+            variant=text(variant, "scope") if variant else None)
+        if size is not None:
+            width, height = pair("size", size)
+            options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
+            options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
+        if reference is not None and not isinstance(reference, str):
+            self.pixels = as_image(reference)
+            self.exact = view_image(self.pixels)
+            options.reference_image = pointer(self.exact)
+            if size is None and self.other is None:
+                options.height, options.width = self.pixels.shape[:2]
+        if self.other is not None:
+            options.render = self.other.callback
+            options.reference = text(reference, "reference") if isinstance(reference, str) else None
+        self.calls = self.other if self.other is not None or process is None else _Renderer(None, process)
+        if self.calls is not None and process is not None:
+            options.process = self.calls.processed
+
+    @property
+    def reasons(self) -> Dict[str, str]:
+        return {} if self.other is None else self.other.reasons
+
+    def call(self, function: Any, *arguments: Any, threads: SupportsIndex, run_at: int) -> None:
+        """Calls a function of the library; what a callable raised is raised again."""
+        try:
+            call(function, *arguments, threads=threads or (1 if self.calls is not None else 0), run_at=run_at)
+        except Exception as error:
+            if self.calls is not None and self.calls.raised:
+                raise self.calls.raised[0] from None
+            if self.reasons and isinstance(error, ArgumentError):  # the reference's pattern is left out
+                pattern, reason = next(iter(self.reasons.items()))
+                raise ArgumentError(f"renderer: {pattern}: {reason}") from None
+            raise
 
 
 def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[str]] = "modern", spp: SupportsIndex = 16, *,
@@ -249,61 +335,14 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
     >>> ranking.best
     'jittered'
     """
-    if renderer is None and isinstance(reference, str):
-        raise ArgumentError("a pattern as reference has an effect only with renderer: Koksma's own references are of sobol:scramble=owen")
-    settings = {"scope": scope, "lights": lights, "depth": None if depth is None else whole("depth", depth, 0, s.MAX_DEPTH)}
-    variant = ";".join(f"{name}={word}" for name, word in settings.items() if word is not None)
-    if renderer is not None and variant:
-        raise ArgumentError(f"{variant.split('=')[0]} has no effect with renderer, which reads the scene and makes the images")
-    time_limit = seconds_of("time_limit", time_limit)
-    if renderer is not None and not callable(renderer):
-        raise TypeError(f"renderer must be callable, not {quoted(renderer)}")
-    if process is not None and not callable(process):
-        raise TypeError(f"process must be callable, not {quoted(process)}")
-    other = _Renderer(renderer, process) if renderer is not None else None
-    if isinstance(patterns, str):
-        patterns = _LISTS.get(patterns, patterns)
-    names = [canonical(pattern) if other is None else pattern for pattern in texts("patterns", patterns)]
-    if not names or len(set(names)) < len(names):
-        raise ArgumentError("patterns must be one or more, each once")
-    spec, metric = _metric(metric)
-    array = (c_char_p * len(names))(*[text(name, "patterns") for name in names])
-    options = s.RankOptions(scene=text(_scene_name(scene), "scene"), patterns=array, n_patterns=len(names), one_size=flag("one_size", one_size),
-                            time_limit_s=time_limit or 0.0, spp=whole("spp", spp, 1, s.MAX_SPP),
-                            max_trials=whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS),
-                            integrator=_found("integrator", "distribution" if integrator is None else integrator),
-                            filter=_found("filter", "box" if filter is None else filter), metric=pointer(spec),
-                            adaptive=None if adaptive is None else text(adaptive, "adaptive"),
-                            seed=whole("seed", seed, 0, 2**64 - 1), variant=text(variant, "scope") if variant else None)
-    if size is not None:
-        width, height = pair("size", size)
-        options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
-        options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
-    if reference is not None and not isinstance(reference, str):
-        pixels = as_image(reference)
-        exact = view_image(pixels)
-        options.reference_image = pointer(exact)
-        if size is None and other is None:
-            options.height, options.width = pixels.shape[:2]
-    if other is not None:
-        options.render = other.callback
-        options.reference = text(reference, "reference") if isinstance(reference, str) else None
-    calls = other if other is not None or process is None else _Renderer(None, process)
-    if calls is not None:
-        threads = threads or 1
-        if process is not None:
-            options.process = calls.processed
-    rows, out = (s.RankRow * len(names))(), s.Ranking()
-    try:
-        call(lab().koksma_rank_patterns, byref(options), rows, byref(out), threads=threads, run_at=1)
-    except Exception as error:
-        if calls is not None and calls.raised:
-            raise calls.raised[0] from None
-        if other is not None and other.reasons and isinstance(error, ArgumentError):  # the reference's pattern is left out
-            pattern, reason = next(iter(other.reasons.items()))
-            raise ArgumentError(f"renderer: {pattern}: {reason}") from None
-        raise
-    reasons: Dict[str, str] = {} if other is None else other.reasons
+    asked = _Request(scene, patterns, spp, size, integrator, filter, adaptive, metric, time_limit, renderer, reference, seed, depth, lights,
+                     scope, process)
+    asked.options.one_size = flag("one_size", one_size)
+    asked.options.max_trials = whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS)
+    names, options, out = asked.names, asked.options, s.Ranking()
+    rows = (s.RankRow * len(names))()
+    asked.call(lab().koksma_rank_patterns, byref(options), rows, byref(out), threads=threads, run_at=1)
+    reasons, other = asked.reasons, renderer
     undecided = not out.settled
     return Ranking(
         rows=[Ranked(names[r.pattern], r.position or None, _STATES[r.state], _DECISIONS[r.decision], r.trials, r.mean,
@@ -318,9 +357,53 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
         needed_seconds=out.needed_s or None if undecided else None, size=(out.width, out.height),
         reference_error=out.reference_error, seconds=out.seconds,
         advised=names[rows[out.advised_row].pattern] if out.advised else None,
-        checks=tuple(_check(c, names) for c in out.checks), metric=metric,
+        checks=tuple(_check(c, names) for c in out.checks), metric=asked.metric,
         undecidable=out.undecidable, use=names[rows[out.use_row].pattern], spp=int(options.spp), random_spp=out.random_spp,
         random_spp_interval=(out.random_spp_low, out.random_spp_high))
+
+
+def rank_to_error(scene: Union[str, "os.PathLike[str]"], target_error: float, patterns: Union[str, Sequence[str]] = "modern", *,
+                  size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
+                  filter: Optional[str] = None, adaptive: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60,
+                  threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
+                  reference: Union[str, npt.ArrayLike, None] = None, seed: SupportsIndex = 0, depth: Optional[SupportsIndex] = None,
+                  lights: Optional[str] = None, scope: Optional[str] = None,
+                  process: Optional[Callable[[npt.NDArray[np.float32]], npt.ArrayLike]] = None) -> List[Target]:
+    """How many samples a pixel of each pattern leave an error in a scene, as `koksma rank --target-error` finds it.
+
+    The errors of 1, 4, 16, ... samples are measured by 8 images each until one is at most the target; the number is narrowed by
+    the power law of the errors, and checked by 8 images of fresh seeds.
+
+    Parameters
+    ----------
+    scene, patterns, size, integrator, filter, adaptive, metric, threads, renderer, reference, seed, depth, lights, scope, process
+        As of `rank`.
+    target_error : float
+        The mean of `metric` over images, above 0.
+    time_limit : float or None
+        Seconds, None for none. It ends the work; what is not reached then is extrapolated by the rate of the errors.
+
+    Returns
+    -------
+    list of Target
+        Fewest samples first.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> first, last = koksma.rank_to_error("ball", 0.02, ["random", "jittered"], size=(32, 24))
+    >>> first.pattern, last.spp > first.spp, last.interval[0] < last.error < last.interval[1]
+    ('jittered', True, True)
+    """
+    asked = _Request(scene, patterns, 1, size, integrator, filter, adaptive, metric, time_limit, renderer, reference, seed, depth, lights,
+                     scope, process)
+    rows, out = (s.TargetRow * len(asked.names))(), s.TargetRanking()
+    asked.call(lab().koksma_rank_to_error, byref(asked.options), real("target_error", target_error), rows, byref(out), threads=threads,
+               run_at=2)
+    return [Target(asked.names[r.pattern], r.spp or None, r.error, (r.low, r.high), r.needed, (r.needed_low, r.needed_high), r.rate,
+                   r.rate_error, _TARGETS[r.state], r.coherent, r.trials,
+                   asked.reasons.get(asked.names[int(r.pattern)], in_python(r.reason.decode(errors="replace"))))
+            for r in rows]
 
 
 def _result(result: s.RankCheckResult, names: Sequence[str]) -> FirstPlace:

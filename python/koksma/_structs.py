@@ -440,6 +440,16 @@ class Ranking(Structure):
                 ("random_spp", c_double), ("random_spp_low", c_double), ("random_spp_high", c_double)]
 
 
+class TargetRow(Structure):
+    _fields_ = [("pattern", c_size_t), ("state", c_int), ("spp", c_int), ("error", c_double), ("low", c_double), ("high", c_double),
+                ("needed", c_double), ("needed_low", c_double), ("needed_high", c_double), ("rate", c_double), ("rate_error", c_double),
+                ("coherent", c_bool), ("trials", c_longlong), ("reason", c_char * RANK_REASON)]
+
+
+class TargetRanking(Structure):
+    _fields_ = [("width", c_int), ("height", c_int), ("cut_short", c_bool), ("seconds", c_double)]
+
+
 #: Header, C name and value of the limits above.
 CONSTANTS = [
     ("koksma.h", "KOKSMA_MAX_PARAMS", MAX_PARAMS), ("koksma.h", "KOKSMA_MAX_MODIFIERS", MAX_MODIFIERS), ("koksma.h", "KOKSMA_MAX_SPEC", MAX_SPEC),
@@ -493,6 +503,7 @@ LAYOUTS = [
     ("study.h", "koksma_rank_options", RankOptions), ("study.h", "koksma_rank_row", RankRow),
     ("study.h", "koksma_rank_check_result", RankCheckResult),
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),
+    ("study.h", "koksma_target_row", TargetRow), ("study.h", "koksma_target_ranking", TargetRanking),
     ("study.h", "koksma_scene_gain", SceneGain), ("study.h", "koksma_scene_optimum", SceneOptimum),
     ("study.h", "koksma_scene_search", SceneSearch), ("study.h", "koksma_images_row", ImagesRow),
     ("render.h", "koksma_scene_counts", SceneCounts), ("render.h", "koksma_scene_part", ScenePart),

@@ -51,6 +51,7 @@ VALID = {
     "koksma_export_format": "KOKSMA_EXPORT_CSV", "koksma_study_row *": "a_buffer(sizeof(koksma_study_row))", "_Bool *": "a_buffer(sizeof(bool))",
     "koksma_images_row **": "a_buffer(sizeof(void *))", "koksma_rank_options *": "rank_options()",
     "koksma_rank_row *": "a_buffer(2 * sizeof(koksma_rank_row))", "koksma_ranking *": "a_buffer(sizeof(koksma_ranking))",
+    "koksma_target_row *": "a_buffer(2 * sizeof(koksma_target_row))", "koksma_target_ranking *": "a_buffer(sizeof(koksma_target_ranking))",
     "koksma_verify_sets.sets": "many_sets()", "koksma_verify_sets.n_sets": "KOKSMA_VERIFY_SETS",
     "koksma_findings *": "a_buffer(sizeof(koksma_findings))", "koksma_identities *": "a_buffer(sizeof(koksma_identities))",
     "koksma_identity *": "a_zero(sizeof(koksma_identity))",
@@ -195,7 +196,9 @@ ALLOWED = [
     r"koksma_study_audit options->(rows = LLONG_MAX|rows = 0|differs.*) .*", r"koksma_text_escape (size|text) = .*", r"koksma_optimise options->(steps|seed|first) = .*",
     r"koksma_optimise options->(projections = NULL|n_projections = 0|weights = NULL|processes = NULL|power = NULL|rings = 0) .*",
     r"koksma_rank_by_command picture->(scene|pattern) = (\"|long_text).*", r"koksma_rank_by_command picture->(spp|width|height|seed) = .*",  # its affair
-    r"koksma_rank_patterns options->(render|render_context|reference|reference_image|process|process_context|variant) = .*",
+    r"koksma_rank_to_error options->(width = 0|height = 0|integrator = NULL|filter = NULL|adaptive = NULL|metric = NULL|time_limit_s = (INFINITY|0|1e308)) .*",
+    r"koksma_rank_to_error (target = 1e308|options->(spp|max_trials) = ).*",
+    r"koksma_rank_(patterns|to_error) options->(render|render_context|reference|reference_image|process|process_context|variant) = .*",
     r"koksma_optimise_scene options->(candidates|phases|n_held_out|held_out|against) = (0|NULL) .*",
     r"koksma_datasheet options->(beside = NULL|scenes = NULL|n_beside = 0|n_scenes = 0|metric = NULL) .*",
     r"koksma_estimate_integral values.*",

@@ -64,7 +64,7 @@ OPTIONS = {
                "strata": "a drawing of one pixel for who develops an adaptive method, which is done in C"},
     "scene": {"check": "check_scene"},
     "compare": {"metric": "compare(metrics)", "reference": "compare(reference)", "output": "the difference of two arrays", "max-mean": "Comparison"},
-    "rank": {"spp": "rank(spp)", "patterns": "rank(patterns)", "size": "rank(size)", "with": "rank(renderer)",
+    "rank": {"spp": "rank(spp)", "target-error": "rank_to_error(target_error)", "patterns": "rank(patterns)", "size": "rank(size)", "with": "rank(renderer)",
              "reference": "rank(reference)", "one-size": "rank(one_size)", "integrator": "rank(integrator)", "filter": "rank(filter)",
              "adaptive": "rank(adaptive)", "metric": "rank(metric)", "time-limit": "rank(time_limit)", "max-trials": "rank(max_trials)",
              "depth": "rank(depth)", "lights": "rank(lights)", "scope": "rank(scope)", "seed": "rank(seed)", "filter-with": "rank(process)"},

@@ -11,10 +11,10 @@
 #include <koksma/estimate.h>
 #include <koksma/series.h>
 
-#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/sum.h"
+#include "stats/stats.h"
 
 enum {
     REPLICATES = 15,
@@ -153,18 +153,11 @@ static void predict(const job *j, koksma_tolerance *t)
     }
     t->rate = line.slope;
     t->rate_error = line.slope_error;
-    const double tolerance = tolerance_of(j->options, &t->steps[t->n_steps - 1].estimate);
-    const double half = koksma_student_975(line.count - 2) * line.slope_error,
-                 decades = koksma__log(tolerance / errors[count - 1]);
-    if (tolerance > 0 && errors[count - 1] > 0 && line.slope < 0) {
-        t->needed = points[count - 1] * koksma__exp(decades / line.slope);
-        const double fast = points[count - 1] * koksma__exp(decades / (line.slope - half)),
-                     slow = line.slope + half < 0 ? points[count - 1] * koksma__exp(decades / (line.slope + half))
-                            : decades < 0         ? (double)INFINITY
-                                                  : 0;
-        t->needed_low = fmin(fast, slow);
-        t->needed_high = fmax(fast, slow);
-    }
+    const koksma__estimate needed = koksma__reach(&line, points[count - 1], errors[count - 1],
+                                                  tolerance_of(j->options, &t->steps[t->n_steps - 1].estimate));
+    t->needed = needed.value;
+    t->needed_low = needed.low;
+    t->needed_high = needed.high;
 }
 
 /* The number of steps that the limits allow, or 0 after an error. */

@@ -67,6 +67,19 @@ bool koksma_log_line(size_t n, const double *xs, const double *ys, koksma_line *
     return true;
 }
 
+koksma__estimate koksma__reach(const koksma_line *line, double x, double y, double target)
+{
+    if (!(y > 0 && target > 0 && line->slope < 0)) {
+        return (koksma__estimate){NAN, NAN, NAN};
+    }
+    const double half = koksma_student_975(line->count - 2) * line->slope_error, way = koksma__log(target / y);
+    const double fast = x * koksma__exp(way / (line->slope - half)),
+                 slow = line->slope + half < 0 ? x * koksma__exp(way / (line->slope + half))
+                        : way < 0              ? (double)INFINITY
+                                               : 0;
+    return (koksma__estimate){x * koksma__exp(way / line->slope), fmin(fast, slow), fmax(fast, slow)};
+}
+
 /* Fits a line by least squares in two passes: first the means by updates (Welford 1962), then sums of squares and
    products about the means. Unlike sums of raw squares, these lose no digits if the means are large. The caller
    stores the pairs and omits those with NaN. */

@@ -43,6 +43,16 @@ KOKSMA__LAB void koksma__fit_add(koksma__fit *fit, double x, double y, double we
    */
 KOKSMA__LAB double koksma__fit_slope(const koksma__fit *fit);
 
+/* An estimate with its 95 % interval. */
+typedef struct koksma__estimate {
+    double value, low, high;
+} koksma__estimate;
+
+/* Returns the x at which the power law of the line's slope through (x, y) reaches `target`, with the interval that
+   follows from the slope's. NaN unless y and target are above 0 and the slope below; if the slope may be 0, an end is
+   infinite, or 0. */
+KOKSMA__LAB koksma__estimate koksma__reach(const koksma_line *line, double x, double y, double target);
+
 /* Returns the standard error of the slope of log means[i] against log sizes[i] from the spread of two or more trials.
    log_errors: NULL, or the standard errors of the log means[i], whose correlations then come from the trials. Means
    that are not positive and finite are left out. */
@@ -106,11 +116,6 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
 /* Takes the largest value of each complete block of `block` values, and computes the mean and the sample SD of these
    maxima. The SD is NaN for fewer than two blocks. */
 void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd);
-
-/* An estimate with its 95 % interval. */
-typedef struct koksma__estimate {
-    double value, low, high;
-} koksma__estimate;
 
 /* Returns the factor by which the number of trials must grow so that a test at the 5 % level detects the difference
    of two means with a probability of 80 %, if standard errors decrease as trials^-1/2. half: half the width of the

@@ -246,17 +246,23 @@ static const char *reference_pattern(const koksma_rank_options *options)
     return !options->render ? "sobol:scramble=owen" : options->reference ? options->reference : options->patterns[0];
 }
 
+koksma_status koksma__contest_make_reference(const koksma_rank_options *options, const koksma__study_scene *scene,
+                                             const char *variant, int stage, const koksma_run *run,
+                                             koksma__rank_reference *reference)
+{
+    return options->reference_image
+               ? koksma__rank_reference_take(reference, options->metric, scene, options->reference_image)
+               : koksma__rank_reference_init(reference, options->metric, scene, reference_pattern(options), variant,
+                                             options->spp, stage, run);
+}
+
 /* Makes the reference of a stage, unless it has been made. */
 static koksma_status make_reference(koksma__contest *c, int stage)
 {
-    const koksma_rank_options *options = c->options;
-    koksma__rank_reference *reference = &c->references[stage];
-    return reference->pixels ? KOKSMA_OK
-           : options->reference_image
-               ? koksma__rank_reference_take(reference, options->metric, &c->scene, options->reference_image)
-               : koksma__rank_reference_init(reference, options->metric, &c->scene, reference_pattern(options),
-                                             c->variant, options->spp, koksma__contest_stage(options, stage),
-                                             &c->control->run);
+    return c->references[stage].pixels ? KOKSMA_OK
+                                       : koksma__contest_make_reference(c->options, &c->scene, c->variant,
+                                                                        koksma__contest_stage(c->options, stage),
+                                                                        &c->control->run, &c->references[stage]);
 }
 
 static koksma_status do_round(koksma__contest *c, int round, const size_t *active, size_t n_active)

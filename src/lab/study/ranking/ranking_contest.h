@@ -80,6 +80,11 @@ static inline int koksma__contest_stage(const koksma_rank_options *options, int 
     return options->full_reference ? KOKSMA__RANK_STAGES - 1 : i;
 }
 
+/* Makes the reference of a stage, or takes that of the options. Errors: those of ranking_reference.h. */
+koksma_status koksma__contest_make_reference(const koksma_rank_options *options, const koksma__study_scene *scene,
+                                             const char *variant, int stage, const koksma_run *run,
+                                             koksma__rank_reference *reference);
+
 /* The errors of contestant i's trials so far: those of all complete rounds or, before round 0 is complete, of the
    first trials without a gap. Without any trial, n is 0. */
 koksma__rank_errors koksma__contest_errors(const koksma__contest *contest, size_t i);
