@@ -12,8 +12,12 @@
 #include "cli.h"
 #include "rendering.h"
 
+/* MAP_BYTES: what a pixel of an error map takes: sums of two doubles and two floats for each of 3 channels. */
+enum { REPLICATES = 8, MAP_BYTES = 3 * (2 * sizeof(double) + 2 * sizeof(float)) };
+
+/* replicates: NULL without --error-map. */
 static int put_row(const cli_arguments *arguments, const koksma_render_options *options, const cli_adaptive *adaptive,
-                   uint64_t rays, double seconds)
+                   const koksma_replicates *replicates, uint64_t rays, double seconds)
 {
     const koksma_adaptive *method = adaptive->options.method;
     static char pattern[KOKSMA_MAX_PATTERNS_TEXT];
@@ -25,6 +29,15 @@ static int put_row(const cli_arguments *arguments, const koksma_render_options *
     cli_row_whole(rows, "width", (uint64_t)options->width);
     cli_row_whole(rows, "height", (uint64_t)options->height);
     cli_adaptive_put(rows, adaptive, (double)options->width * options->height);
+    if (replicates) {
+        cli_row_whole(rows, "replicates", replicates->replicates);
+        cli_row_number(rows, "mean", replicates->mean);
+        cli_row_number(rows, "mean_low", replicates->mean_low);
+        cli_row_number(rows, "mean_high", replicates->mean_high);
+        cli_row_number(rows, "rmse", replicates->rmse);
+        cli_row_number(rows, "rmse_low", replicates->rmse_low);
+        cli_row_number(rows, "rmse_high", replicates->rmse_high);
+    }
     cli_row_whole(rows, "rays", rays);
     cli_row_number(rows, "seconds", seconds);
     cli_row_end(rows);
@@ -96,7 +109,10 @@ static bool file_at(const cli_arguments *arguments, const cli_adaptive *adaptive
     const char *output = cli_text(arguments, "output", ""), *strata = adaptive->strata_path;
     const struct {
         const char *name, *path;
-    } own[] = {{"-o", output}, {"--counts", cli_text(arguments, "counts", "")}, {"--strata", strata ? strata : ""}};
+    } own[] = {{"-o", output},
+               {"--counts", cli_text(arguments, "counts", "")},
+               {"--strata", strata ? strata : ""},
+               {"--error-map", cli_text(arguments, "error-map", "")}};
     const int n = sizeof own / sizeof *own, layers = koksma_image_has_layers(output) ? 0 : aovs->n;
     if (i < n) {
         snprintf(option, 64, "%s", own[i].name);
@@ -148,7 +164,7 @@ static koksma_status write_image(const cli_arguments *arguments, const koksma_sc
     koksma_layer all[sizeof own / sizeof *own + KOKSMA_MAX_AOVS];
     const char *output = cli_text(arguments, "output", "");
     const bool layered = koksma_image_has_layers(output);
-    size_t n = layered || (layers->albedo.pixels && !aovs->n) ? sizeof own / sizeof *own : 1;
+    size_t n = layers->albedo.pixels && (layered || !aovs->n) ? sizeof own / sizeof *own : 1;
     koksma_status status = KOKSMA_OK;
     memcpy(all, own, sizeof own);
     describe(arguments, scene, options, adaptive, metadata, sizeof metadata);
@@ -184,7 +200,9 @@ static bool announce_size(const cli_arguments *arguments, const koksma_scene *sc
     const koksma_render_size size = koksma_render_size_of(scene, options, layers);
     const uint64_t first =
         size.film + size.samples + (adaptive->method ? koksma_adaptive_size_of(options, adaptive) : 0) +
-        (uint64_t)options->width * (uint64_t)options->height * (uint64_t)aovs->n * 3 * sizeof(float);
+        (uint64_t)options->width * (uint64_t)options->height * (uint64_t)aovs->n * 3 * sizeof(float) +
+        (cli_text(arguments, "error-map", NULL) ? (uint64_t)options->width * (uint64_t)options->height * MAP_BYTES
+                                                : 0);
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     const uint64_t machine = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : UINT64_MAX;
     if (first > machine) {
@@ -200,6 +218,73 @@ static bool announce_size(const cli_arguments *arguments, const koksma_scene *sc
                 options->width, options->height, in_gib(first), in_gib(size.file), cli_text(arguments, "output", ""));
     }
     return true;
+}
+
+/* Reads --replicates, and refuses what has no error map. Returns false after an error; *replicates is 0 without
+   --error-map. */
+static bool parse_error_map(const cli_arguments *arguments, uint64_t *replicates)
+{
+    static const char *const without[] = {"adaptive", "aov"};
+    const char *path = cli_text(arguments, "error-map", NULL);
+    *replicates = 0;
+    if (!path && cli_text(arguments, "replicates", NULL)) {
+        cli_usage_error(arguments, "--replicates has an effect only with --error-map");
+        return false;
+    }
+    for (size_t i = 0; path && i < sizeof without / sizeof *without; i++) {
+        if (cli_text(arguments, without[i], NULL)) {
+            cli_usage_error(arguments, "--error-map excludes --%s: it is for images with equal samples in all pixels",
+                            without[i]);
+            return false;
+        }
+    }
+    if (path && koksma_image_check_path(path)) {
+        cli_fail(arguments, KOKSMA_ARGUMENT);
+        return false;
+    }
+    return !path || cli_whole(arguments, "replicates", REPLICATES, 3, KOKSMA_MAX_REPLICATES, replicates);
+}
+
+/* Writes the map of --error-map; in files of 8 bits white is the largest error. */
+static koksma_status write_map(const char *path, koksma_image *map, const char *metadata)
+{
+    const size_t values = (size_t)map->width * (size_t)map->height * (size_t)map->channels;
+    float largest = 0;
+    for (size_t v = 0; v < values; v++) {
+        largest = map->pixels[v] > largest ? map->pixels[v] : largest;
+    }
+    for (size_t v = 0; v < values && cli_has_eight_bits(path) && largest > 0; v++) {
+        map->pixels[v] /= largest;
+    }
+    return koksma_image_write(path, map, metadata);
+}
+
+/* Renders the mean of several images and its map of errors. Returns the exit code. */
+static int render_map(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options,
+                      const cli_adaptive *adaptive, size_t count)
+{
+    static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC];
+    koksma_replicates replicates;
+    cli_work work;
+    if (!cli_work_begin(arguments, "rendering", &work)) {
+        return CLI_USAGE;
+    }
+    const double start = cli_seconds();
+    koksma_status status = koksma_render_replicates(scene, options, count, &work.run, &replicates);
+    const double seconds = cli_seconds() - start;
+    cli_work_end();
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    describe(arguments, scene, options, &adaptive->options, metadata, sizeof metadata);
+    const size_t used = strlen(metadata);
+    snprintf(metadata + used, sizeof metadata - used, " replicates=%zu", count);
+    status = koksma_image_write(cli_text(arguments, "output", ""), &replicates.image, metadata);
+    status = status ? status : write_map(cli_text(arguments, "error-map", ""), &replicates.error, metadata);
+    const int code = status ? cli_fail(arguments, status)
+                            : put_row(arguments, options, adaptive, &replicates, replicates.rays, seconds);
+    koksma_replicates_fini(&replicates);
+    return code;
 }
 
 static int render(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options,
@@ -232,7 +317,7 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
         return koksma_status_exit_code(status);
     }
     return status || written ? cli_fail(arguments, status ? status : written)
-                             : put_row(arguments, options, adaptive, layers.rays, seconds);
+                             : put_row(arguments, options, adaptive, NULL, layers.rays, seconds);
 }
 
 /* Applies the options --sky and --environment to the scene. Returns false after an error and sets *code to the exit
@@ -296,12 +381,14 @@ static int run(const cli_arguments *arguments)
         return cli_fail(arguments, status);
     }
     int code = CLI_USAGE;
+    uint64_t replicates;
     koksma_render_options_init(&options, scene);
     if (set_sky(arguments, scene, &code) && cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) &&
         cli_size(arguments, &options.width, &options.height) && cli_sampling_options(arguments, &options) &&
         cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code) &&
         cli_adaptive_options(arguments, &adaptive, &code) &&
-        parse_aovs(arguments, &options, &adaptive, &aovs, &code) && check_files(arguments, &adaptive, &aovs)) {
+        parse_aovs(arguments, &options, &adaptive, &aovs, &code) && parse_error_map(arguments, &replicates) &&
+        check_files(arguments, &adaptive, &aovs)) {
         if (!cli_flag(arguments, "quiet")) {
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_warn_unused(arguments, arguments->operands[0], scene, &options);
@@ -309,7 +396,8 @@ static int run(const cli_arguments *arguments)
         code = try_files(arguments, &adaptive, &aovs);
         code = code ? code
                : announce_size(arguments, scene, &options, &adaptive.options, &aovs)
-                   ? render(arguments, scene, &options, &adaptive, &aovs)
+                   ? replicates ? render_map(arguments, scene, &options, &adaptive, (size_t)replicates)
+                                : render(arguments, scene, &options, &adaptive, &aovs)
                    : koksma_status_exit_code(KOKSMA_MEMORY);
     }
     koksma_scene_close(scene);
@@ -328,6 +416,9 @@ static const cli_option options[] = {
     {0, "environment", "FILE", "light from an environment map in latitude and longitude, multiplied by --sky"},
     {0, "aov", "LIST",
      "further layers: direct, indirect, bounce:N, id, half; in the .exr, or in files such as IMAGE.direct.png"},
+    {0, "error-map", "FILE",
+     "write the standard error of each pixel, from independent images; -o then has their mean"},
+    {0, "replicates", "R", "with --error-map: number of images, 3 to 100000 (default: 8)"},
     {'o', "output", "FILE", "the image file, {image-formats}; an .exr has all layers"},
     CLI_UNKNOWN_OPTION,
     CLI_SAMPLING_OPTIONS,
@@ -364,10 +455,20 @@ const cli_command cli_command_render = {
         "in black. half gives two layers, half-even and half-odd: the means of the samples with even and with odd "
         "index (-n 2 or more, or --adaptive). Two options can't write one file.\n"
         "\n"
+        "--error-map renders R images of SPP samples with the seeds S, S + 1, ..., S + R - 1: -o is their mean, and "
+        "FILE its standard error, in each pixel and channel the standard deviation of the images divided by sqrt R "
+        "(a "
+        ".png or .jpg is scaled so that the largest is white). mean: luminance of the picture, with its 95 % "
+        "interval "
+        "by Student's t over the images. rmse: the root mean square error of the picture, from the spread of the "
+        "images, likewise. The patterns must be random and unbiased, since no spread shows the error of others. An "
+        "interrupted one writes nothing.\n"
+        "\n"
         "A render that is interrupted (Ctrl-C) writes the pixels that are done, with 0 in the others, also over an "
         "older image, and ends with exit code 130.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
+                "koksma render ball -p random -n 16 --error-map error.exr -o ball.exr\n"
                 "koksma render cornell --integrator path --aov direct,indirect -o parts.exr\n"
                 "koksma render cornell --integrator path --filter mitchell --splat -o c.exr\n"
                 "koksma render glossy --adaptive hierarchical --counts counts.png -o glossy.exr\n",

@@ -318,6 +318,34 @@ KOKSMA_API koksma_status koksma_render_layers(const koksma_scene *scene, const k
 KOKSMA_API koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_options *options,
                                             const koksma_run *run, koksma_layers *out);
 
+/* The mean of independent renders of one scene, with its standard errors. `image` and `error` have the same shape. */
+typedef struct koksma_replicates {
+    koksma_image image; /* mean of the replicates, in linear light */
+    koksma_image
+        error; /* standard error of each value of `image`: the standard deviation of the replicates, divided by
+                           sqrt R; it is an estimate from R values itself, with an error of 1 / sqrt(2 R - 2) of it */
+    size_t replicates;
+    uint64_t rays;
+    double mean, mean_low, mean_high; /* luminance of the picture, the mean over its pixels, and its 95 % interval by
+                                         Student's t over the replicates */
+    double rmse, rmse_low,
+        rmse_high; /* root mean square error of the luminance of `image`, estimated from the spread of
+                                         the replicates, and its 95 % interval by Student's t; NaN where there is none */
+} koksma_replicates;
+
+enum { KOKSMA_MAX_REPLICATES = 100000 };
+
+/* Renders `replicates` images of options->spp samples with the seeds options->seed, options->seed + 1, ..., each as
+   koksma_render, and allocates the images of *out. Memory: 16 bytes for each value of the image beside one render.
+     replicates  3 to KOKSMA_MAX_REPLICATES
+   Errors: those of koksma_render; ARGUMENT (the number; a use whose pattern has one set, or is not known to be unbiased:
+   replicates don't show its error). */
+KOKSMA_API koksma_status koksma_render_replicates(const koksma_scene *scene, const koksma_render_options *options,
+                                                  size_t replicates, const koksma_run *run, koksma_replicates *out);
+
+/* Frees the images and zeroes the struct. replicates may be NULL, or zeroed. */
+KOKSMA_API void koksma_replicates_fini(koksma_replicates *replicates);
+
 /* Further images of a render (arbitrary output variables). All but "id" have as many channels as the image. Light
    that was reflected or refracted r times, mirrors and glass included, is in "bounce:r", with r from 0 (light sources
    that the camera sees directly) to KOKSMA_MAX_DEPTH + 1; ambient light and the indirect light of an irradiance cache

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Studies evaluate all combinations of patterns with measures, and of patterns with scenes, over many trials. The
- * results are in DIR/results.sqlite, the report in DIR/report.html. Part of libkoksma-lab.
+ * results are in DIR/results.sqlite, the report in DIR/report.html. Part of libkoksma-lab. Long because studies, rankings
+ * and searches of scenes share their patterns, references and reasons.
  *
  *     const char *plans[] = {"shirley1991"};
  *     const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = "out"};
@@ -12,8 +13,6 @@
  *
  * A run may be interrupted at any time and in any way; the next run continues, because the database keeps finished
  * results. Results and report do not depend on the number of threads, processes or interruptions.
- *
- * Long because studies, rankings and searches of scenes share their patterns, references and reasons.
  */
 #ifndef KOKSMA_STUDY_H
 #define KOKSMA_STUDY_H

@@ -210,6 +210,8 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_aovs_parse", c_char_p, aovs)
     _declare(library, c_int, "koksma_render_aovs", c_void_p, options, POINTER(s.Run), aovs, POINTER(s.Layers))
     _declare(library, None, "koksma_aovs_fini", aovs)
+    _declare(library, c_int, "koksma_render_replicates", c_void_p, options, c_size_t, POINTER(s.Run), POINTER(s.Replicates))
+    _declare(library, None, "koksma_replicates_fini", POINTER(s.Replicates))
     _declare(library, c_int, "koksma_adaptive_parse", c_char_p, POINTER(s.AdaptiveOptions))
     _declare(library, c_int, "koksma_render_adaptive", c_void_p, options, POINTER(s.AdaptiveOptions), POINTER(s.Run),
              POINTER(s.Layers), POINTER(s.AdaptiveReport))

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import os
 import warnings
+from contextlib import contextmanager
 from ctypes import byref, c_void_p, create_string_buffer, pointer
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
+from typing import Any, Dict, Iterator, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -219,6 +220,74 @@ class Layers:
                 f"pixel, {self.rays} rays)")
 
 
+@dataclass(frozen=True, eq=False)
+class Replicates:
+    """The mean of independent images with its standard errors.
+
+    Attributes
+    ----------
+    image, error : ndarray of shape (height, width, channels)
+        The mean, in linear light, and its standard error: the standard deviation of the images divided by the root of their
+        number, itself an estimate with a relative error of 1 / sqrt(2 replicates - 2).
+    replicates, rays : int
+    mean, mean_interval : float, (low, high)
+        Luminance of the picture, the mean over its pixels; 95 %, by Student's t over the images.
+    rmse, rmse_interval : float, (low, high)
+        Root mean square error of the luminance of `image`, from the spread of the images; likewise.
+    """
+
+    image: npt.NDArray[np.float32]
+    error: npt.NDArray[np.float32]
+    replicates: int
+    rays: int
+    mean: float
+    mean_interval: Tuple[float, float]
+    rmse: float
+    rmse_interval: Tuple[float, float]
+
+    def __repr__(self) -> str:
+        height, width, _ = self.image.shape
+        return (f"Replicates({width} x {height} pixels, mean of {self.replicates} images, rmse {self.rmse:.3g} in "
+                f"[{self.rmse_interval[0]:.3g}, {self.rmse_interval[1]:.3g}])")
+
+
+@contextmanager
+def _opened(scene: Union[str, "os.PathLike[str]"], pattern: str, spp: SupportsIndex, size: Optional[Tuple[SupportsIndex, SupportsIndex]],
+            seed: SupportsIndex, pairing: str, scope: str, lights: str, integrator: Optional[str], depth: Optional[SupportsIndex],
+            filter: Optional[str], splat: bool, sky: Optional[float],
+            environment: Union[str, "os.PathLike[str]", None]) -> Iterator[Tuple[c_void_p, s.RenderOptions]]:
+    """An open scene, with the options of a render."""
+    handle, options = c_void_p(), s.RenderOptions()
+    splat = flag("splat", splat)
+    choices: Dict[str, int] = {"pairing": _choice("pairing", "pairing", pairing), "scope": _choice("scope", "scope", scope),
+                               "lights": _choice("lights", "light_selection", lights)}
+    spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
+    check(lab().koksma_scene_open(text(_scene_name(scene), "scene"), byref(handle)))
+    try:
+        if sky is not None or environment is not None:
+            check(lab().koksma_scene_set_sky(handle, None if environment is None else text(environment, "environment"),
+                                             1.0 if sky is None else real("sky", sky, nan_too=True)))
+        lab().koksma_render_options_init(byref(options), handle)
+        options.spp, options.seed = spp, seed
+        check(lab().koksma_render_patterns(text(pattern, "pattern"), byref(options)))
+        for name, value in choices.items():
+            setattr(options, name, value)
+        if size is not None:
+            width, height = pair("size", size)
+            options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
+            options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
+        if integrator is not None:
+            options.integrator = _found("integrator", integrator)
+        if filter is not None:
+            options.filter = _found("filter", filter)
+        if depth is not None:
+            options.depth = whole("depth", depth, 0, s.MAX_DEPTH)
+        options.splat = splat
+        yield handle, options
+    finally:
+        lab().koksma_scene_close(handle)
+
+
 @overload
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
@@ -304,65 +373,40 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     >>> bool(abs(parts.aovs["direct"] + parts.aovs["indirect"] - parts.image).max() < 1e-5)
     True
     """
-    handle, options, image, every, report = c_void_p(), s.RenderOptions(), s.Image(), s.Layers(), s.AdaptiveReport()
-    further = s.Aovs()
-    aov, splat = texts("aov", aov), flag("splat", splat)
+    image, every, report, further = s.Image(), s.Layers(), s.AdaptiveReport(), s.Aovs()
+    aov = texts("aov", aov)
     if not flag("layers", layers) and aov:
         raise ArgumentError("aov needs layers=True")
     if aov:
         check(lab().koksma_aovs_parse(text(",".join(aov), "aov"), byref(further)))
-    choices: Dict[str, int] = {"pairing": _choice("pairing", "pairing", pairing), "scope": _choice("scope", "scope", scope),
-                               "lights": _choice("lights", "light_selection", lights)}
-    spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
-    check(lab().koksma_scene_open(text(_scene_name(scene), "scene"), byref(handle)))
-    try:
-        if sky is not None or environment is not None:
-            check(lab().koksma_scene_set_sky(handle, None if environment is None else text(environment, "environment"),
-                                             1.0 if sky is None else real("sky", sky, nan_too=True)))
-        lab().koksma_render_options_init(byref(options), handle)
-        options.spp, options.seed = spp, seed
-        check(lab().koksma_render_patterns(text(pattern, "pattern"), byref(options)))
-        for name, value in choices.items():
-            setattr(options, name, value)
-        if size is not None:
-            width, height = pair("size", size)
-            options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
-            options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
-        if integrator is not None:
-            options.integrator = _found("integrator", integrator)
-        if filter is not None:
-            options.filter = _found("filter", filter)
-        if depth is not None:
-            options.depth = whole("depth", depth, 0, s.MAX_DEPTH)
-        options.splat = splat
-        if adaptive is not None:
-            method = s.AdaptiveOptions()
-            check(lab().koksma_adaptive_parse(text(adaptive, "adaptive"), byref(method)))
-            if not 0 <= real("budget", budget, nan_too=True) < math.inf:
-                raise ArgumentError(f"budget must be samples a pixel, or 0 for no limit, not {quoted(budget)}")
-            if method.method.contents.own_samples and pattern != "n-rooks":
-                raise ArgumentError(f"pattern '{pattern}': the adaptive method {adaptive} places its own samples")
-            method.budget, method.probes = budget, whole("probes", probes, 0, s.MAX_INT)
-            if aov:
-                method.aovs = pointer(further)
-            call(lab().koksma_render_adaptive, handle, byref(options), byref(method), byref(every), byref(report),
-                 threads=threads, run_at=3)
-        elif budget or probes:
-            given = f"budget {budget}" if budget else f"probes {probes}"
-            raise ArgumentError(f"{given}: give a method of adaptive sampling, too; koksma.adaptive() names them")
-        elif aov:
-            call(lab().koksma_render_aovs, handle, byref(options), byref(further), byref(every), threads=threads, run_at=2)
-        elif layers:
-            call(lab().koksma_render_layers, handle, byref(options), byref(every), threads=threads, run_at=2)
-        else:
-            call(lab().koksma_render, handle, byref(options), byref(image), threads=threads, run_at=2)
-    except BaseException:  # a signal's handler's, perhaps, when the image was there
-        lab().koksma_image_fini(byref(image))
-        lab().koksma_layers_fini(byref(every))
-        lab().koksma_aovs_fini(byref(further))
-        raise
-    finally:
-        lab().koksma_scene_close(handle)
+    with _opened(scene, pattern, spp, size, seed, pairing, scope, lights, integrator, depth, filter, splat, sky, environment) as (handle, options):
+        try:
+            if adaptive is not None:
+                method = s.AdaptiveOptions()
+                check(lab().koksma_adaptive_parse(text(adaptive, "adaptive"), byref(method)))
+                if not 0 <= real("budget", budget, nan_too=True) < math.inf:
+                    raise ArgumentError(f"budget must be samples a pixel, or 0 for no limit, not {quoted(budget)}")
+                if method.method.contents.own_samples and pattern != "n-rooks":
+                    raise ArgumentError(f"pattern '{pattern}': the adaptive method {adaptive} places its own samples")
+                method.budget, method.probes = budget, whole("probes", probes, 0, s.MAX_INT)
+                if aov:
+                    method.aovs = pointer(further)
+                call(lab().koksma_render_adaptive, handle, byref(options), byref(method), byref(every), byref(report),
+                     threads=threads, run_at=3)
+            elif budget or probes:
+                given = f"budget {budget}" if budget else f"probes {probes}"
+                raise ArgumentError(f"{given}: give a method of adaptive sampling, too; koksma.adaptive() names them")
+            elif aov:
+                call(lab().koksma_render_aovs, handle, byref(options), byref(further), byref(every), threads=threads, run_at=2)
+            elif layers:
+                call(lab().koksma_render_layers, handle, byref(options), byref(every), threads=threads, run_at=2)
+            else:
+                call(lab().koksma_render, handle, byref(options), byref(image), threads=threads, run_at=2)
+        except BaseException:  # a signal's handler's, perhaps, when the image was there
+            lab().koksma_image_fini(byref(image))
+            lab().koksma_layers_fini(byref(every))
+            lab().koksma_aovs_fini(byref(further))
+            raise
     if adaptive is None and not layers:
         return adopt_image(image)
     parts = {name: adopt_image(s.Image.from_buffer_copy(getattr(every, name)))
@@ -371,6 +415,49 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         return parts["image"]
     aovs = {further.names[i].value.decode(): adopt_image(s.Image.from_buffer_copy(further.images[i])) for i in range(further.n)}
     return Layers(**parts, rays=every.rays, rounds=report.rounds, splits=report.splits, needless=report.needless, aovs=aovs)
+
+
+def render_replicates(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, replicates: SupportsIndex = 8,
+                      *, size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0, pairing: str = "shuffled",
+                      scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None, depth: Optional[SupportsIndex] = None,
+                      filter: Optional[str] = None, splat: bool = False, sky: Optional[float] = None,
+                      environment: Union[str, "os.PathLike[str]", None] = None, threads: SupportsIndex = 0) -> Replicates:
+    """Renders independent images and returns their mean with its standard errors, as `koksma render --error-map` does.
+
+    Parameters
+    ----------
+    scene, pattern, spp, size, seed, pairing, scope, lights, integrator, depth, filter, splat, sky, environment, threads
+        As of `render`; the images have the seeds seed, seed + 1, ... The pattern must be random and unbiased: no spread shows the
+        error of others.
+    replicates : int
+        Number of images, 3 to 100,000, of spp samples a pixel each.
+
+    Returns
+    -------
+    Replicates
+
+    Raises
+    ------
+    ArgumentError, MissingError, MalformedError
+
+    Examples
+    --------
+    >>> import koksma
+    >>> found = koksma.render_replicates("ball", "random", 4, size=(16, 12))
+    >>> found.image.shape == found.error.shape, found.mean_interval[0] < found.mean < found.mean_interval[1]
+    (True, True)
+    """
+    found = s.Replicates()
+    with _opened(scene, pattern, spp, size, seed, pairing, scope, lights, integrator, depth, filter, splat, sky, environment) as (handle, options):
+        try:
+            call(lab().koksma_render_replicates, handle, byref(options), whole("replicates", replicates, 3, 100000), byref(found),
+                 threads=threads, run_at=3)
+        except BaseException:
+            lab().koksma_replicates_fini(byref(found))
+            raise
+    return Replicates(adopt_image(s.Image.from_buffer_copy(found.image)), adopt_image(s.Image.from_buffer_copy(found.error)),
+                      found.replicates, found.rays, found.mean, (found.mean_low, found.mean_high), found.rmse,
+                      (found.rmse_low, found.rmse_high))
 
 
 def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:

@@ -336,6 +336,11 @@ class Layers(Structure):
                 ("variance", Image), ("rays", c_uint64)]
 
 
+class Replicates(Structure):
+    _fields_ = [("image", Image), ("error", Image), ("replicates", c_size_t), ("rays", c_uint64), ("mean", c_double),
+                ("mean_low", c_double), ("mean_high", c_double), ("rmse", c_double), ("rmse_low", c_double), ("rmse_high", c_double)]
+
+
 class Adaptive(Structure):
     _fields_ = [*Named._fields_, ("params", POINTER(Param)), ("own_samples", c_bool), ("functions", c_void_p)]
 
@@ -491,7 +496,7 @@ LAYOUTS = [
     ("image.h", "koksma_metric_spec", MetricSpec), ("image.h", "koksma_metric_value", MetricValue),
     ("image.h", "koksma_coherence", Coherence), ("image.h", "koksma_coherence_values", CoherenceValues),
     ("render.h", "koksma_use_group", UseGroup), ("render.h", "koksma_render_options", RenderOptions),
-    ("render.h", "koksma_layers", Layers), ("render.h", "koksma_aovs", Aovs), ("adaptive.h", "koksma_adaptive", Adaptive), ("adaptive.h", "koksma_adaptive_options", AdaptiveOptions),
+    ("render.h", "koksma_layers", Layers), ("render.h", "koksma_replicates", Replicates), ("render.h", "koksma_aovs", Aovs), ("adaptive.h", "koksma_adaptive", Adaptive), ("adaptive.h", "koksma_adaptive_options", AdaptiveOptions),
     ("adaptive.h", "koksma_adaptive_report", AdaptiveReport),
     ("series.h", "koksma_line", Line), ("plot.h", "koksma_scatter_options", ScatterOptions), ("plot.h", "koksma_panel", Panel),
     ("plot.h", "koksma_curve", Curve), ("plot.h", "koksma_chart", Chart), ("plot.h", "koksma_cell", Cell),

@@ -51,7 +51,8 @@ VALID = {
     "koksma_export_format": "KOKSMA_EXPORT_CSV", "koksma_study_row *": "a_buffer(sizeof(koksma_study_row))", "_Bool *": "a_buffer(sizeof(bool))",
     "koksma_images_row **": "a_buffer(sizeof(void *))", "koksma_rank_options *": "rank_options()",
     "koksma_rank_row *": "a_buffer(2 * sizeof(koksma_rank_row))", "koksma_ranking *": "a_buffer(sizeof(koksma_ranking))",
-    "koksma_target_row *": "a_buffer(2 * sizeof(koksma_target_row))", "koksma_target_ranking *": "a_buffer(sizeof(koksma_target_ranking))",
+    "koksma_replicates *": "a_buffer(sizeof(koksma_replicates))", "koksma_replicates_fini.replicates": "a_zero(sizeof(koksma_replicates))",
+    "koksma_render_replicates.replicates": "4", "koksma_render_replicates.options": ["render_options(\"gaussian-jittered:shift=1\")", "render_options(\"random;pixel=gaussian-jittered:shift=1;lens+time=random\")"], "koksma_target_row *": "a_buffer(2 * sizeof(koksma_target_row))", "koksma_target_ranking *": "a_buffer(sizeof(koksma_target_ranking))",
     "koksma_verify_sets.sets": "many_sets()", "koksma_verify_sets.n_sets": "KOKSMA_VERIFY_SETS",
     "koksma_findings *": "a_buffer(sizeof(koksma_findings))", "koksma_identities *": "a_buffer(sizeof(koksma_identities))",
     "koksma_identity *": "a_zero(sizeof(koksma_identity))",
@@ -147,7 +148,7 @@ VALID = {
 # Members of the library's tables, which are constant: a copy of one, with one pointer NULL, must not crash a call.
 TABLES = {"koksma_adaptive", "koksma_estimator", "koksma_filter", "koksma_integrand", "koksma_integrator", "koksma_interval", "koksma_mask_space", "koksma_measure", "koksma_metric", "koksma_param", "koksma_pattern", "koksma_warp"}
 # Structs that a function only writes: what is in them before the call means nothing.
-RESULTS = re.compile(r"_(audit|optimum|entry|tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring|facts|integration|sensitivity|result|quality|estimate|tolerance)$")
+RESULTS = re.compile(r"_(audit|optimum|entry|tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring|facts|integration|sensitivity|result|quality|estimate|tolerance|replicates)$")
 WRONG = {
     "size_t": ["0", "SIZE_MAX", "SIZE_MAX / 2 + 1"], "int": ["0", "-1", "INT_MIN", "INT_MAX"],
     "long long": ["-1", "LLONG_MIN", "LLONG_MAX"], "uint64_t": ["0", "UINT64_MAX"],
@@ -182,7 +183,7 @@ ALLOWED = [
     r"koksma_warp_evaluate measure->params.*", r"\w+ (options->witness->|panels->scatter\.)(dim|count|columns|rows) = .*",
     r"koksma_plot_panels panels->spectrum = NULL .*", r"\w+ chart->curves->(xs|ys|errors|colour).*(\d|NAN|X|INFINITY|2 \+ 1) a_chart.*",
     r"\w+ \S*->level = .*", r"\w+ layers->name = .*", r"\w+ coherence->images = .*", r"\w+ options->(x_label|y_label).*",
-    r"koksma_render_patterns options->.*", r"\w+ options->(patterns|groups).*\(\"gaussian-jittered\"\)",
+    r"koksma_render_patterns options->.*", r"\w+ options->(patterns|groups).*\(\"gaussian-jittered(:shift=1)?\"\)",
     r"\w+ options->(pattern|patterns\[0\]|groups\[0\]\.pattern)\.(measure = NULL|path|params\[0\] = 0) .*", r"\w+ options->patterns\[0\]\.pattern = NULL .*",
     r"\w+ options->groups\[0\]\.(n_uses = 0|uses\[0\] = 0|pattern\.params.*) .*", r"\w+ options->depth = (0|-1) .*", r"\w+ options->pattern\.params.*random;.*",
     r"koksma_plot_(panels|chart|figure) \S*( \*\)\S*)?(title|caption|swatch|row) = .*",

@@ -56,7 +56,7 @@ OPTIONS = {
              "local-discrepancy": "plot(local_discrepancy)", "white": "Spectrum.power is an array for matplotlib's imshow",
              "measure": "plot_compare(measure)", "sizes": "plot_compare(sizes)", "trials": "plot_compare(trials)",
              "half": "spectrum(half)", "exact": "spectrum(exact)", "r-max": "pair_correlation(r_max)", "bins": "pair_correlation(bins)"},
-    "render": {"pattern": "render(pattern)", "spp": "render(spp)", "size": "render(size)", "seed": "render(seed)", "sky": "render(sky)",
+    "render": {"error-map": "render_replicates", "replicates": "render_replicates(replicates)", "pattern": "render(pattern)", "spp": "render(spp)", "size": "render(size)", "seed": "render(seed)", "sky": "render(sky)",
                "environment": "render(environment)", "aov": "render(aov)", "output": "write_image", "pairing": "render(pairing)",
                "scope": "render(scope)", "lights": "render(lights)", "integrator": "render(integrator)", "depth": "render(depth)",
                "filter": "render(filter)", "splat": "render(splat)", "adaptive": "render(adaptive)", "budget": "render(budget)",
