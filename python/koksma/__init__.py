@@ -57,15 +57,36 @@ __all__ = [
 
 if _typing.TYPE_CHECKING:
     from ._engine import Engine
+
+    __version__: str
 else:
+    class _Written(str):
+        """An annotation as it is written: help() shows types, not texts."""
+
+        __repr__ = str.__str__
+
+    def _show_types() -> None:
+        for item in list(globals().values()):
+            if getattr(item, "__module__", "").startswith("koksma."):
+                for function in [item, *vars(item).values()] if isinstance(item, type) else [item]:
+                    function = getattr(function, "fget", getattr(function, "__wrapped__", function))
+                    if isinstance(getattr(function, "__annotations__", None), dict) and hasattr(function, "__code__"):
+                        function.__annotations__ = {k: _Written(str(v).strip("'\"")) for k, v in function.__annotations__.items()}
+
+    _show_types()
+
     def __getattr__(name: str) -> object:
         """Engine on first use: its base is a class of scipy, which takes most of a second to import."""
-        if name != "Engine":
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        from ._engine import Engine
+        if name == "Engine":
+            from ._engine import Engine
 
-        globals()[name] = Engine
-        return Engine
+            globals()[name] = Engine
+            return Engine
+        if name == "__version__":
+            return version()
+        from ._hints import hint
+
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}{'' if name.startswith('_') else hint(name, __all__)}")
 
     def __dir__() -> "list[str]":
-        return sorted({*globals(), *__all__})
+        return sorted({*globals(), *__all__, "__version__"})

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
+from ._frame import Framed, columns_of
 from ._library import ArgumentError, check, flag, lab, quoted, text, texts
 from ._points import Named, has_masked, named
 
@@ -28,7 +29,7 @@ class MetricValue:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(Framed):
     """What `koksma compare` prints, with the same bits.
 
     mean, sd, max and rmse are those of the absolute error in luminance, means over the images. coherence is the peak
@@ -59,6 +60,14 @@ class Comparison:
     coherent: bool
     images: int
     metrics: Dict[str, MetricValue] = field(default_factory=dict)
+
+    def _columns(self) -> Dict[str, Any]:
+        return {"metric": list(self.metrics), **columns_of(list(self.metrics.values()))}
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name} {m.value:.6g}" for name, m in self.metrics.items())
+        kind = "" if self.coherence != self.coherence else "; the error is bands" if self.coherent else "; the error is noise"
+        return f"Comparison({self.images} image{'s' * (self.images != 1)}: mean {self.mean:.6g}, max {self.max:.6g}, {values}{kind})"
 
     def _repr_html_(self) -> str:
         from ._display import table

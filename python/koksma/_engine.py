@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, OutOfMemoryError, one_line, quoted, spec, text, whole
+from ._library import ArgumentError, OutOfMemoryError, one_line, one_of, quoted, seed_of, spec, text, whole
 from ._optimise import optimise
 from ._points import PointArray, generate, has_ranges, is_sequence, measures
 
@@ -60,7 +60,7 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
 
     pattern: a spec such as "sobol:scramble=owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
     generate(p, n, d, s)), a numpy SeedSequence, Generator or RandomState, or None; rng is another name of it, and may also be
-    whatever numpy.random.default_rng takes. optimization:
+    whatever numpy.random.default_rng takes; dim is another name of d. optimization:
     "random-cd" and "lloyd" are scipy's; any other is a measure such as "l2-centered" or "min-distance", for which each set is
     improved by `optimise` with keep="latin": along each axis the coordinates stay, so that Latin hypercubes stay Latin.
 
@@ -80,7 +80,8 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
     """
 
     def __init__(self, pattern: str, d: SupportsIndex = 2, *, optimization: Optional[str] = None, seed: Any = None,
-                 rng: Any = None) -> None:
+                 rng: Any = None, dim: Optional[SupportsIndex] = None) -> None:
+        d = one_of("d", d, 2, "dim", dim)
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names of one argument: give one of them")
         if rng is not None and not isinstance(rng, (int, np.integer, np.random.Generator, np.random.RandomState)):
@@ -118,9 +119,7 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
         if isinstance(seed, (int, np.integer)) and 0 <= seed < 1 << 64:
             self._seed = int(seed)
         else:
-            source: Any = self.rng
-            draw = getattr(source, "integers", None) or source.randint  # a Generator, or a RandomState
-            self._seed = int(draw(0, np.iinfo(np.int64).max, dtype=np.int64))
+            self._seed = seed_of(self.rng)
 
     def random(self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1) -> PointArray:
         """The next n points, or another set of n. workers: threads to use, -1 for all."""

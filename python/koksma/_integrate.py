@@ -7,13 +7,15 @@ import os
 from contextlib import contextmanager
 from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_void_p
 from dataclasses import dataclass
-from typing import Any, Callable, Iterator, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
+from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, UnsupportedError, call, check, core, first_seed, flag, quoted, real, several, sizes_of, spec, text, whole
+from ._frame import Framed
+from ._library import (ArgumentError, Seed, UnsupportedError, call, check, core, first_seed, flag, quoted, real, seed_of,
+                       several, sizes_of, spec, text, whole)
 from ._points import Member, PointArray, as_points, canonical, generate, numbers, table, view
 from ._tolerance import Integral, integrate_to
 
@@ -93,7 +95,7 @@ class Component:
 
 
 @dataclass(frozen=True, eq=False)
-class Integration:
+class Integration(Framed):
     """The error of the mean of a function over sets of n points, against n.
 
     Attributes
@@ -173,6 +175,10 @@ class Integration:
                             [(", ".join(map(str, c.axes)), c.sensitivity.component.value, c.sensitivity.total.value, c.rmse,
                               "" if math.isnan(c.low) else f"{number(c.low)} to {number(c.high)}", c.part) for c in self.components],
                             f"components; n = {max(self.sizes)}")
+
+    def _columns(self) -> Dict[str, Any]:
+        names = ("rmse", "low", "high", "approximate", "mean", "sd", "gain", "z")
+        return {"n": self.sizes, **{name: getattr(self, name) for name in names}}
 
     def __repr__(self) -> str:
         several = "" if len(self.sizes) == 1 else f"..{self.sizes[-1]}"
@@ -358,7 +364,7 @@ def _each(name: str, numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> 
 
 @overload
 def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[SupportsIndex, Sequence[SupportsIndex], None] = None,
-              dim: SupportsIndex = 2, *, trials: SupportsIndex = 32, seed: SupportsIndex = 0,
+              dim: SupportsIndex = 2, *, trials: SupportsIndex = 32, seed: Seed = 0,
               integral: float = math.nan, variance: float = math.nan, anova: bool = False, samples: SupportsIndex = 0,
               threads: SupportsIndex = 0) -> Integration: ...
 
@@ -368,12 +374,12 @@ def integrate(function: Function, pattern: Union[str, SupportsIndex, None] = Non
               dim: SupportsIndex = 2, *, tolerance: float, relative: bool = False, estimator: Optional[str] = None,
               interval: Optional[str] = None, confidence: float = 0.95, replicates: SupportsIndex = 15,
               max_points: SupportsIndex = 1 << 24, value_range: Optional[Sequence[float]] = None,
-              bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None, seed: SupportsIndex = 0,
+              bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None, seed: Seed = 0,
               threads: SupportsIndex = 0) -> Integral: ...
 
 
 def integrate(function: Function, pattern: Any = None, n: Any = None, dim: SupportsIndex = 2, *, trials: SupportsIndex = 32,
-              seed: SupportsIndex = 0, integral: float = math.nan, variance: float = math.nan, anova: bool = False,
+              seed: Seed = 0, integral: float = math.nan, variance: float = math.nan, anova: bool = False,
               samples: SupportsIndex = 0, threads: SupportsIndex = 0, tolerance: Optional[float] = None, relative: bool = False,
               estimator: Optional[str] = None, interval: Optional[str] = None, confidence: float = 0.95,
               replicates: SupportsIndex = 15, max_points: SupportsIndex = 1 << 24, value_range: Optional[Sequence[float]] = None,
@@ -523,7 +529,7 @@ def _sensitivity(handle: c_void_p, function: Function, axes: Tuple[int, ...], sa
 
 
 def sensitivity(function: Function, axes: Union[SupportsIndex, Sequence[SupportsIndex]], dim: SupportsIndex = 2, *,
-                samples: SupportsIndex = 0, seed: SupportsIndex = 0, threads: SupportsIndex = 0) -> Sensitivity:
+                samples: SupportsIndex = 0, seed: Seed = 0, threads: SupportsIndex = 0) -> Sensitivity:
     """Sobol' indices of a coordinate, or of several together.
 
     Parameters
@@ -554,5 +560,5 @@ def sensitivity(function: Function, axes: Union[SupportsIndex, Sequence[Supports
     chosen: Tuple[int, ...] = tuple(whole("axes", a, 0, dim - 1) for a in _each("axes", axes))
     raised: List[BaseException] = []
     with _opened(function, dim, raised) as handle:
-        return _sensitivity(handle, function, chosen, whole("samples", samples, 0, 1 << 20), whole("seed", seed, 0, s.MAX_SEED), threads,
+        return _sensitivity(handle, function, chosen, whole("samples", samples, 0, 1 << 20), seed_of(seed), threads,
                             raised)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import re
+import secrets
 from contextlib import contextmanager
 from ctypes import POINTER, addressof, byref, c_bool, c_char_p, c_double, c_float, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
 from functools import lru_cache
@@ -12,12 +13,17 @@ from math import inf
 from operator import index
 from pathlib import Path
 from time import perf_counter
-from typing import Any, Callable, Dict, Hashable, Iterable, Iterator, List, Optional, Sequence, Set, SupportsIndex, Tuple
+from typing import TYPE_CHECKING, Any, Callable, Dict, Hashable, Iterable, Iterator, List, Optional, Sequence, Set, SupportsIndex, Tuple, Union
 
 import numpy as np
 
 from . import _structs as s
 from ._signals import Signals
+
+if TYPE_CHECKING:
+    Seed = Union[SupportsIndex, np.random.Generator, np.random.RandomState, np.random.SeedSequence, np.random.BitGenerator, None]
+else:
+    Seed = Any
 
 ABI = 0
 _PACE_S = 0.005  # how often a long call runs handlers of signals
@@ -431,9 +437,32 @@ def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
     return number
 
 
-def first_seed(seed: SupportsIndex, trials: int) -> int:
+def seed_of(seed: Seed, most: int = s.MAX_SEED) -> int:
+    """A seed for the library: an int as it is, of None fresh entropy, of what NumPy draws from, a number drawn."""
+    if seed is None:
+        return secrets.randbits(62) % (most + 1)  # trials behind it fit
+    if hasattr(seed, "__index__"):
+        return whole("seed", seed, 0, most)
+    if type(seed).__module__.startswith("numpy.random"):
+        source: Any = seed if hasattr(seed, "random_sample") else np.random.default_rng(seed)
+        draw = getattr(source, "integers", None) or source.randint  # a Generator, or a RandomState
+        return int(draw(0, min(most, np.iinfo(np.int64).max), dtype=np.int64))
+    raise TypeError(f"seed must be an int, not {quoted(seed)}")
+
+
+def one_of(name: str, value: Any, default: Any, other: str, given: Any) -> Any:
+    """The argument that has two names."""
+    if given is None:
+        return value
+    if value != default:
+        raise TypeError(f"{name} and {other} are two names of one argument: give one of them")
+    return given
+
+
+def first_seed(seed: Seed, trials: int) -> int:
     """The seed of the first of several sets, whose seeds are consecutive."""
-    first, most = whole("seed", seed, 0, s.MAX_SEED), s.MAX_SEED - (trials - 1)
+    most = s.MAX_SEED - (trials - 1)
+    first = seed_of(seed, s.MAX_SEED)
     if first > most:
         raise ArgumentError(f"seed {first}: {trials} trials end at this seed + {trials - 1}, but seeds end at {s.MAX_SEED}; "
                             f"{most} or less would do")

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, flag, lab, pair, quoted, real, text, whole
+from ._library import ArgumentError, Seed, call, check, core, flag, lab, pair, quoted, real, seed_of, text, whole
 
 MaskArray = npt.NDArray[np.float32]
 _BY_NUMBERS = ("scalar", "vector2", "vector3", "vector4")
@@ -36,7 +36,7 @@ def _space(name: Any) -> Any:
     """A pointer to a line of the table."""
     found = core().koksma_mask_space_find(text(name, "space"))
     if not found:
-        names = []
+        names: List[str] = []
         while core().koksma_mask_space_at(len(names)):
             names.append(core().koksma_mask_space_at(len(names)).contents.name.decode())
         raise ArgumentError(f"space must be one of {', '.join(names)}, not {quoted(name)}")
@@ -91,7 +91,7 @@ def _shaped(array: MaskArray) -> MaskArray:
 
 
 def mask(filter: Union[str, npt.ArrayLike] = "gaussian:sigma=1", size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, *,
-         space: Optional[str] = None, swaps: float = 4000, seed: SupportsIndex = 0, levels: SupportsIndex = 0, open: bool = False,
+         space: Optional[str] = None, swaps: float = 4000, seed: Seed = 0, levels: SupportsIndex = 0, open: bool = False,
          start: Optional[npt.ArrayLike] = None, target: float = 0, time_limit: Optional[float] = None,
          progress: Optional[Callable[[float], object]] = None) -> MaskArray:
     """A blue-noise mask of which a filter leaves as little as possible, by simulated annealing.
@@ -136,7 +136,7 @@ def mask(filter: Union[str, npt.ArrayLike] = "gaussian:sigma=1", size: Optional[
     True
     """
     options = s.MaskOptions(filter=_filter(filter), open=flag("open", open), levels=whole("levels", levels, 0, s.MAX_INT),
-                            seed=whole("seed", seed, 0, s.MAX_SEED), swaps=real("swaps", swaps), target=real("target", target))
+                            seed=seed_of(seed), swaps=real("swaps", swaps), target=real("target", target))
     width, height = (whole("size", side, s.MASK_MIN, s.MASK_MAX) for side in pair("size", (128, 128) if size is None else size))
     options.space = _space("scalar" if space is None else space)
     if start is not None:

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, choice, core, quoted, spec, text, whole
+from ._library import ArgumentError, Seed, call, choice, core, quoted, seed_of, spec, text, whole
 from ._points import PointArray, as_points, numbers, shown, view
 
 _KEEP = ("none", "latin", "net", "sequence")
@@ -30,6 +30,10 @@ class Optimum:
     steps: int
     last_gain: int
     method: str
+
+    def __repr__(self) -> str:
+        n, dim = self.points.shape
+        return f"Optimum({self.value:.8g}, {n} points in {dim} dimensions, {self.steps} steps by {self.method})"
 
     def _repr_svg_(self) -> Optional[str]:
         from ._plot import plot
@@ -120,7 +124,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Opt
              start: Optional[npt.ArrayLike] = None, keep: str = "none",
              projections: Union[str, Sequence[Sequence[SupportsIndex]]] = (),
              weights: Optional[Sequence[float]] = None, power: Union[str, npt.ArrayLike, None] = None,
-             seed: SupportsIndex = 0, steps: SupportsIndex = 0, time_limit: Optional[float] = None, threads: SupportsIndex = 0,
+             seed: Seed = 0, steps: SupportsIndex = 0, time_limit: Optional[float] = None, threads: SupportsIndex = 0,
              progress: Optional[Callable[[Optimum], object]] = None) -> Optimum:
     """Searches for n points in [0,1)^dim with a small value of a measure (a large one of a distance).
 
@@ -211,7 +215,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Opt
     bits = [sum(1 << k for k in u) for u in groups]
     parsed, best = None if measure is None else byref(spec("measure", measure)), s.Optimum()
     c_first = None if first is None else ctypes.pointer(view(first))
-    options = s.OptimiseOptions(n, dim, c_first, kept, whole("seed", seed, 0, s.MAX_SEED), steps,
+    options = s.OptimiseOptions(n, dim, c_first, kept, seed_of(seed), steps,
                                 s.OptimiseProgress(tell), None, (c_uint64 * len(bits))(*bits),
                                 None if heavy is None else (c_double * len(heavy))(*heavy), len(bits), None,
                                 None if target is None else (c_double * target.size)(*target),

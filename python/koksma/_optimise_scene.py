@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Optional, Sequence, SupportsIndex, Tuple, Union
 
 from . import _structs as s
-from ._library import call, lab, pair, text, texts, whole
+from ._library import Seed, call, lab, pair, seed_of, text, texts, whole
 from ._points import PointArray, shown
 from ._render import _scene_name
 
@@ -77,7 +77,7 @@ class SceneOptimum:
 def optimise_scene(scene: Union[str, "os.PathLike[str]"], spp: SupportsIndex, *, held_out: Optional[Sequence[str]] = None,
                    against: Optional[Sequence[str]] = None, candidates: SupportsIndex = 8, phases: SupportsIndex = 4,
                    size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, max_trials: SupportsIndex = 32,
-                   seed: SupportsIndex = 0, threads: SupportsIndex = 0,
+                   seed: Seed = 0, threads: SupportsIndex = 0,
                    progress: Optional[Callable[[float], object]] = None) -> SceneOptimum:
     """Searches for a point set with which the image of a scene has a small error, as `koksma optimise --scene` does.
 
@@ -127,7 +127,7 @@ def optimise_scene(scene: Union[str, "os.PathLike[str]"], spp: SupportsIndex, *,
         return (c_char_p * max(len(given), 1))(*given), len(given)
 
     options, best = s.SceneSearch(scene=text(_scene_name(scene), "scene"), spp=whole("spp", spp, 1, 4096)), s.SceneOptimum()
-    options.seed = whole("seed", seed, 0, (1 << 32) - 1)
+    options.seed = seed_of(seed, (1 << 32) - 1)
     options.candidates, options.phases = whole("candidates", candidates, 1, 1000), whole("phases", phases, 1, 1000)
     options.max_trials = whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS)
     options.held_out, options.n_held_out = listed("held_out", held_out)

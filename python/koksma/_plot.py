@@ -12,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, choice, core, first_seed, flag, lab, quoted, real, spec, text, texts, whole
+from ._library import (ArgumentError, Seed, call, check, choice, core, first_seed, flag, lab, quoted, real, spec, text,
+                       texts, whole)
 from ._points import as_points, find_warp, generate, view
 from ._series import Convergence, convergence
 from ._spectrum import spectrum
@@ -200,7 +201,7 @@ def plot_convergence(*results: Convergence, size: float = 0, title: Optional[str
 
 
 def plot_compare(*patterns: str, n: SupportsIndex = 256, measure: str = "l2-star", sizes: Optional[Sequence[SupportsIndex]] = None,
-                 trials: SupportsIndex = 10, seed: SupportsIndex = 0, size: float = 0, title: Optional[str] = None,
+                 trials: SupportsIndex = 10, seed: Seed = 0, size: float = 0, title: Optional[str] = None,
                  theme: str = "light") -> Picture:
     """Draws patterns side by side: points, mean power spectra, their radial means, and the convergence of a measure.
 

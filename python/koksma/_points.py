@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import (ArgumentError, MalformedError, allow_exec as allowing_exec, call, check, choice, core, flag, kept_spec,
-                       lab, quick, quoted, spec, text, texts, whole)
+                       lab, one_of, quick, quoted, Seed, seed_of, spec, text, texts, whole)
 
 PointArray = npt.NDArray[np.float64]
 STRATIFIED, LATIN = 1 << 3, 1 << 4  # KOKSMA_CLAIM_STRATIFIED and so on
@@ -26,6 +26,7 @@ _capsule_pointer = ctypes.pythonapi.PyCapsule_GetPointer
 _capsule_pointer.argtypes, _capsule_pointer.restype = [ctypes.py_object, ctypes.c_char_p], _c_void_p
 _NO_REAL_NUMBERS = (type(None), complex, np.complexfloating, np.datetime64, np.timedelta64, str, bytes)
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
+_OF_SCIPY = {"CD": "l2-centered", "WD": "l2-wraparound", "MD": "l2-mixture", "L2-star": "l2-star"}
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
            "latin-prefixes", "independent", "pairs", "quadruples", "pairs-3", "quadruples-3", "classes",
@@ -73,52 +74,70 @@ class Witness:
     lo: Tuple[float, ...]
     hi: Tuple[float, ...]
 
+    def __str__(self) -> str:
+        lo, hi = ([f"{x:.6g}" for x in side] for side in (self.lo, self.hi))
+        region = {"box": " x ".join(map("..".join, zip(lo, hi))), "half-plane": f"({', '.join(lo)}) . x <= {hi[0]}",
+                  "disk": f"around ({', '.join(lo)}) of radius {hi[0]}"}[self.kind]
+        return f"{self.count} point{'s' * (self.count != 1)} in the {'closed' if self.closed else 'open'} {self.kind} {region}"
 
-@dataclass(frozen=True, eq=False)
-class Value:
-    """What a measure says. float(value) is the number; lower and upper are certified and equal it when exact.
 
-    square is that of value where it is known to more digits than value, as for the L2 family, else NaN. standard_error is that
-    of a sampled measure, NaN for one sample, and lower and upper are NaN then; of the others it is 0. Values are equal if all
-    members are, NaN and NaN among them.
+class Value(float):
+    """What a measure says: a float, which compares, formats and computes as one, with the members below.
+
+    Comparisons are those of the numbers: two Values are equal if their numbers are, whatever their witnesses.
     """
 
-    value: float
-    square: float
-    lower: float
-    upper: float
-    standard_error: float
-    exact: bool
-    witness: Union[Witness, Any]  # None where a measure has none; Any: who measures star need not ask
+    __slots__ = ("_raw",)
+    _raw: s.Value  # read when a member is asked for, which would be half of the time of a short call
 
-    if not TYPE_CHECKING:
-        def __getattr__(self, name: str) -> Any:
-            """Reads the library's struct when a member is asked for, which is half of the time of a short call."""
-            fields = self.__dict__
-            raw = fields.get("_raw")
-            if raw is not None:
-                fields.update(_fields_of(raw))
-                fields.pop("_raw", None)
-            if name in fields:
-                return fields[name]
-            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+    def __new__(cls, raw: s.Value) -> Value:
+        value = float.__new__(cls, raw.value)
+        value._raw = raw
+        return value
 
-    def __getstate__(self) -> Dict[str, Any]:
-        self.value
-        return self.__dict__
+    @property
+    def value(self) -> float:
+        """The number, as a plain float."""
+        return float(self._raw.value)
 
-    def __float__(self) -> float:
-        return self.value
+    @property
+    def square(self) -> float:
+        """The square of the value where it is known to more digits than the value, as for the L2 family, else NaN."""
+        return float(self._raw.square)
 
-    def _members(self) -> Tuple[Any, ...]:
-        members = (self.value, self.square, self.lower, self.upper, self.standard_error, self.exact, self.witness)
-        return tuple(None if m != m else m for m in members)
+    @property
+    def lower(self) -> float:
+        """A certified lower bound; the value where it is exact, NaN for a sampled measure."""
+        return float(self._raw.lower)
 
-    def __eq__(self, other: object) -> bool:
-        return self._members() == other._members() if isinstance(other, Value) else NotImplemented
+    @property
+    def upper(self) -> float:
+        """A certified upper bound, likewise."""
+        return float(self._raw.upper)
 
-    def __hash__(self) -> int:
-        return hash(self._members())
+    @property
+    def standard_error(self) -> float:
+        """That of a sampled measure, NaN for one sample; of other measures 0."""
+        return float(self._raw.standard_error)
+
+    @property
+    def exact(self) -> bool:
+        """Whether the value is exact, up to rounding."""
+        return bool(self._raw.exact)
+
+    @property
+    def witness(self) -> Union[Witness, Any]:  # Any: who measures star need not ask
+        """The region where a supremum is reached; None where a measure has none."""
+        w = self._raw.witness
+        lengths = {1: (w.dim, w.dim), 2: (w.dim, 1), 3: (2, 1)}.get(w.kind)
+        return Witness(_WITNESS_KINDS[w.kind], w.closed, w.count, w.volume, tuple(w.lo[:lengths[0]]),
+                       tuple(w.hi[:lengths[1]])) if lengths else None
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _value_from, (bytes(self._raw),)
+
+    def __str__(self) -> str:
+        return repr(self.value)
 
     def __repr__(self) -> str:
         parts = [f"{self.value:.6g}"]
@@ -127,7 +146,7 @@ class Value:
         if self.standard_error > 0:
             parts.append(f"standard error {self.standard_error:.2g}")
         if self.witness:
-            parts.append(repr(self.witness))
+            parts.append(str(self.witness))
         return f"Value({', '.join(parts)})"
 
     def _repr_html_(self) -> str:
@@ -144,6 +163,10 @@ class Value:
                       f"{', '.join(f'{x:.6g}' for x in w.lo)} to {', '.join(f'{x:.6g}' for x in w.hi)}"),
                      ("points in it", w.count), ("its volume", w.volume)]
         return table(("", "exact" if self.exact else "not exact"), rows)
+
+
+def _value_from(raw: bytes) -> Value:
+    return Value(s.Value.from_buffer_copy(raw))
 
 
 @dataclass(frozen=True)
@@ -371,11 +394,12 @@ def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes
 
 
 def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[SupportsIndex] = None,
-             seed: SupportsIndex = 0, *, first: SupportsIndex = 0, threads: SupportsIndex = 0,
+             seed: Seed = 0, *, first: SupportsIndex = 0, threads: SupportsIndex = 0,
              out: Optional[PointArray] = None, allow_exec: bool = False,
              density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]] = None,
              on: Optional[Union[str, "os.PathLike[str]"]] = None, warp: Optional[str] = None,
-             domain: Optional[Sequence[float]] = None, sets: Optional[SupportsIndex] = None) -> PointArray:
+             domain: Optional[Sequence[float]] = None, sets: Optional[SupportsIndex] = None,
+             d: Optional[SupportsIndex] = None, rng: Seed = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     Parameters
@@ -387,8 +411,9 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         also with density, domain and on.
     dim : int
         2 where it is left out, but all that a file has where n is left out, too.
-    seed : int
-        0 to 2**64 - 1.
+    seed : int, numpy.random.Generator, RandomState, SeedSequence or None
+        0 to 2**64 - 1; 0, when left out, so that the same call gives the same points, and without scrambling unless the spec
+        asks for it ("sobol:scramble=owen"). Of a generator a number is drawn; None: fresh entropy.
     first : int
         The number of the first point, of a sequence that has ranges (has_ranges): n points from there on.
     threads : int
@@ -413,6 +438,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     sets : int, optional
         Makes so many sets in one call, with the seeds seed, seed + 1, ... (`measure` takes them all at once, too). Threads
         share the sets. Excludes first, density, on, warp and domain; out has the shape (sets, n, dim).
+    d, rng : optional
+        Other names of dim and seed, as scipy has them.
 
     Returns
     -------
@@ -444,6 +471,10 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
            [0.25, 0.75],
            [0.75, 0.25]])
     """
+    if d is not None or rng is not None:
+        dim, seed = one_of("dim", dim, None, "d", d), one_of("seed", seed, 0, "rng", rng)
+    if type(seed) is not int:
+        seed = seed_of(seed)
     if sets is not None:
         if first or warp is not None or density is not None or on is not None or domain is not None:
             raise ArgumentError("sets excludes first, warp, density, on and domain")
@@ -473,7 +504,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         if first or out is not None or (on is not None and not density is domain is None):
             raise ArgumentError("density, domain and on exclude first and out, and on the other two")
         return _generate_in(pattern, n, dim, seed, density, on, domain, threads)
-    parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
+    parsed, seed = spec("pattern", pattern), seed_of(seed)
     first = whole("first", first, 0, s.MAX_INDEX)
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)
@@ -512,13 +543,13 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     return out
 
 
-def _generate_sets(pattern: str, n: Optional[SupportsIndex], dim: Optional[SupportsIndex], seed: SupportsIndex, sets: int,
+def _generate_sets(pattern: str, n: Optional[SupportsIndex], dim: Optional[SupportsIndex], seed: int, sets: int,
                    threads: SupportsIndex, out: Optional[PointArray], allow_exec: bool) -> PointArray:
     if allow_exec:
         core().koksma_allow_exec(before := core().koksma_allow_exec(0))
         with allowing_exec(before if before > 0 else 60):
             return _generate_sets(pattern, n, dim, seed, sets, threads, out, False)
-    parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
+    parsed, seed = spec("pattern", pattern), seed_of(seed)
     if out is None:
         if n is None:
             raise ArgumentError("sets needs n, the number of points of each set")
@@ -540,14 +571,14 @@ def _rectangle_of(domain: Sequence[float]) -> Tuple[float, float]:
     return float(sides[0]), float(sides[1])
 
 
-def _generate_in(pattern: str, n: Optional[SupportsIndex], dim: Optional[SupportsIndex], seed: SupportsIndex,
+def _generate_in(pattern: str, n: Optional[SupportsIndex], dim: Optional[SupportsIndex], seed: int,
                  density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]],
                  on: Optional[Union[str, "os.PathLike[str]"]], domain: Optional[Sequence[float]],
                  threads: SupportsIndex) -> PointArray:
     from ._compare import as_image, view_image
     from ._render import read_image
 
-    parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
+    parsed, seed = spec("pattern", pattern), seed_of(seed)
     axes = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
     out: Optional[PointArray] = None if n is None else np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
     points = s.Points(0, axes) if out is None else view(out)
@@ -652,6 +683,8 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
         Of a stack of sets, which threads share, the result is an array of their values.
     measure : str or sequence of str
         A spec such as "star", "l2-star" or "disk:r=0.1"; measures() has them all. Of several the values come as a dict.
+        The names of scipy.stats.qmc.discrepancy give its values: "CD", "WD" and "MD" are the squares of "l2-centered",
+        "l2-wraparound" and "l2-mixture", "L2-star" is "l2-star" itself.
     warp : str, optional
         Measures the points mapped to another domain, such as "concentric-disk".
     threads : int
@@ -686,9 +719,9 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
             value = _quick_value(points, measure, threads)
             if value is not None:
                 return value
-        return value_of(points, measure, warp=warp, threads=threads, time_limit=time_limit)
+        return _value_of(points, measure, warp=warp, threads=threads, time_limit=time_limit)
     names, array = texts("measure", measure), as_points(points)
-    return {name: value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in names}
+    return {name: _value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in names}
 
 
 def _measure_sets(stack: PointArray, measure: Union[str, Sequence[str]], warp: Optional[str], threads: SupportsIndex,
@@ -699,11 +732,12 @@ def _measure_sets(stack: PointArray, measure: Union[str, Sequence[str]], warp: O
         raise ArgumentError("warp takes one set, of shape (n, dim), not a stack")
     if 0 in stack.shape:
         raise ArgumentError(f"a stack must have the shape (sets, n, dim), with each at least 1, not {stack.shape}")
+    squared, measure = measure in ("CD", "WD", "MD"), _OF_SCIPY.get(measure, measure)
     parsed, array, values = spec("measure", measure), as_points(stack.reshape(-1, stack.shape[2])), np.empty(stack.shape[0])
     points = view(array)
     call(core().koksma_evaluate_sets, byref(parsed), byref(points), len(values),
          values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), threads=threads, time_limit=time_limit, run_at=3)
-    return values
+    return values**2 if squared else values
 
 
 def value_of(points: npt.ArrayLike, measure: str, *, warp: Optional[str] = None, threads: SupportsIndex = 0,
@@ -719,23 +753,17 @@ def value_of(points: npt.ArrayLike, measure: str, *, warp: Optional[str] = None,
     else:
         call(core().koksma_warp_evaluate, find_warp(warp), byref(parsed), byref(c_points), byref(value), threads=threads,
              time_limit=time_limit, run_at=3)
-    return _value_of(value)
+    return Value(value)
 
 
-def _value_of(raw: s.Value) -> Value:
-    value = object.__new__(Value)
-    value.__dict__["_raw"] = raw
-    return value
-
-
-def _fields_of(raw: s.Value) -> Dict[str, Any]:
-    """The members of a Value."""
-    w = raw.witness
-    lengths = {1: (w.dim, w.dim), 2: (w.dim, 1), 3: (2, 1)}.get(w.kind)
-    witness = Witness(_WITNESS_KINDS[w.kind], w.closed, w.count, w.volume, tuple(w.lo[:lengths[0]]),
-                      tuple(w.hi[:lengths[1]])) if lengths else None
-    return {"value": raw.value, "square": raw.square, "lower": raw.lower, "upper": raw.upper,
-            "standard_error": raw.standard_error, "exact": raw.exact, "witness": witness}
+def _value_of(points: npt.ArrayLike, measure: str, **how: Any) -> Value:
+    """Likewise, by the names of scipy.stats.qmc.discrepancy, too: "CD", "WD" and "MD" are squares."""
+    scipys = _OF_SCIPY.get(measure) if isinstance(measure, str) else None
+    if scipys is None or scipys == "l2-star":
+        return value_of(points, scipys or measure, **how)
+    raw = value_of(points, scipys, **how)._raw
+    raw.value, raw.lower, raw.upper, raw.square = raw.square, raw.square, raw.square, np.nan
+    return Value(raw)
 
 
 @lru_cache(maxsize=None)
@@ -756,7 +784,7 @@ def _quick_value(array: PointArray, measure: str, threads: int) -> Optional[Valu
     interface = array.__array_struct__  # a capsule, which owns the struct
     if _evaluate_array()(parsed, _capsule_pointer(interface, None), threads, raw):
         return None
-    return _value_of(raw)
+    return Value(raw)
 
 
 def _quick_points(pattern: str, shape: Tuple[int, ...], seed: int, threads: int, out: Optional[PointArray]) -> Optional[PointArray]:

@@ -13,7 +13,9 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._compare import as_image, _metric, view_image
-from ._library import ArgumentError, call, flag, in_python, lab, pair, quoted, real, seconds_of, text, texts, whole
+from ._frame import Framed, columns_of
+from ._library import (ArgumentError, Seed, call, flag, in_python, lab, pair, quoted, real, seconds_of, seed_of, text, texts,
+                       whole)
 from ._points import canonical
 from ._render import _found, _scene_name
 
@@ -74,7 +76,7 @@ class SizeCheck:
 
 
 @dataclass(frozen=True)
-class Ranking:
+class Ranking(Framed):
     """What koksma.rank returns: rows[0] is the best pattern if `settled`."""
     rows: List[Ranked]
     settled: bool
@@ -99,6 +101,9 @@ class Ranking:
     def best(self) -> Optional[str]:
         """The pattern with the least error, in bands or not; None while it is undecided. What to use is `advised`."""
         return self.rows[0].pattern if self.settled else None
+
+    def _columns(self) -> Dict[str, Any]:
+        return columns_of(self.rows)
 
     def __repr__(self) -> str:
         from ._display import number
@@ -208,7 +213,7 @@ class _Request:
     def __init__(self, scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[str]], spp: SupportsIndex,
                  size: Optional[Tuple[SupportsIndex, SupportsIndex]], integrator: Optional[str], filter: Optional[str],
                  adaptive: Optional[str], metric: str, time_limit: Optional[float],
-                 renderer: Optional[Callable[[Asked], npt.ArrayLike]], reference: Union[str, npt.ArrayLike, None], seed: SupportsIndex,
+                 renderer: Optional[Callable[[Asked], npt.ArrayLike]], reference: Union[str, npt.ArrayLike, None], seed: Seed,
                  depth: Optional[SupportsIndex], lights: Optional[str], scope: Optional[str],
                  process: Optional[Callable[[npt.NDArray[np.float32]], npt.ArrayLike]]) -> None:
         if renderer is None and isinstance(reference, str):
@@ -234,7 +239,7 @@ class _Request:
             scene=text(_scene_name(scene), "scene"), patterns=self.array, n_patterns=len(self.names), time_limit_s=time_limit or 0.0,
             spp=whole("spp", spp, 1, s.MAX_SPP), integrator=_found("integrator", "distribution" if integrator is None else integrator),
             filter=_found("filter", "box" if filter is None else filter), metric=pointer(self.spec),
-            adaptive=None if adaptive is None else text(adaptive, "adaptive"), seed=whole("seed", seed, 0, 2**64 - 1),
+            adaptive=None if adaptive is None else text(adaptive, "adaptive"), seed=seed_of(seed),
             variant=text(variant, "scope") if variant else None)
         if size is not None:
             width, height = pair("size", size)
@@ -274,7 +279,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
          size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
          filter: Optional[str] = None, adaptive: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
          one_size: bool = False, threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
-         reference: Union[str, npt.ArrayLike, None] = None, seed: SupportsIndex = 0, depth: Optional[SupportsIndex] = None,
+         reference: Union[str, npt.ArrayLike, None] = None, seed: Seed = 0, depth: Optional[SupportsIndex] = None,
          lights: Optional[str] = None, scope: Optional[str] = None,
          process: Optional[Callable[[npt.NDArray[np.float32]], npt.ArrayLike]] = None) -> Ranking:
     """Ranks patterns by the error of the pictures that they make of a scene, as `koksma rank` does.
@@ -366,7 +371,7 @@ def rank_to_error(scene: Union[str, "os.PathLike[str]"], target_error: float, pa
                   size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
                   filter: Optional[str] = None, adaptive: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60,
                   threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
-                  reference: Union[str, npt.ArrayLike, None] = None, seed: SupportsIndex = 0, depth: Optional[SupportsIndex] = None,
+                  reference: Union[str, npt.ArrayLike, None] = None, seed: Seed = 0, depth: Optional[SupportsIndex] = None,
                   lights: Optional[str] = None, scope: Optional[str] = None,
                   process: Optional[Callable[[npt.NDArray[np.float32]], npt.ArrayLike]] = None) -> List[Target]:
     """How many samples a pixel of each pattern leave an error in a scene, as `koksma rank --target-error` finds it.

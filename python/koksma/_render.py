@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, choice, core, flag, lab, pair, quoted, real, text, texts, whole
+from ._library import (ArgumentError, Seed, call, check, choice, core, flag, lab, pair, quoted, real, seed_of, text,
+                       texts, whole)
 from ._points import Named, free_with, named, shown
 
 
@@ -253,7 +254,7 @@ class Replicates:
 
 @contextmanager
 def _opened(scene: Union[str, "os.PathLike[str]"], pattern: str, spp: SupportsIndex, size: Optional[Tuple[SupportsIndex, SupportsIndex]],
-            seed: SupportsIndex, pairing: str, scope: str, lights: str, integrator: Optional[str], depth: Optional[SupportsIndex],
+            seed: Seed, pairing: str, scope: str, lights: str, integrator: Optional[str], depth: Optional[SupportsIndex],
             filter: Optional[str], splat: bool, sky: Optional[float],
             environment: Union[str, "os.PathLike[str]", None]) -> Iterator[Tuple[c_void_p, s.RenderOptions]]:
     """An open scene, with the options of a render."""
@@ -261,7 +262,7 @@ def _opened(scene: Union[str, "os.PathLike[str]"], pattern: str, spp: SupportsIn
     splat = flag("splat", splat)
     choices: Dict[str, int] = {"pairing": _choice("pairing", "pairing", pairing), "scope": _choice("scope", "scope", scope),
                                "lights": _choice("lights", "light_selection", lights)}
-    spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
+    spp, seed = whole("spp", spp, 1, s.MAX_SPP), seed_of(seed)
     check(lab().koksma_scene_open(text(_scene_name(scene), "scene"), byref(handle)))
     try:
         if sky is not None or environment is not None:
@@ -290,7 +291,7 @@ def _opened(scene: Union[str, "os.PathLike[str]"], pattern: str, spp: SupportsIn
 
 @overload
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
-           size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
+           size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: Seed = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
            adaptive: Optional[str] = None, budget: float = 0, probes: SupportsIndex = 0, sky: Optional[float] = None,
@@ -298,14 +299,14 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
            threads: SupportsIndex = 0) -> npt.NDArray[np.float32]: ...
 @overload
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
-           size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
+           size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: Seed = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
            adaptive: Optional[str] = None, budget: float = 0, probes: SupportsIndex = 0, sky: Optional[float] = None,
            environment: Union[str, "os.PathLike[str]", None] = None, layers: Literal[True], aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Layers: ...
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
-           size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
+           size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: Seed = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
            adaptive: Optional[str] = None, budget: float = 0, probes: SupportsIndex = 0, sky: Optional[float] = None,
@@ -418,7 +419,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
 
 
 def render_replicates(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, replicates: SupportsIndex = 8,
-                      *, size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0, pairing: str = "shuffled",
+                      *, size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: Seed = 0, pairing: str = "shuffled",
                       scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None, depth: Optional[SupportsIndex] = None,
                       filter: Optional[str] = None, splat: bool = False, sky: Optional[float] = None,
                       environment: Union[str, "os.PathLike[str]", None] = None, threads: SupportsIndex = 0) -> Replicates:

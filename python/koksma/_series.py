@@ -5,19 +5,20 @@ from __future__ import annotations
 import math
 from ctypes import byref, c_double, c_size_t
 from dataclasses import dataclass
-from typing import Any, Optional, Sequence, SupportsIndex
+from typing import Any, Dict, Optional, Sequence, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, core, first_seed, flag, sizes_of, spec, whole
+from ._library import ArgumentError, Seed, call, core, first_seed, flag, one_of, sizes_of, spec, whole
+from ._frame import Framed
 from ._matplotlib import curve
 from ._points import as_points, canonical, generate, is_sequence, value_of, view
 
 
 @dataclass(frozen=True, eq=False)
-class Trials:
+class Trials(Framed):
     """The values of a measure over sets with seeds seed, seed + 1, ...
 
     Attributes
@@ -78,13 +79,16 @@ class Trials:
         return Trials(pattern, self.measure, self.n, self.dim, self.seed, self.values - other.values,
                       self.are_exact & other.are_exact)
 
+    def _columns(self) -> Dict[str, Any]:
+        return {"seed": self.seed + np.arange(len(self.values), dtype=np.uint64), "value": self.values, "exact": self.are_exact}
+
     def __repr__(self) -> str:
         return (f"Trials({self.pattern!r}, n={self.n}, {self.measure!r}: {self.mean:.6g} +- {self.standard_error:.2g}, "
                 f"{len(self.values)} sets)")
 
 
 @dataclass(frozen=True, eq=False)
-class Convergence:
+class Convergence(Framed):
     """A measure against the number of points, and the slope of its mean on logarithmic axes.
 
     Attributes
@@ -123,6 +127,9 @@ class Convergence:
         t = len(self.values)
         return self.values.std(axis=0, ddof=1) / math.sqrt(t) if t > 1 else np.full(len(self.sizes), math.nan)
 
+    def _columns(self) -> Dict[str, Any]:
+        return {"n": self.sizes, "mean": self.mean, "standard_error": self.standard_error}
+
     def __repr__(self) -> str:
         return (f"Convergence({self.pattern!r}, {self.measure!r}, n={self.sizes[0]}..{self.sizes[-1]}: "
                 f"slope {self.slope:.3f} +- {self.slope_error:.2g})")
@@ -137,6 +144,8 @@ class Convergence:
         ax.minorticks_off()
         return ax
 
+    plot = draw
+
     def _repr_svg_(self) -> str:
         from ._plot import plot_convergence
 
@@ -144,8 +153,8 @@ class Convergence:
 
 
 def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: SupportsIndex = 2, trials: SupportsIndex = 100,
-           seed: SupportsIndex = 0, warp: Optional[str] = None, time_limit: Optional[float] = None,
-           threads: SupportsIndex = 0) -> Trials:
+           seed: Seed = 0, warp: Optional[str] = None, time_limit: Optional[float] = None,
+           threads: SupportsIndex = 0, d: Optional[SupportsIndex] = None, rng: Seed = None) -> Trials:
     """Measures many sets of a pattern.
 
     Parameters
@@ -155,13 +164,15 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
     n, dim : int
         Points of each set, and their dimensions.
     trials, seed : int
-        Sets with the seeds seed .. seed + trials - 1, at most 2^64 - 1.
+        Sets with the seeds seed .. seed + trials - 1, at most 2^64 - 1. seed may be what `generate` takes.
     warp : str, optional
         Measures the points mapped by it, as `measure` does.
     time_limit : float, optional
         In seconds, for each value, as for `measure`: one that is cut short is a bound, and not counted in `exact`.
     threads : int
         0: one for each processor. The values do not depend on it.
+    d, rng : optional
+        Other names of dim and seed.
 
     Returns
     -------
@@ -186,8 +197,8 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
     >>> high < 0
     True
     """
-    count = whole("trials", trials, 1, 1 << 24)
-    seed = first_seed(seed, count)
+    count, dim = whole("trials", trials, 1, 1 << 24), one_of("dim", dim, 2, "d", d)
+    seed = first_seed(one_of("seed", seed, 0, "rng", rng), count)
     found = [value_of(generate(pattern, n, dim, seed + t, threads=threads), measure, warp=warp, threads=threads,
                       time_limit=time_limit) for t in range(count)]
     return Trials(canonical(pattern), canonical_measure(measure), whole("n", n, 1, s.MAX_COORDINATES),
@@ -200,8 +211,9 @@ def canonical_measure(measure: str) -> str:
 
 
 def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[SupportsIndex]] = None, *,
-                dim: SupportsIndex = 2, trials: SupportsIndex = 1, seed: SupportsIndex = 0,
-                prefixes: Optional[bool] = None, warp: Optional[str] = None, threads: SupportsIndex = 0) -> Convergence:
+                dim: SupportsIndex = 2, trials: SupportsIndex = 1, seed: Seed = 0,
+                prefixes: Optional[bool] = None, warp: Optional[str] = None, threads: SupportsIndex = 0,
+                d: Optional[SupportsIndex] = None, rng: Seed = None) -> Convergence:
     """A measure against the number of points, with the slope of its mean.
 
     Parameters
@@ -219,6 +231,8 @@ def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[Su
         Measures the points mapped by it, as `measure` does; `proven` and `best` are NaN then.
     threads : int
         0: one for each processor.
+    d, rng : optional
+        Other names of dim and seed.
 
     Returns
     -------
@@ -236,8 +250,8 @@ def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[Su
     Convergence('sobol', 'l2-star', n=16..256: slope -0.963 +- 0.0098)
     """
     numbers = sizes_of("sizes", (16, 64, 256, 1024) if sizes is None else sizes)
-    count = whole("trials", trials, 1, 1 << 24)
-    seed = first_seed(seed, count)
+    count, dim = whole("trials", trials, 1, 1 << 24), one_of("dim", dim, 2, "d", d)
+    seed = first_seed(one_of("seed", seed, 0, "rng", rng), count)
     if not numbers:
         raise ArgumentError("sizes must have at least one number of points")
     if prefixes is not None and flag("prefixes", prefixes) and not is_sequence(pattern):

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from ctypes import byref, c_double
 from dataclasses import dataclass
-from typing import Any, Iterable, Sequence, SupportsIndex
+from typing import Any, Dict, Iterable, Sequence, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
+from ._frame import Framed
 from ._library import ArgumentError, call, check, core, flag, quoted, real, whole
 from ._matplotlib import curve
 from ._points import as_points, shown, view
 
 
 @dataclass(frozen=True, eq=False)
-class Spectrum:
+class Spectrum(Framed):
     """The mean power spectrum of one or more sets; for random points 1 in the mean, except at frequency 0, where it is n.
 
     power[half + ky, half + kx] is the power at (kx, ky). Ring i has the frequencies of length i + 1/2 to i + 3/2:
@@ -36,9 +37,19 @@ class Spectrum:
     oscillation: float
     sets: int
 
+    def _columns(self) -> Dict[str, Any]:
+        return {"frequency": self.frequency, "power": self.ring_power, "standard_error": self.standard_error,
+                "anisotropy_db": self.anisotropy_db}
+
+    def __repr__(self) -> str:
+        return (f"Spectrum({self.sets} set{'s' * (self.sets != 1)}, frequencies up to {len(self.frequency)}: effective_nyquist "
+                f"{self.effective_nyquist:.4g}, oscillation {self.oscillation:.4g})")
+
     def draw(self, ax: Any = None, **style: Any) -> Any:
         """Draws the mean power of the rings on axes of matplotlib, or on new ones; returns them. style goes to Axes.errorbar."""
         return curve(ax, self.frequency, self.ring_power, error=self.standard_error, level=1, labels=("frequency", "power"), **style)
+
+    plot = draw
 
     def _repr_svg_(self) -> str:
         from ._display import chart
@@ -149,16 +160,24 @@ def pair_correlation(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", r_max: flo
 
 
 @dataclass(frozen=True, eq=False)
-class PairCorrelation:
+class PairCorrelation(Framed):
     """density[b] is that of pairs in the bin whose middle is distance[b]; the mean over `sets` sets."""
 
     distance: npt.NDArray[np.float64]
     density: npt.NDArray[np.float64]
     sets: int
 
+    def _columns(self) -> Dict[str, Any]:
+        return {"distance": self.distance, "density": self.density}
+
+    def __repr__(self) -> str:
+        return f"PairCorrelation({self.sets} set{'s' * (self.sets != 1)}, {len(self.distance)} bins up to {self.distance[-1]:.4g})"
+
     def draw(self, ax: Any = None, **style: Any) -> Any:
         """Draws the density on axes of matplotlib, or on new ones; returns them. style goes to Axes.errorbar."""
         return curve(ax, self.distance, self.density, level=1, labels=("distance", "pair correlation"), **style)
+
+    plot = draw
 
     def _repr_svg_(self) -> str:
         from ._display import chart

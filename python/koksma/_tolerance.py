@@ -6,13 +6,14 @@ import math
 from contextlib import ExitStack
 from ctypes import byref
 from dataclasses import dataclass
-from typing import Any, Callable, List, Optional, Sequence, SupportsIndex, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, first_seed, flag, quoted, real, spec, text, whole
+from ._frame import Framed, columns_of
+from ._library import ArgumentError, Seed, call, check, core, first_seed, flag, quoted, real, spec, text, whole
 from ._points import Named, PointArray, canonical, named, numbers, warp_points
 
 #: The digital shift makes random the digits below the 32 of the sequence, whose truncation is a bias of 2^-33.
@@ -50,7 +51,7 @@ class Step:
 
 
 @dataclass(frozen=True)
-class Integral:
+class Integral(Framed):
     """An integral with an interval that holds it with the stated confidence; float() gives its value.
 
     Attributes
@@ -87,6 +88,9 @@ class Integral:
 
     def __float__(self) -> float:
         return self.value
+
+    def _columns(self) -> Dict[str, Any]:
+        return columns_of(self.path)
 
     def __repr__(self) -> str:
         missed = "" if self.reached else ", tolerance not reached"
@@ -199,7 +203,7 @@ def _name(name: str, value: Optional[str]) -> Optional[bytes]:
 
 def integrate_to(opened: Any, function: Any, pattern: Optional[str], n: Optional[SupportsIndex], dim: SupportsIndex, *, tolerance: float,
                  relative: bool, estimator: Optional[str], interval: Optional[str], confidence: float, replicates: SupportsIndex,
-                 max_points: SupportsIndex, value_range: Optional[Sequence[float]], bounds: Any, warp: Optional[str], seed: SupportsIndex,
+                 max_points: SupportsIndex, value_range: Optional[Sequence[float]], bounds: Any, warp: Optional[str], seed: Seed,
                  threads: SupportsIndex) -> Integral:
     """Opened: opens a spec of an integrand. See koksma.integrate."""
     pattern = DEFAULT_PATTERN if pattern is None else pattern

@@ -370,7 +370,7 @@ class OddArrays(unittest.TestCase):
                 koksma.measure(np.zeros(shape), "star")
 
     def test_what_is_no_number(self):
-        for arguments in ({"n": 1.5}, {"n": "4"}, {"n": 4, "dim": 2.5}, {"n": 4, "seed": 1.5}, {"n": 4, "seed": None}):
+        for arguments in ({"n": 1.5}, {"n": "4"}, {"n": 4, "dim": 2.5}, {"n": 4, "seed": 1.5}, {"n": 4, "seed": "1"}):
             with self.subTest(arguments), self.assertRaises(TypeError):
                 koksma.generate("random", **arguments)
         for limit in (0, -1, float("nan")):
@@ -490,9 +490,12 @@ class Compare(unittest.TestCase):
                 koksma.compare(images, reference)
 
 
+MEMBERS = [name for name, member in vars(koksma.Value).items() if isinstance(member, property)]
+
+
 def members(value):
     """All of a Value, as text: some are NaN."""
-    return repr(dataclasses.astuple(value))
+    return repr([getattr(value, name) for name in MEMBERS])
 
 
 class Again(unittest.TestCase):
@@ -529,7 +532,7 @@ class Again(unittest.TestCase):
                     koksma.generate(pattern, **wrong)
 
     def test_members_are_read_when_asked_for(self):
-        points, fields = koksma.generate("random", 16), [f.name for f in dataclasses.fields(koksma.Value)]
+        points, fields = koksma.generate("random", 16), MEMBERS
         whole = members(koksma.measure(points))
         for name in fields:  # whichever is first
             value = koksma.measure(points)
@@ -538,7 +541,7 @@ class Again(unittest.TestCase):
         for same in (pickle.loads(pickle.dumps(koksma.measure(points))), copy.deepcopy(koksma.measure(points))):
             self.assertEqual(members(same), whole)
         self.assertFalse(hasattr(koksma.measure(points), "valu"))
-        with self.assertRaises(dataclasses.FrozenInstanceError):
+        with self.assertRaises(AttributeError):
             koksma.measure(points).value = 1
 
 
