@@ -12,7 +12,7 @@ macro(koksma_engine_sources folder)
   koksma_table(unused ${folder}/optimise METHOD methods.def method_ descent.c optimise.c radial_power.c sequence.c start.c swaps.c
                value.c)
   set(engine ${CMAKE_CURRENT_SOURCE_DIR}/${folder})
-  file(GLOB ENGINE_SOURCES CONFIGURE_DEPENDS ${engine}/core/*.c ${engine}/api/*.c ${engine}/patterns/*.c ${engine}/patterns/*/*.c
+  file(GLOB ENGINE_SOURCES CONFIGURE_DEPENDS ${engine}/core/*.c ${engine}/core/platform/*.c ${engine}/api/*.c ${engine}/patterns/*.c ${engine}/patterns/*/*.c
        ${engine}/measures/*.c ${engine}/measures/*/*.c ${engine}/warps/*.c ${engine}/integrands/*.c ${engine}/verify/*.c
        ${engine}/masks/*.c ${engine}/optimise/*.c ${engine}/identify/*.c ${engine}/kernels/kernels*.c)
   foreach(part mean_square quantiles running_stats) # the rest of stats/ is koksma-lab's

@@ -7,6 +7,11 @@ include(CheckCSourceCompiles)
 include(CheckLinkerFlag)
 include(CheckPIESupported)
 
+# These checks of mingw need a library of its own, which programs elsewhere lack.
+if(WIN32)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+  return()
+endif()
 foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection=full -mbranch-protection=standard)
   string(MAKE_C_IDENTIFIER "KOKSMA_HAS${flag}" has)
   check_c_compiler_flag("-Werror ${flag}" ${has})

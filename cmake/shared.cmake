@@ -11,6 +11,9 @@ function(koksma_shared library)
                         SOVERSION ${KOKSMA_ABI} LINK_DEPENDS ${PROJECT_BINARY_DIR}/exports.map)
   target_include_directories(${library}-shared INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                                          $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  if(WIN32 OR APPLE) # what is exported is declared so (koksma.h, core/visibility.h), and names have no versions there
+    return()
+  endif()
   target_link_options(${library}-shared PRIVATE -Wl,--version-script=${PROJECT_BINARY_DIR}/exports.map)
   if(NOT KOKSMA_SANITIZE AND NOT KOKSMA_THREAD_SANITIZER) # clang's sanitizers leave their own symbols to the program
     target_link_options(${library}-shared PRIVATE -Wl,--no-undefined)

@@ -54,11 +54,18 @@ extern "C" {
 
 #define KOKSMA_VERSION "0.1.0"
 
-#if defined(__GNUC__)
+#if defined(_WIN32) && defined(KOKSMA_BUILD)
+#define KOKSMA_API __declspec(dllexport)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define KOKSMA_API __attribute__((visibility("default")))
-#define KOKSMA_PRINTF(text, first) __attribute__((__format__(__printf__, text, first)))
 #else
 #define KOKSMA_API
+#endif
+#if defined(__MINGW32__) && !defined(__clang__)
+#define KOKSMA_PRINTF(text, first) __attribute__((__format__(__gnu_printf__, text, first)))
+#elif defined(__GNUC__)
+#define KOKSMA_PRINTF(text, first) __attribute__((__format__(__printf__, text, first)))
+#else
 #define KOKSMA_PRINTF(text, first)
 #endif
 

@@ -18,12 +18,12 @@
  */
 #include "core/c_locale.h"
 
-#include <locale.h>
 #include <math.h>
-#include <pthread.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "core/platform/system.h"
 
 /* ---- Without libc ---- */
 
@@ -141,23 +141,6 @@ size_t koksma__decimal_write(double x, char text[KOKSMA__DECIMAL_ROOM])
 
 /* ---- By libc ---- */
 
-static locale_t c_locale;
-
-/* This locale is never freed. glibc and musl create it without allocating memory. If another libc cannot create it,
-   uselocale(0) below does not change the caller's locale. */
-static void make_c_locale(void)
-{
-    c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-}
-
-/* Switches this thread to the "C" locale; returns the locale to restore. */
-static locale_t enter(void)
-{
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, make_c_locale);
-    return uselocale(c_locale);
-}
-
 double koksma__strtod(const char *text, char **end)
 {
     double quick;
@@ -168,25 +151,25 @@ double koksma__strtod(const char *text, char **end)
         }
         return quick;
     }
-    const locale_t before = enter();
+    const koksma__locale before = koksma__locale_enter();
     const double value = strtod(text, end);
-    uselocale(before);
+    koksma__locale_leave(before);
     return value;
 }
 
 float koksma__strtof(const char *text, char **end)
 {
-    const locale_t before = enter();
+    const koksma__locale before = koksma__locale_enter();
     const float value = strtof(text, end);
-    uselocale(before);
+    koksma__locale_leave(before);
     return value;
 }
 
 int koksma__vsnprintf(char *text, size_t size, const char *format, va_list arguments)
 {
-    const locale_t before = enter();
+    const koksma__locale before = koksma__locale_enter();
     const int length = vsnprintf(text, size, format, arguments);
-    uselocale(before);
+    koksma__locale_leave(before);
     return length;
 }
 

@@ -54,9 +54,4 @@ static inline void koksma__free_all(void *const *blocks, size_t n)
     }
 }
 
-/* Asks the system for large pages in a new block of many megabytes; for smaller blocks it does nothing. This pays
-   because the first access to each page of a new block takes longer than filling the page several times. The system
-   may ignore the request. */
-void koksma__large_pages(void *memory, size_t bytes);
-
 #endif

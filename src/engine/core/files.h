@@ -78,7 +78,7 @@ typedef struct koksma__atomic_file {
    replaced. Errors: IO, MEMORY. */
 KOKSMA__LAB koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__atomic_file *file);
 
-enum { KOKSMA__TEMPORARY_PATH = 64 };
+enum { KOKSMA__TEMPORARY_PATH = KOKSMA__MAX_PATH + 64 };
 
 /* Returns the path of the temporary file while it is open, for a library that opens files by name. Works only for
    plain files. */
@@ -88,6 +88,10 @@ KOKSMA__LAB void koksma__atomic_temporary(const koksma__atomic_file *file, char 
    fails, an older file of that name stays. Errors: IO; the message has the system's reason for the first write that
    failed. */
 KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep);
+
+/* Makes closing keep a file that exists, also if another process makes it at this moment; *made then tells which. NULL: it
+   is replaced. */
+void koksma__atomic_keep_old(koksma__atomic_file *file, bool *made);
 
 /* Opens a file, writes the bytes and closes it. */
 KOKSMA__LAB koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size);

@@ -15,9 +15,9 @@
 #include <stdatomic.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "core/clock.h"
+#include "core/platform/system.h"
 #include "core/status.h"
 
 enum { MAX_THREADS = 256, LOOK_EVERY = 1 << 12, MOST_EXEC_SECONDS = 86400 };
@@ -59,8 +59,8 @@ int koksma__threads(const koksma_run *run)
     static atomic_int known;
     int processors = atomic_load_explicit(&known, memory_order_relaxed);
     if (!processors) {
-        const long online = sysconf(_SC_NPROCESSORS_ONLN);
-        processors = online < 1 ? 1 : online < MAX_THREADS ? (int)online : MAX_THREADS;
+        const int online = koksma__processors();
+        processors = online < MAX_THREADS ? online : MAX_THREADS;
         atomic_store_explicit(&known, processors, memory_order_relaxed);
     }
     return processors;

@@ -1,39 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sets of points: memory, limits of n and dim, and the check that coordinates are in [0,1]. Linux is asked for large pages
-   (madvise) for large blocks that are read in random order, which makes TLB misses rarer; it may ignore that. */
-#ifdef __linux__
-#define _DEFAULT_SOURCE /* madvise */
-#endif
+/* Sets of points: memory, limits of n and dim, and the check that coordinates are in [0,1]. */
 #include "core/points.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#include <unistd.h>
-#endif
-
 #include "core/capacity.h"
+#include "core/platform/system.h"
 #include "core/status.h"
-
-/* Twice the size of a large page: a block of this size contains at least one complete large page. */
-enum { MANY = 1 << 22 };
-
-void koksma__large_pages(void *memory, size_t bytes)
-{
-#ifdef MADV_HUGEPAGE
-    const long page = sysconf(_SC_PAGESIZE);
-    if (memory && bytes >= MANY && page > 0) {
-        const uintptr_t first = ((uintptr_t)memory + (uintptr_t)page - 1) & ~((uintptr_t)page - 1);
-        const uintptr_t end = ((uintptr_t)memory + bytes) & ~((uintptr_t)page - 1);
-        madvise((void *)first, end - first, MADV_HUGEPAGE);
-    }
-#else
-    (void)memory;
-    (void)bytes;
-#endif
-}
 
 koksma_status koksma__points_fit(size_t n, int dim)
 {

@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "core/hash.h"
+#include "core/platform/system.h"
 #include "core/status.h"
 
 static const struct {
@@ -213,7 +214,7 @@ koksma_status koksma__hash_file(const char *path, uint64_t *hash)
 
 bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH])
 {
-    const char *slash = strrchr(name, '/');
-    const int folder = *path == '/' || !slash ? 0 : (int)(slash - name) + 1;
+    const char *slash = koksma__last_slash(name);
+    const int folder = koksma__path_is_absolute(path) || !slash ? 0 : (int)(slash - name) + 1;
     return (size_t)snprintf(out, KOKSMA__MAX_PATH, "%.*s%s", folder, name, path) < KOKSMA__MAX_PATH;
 }

@@ -4,7 +4,9 @@
 
 /* Marks the private functions of libkoksma that libkoksma-lab calls. The shared library exports them under a symbol
    version of their own (src/exports.map.in); other programs must not use them. */
-#if defined(__GNUC__)
+#if defined(_WIN32)
+#define KOKSMA__LAB __declspec(dllexport)
+#elif defined(__GNUC__)
 #define KOKSMA__LAB __attribute__((visibility("default")))
 #else
 #define KOKSMA__LAB

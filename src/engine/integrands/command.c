@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Functions that a program computes (koksma_values_by_command): points go to its standard input as text with 17
- * digits, values come from its standard output. core/child.h documents its limits and its end.
+ * digits, values come from its standard output. core/platform/processes.h documents its limits and its end.
  */
 #include <ctype.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include <koksma/estimate.h>
 
 #include "core/c_locale.h"
-#include "core/child.h"
+#include "core/platform/processes.h"
 #include "core/status.h"
 
 enum { COORDINATES = 1 << 20, DIGITS = 26, BYTES_A_VALUE = 64, BYTES_BESIDE = 1 << 16 };

@@ -15,7 +15,7 @@
 
 #include <stdlib.h>
 
-#include "core/capacity.h"
+#include "core/platform/system.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"

@@ -17,8 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/child.h"
 #include "core/parallel.h"
+#include "core/platform/processes.h"
 #include "core/points_io.h"
 #include "core/status.h"
 #include "patterns/patterns.h"

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/platform/system.h"
 #include "core/status.h"
 #include "render/lights/lights.h"
 
@@ -82,7 +83,7 @@ koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out
     out->lights = calloc(n + 1, sizeof *out->lights);
     out->rectangles = calloc(n + 1, sizeof *out->rectangles);
     out->cdf = calloc(n + 1, sizeof *out->cdf);
-    out->estimates = aligned_alloc(64, sizeof *out->estimates);
+    out->estimates = koksma__aligned(sizeof *out->estimates);
     KOKSMA__REQUIRE_MEMORY(out->lights && out->rectangles && out->cdf && out->estimates,
                            (n + 1) * sizeof *out->lights);
     koksma_status status = KOKSMA_OK;
@@ -124,6 +125,7 @@ void koksma__lights_fini(koksma__lights *lights)
             lights->lights[i].kind->close(lights->lights[i].data);
         }
     }
-    KOKSMA__FREE(lights->lights, lights->rectangles, lights->cdf, lights->estimates);
+    KOKSMA__FREE(lights->lights, lights->rectangles, lights->cdf);
+    koksma__aligned_free(lights->estimates);
     *lights = (koksma__lights){0};
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/platform/system.h"
 #include "core/status.h"
 #include "render/pipelines/pipelines.h"
 #include "render/render.h"
@@ -23,8 +24,11 @@ void koksma__wavefront_close(void *opened)
         free(scratch->drawn[i].pairs);
     }
     koksma__sample_scratch_fini(&scratch->draw);
-    KOKSMA__FREE(scratch->drawn, scratch->queues[0].blocks, scratch->queues[1].blocks, scratch->sums,
-                 scratch->pixel_of, scratch->vertices, scratch->estimates, scratch);
+    koksma__aligned_free(scratch->queues[0].blocks);
+    koksma__aligned_free(scratch->queues[1].blocks);
+    koksma__aligned_free(scratch->vertices);
+    koksma__aligned_free(scratch->estimates);
+    KOKSMA__FREE(scratch->drawn, scratch->sums, scratch->pixel_of, scratch);
 }
 
 koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out)
@@ -35,8 +39,8 @@ koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity
     scratch->capacity = capacity;
     scratch->sums = malloc(3 * capacity * sizeof *scratch->sums);
     scratch->pixel_of = calloc(capacity, sizeof *scratch->pixel_of);
-    scratch->vertices = aligned_alloc(64, sizeof *scratch->vertices);
-    scratch->estimates = aligned_alloc(64, (frame->lights.n + 1) * sizeof *scratch->estimates);
+    scratch->vertices = koksma__aligned(sizeof *scratch->vertices);
+    scratch->estimates = koksma__aligned((frame->lights.n + 1) * sizeof *scratch->estimates);
     koksma_status status = koksma__sample_scratch_init(&scratch->draw, &frame->sampler);
     if (!status && (!scratch->sums || !scratch->pixel_of || !scratch->vertices || !scratch->estimates)) {
         status = koksma__fail_memory(3 * capacity * sizeof *scratch->sums);
@@ -55,12 +59,12 @@ koksma_status koksma__wavefront_reserve(koksma__queue *queue)
 {
     if (queue->n + KOKSMA__BLOCK > queue->capacity) { /* realloc is not used, because it may lose the alignment */
         const size_t blocks = 2 * queue->capacity / KOKSMA__BLOCK + 4, filled = queue->capacity / KOKSMA__BLOCK;
-        koksma__paths *larger = aligned_alloc(64, blocks * sizeof *larger);
+        koksma__paths *larger = koksma__aligned(blocks * sizeof *larger);
         KOKSMA__REQUIRE_MEMORY(larger, blocks * sizeof *larger);
         if (filled) {
             memcpy(larger, queue->blocks, filled * sizeof *larger);
         }
-        free(queue->blocks);
+        koksma__aligned_free(queue->blocks);
         queue->blocks = larger;
         queue->capacity = blocks * KOKSMA__BLOCK;
     }

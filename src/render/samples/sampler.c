@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "core/capacity.h"
+#include "core/platform/system.h"
 #include "core/status.h"
 
 koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler)
@@ -18,7 +19,7 @@ koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const ko
         .xs = malloc((2 * n + 8) * sizeof *room->xs),
         .pairs = malloc(2 * n * sizeof *room->pairs),
         /* the words are aligned, because kernels store whole vectors */
-        .words = aligned_alloc(64, words * sizeof *room->words),
+        .words = koksma__aligned(words * sizeof *room->words),
         .order = malloc(orders * sizeof *room->order),
         .kept = malloc((kept + 1) * sizeof *room->kept),
         .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),
@@ -34,6 +35,7 @@ koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const ko
 
 void koksma__sample_scratch_fini(koksma__sample_scratch *room)
 {
-    KOKSMA__FREE(room->xs, room->pairs, room->words, room->order, room->kept, room->kept_keys);
+    koksma__aligned_free(room->words);
+    KOKSMA__FREE(room->xs, room->pairs, room->order, room->kept, room->kept_keys);
     *room = (koksma__sample_scratch){0};
 }

@@ -14,6 +14,7 @@
 
 #include "core/elementary.h"
 #include "core/parallel.h"
+#include "core/platform/system.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 
@@ -87,7 +88,7 @@ static koksma_status transform_columns(void *context, size_t block)
 {
     job *j = context;
     const size_t m = j->m, room = LANES * m;
-    double *memory = aligned_alloc(64, 4 * room * sizeof *memory); /* aligned so that no vector crosses a cache line
+    double *memory = koksma__aligned(4 * room * sizeof *memory); /* aligned so that no vector crosses a cache line
                                                                       */
     KOKSMA__REQUIRE_MEMORY(memory, 4 * room * sizeof *memory);
     double *re = memory, *im = re + room;
@@ -112,7 +113,7 @@ static koksma_status transform_columns(void *context, size_t block)
             to_im[LANES + l] = (other_x[l] - x[l]) / 2;
         }
     }
-    free(memory);
+    koksma__aligned_free(memory);
     return KOKSMA_OK;
 }
 
@@ -120,7 +121,7 @@ static koksma_status transform_rows(void *context, size_t block)
 {
     job *j = context;
     const size_t m = j->m, room = LANES * m;
-    double *memory = aligned_alloc(64, 4 * room * sizeof *memory);
+    double *memory = koksma__aligned(4 * room * sizeof *memory);
     KOKSMA__REQUIRE_MEMORY(memory, 4 * room * sizeof *memory);
     double *re = memory, *im = re + room;
     const size_t first = LANES * block, left = (size_t)j->half + 1 - first, count = left < LANES ? left : LANES;
@@ -146,7 +147,7 @@ static koksma_status transform_rows(void *context, size_t block)
             row[k] = (re[at] * re[at] + im[at] * im[at]) * scale * scale / (double)j->n_points;
         }
     }
-    free(memory);
+    koksma__aligned_free(memory);
     return KOKSMA_OK;
 }
 

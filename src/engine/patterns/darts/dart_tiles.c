@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/platform/system.h"
 #include "core/status.h"
 
 enum {

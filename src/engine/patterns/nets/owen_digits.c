@@ -15,8 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/capacity.h"
 #include "core/parallel.h"
+#include "core/platform/system.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"

@@ -2,8 +2,8 @@
 /*
  * Runs another renderer, or what processes images, by a command line (koksma_rank_by_command). Every picture has its own
  * temporary directory, so that the program may write other files beside the picture. The shell leads a process group of
- * its own (core/child.h), so that a stop kills all processes that it started. What the command prints goes to standard
- * error, of which the last line is part of the error message if the command fails.
+ * its own (core/platform/processes.h), so that a stop kills all processes that it started. What the command prints goes
+ * to standard error, of which the last line is part of the error message if the command fails.
  */
 #include <koksma/study.h>
 
@@ -16,7 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/child.h"
+#include "core/platform/processes.h"
 #include "core/status.h"
 
 enum { LONGEST = 1 << 16 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Runs another program to its end, within limits of time, output and memory, and ends its process group. */
-#ifndef KOKSMA_CORE_CHILD_H
-#define KOKSMA_CORE_CHILD_H
+#ifndef KOKSMA_CORE_PLATFORM_PROCESSES_H
+#define KOKSMA_CORE_PLATFORM_PROCESSES_H
 
 #include <koksma/koksma.h>
 

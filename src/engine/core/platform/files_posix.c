@@ -12,6 +12,7 @@
  * when a folder above it is renamed. A process that is killed while it writes leaves its temporary file, which no later
  * run touches.
  */
+#ifndef _WIN32
 #define _GNU_SOURCE /* fopencookie, getentropy, O_PATH, renameat2 */
 #include "core/files.h"
 
@@ -22,9 +23,19 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#ifdef __APPLE__
+#include <sys/random.h>
+#endif
 
 #include "core/capacity.h"
 #include "core/status.h"
+
+/* What macOS lacks or calls otherwise. */
+#ifdef __APPLE__
+#define O_PATH O_RDONLY
+#define RENAME_NOREPLACE RENAME_EXCL
+#define renameat2 renameatx_np
+#endif
 
 enum { MOST_LINKS = 40 /* as Linux follows */ };
 
@@ -37,17 +48,45 @@ typedef struct koksma__output {
     bool *made; /* NULL: a file of that name is replaced; else it stays, and this receives whether there was none */
 } output;
 
+#ifdef __APPLE__
+typedef int counted; /* of bytes: funopen's functions */
+typedef int count;
+#else
+typedef ssize_t counted;
+typedef size_t count;
+#endif
+
 /* Writes bytes and stores errno of the first failure, which stdio would lose. */
-static ssize_t put(void *cookie, const char *bytes, size_t size)
+static counted put(void *cookie, const char *bytes, count size)
 {
     output *o = cookie;
     size_t done = 0;
-    while (done < size && !o->reason) {
-        const ssize_t n = write(o->descriptor, bytes + done, size - done);
+    while (done < (size_t)size && !o->reason) {
+        const ssize_t n = write(o->descriptor, bytes + done, (size_t)size - done);
         done += n > 0 ? (size_t)n : 0;
         o->reason = n < 0 && errno != EINTR ? errno : 0;
     }
-    return (ssize_t)done;
+    return (counted)done;
+}
+
+static FILE *open_stream(output *o)
+{
+#ifdef __APPLE__
+    return funopen(o, NULL, put, NULL, NULL);
+#else
+    static const cookie_io_functions_t functions = {.write = put};
+    return fopencookie(o, "w", functions);
+#endif
+}
+
+/* fsync of macOS leaves the bytes in the disk's own memory. */
+static int sync_file(int descriptor)
+{
+#ifdef __APPLE__
+    return fcntl(descriptor, F_FULLFSYNC) ? fsync(descriptor) : 0;
+#else
+    return fsync(descriptor);
+#endif
 }
 
 /* ---- Opening --------------------------------------------------------------------------------------------- */
@@ -233,7 +272,6 @@ static char *whole_path(const char *folder, const char *path)
 
 koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__atomic_file *file)
 {
-    static const cookie_io_functions_t functions = {.write = put};
     *file = (koksma__atomic_file){0};
     KOKSMA__FAIL_IF(!folder && !*path, KOKSMA_IO, "the path of the file to write is empty");
     output *o = malloc(sizeof *o);
@@ -250,7 +288,7 @@ koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__
     } else if (!open_special(path, o)) {
         open_target(path, o);
     }
-    file->stream = o->descriptor >= 0 ? fopencookie(o, "w", functions) : NULL;
+    file->stream = o->descriptor >= 0 ? open_stream(o) : NULL;
     if (!file->stream) {
         const int reason = errno;
         if (o->folder >= 0 && o->descriptor >= 0) {
@@ -269,7 +307,13 @@ koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__
 
 void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA__TEMPORARY_PATH])
 {
+#ifdef __APPLE__
+    char folder[KOKSMA__MAX_PATH] = "."; /* PATH_MAX is 1024 */
+    fcntl(file->output->folder, F_GETPATH, folder);
+    snprintf(path, KOKSMA__TEMPORARY_PATH, "%s/%s", folder, file->output->temporary);
+#else
     snprintf(path, KOKSMA__TEMPORARY_PATH, "/proc/self/fd/%d/%s", file->output->folder, file->output->temporary);
+#endif
 }
 
 /* ---- Closing --------------------------------------------------------------------------------------------- */
@@ -277,7 +321,7 @@ void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA_
 /* Syncs a folder. It is no error if the file system cannot sync folders, or if the folder may not be read. */
 static bool sync_folder(int folder)
 {
-    return !fsync(folder) || errno == EINVAL || errno == EBADF || errno == ENOTSUP;
+    return !sync_file(folder) || errno == EINVAL || errno == EBADF || errno == ENOTSUP;
 }
 
 /* Syncs the folder that holds `path`. If it fails, it returns false and sets errno. */
@@ -333,7 +377,7 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
         o->reason = errno;
     }
     if (o->folder >= 0 && keep && !o->reason) {
-        if (fsync(o->descriptor)) {
+        if (sync_file(o->descriptor)) {
             o->reason = errno;
         } else if (o->made ? rename_new(o) : renameat(o->folder, o->temporary, o->folder, o->name)) {
             o->reason = o->made && errno == EEXIST ? 0 : errno;
@@ -362,24 +406,9 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     return status;
 }
 
-static koksma_status put_file(const char *folder, const char *path, const void *bytes, size_t size, bool *made)
+void koksma__atomic_keep_old(koksma__atomic_file *file, bool *made)
 {
-    koksma__atomic_file file;
-    const koksma_status status = koksma__atomic_open(folder, path, &file);
-    if (!status) {
-        file.output->made = made;
-        fwrite(bytes, 1, size, file.stream);
-    }
-    return status ? status : koksma__atomic_close(&file, true);
+    file->output->made = made;
 }
 
-koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size)
-{
-    return put_file(folder, path, bytes, size, NULL);
-}
-
-koksma_status koksma__atomic_put_new(const char *folder, const char *path, const void *bytes, size_t size, bool *made)
-{
-    *made = false;
-    return put_file(folder, path, bytes, size, made);
-}
+#endif

@@ -6,7 +6,7 @@
  * safe after fork in a process of several threads.
  */
 #define _GNU_SOURCE /* pipe2 */
-#include "core/child.h"
+#include "core/platform/processes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,12 +16,12 @@
 #include "core/parallel.h"
 #include "core/status.h"
 
-#ifdef __EMSCRIPTEN__
+#if defined(__EMSCRIPTEN__) || defined(_WIN32)
 
 koksma_status koksma__child_run(const koksma__child *child, const koksma_run *run, char **output, size_t *size)
 {
     (void)run, (void)output, (void)size;
-    return koksma__fail(KOKSMA_UNSUPPORTED, "%s: a browser runs no programs", child->name);
+    return koksma__fail(KOKSMA_UNSUPPORTED, "%s: on this system Koksma runs no programs", child->name);
 }
 
 #else
@@ -164,8 +164,16 @@ static void give(conversation *c)
     const ssize_t count = write(c->ends[IN], c->child->input + c->given, c->child->input_size - c->given);
     const int error = count < 0 ? errno : 0;
     if (error == EPIPE && !sigismember(&pending, SIGPIPE)) {
+#ifdef __APPLE__
+        int taken;
+        sigpending(&pending);
+        if (sigismember(&pending, SIGPIPE)) {
+            sigwait(&broken, &taken);
+        }
+#else
         while (sigtimedwait(&broken, NULL, &(struct timespec){0}) < 0 && errno == EINTR) {
         }
+#endif
     }
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     c->given += count > 0 ? (size_t)count : 0;
@@ -251,7 +259,12 @@ static bool open_ends(int ours[N_ENDS], int theirs[N_ENDS])
     bool good = true;
     for (int e = 0; e < N_ENDS; e++) {
         int pair[2] = {-1, -1};
+#ifdef __APPLE__
+        /* a program that another thread starts in between gets the ends, too */
+        const int failed = pipe(pair) || fcntl(pair[0], F_SETFD, FD_CLOEXEC) || fcntl(pair[1], F_SETFD, FD_CLOEXEC);
+#else
         const int failed = pipe2(pair, O_CLOEXEC);
+#endif
         ours[e] = failed ? -1 : pair[e == IN];
         theirs[e] = failed ? -1 : pair[e != IN];
         const bool lifted = lift(&ours[e]) && lift(&theirs[e]);

@@ -1,0 +1,6 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifdef _WIN32
+#include "core/platform/windows.h"
+#else
+#include_next <dlfcn.h>
+#endif
