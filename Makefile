@@ -22,6 +22,7 @@
 #   make dist        write build/dist/koksma-VERSION.tar.gz; the same commit gives the same bytes
 #   make dist-test   build and test from that archive, in an empty directory without git
 #   make wheel       build a self-contained Python wheel, and try it with the newest NumPy and SciPy
+#   make npm         build the package @koksma/koksma for Node and browsers: build/npm
 #   make deb         write Debian packages to build/deb and check them with lintian
 #   make cross       build for aarch64 and run the tests of libkoksma under qemu; MACHINES="aarch64 s390x i686"
 #
@@ -35,7 +36,7 @@ TRIALS ?=
 BASE ?= main
 MACHINES ?= aarch64
 
-.PHONY: help demo check test test-all bench install masks docs explorer wheel deb dist dist-test cross release clean
+.PHONY: help demo check test test-all bench install masks docs explorer wheel npm deb dist dist-test cross release clean
 
 help:
 	@sed -n 's/^#   //p; s/^#$$//p' Makefile | sed '1{/^$$/d}'
@@ -94,6 +95,10 @@ dist-test:
 wheel:
 	@scripts/setup build
 	@scripts/wheel
+
+npm:
+	@scripts/setup explorer
+	@scripts/npm
 
 deb:
 	@scripts/setup build deb

@@ -6,9 +6,12 @@
  */
 #include <koksma/integrate.h>
 #include <koksma/koksma.h>
+#include <koksma/mask.h>
 #include <koksma/optimise.h>
+#include <koksma/sampler.h>
 #include <koksma/series.h>
 #include <koksma/spectrum.h>
+#include <koksma/verify.h>
 
 #include <math.h>
 #include <stdarg.h>
@@ -27,6 +30,11 @@ EXPLORER_API double *explorer_room(uint32_t n, int dim);
 EXPLORER_API double *explorer_points(void);
 EXPLORER_API const char *explorer_csv(void);
 EXPLORER_API const char *explorer_measure(void);
+EXPLORER_API const char *explorer_verify(void);
+EXPLORER_API uint32_t *explorer_mask(int size, uint32_t seed_low, uint32_t seed_high);
+EXPLORER_API uint32_t *explorer_domain(int what, uint32_t low, uint32_t high, uint32_t x, uint32_t y);
+EXPLORER_API double *explorer_samples(int sampler, uint32_t low, uint32_t high, uint32_t first, uint32_t count,
+                                      int dim);
 EXPLORER_API const char *explorer_line(uint32_t n, int dim);
 EXPLORER_API double *explorer_spectrum(int half, int x, int y);
 EXPLORER_API const char *explorer_rings(void);
@@ -282,6 +290,79 @@ const char *explorer_measure(void)
     put_witness(&value.witness);
     put("}");
     return finish();
+}
+
+/* The properties of the points: an array of findings. */
+const char *explorer_verify(void)
+{
+    koksma_findings findings;
+    if (koksma_verify(&points, &one_thread, &findings)) {
+        return NULL;
+    }
+    put("[");
+    for (size_t i = 0; i < findings.count; i++) {
+        const koksma_finding *f = &findings.items[i];
+        put("%s{\"property\":\"%s\",\"subject\":", i ? "," : "", f->property);
+        put_text(f->subject);
+        put(",\"holds\":%s,", f->holds ? "true" : "false");
+        put_value("value", f->value);
+        put(",\"detail\":");
+        put_text(f->detail);
+        put("}");
+    }
+    put("]");
+    koksma_findings_fini(&findings);
+    return finish();
+}
+
+/* A void-and-cluster mask: size * size ranks, which stay until the next mask. */
+uint32_t *explorer_mask(int size, uint32_t seed_low, uint32_t seed_high)
+{
+    static uint32_t *ranks;
+    const bool fits = size >= KOKSMA_MASK_MIN && size <= KOKSMA_MASK_MAX;
+    uint32_t *more = realloc(ranks, fits ? (size_t)size * (size_t)size * sizeof *ranks : sizeof *ranks);
+    ranks = more ? more : ranks;
+    return !more || koksma_mask_void_and_cluster(size, (uint64_t)seed_high << 32 | seed_low, &one_thread, ranks)
+               ? NULL
+               : ranks;
+}
+
+/* ---- Samples for renderers (koksma/sampler.h) ------------------------------------------------------------ */
+
+/* The key of a domain, low and high half. what: 0: of pixel (x, y) with the seed (low, high); 1: of use x of the domain;
+   2: of sample x of the domain; 3: the seed of frame x. */
+uint32_t *explorer_domain(int what, uint32_t low, uint32_t high, uint32_t x, uint32_t y)
+{
+    static uint32_t halves[2];
+    const uint64_t key = (uint64_t)high << 32 | low;
+    const koksma_domain domain = {key};
+    const uint64_t made = what == 0   ? koksma_domain_of_pixel(key, x, y).key
+                          : what == 1 ? koksma_domain_of_use(domain, x).key
+                          : what == 2 ? koksma_domain_of_sample(domain, x).key
+                                      : koksma_seed_of_frame(key, x);
+    halves[0] = (uint32_t)made;
+    halves[1] = (uint32_t)(made >> 32);
+    return halves;
+}
+
+/* Samples first .. first + count - 1 of a domain, in the room of the points. sampler: 0: Sobol, 1 to 4 dimensions; 1: PMJ02, 2
+   dimensions; 2: independent numbers, 1 to 4 dimensions. */
+double *explorer_samples(int sampler, uint32_t low, uint32_t high, uint32_t first, uint32_t count, int dim)
+{
+    const koksma_domain domain = {(uint64_t)high << 32 | low};
+    double *xs = dim < 1 || dim > 4 || (sampler == 1 && dim != 2) ? NULL : explorer_room(count, dim);
+    for (uint32_t i = 0; xs && i < count; i++) {
+        double four[4];
+        if (sampler == 0) {
+            koksma_sobol_4d(domain, first + i, four);
+        } else if (sampler == 1) {
+            koksma_pmj02_2d(domain, first + i, four);
+        } else {
+            koksma_white_4d(domain, first + i, four);
+        }
+        memcpy(xs + (size_t)i * (size_t)dim, four, (size_t)dim * sizeof *four);
+    }
+    return xs;
 }
 
 /* The slope of log value over log n, n pairs in the room as (number of points, value), and the exponents of theory:

@@ -79,6 +79,30 @@ export async function openKoksma(module) {
       return json(c.explorer_measure());
     },
 
+    // [{ property, subject, holds, value, detail }, ..] of points
+    verify({ points }) {
+      put(points);
+      return json(c.explorer_verify());
+    },
+
+    // A void-and-cluster mask: ranks 0 .. size^2 - 1, row after row.
+    mask({ size, seed }) {
+      const pointer = c.explorer_mask(size, Number(seed & 0xffffffffn), Number(seed >> 32n)) || fail();
+      return new Uint32Array(c.memory.buffer, pointer, size * size).slice();
+    },
+
+    // The key of a domain (koksma/sampler.h), a BigInt. what: 0: of pixel (x, y) for the seed key, 1: of use x, 2: of sample x,
+    // 3: the seed of frame x.
+    domain({ what, key, x, y = 0 }) {
+      const [low, high] = new Uint32Array(c.memory.buffer, c.explorer_domain(what, Number(key & 0xffffffffn), Number(key >> 32n), x, y), 2);
+      return BigInt(high) << 32n | BigInt(low);
+    },
+
+    // Samples of a domain. sampler: 0: Sobol, 1: PMJ02, 2: independent.
+    samples({ sampler, key, first, count, dim }) {
+      return numbersAt(c.explorer_samples(sampler, Number(key & 0xffffffffn), Number(key >> 32n), first, count, dim), count * dim);
+    },
+
     // Power at |kx|, |ky| <= half of the coordinates in axes, rows from ky = 0, and its rings and quality.
     spectrum({ points, half, axes }) {
       put(points);
