@@ -186,6 +186,21 @@ TEST_CASE(correlations_by_hand)
 }
 
 /* The mean of the correlations over all orders is 0, of their squares 1/(n-1) and 2(2n+5)/(9n(n-1)). */
+/* One-sided critical values at 5 % and 1 % (Zar 1984, table B.20): at every n the first sum of squares beyond them is not
+   significant any more. */
+TEST_CASE(spearman_has_its_exact_limits)
+{
+    static const struct {
+        size_t n;
+        double alpha, limit;
+    } table[] = {{4, .05, 1.000}, {5, .05, .900},  {6, .05, .829}, {7, .05, .714}, {8, .05, .643}, {9, .05, .600},
+                 {10, .05, .564}, {5, .01, 1.000}, {6, .01, .943}, {7, .01, .893}, {8, .01, .833}, {30, .05, .306}};
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        assert_near(koksma__spearman_limit(table[i].n, table[i].alpha), table[i].limit, 0.0006);
+    }
+    assert_true(isnan(koksma__spearman_limit(3, .05)) && isnan(koksma__spearman_limit(1, .05)));
+}
+
 TEST_CASE(correlations_over_all_orders)
 {
     const double x[] = {1, 2, 3, 4, 5};

@@ -160,6 +160,11 @@ koksma__estimate koksma__samples_for(const koksma__convergence *pattern, double 
 double koksma__spearman(const double *x, const double *y, size_t n);
 double koksma__kendall(const double *x, const double *y, size_t n);
 
+/* The least rho of n pairs without ties that chance reaches with probability alpha at most, one-sided: up to ten pairs by
+   the number of orders with each sum of squared differences of ranks, beyond by Student's t = rho sqrt((n - 2) /
+   (1 - rho^2)) with n - 2 degrees of freedom. NaN: chance reaches 1 more often than that. */
+double koksma__spearman_limit(size_t n, double alpha);
+
 /* Writes to `out` the centred mean ranks of n values, divided by the root of their sum of squares, so that the
    dot product of two such lists is Spearman's rho; if all values are equal, it writes zeros. */
 void koksma__unit_ranks(const double *values, size_t n, double *out);
