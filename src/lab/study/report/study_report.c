@@ -188,12 +188,13 @@ static void write_origin(koksma__report *r, koksma__document *d)
     koksma__run_record run;
     koksma__doc_paragraph(
         d,
-        "koksma %s, plan `%s`. The rows are in `results.sqlite` beside this file, and the numbers of "
+        "koksma %s, plan `%s`%s. The rows are in `results.sqlite` beside this file, and the numbers of "
         "this page in `report.json`. The key of a row is enough to make the row again. Results do "
         "not depend on the number of threads or on interruptions: `koksma study audit` makes rows again and "
         "compares them. The SHA-256 of all rows, as `koksma study export` writes them, is `%s`. The runs "
         "(one that was killed leaves its rows in the store, but no line here):",
-        koksma_version(), r->study->plan.name, r->rows);
+        koksma_version(), r->study->plan.name, r->study->quick ? ", with the fewer trials of `--quick`" : "",
+        r->rows);
     koksma__doc_list_begin(d, "runs", false);
     for (long long i = 0; koksma__report_keep(r, koksma__store_run(r->study->store, i, &run, &found)) && found; i++) {
         koksma__doc_item(d);

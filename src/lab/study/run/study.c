@@ -243,7 +243,7 @@ static koksma_status recall_plan(koksma_study *study)
             koksma__fail(KOKSMA_MALFORMED, "%s/results.sqlite: the store does not contain its plan", study->folder);
     }
     free(what);
-    trials.quick = quick;
+    study->quick = trials.quick = quick;
     trials.stored = true;
     trials.totals = &study->totals;
     for (unsigned long i = 0; !status && i < n; i++) {
@@ -281,6 +281,7 @@ static koksma_status load_plans(koksma_study *study, const koksma_study_options 
 {
     const koksma__plan_trials trials = {.trials = options->trials, .quick = options->quick, .totals = &study->totals};
     koksma_status status = KOKSMA_OK;
+    study->quick = options->quick;
     for (size_t i = 0; !status && i < options->n_plans; i++) {
         koksma__plan plan = {0};
         char label[LABEL];

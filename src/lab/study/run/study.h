@@ -87,6 +87,7 @@ struct koksma_study {
     char *folder;
     koksma__store *store;
     bool is_written;            /* whether the store was opened for a run */
+    bool quick;                 /* whether blocks have their `quick` numbers of trials */
     koksma__plan_totals totals; /* of its plans */
     void *scenes;               /* koksma__study_scene of each name: a tree of tsearch(3) */
     size_t n_references;
