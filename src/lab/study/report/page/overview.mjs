@@ -15,19 +15,28 @@ export function addAnchors(content) {
 }
 
 // The section whose heading is the question of an answer: the innermost section that contains the answer or, in the section
-// "questions", the section at the level below it, or below its plan. Conclusions have their paper.
+// "questions", the section at the level below it, or below its plan. Conclusions, also those on figures, have their paper.
+const ofPaper = path => ["conclusions", "figures"].includes(path.at(-1)?.id);
+
 function questionOf(path) {
-  if (path.at(-1)?.id === "conclusions" && path.length > 1) return path.at(-2); // the plan, whose heading is the paper
+  if (ofPaper(path) && path.length > 1) return path.at(-2); // the plan, whose heading is the paper
   if (path[0]?.id !== "questions") return path.at(-1);
   return path[plain(path[1]?.heading ?? []).startsWith("Results:") ? 2 : 1] ?? path[0];
 }
 
 function answersIn(content, path = []) {
   return content.flatMap(block => block.kind === "section" ? answersIn(block.content, [...path, block])
-    : block.answer ? [{ block, question: questionOf(path) }] : []);
+    : block.answer ? [{ block, question: questionOf(path), concludes: ofPaper(path) }] : []);
 }
 
-function verdict(answers) {
+// How many conclusions of papers hold; without papers, how many answers the data decide.
+function count(answers) {
+  const of = answers.filter(a => a.concludes), number = answer => of.filter(a => a.block.answer === answer).length;
+  if (!of.length) return `The data decide ${answers.filter(a => a.block.answer !== "undecided").length} of ${answers.length} answers; ? marks the others.`;
+  return `Of ${of.length} conclusions ${number("holds")} hold (✓), ${number("partly")} in part, ${number("fails")} not (✗); ${number("undecided")} undecided (?).`;
+}
+
+function verdict(answers, ...legend) {
   const questions = [...new Set(answers.map(a => a.question))], list = element("dl", {});
   for (const question of questions) {
     const mine = answers.filter(a => a.question === question), link = element("a", { href: `#${question.anchor}` }, plain(question.heading));
@@ -35,9 +44,8 @@ function verdict(answers) {
       element("dd", { class: block.answer }, element("span", { class: "mark" }, marks[block.answer] ?? "?"), " ", ...words(block.text))));
     if (mine.length > mostAnswers) list.append(element("dd", {}, element("a", { href: `#${question.anchor}` }, `${mine.length - mostAnswers} more`)));
   }
-  const decided = answers.filter(a => a.block.answer !== "undecided").length;
-  const sure = `The data decide ${decided} of ${answers.length} answers; ? marks the others. Intervals are 95 % intervals, approximate where values are skewed.`;
-  return element("section", { id: "verdict", "aria-label": "What came out" }, element("h2", {}, "What came out"), list, element("p", {}, sure));
+  const sure = `${count(answers)} Intervals are 95 % intervals, approximate where values are skewed.`;
+  return element("section", { id: "verdict", "aria-label": "What came out" }, element("h2", {}, "What came out"), ...legend, list, element("p", {}, sure));
 }
 
 function tablesIn(content) {
@@ -46,9 +54,8 @@ function tablesIn(content) {
 
 // What the words of a reproduction's answers mean, and where its tables are.
 function glossary(content) {
-  return element("p", { class: "glossary" }, "Coherence: the peak of the error's spectrum over its mean; beside it what 97.5 % of noise stays below. "
-    + "z: printed mean minus ours, in standard errors. D or D*: star discrepancy; S: its root mean square (l2-star); T: that of all boxes (extreme). "
-    + "grain: amplitude of slow errors. torus=1: distances around the sides. columns=256: strata over the whole image. poisson-disk without d: d = 0.1. Tables:",
+  return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks, in white noise up to 3 to 12, the more the trials have in common. grain: amplitude of slow errors. "
+    + "Slope: exponent of the number of points. z: printed mean minus ours, in standard errors. V(f), D*: variation, star discrepancy. Tables:",
     ...tablesIn(content).flatMap(t => [" ", element("a", { href: `#${t.anchor}` }, t.id.slice(6))]));
 }
 
@@ -64,8 +71,7 @@ export function overview(report) {
   const answers = answersIn(report.content), field = element("input", { type: "search" }), reproduces = report.content.some(b => b.id === "agreement");
   field.addEventListener("input", () => filterTables(field.value.trim().toLowerCase()));
   return element("header", {}, element("p", { class: "kicker" }, reproduces ? "Koksma reproduces" : report.plan ? `A study by koksma ${report.koksma}: ${report.plan}` : `Made by koksma ${report.koksma}`),
-    element("h1", {}, report.title), report.about ? element("p", {}, report.about) : null, answers.length ? verdict(answers) : null,
-    reproduces && answers.length ? glossary(report.content) : null,
+    element("h1", {}, report.title), report.about ? element("p", {}, report.about) : null, answers.length ? verdict(answers, ...(reproduces ? [glossary(report.content)] : [])) : null,
     element("nav", { "aria-label": "contents" }, element("details", { open: true }, element("summary", {}, "Contents"), contents(report.content)),
       element("label", { class: "search" }, "Show rows of all tables with ", field)));
 }

@@ -74,7 +74,7 @@ function comparer({ scene, width, height }, pictures) {
   const mode = menu("mode", modes, 0), zoom = menu("zoom", zooms, width <= 160 ? 2 : 1);
   const swap = element("button", { type: "button" }, "flip (space)");
   const canvas = element("canvas", { tabindex: 0, role: "img", "aria-label": `comparer of ${scene}: space flips, s, f and e choose the mode, plus and minus zoom, arrows move the pixel` });
-  const output = element("output", {}, "space flips, s f e: mode, + -: zoom, arrows or mouse: a pixel's values");
+  const output = element("output", {}, matchMedia("(pointer: coarse)").matches ? "touch: a pixel's values" : "space flips, s f e: mode, + -: zoom, arrows or mouse: a pixel's values");
   let flipped = false, at = [width >> 1, height >> 1], edge = 0.5;
   const is = name => modes[mode.select.value] === name;
   const choose = name => { mode.select.value = modes.indexOf(name); };

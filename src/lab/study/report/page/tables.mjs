@@ -51,14 +51,14 @@ function spread({ value, low, high, sd }, column) {
   return [" ", small(`${half(low)} …`), " ", small(half(high))]; // a narrow column breaks between the two
 }
 
-// The mark of a verdict, with z or the relative change after the mark or in its tooltip.
-function verdictMark(cell, withNumber) {
+// The mark of a verdict with z or the relative change after it; alone: the mark has a column of its own.
+function verdictMark(cell, alone) {
   if (cell.verdict === "new" || cell.verdict === "waiting") return cell.verdict === "new" ? "new" : "not yet";
   const signed = (v, digits) => /[1-9]/.test(v.toFixed(digits)) ? `${v < 0 ? "" : "+"}${v.toFixed(digits)}` : (0).toFixed(digits); // no -0.0
-  const number = cell.z === undefined ? `${signed(100 * cell.change, 0)} %` : `z = ${signed(cell.z, 1)}`;
-  const mark = cell.verdict === "fitted" ? "fitted" : cell.verdict === "explained" ? `note ${cell.note}` : cell.verdict === "unexplained" ? "✗" : "✓";
-  const name = { fitted: "note", explained: "note", unexplained: "bad" }[cell.verdict] ?? "good";
-  return element("span", { class: name, title: number }, withNumber ? `${mark} ${number}` : mark);
+  const number = cell.z === undefined ? `${signed(100 * cell.change, 0)} %` : `${alone ? "z = " : ""}${signed(cell.z, 1)}`;
+  const mark = cell.verdict === "fitted" ? "fitted" : cell.note ? `note ${cell.note}` : cell.verdict === "unexplained" ? "✗" : "✓";
+  const name = { fitted: "note", explained: "note", untested: "note", unexplained: "bad" }[cell.verdict] ?? "good";
+  return element("span", { class: name }, cell.verdict === "untested" ? mark : `${mark}\u00a0${number}`);
 }
 
 // A text that may break between the parts of a name ("sobol:" "scramble=" "owen"), not within a word or a number.
