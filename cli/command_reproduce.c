@@ -187,7 +187,8 @@ const cli_command cli_command_reproduce = {
         "Results go to DIR/results.sqlite as they are computed. An interrupted run continues when it is started\n"
         "again, and ends with the same report. The verdict compares our mean with the published one: agrees, fitted\n"
         "(within 25 % in a scene that was fitted to the published numbers), explained (differs for a known reason),\n"
-        "unexplained, new (the paper has no number) or waiting (too few trials).\n",
+        "unexplained, untested (a note says why the printed number is no test), new (the paper has no number) or\n"
+        "waiting (too few trials).\n",
     .examples = "koksma reproduce shirley1991 -o thesis --quick\n"
                 "koksma reproduce shirley1991 mitchell1992 -o both\n",
     .options = option_table,

@@ -245,7 +245,8 @@ typedef enum koksma_study_verdict {
                                  25 % */
     KOKSMA_VERDICT_FITTED,    /* the difference is at most 25 %, but the scene was fitted to the published numbers */
     KOKSMA_VERDICT_EXPLAINED, /* the means differ for a known reason */
-    KOKSMA_VERDICT_UNEXPLAINED /* the means differ and the reason is unknown */
+    KOKSMA_VERDICT_UNEXPLAINED, /* the means differ and the reason is unknown */
+    KOKSMA_VERDICT_UNTESTED     /* a note says that the printed number is no test of ours, whatever it is */
 } koksma_study_verdict;
 
 /* Returns the word of a verdict, such as "agrees", or NULL for another value. */

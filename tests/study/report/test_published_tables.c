@@ -64,6 +64,9 @@ TEST_CASE(every_verdict_has_its_case)
     set_up(&t, 0.282, 0.0005, 1);
     assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_EXPLAINED);
     assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_AGREES); /* a note does not hide agreement */
+    t.note.untested = true; /* unless it says that there is nothing to agree with */
+    assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_UNTESTED);
+    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNTESTED);
     set_up(&t, 0.282, 0.0005, 0);
     assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNEXPLAINED);
     set_up(&t, NAN, 0, 1);
@@ -84,10 +87,10 @@ TEST_CASE(every_verdict_has_its_case)
     t.table.fitted = true;
     assert_int_equal(verdict(&t, 0.0249, 0.05, 3), KOKSMA_VERDICT_FITTED);
     assert_int_equal(verdict(&t, 0.0251, 0.05, 3), KOKSMA_VERDICT_UNEXPLAINED);
-    for (int v = KOKSMA_VERDICT_NEW; v <= KOKSMA_VERDICT_UNEXPLAINED; v++) {
+    for (int v = KOKSMA_VERDICT_NEW; v <= KOKSMA_VERDICT_UNTESTED; v++) {
         assert_non_null(koksma_study_verdict_name((koksma_study_verdict)v));
     }
-    assert_null(koksma_study_verdict_name((koksma_study_verdict)(KOKSMA_VERDICT_UNEXPLAINED + 1)));
+    assert_null(koksma_study_verdict_name((koksma_study_verdict)(KOKSMA_VERDICT_UNTESTED + 1)));
 }
 
 /* Of a table over several n a note may be of one column. */
@@ -126,13 +129,13 @@ TEST_CASE(joint_tests_do_not_choose_by_z)
     for (int i = 0; i < 3; i++) { /* z = 3.3, 0 and rounding alone */
         const koksma__cell cell = cell_of(i == 1 ? 0.282 : 0.26, i == 2 ? 0 : 0.05, 400);
         const koksma__verdict v = koksma__table_judge(&t.table, &t.row, 0, &cell);
-        koksma__z_add(&z, &t.table, &v, &cell);
+        koksma__z_add(&z, &v, &cell);
     }
     assert_true(z.count == 2 && z.one_set == 1 && z.untested == 0 && z.squares > 9);
     t.note.untested = true;
     const koksma__cell cell = cell_of(0.282, 0.05, 400);
     const koksma__verdict v = koksma__table_judge(&t.table, &t.row, 0, &cell);
-    koksma__z_add(&z, &t.table, &v, &cell);
+    koksma__z_add(&z, &v, &cell);
     assert_true(z.count == 2 && z.untested == 1);
 }
 

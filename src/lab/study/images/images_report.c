@@ -180,7 +180,7 @@ static void put_chart(koksma__document *d, const koksma__images *all)
     for (size_t i = 0; i < all->n; i++) {
         const koksma_images_row *row = &all->rows[i];
         if (i == 0 || !same_group(row, row - 1)) {
-            koksma__doc_series_begin(d, label_of(row, label), KOKSMA__SERIES_LINE);
+            koksma__doc_series_begin(d, label_of(row, label), NULL, KOKSMA__SERIES_LINE);
         }
         koksma__doc_point(d, (double)row->spp, row->mean, row->low, row->high);
         if (i + 1 == all->n || !same_group(row, row + 1)) {

@@ -138,12 +138,12 @@ static void free_table(koksma__table *t)
         free(t->notes[n].pattern);
         free(t->notes[n].reason);
     }
-    KOKSMA__FREE(t->n.at, t->rows, t->notes, t->id, t->title, t->scene, t->measure, t->also);
+    KOKSMA__FREE(t->n.at, t->rows, t->notes, t->id, t->title, t->scene, t->measure, t->also, t->symbol);
 }
 
 static void free_conclusion(koksma__conclusion *c)
 {
-    koksma__texts *const lists[] = {&c->tables, &c->by, &c->patterns, &c->against};
+    koksma__texts *const lists[] = {&c->tables, &c->by, &c->figures, &c->patterns, &c->against, &c->beside};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         koksma__texts_fini(lists[i]);
     }
@@ -252,6 +252,17 @@ const koksma__table *koksma__plan_table_of(const koksma__plan *p, size_t part, c
     for (size_t i = 0; i < p->n_tables; i++) {
         if (p->tables[i].part == part && !strcmp(p->tables[i].id, id)) {
             return &p->tables[i];
+        }
+    }
+    return NULL;
+}
+
+const koksma__figure *koksma__plan_figure_of(const koksma__plan *p, size_t part, const char *id)
+{
+    const size_t all[] = {0, p->n_figures}, *range = p->n_parts ? p->parts[part].figures : all;
+    for (size_t i = range[0]; i < range[1]; i++) {
+        if (!strcmp(p->figures[i].id, id)) {
+            return &p->figures[i];
         }
     }
     return NULL;

@@ -118,11 +118,14 @@ typedef struct koksma__note {
     char *reason;
     /* whether `reason` explains the difference; otherwise it lists the explanations that were tried */
     bool explained;
-    bool untested; /* the printed numbers are not means of trials of our procedure: no joint test takes these cells */
+    /* the printed numbers are no test: no means of trials, or of another procedure than ours, or our procedure was chosen
+       by them; of all rows (pattern NULL): another procedure */
+    bool untested;
 } koksma__note;
 
 typedef struct koksma__table {
     char *id, *title;
+    char *symbol;         /* of the measure in the paper, such as T; or NULL */
     size_t part;          /* index of the part (of a joined plan) that has this table */
     char *scene;          /* scene of an image table; NULL: a discrepancy table */
     char *measure, *also; /* measures of a discrepancy table; `also` (or NULL) is shown beside `measure` */
@@ -163,7 +166,14 @@ enum {
 };
 
 /* Flags of a kind of conclusion, beside the first two above: which further members it needs. */
-enum { KOKSMA__NEEDS_TABLES = 16, KOKSMA__NEEDS_BY = 32, KOKSMA__NEEDS_AGAINST = 64, KOKSMA__NEEDS_METRIC = 128 };
+enum {
+    KOKSMA__NEEDS_TABLES = 16,
+    KOKSMA__NEEDS_BY = 32,
+    KOKSMA__NEEDS_AGAINST = 64,
+    KOKSMA__NEEDS_METRIC = 128,
+    KOKSMA__NEEDS_SIZES = 256, /* tables over several n; a pattern may lack a row in some of them */
+    KOKSMA__NEEDS_FIGURES = 512
+};
 
 /* A kind of question that the report answers from blocks of the plan; each is a line of questions.def. */
 typedef struct koksma__question_kind {
@@ -206,10 +216,10 @@ typedef struct koksma__conclusion {
     char *says;   /* the conclusion in words */
     char *remark; /* words that follow the result, or NULL */
     const koksma__conclusion_kind *kind;
-    koksma__texts tables, by;        /* ids of tables */
-    koksma__texts patterns, against; /* canonical specs */
-    char *images, *discrepancies;    /* ids of blocks, or NULL */
-    char *metric;                    /* canonical spec, or NULL */
+    koksma__texts tables, by, figures;       /* ids */
+    koksma__texts patterns, against, beside; /* canonical specs; beside: shown without a test */
+    char *images, *discrepancies;            /* ids of blocks, or NULL */
+    char *metric;                            /* canonical spec, or NULL */
 } koksma__conclusion;
 
 /* One of the plans that were joined into one. Its tables and questions refer only to its own blocks. */
@@ -309,8 +319,9 @@ bool koksma__texts_have(const koksma__texts *texts, const char *text);
 
 bool koksma__wholes_have(const koksma__wholes *wholes, long long value);
 
-/* The table of a part with this id, and the row of a table with this pattern; NULL: none. */
+/* The table and the figure of a part with this id, and the row of a table with this pattern; NULL: none. */
 const koksma__table *koksma__plan_table_of(const koksma__plan *plan, size_t part, const char *id);
+const koksma__figure *koksma__plan_figure_of(const koksma__plan *plan, size_t part, const char *id);
 const koksma__table_row *koksma__plan_row_of(const koksma__table *table, const char *pattern);
 
 /* Whether the block evaluates this measure on n points of this pattern in dim dimensions, without a warp. */

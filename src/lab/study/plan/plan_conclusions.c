@@ -40,6 +40,8 @@ static koksma_status check_fields(const koksma__json_node *node, const koksma__c
         bool has;
         const char *name;
     } members[] = {{KOKSMA__NEEDS_TABLES, c->tables.n, "tables"},
+                   {KOKSMA__NEEDS_SIZES, c->tables.n, "tables"},
+                   {KOKSMA__NEEDS_FIGURES, c->figures.n, "figures"},
                    {KOKSMA__NEEDS_BY, c->by.n, "by"},
                    {KOKSMA__NEEDS_AGAINST, c->against.n, "against"},
                    {KOKSMA__NEEDS_METRIC, c->metric, "metric"},
@@ -61,7 +63,8 @@ static koksma_status parse_list(const koksma__json_node *node, const char *key, 
 koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
     static const char *const keys[] = {"comment", "says",    "kind",          "tables", "by",       "images",
-                                       "metric",  "against", "discrepancies", "remark", "patterns", NULL};
+                                       "metric",  "against", "discrepancies", "remark", "patterns", "beside",
+                                       "figures", NULL};
     koksma__conclusion *c = item;
     const bool stored = trials->stored;
     koksma_status status = koksma__json_only(node, keys);
@@ -72,7 +75,9 @@ koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksm
     status = status ? status : koksma__plan_spec(node, "metric", koksma__metric_text, false, &c->metric);
     status = status ? status : parse_list(node, "tables", NULL, stored, &c->tables);
     status = status ? status : parse_list(node, "by", NULL, stored, &c->by);
+    status = status ? status : parse_list(node, "figures", NULL, stored, &c->figures);
     status = status ? status : parse_list(node, "against", koksma__image_pattern_text, stored, &c->against);
+    status = status ? status : parse_list(node, "beside", koksma__image_pattern_text, stored, &c->beside);
     status =
         status ? status : koksma__plan_patterns(node, "patterns", koksma__image_pattern_text, stored, &c->patterns);
     status = status ? status : parse_kind(node, c);
@@ -82,28 +87,46 @@ koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksm
 /* ---- Whether the plan has what a conclusion names ---------------------------------------------------------- */
 
 static koksma_status check_tables(const koksma__json_node *node, const koksma__plan_trials *trials,
-                                  const koksma__plan *p, const koksma__texts *ids, bool of_scenes)
+                                  const koksma__plan *p, const koksma__texts *ids, unsigned fields)
 {
     for (size_t i = 0; i < ids->n; i++) {
         const koksma__table *t = koksma__plan_table_of(p, 0, ids->at[i]);
         KOKSMA__TRY(koksma__plan_step(node, trials, 1 + p->n_tables));
         KOKSMA__JSON_FAIL_IF(!t, node, "no table of the plan has the id '%s'", ids->at[i]);
-        KOKSMA__JSON_FAIL_IF(of_scenes && !t->scene, node, "table %s is not one of a scene", ids->at[i]);
+        KOKSMA__JSON_FAIL_IF(fields & KOKSMA__NEEDS_IMAGES && !t->scene, node, "table %s is not one of a scene",
+                             ids->at[i]);
+        KOKSMA__JSON_FAIL_IF(fields & KOKSMA__NEEDS_SIZES && !koksma__table_is_over_n(t), node,
+                             "table %s has one number of points", ids->at[i]);
     }
     return KOKSMA_OK;
 }
 
-/* Checks that every pattern has a row in every table. */
+/* Checks that every pattern has a row in every table; in some: in one of them. */
 static koksma_status check_rows(const koksma__json_node *node, const koksma__plan_trials *trials,
-                                const koksma__plan *p, const koksma__texts *ids, const koksma__texts *patterns)
+                                const koksma__plan *p, const koksma__texts *ids, const koksma__texts *patterns,
+                                bool in_some)
 {
-    for (size_t i = 0; i < ids->n * patterns->n; i++) {
+    for (size_t i = 0, found = 0; i < ids->n * patterns->n; i++) {
         const koksma__table *t = koksma__plan_table_of(p, 0, ids->at[i % ids->n]);
         KOKSMA__TRY(koksma__plan_step(node, trials, 1 + p->n_tables + t->n_rows));
-        KOKSMA__JSON_FAIL_IF(!koksma__plan_row_of(t, patterns->at[i / ids->n]), node, "table %s has no row of %s",
-                             t->id, patterns->at[i / ids->n]);
+        found = (i % ids->n ? found : 0) + (koksma__plan_row_of(t, patterns->at[i / ids->n]) != NULL);
+        KOKSMA__JSON_FAIL_IF(in_some ? i % ids->n + 1 == ids->n && !found : found <= i % ids->n, node,
+                             "table %s has no row of %s", t->id, patterns->at[i / ids->n]);
     }
     return KOKSMA_OK;
+}
+
+/* Checks that figures are of adaptive methods and come in pairs. */
+static koksma_status check_figures(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                   const koksma__plan *p, const koksma__texts *ids)
+{
+    for (size_t i = 0; i < ids->n; i++) {
+        const koksma__figure *f = koksma__plan_figure_of(p, 0, ids->at[i]);
+        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + p->n_figures));
+        KOKSMA__JSON_FAIL_IF(!f || !f->adaptive, node, "no figure with the id '%s' has an adaptive method",
+                             ids->at[i]);
+    }
+    return ids->n % 2 ? koksma__json_fail(node, "figures come in pairs") : KOKSMA_OK;
 }
 
 /* Checks that every block of the id has all patterns, and that there is one. */
@@ -134,13 +157,18 @@ koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, cons
     for (size_t i = 0; !status && i < p->n_conclusions; i++) {
         const koksma__conclusion *c = &p->conclusions[i];
         const koksma__json_node node = koksma__json_item(&list, i);
-        const koksma__texts *both[] = {&c->patterns, &c->against};
-        status = check_tables(&node, trials, p, &c->tables, !(c->kind->fields & KOKSMA__NEEDS_AGAINST));
-        status = status ? status : check_tables(&node, trials, p, &c->by, false);
-        for (size_t k = 0; !status && k < 2; k++) {
-            status = check_rows(&node, trials, p, &c->tables, both[k]);
-            status = status ? status : check_rows(&node, trials, p, &c->by, both[k]);
-            status = status ? status : check_blocks(&node, trials, p, c, both[k]);
+        const koksma__texts *all[] = {&c->patterns, &c->against, &c->beside};
+        const unsigned fields = c->kind->fields, sizes = fields & KOKSMA__NEEDS_SIZES;
+        status = check_tables(&node, trials, p, &c->tables,
+                              fields & KOKSMA__NEEDS_AGAINST ? 0
+                              : sizes                        ? sizes
+                                                             : KOKSMA__NEEDS_IMAGES);
+        status = status ? status : check_tables(&node, trials, p, &c->by, sizes);
+        status = status ? status : check_figures(&node, trials, p, &c->figures);
+        for (size_t k = 0; !status && k < 3; k++) {
+            status = check_rows(&node, trials, p, &c->tables, all[k], sizes);
+            status = status ? status : check_rows(&node, trials, p, &c->by, all[k], false);
+            status = status ? status : check_blocks(&node, trials, p, c, all[k]);
         }
     }
     return status;

@@ -162,12 +162,13 @@ static koksma_status check_shape(const koksma__json_node *node, const koksma__ta
 
 koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment", "id",  "title",  "scene", "measure", "also",
-                                       "n",       "dim", "fitted", "rows",  "notes",   NULL};
+    static const char *const keys[] = {"comment", "id",     "title", "scene", "measure", "also", "n",
+                                       "dim",     "fitted", "rows",  "notes", "symbol",  NULL};
     koksma__table *t = item;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, true, &t->id);
     status = status ? status : koksma__plan_text(node, "title", true, &t->title);
+    status = status ? status : koksma__plan_text(node, "symbol", false, &t->symbol);
     status = status ? status : koksma__plan_text(node, "scene", false, &t->scene);
     status = status ? status : koksma__plan_spec(node, "measure", koksma__measure_text, false, &t->measure);
     status = status ? status : koksma__plan_spec(node, "also", koksma__measure_text, false, &t->also);

@@ -470,7 +470,7 @@ static void add_scatter(const koksma__cases *cases, void *context, const koksma_
                      koksma__plural((double)p->spp), p->of->label, koksma__spearman(found.x, found.y, found.n));
     koksma__doc_chart_begin(d, &(koksma__chart){title, p->of->label, cases->topic->metric, true, true, 0});
     for (size_t i = 0; i < found.n; i++) {
-        koksma__doc_series_begin(d, found.patterns[i], KOKSMA__SERIES_MARKS);
+        koksma__doc_series_begin(d, found.patterns[i], NULL, KOKSMA__SERIES_MARKS);
         koksma__doc_point(d, found.x[i], found.y[i], found.low[i], found.high[i]);
         koksma__doc_end(d);
     }

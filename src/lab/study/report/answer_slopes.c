@@ -329,7 +329,7 @@ static void add_columns(koksma__document *d, const koksma__subject *s)
 static void add_pattern(koksma__document *d, koksma__document *chart, const slopes *s, size_t p, const curve *c)
 {
     const koksma__subject *of = s->of;
-    koksma__doc_series_begin(chart, of->patterns->at[p], KOKSMA__SERIES_LINE);
+    koksma__doc_series_begin(chart, of->patterns->at[p], NULL, KOKSMA__SERIES_LINE);
     for (size_t i = 0; i < c->n; i++) {
         koksma__doc_point(chart, c->x[i], c->y[i].mean, c->y[i].low, c->y[i].high);
     }
@@ -351,7 +351,7 @@ static void add_bound(koksma__document *d, koksma__document *chart, const char *
     koksma__estimate slope = trend_of(bound).slope;
     slope.low = slope.high = slope.value;
     snprintf(text, sizeof text, "lower bound (%s), scaled", who);
-    koksma__doc_series_begin(chart, text, KOKSMA__SERIES_THEORY);
+    koksma__doc_series_begin(chart, text, NULL, KOKSMA__SERIES_THEORY);
     for (size_t i = 0; i < bound->n; i++) {
         koksma__doc_point(chart, bound->x[i], bound->y[i].mean * scale, NAN, NAN);
     }

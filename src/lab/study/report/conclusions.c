@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What a paper concludes, and whether the rows of the study bear it out: one paragraph for each conclusion of the plan,
- * with which the page begins. A conclusion holds if it passes all its tests, in part if it passes some, and not if it
- * passes none; it is undecided while rows are missing. Each kind of conclusions.def has a function here, which writes
- * the words of the result into an open paragraph and counts its tests.
+ * with which the page begins, and one with the evidence, which stands in the section alone. A conclusion holds if it passes
+ * all its tests, in part if it passes some, and not if it passes none; it is undecided while rows are missing. Each kind of
+ * conclusions.def has a function here, which writes the words of the result and counts its tests. Long because it has every
+ * kind.
  */
 #include <math.h>
 #include <string.h>
+
+#include <koksma/adaptive.h>
 
 #include "core/elementary.h"
 #include "study/plan/plan.h"
@@ -15,9 +18,8 @@
 /* The number of tests that a conclusion passes, of those that its rows allow; rows that are missing count as `open`. */
 typedef struct tested {
     size_t passed, tests, open;
-    /* of the tests, those by another procedure than the printed one, and those of them that fail: they decide nothing
-       against the paper */
-    size_t other, other_failed;
+    size_t other;          /* comparisons by another procedure than that of the printed numbers: no tests */
+    koksma__document more; /* words of the evidence: whole sentences, each with a space behind it */
 } tested;
 
 static void test(tested *t, bool passes)
@@ -32,17 +34,29 @@ static const koksma__table *table_of(const koksma__report *r, const koksma__conc
     return koksma__plan_table_of(&r->study->plan, c->part, id);
 }
 
-/* The label of a pattern in the first table of the conclusion's plan that has it, or the pattern. */
-static const char *label_of(const koksma__report *r, const koksma__conclusion *c, const char *pattern)
+/* Writes the label of a pattern in the first table of the conclusion's plan that has it, or the pattern's spec. */
+static void say_label(koksma__document *d, const koksma__report *r, const koksma__conclusion *c, const char *pattern)
 {
     for (size_t i = 0; i < r->study->plan.n_tables; i++) {
         const koksma__table *t = &r->study->plan.tables[i];
         const koksma__table_row *row = t->part == c->part ? koksma__plan_row_of(t, pattern) : NULL;
         if (row) {
-            return row->label;
+            koksma__doc_say(d, "%s", row->label);
+            return;
         }
     }
-    return pattern;
+    koksma__doc_say(d, "`%s`", pattern);
+}
+
+/* Whether a note on all rows of a table says that the printed means are of another procedure than ours. */
+static bool is_other(const koksma__table *t, size_t k)
+{
+    bool other = false;
+    for (size_t i = 0; i < t->n_notes; i++) {
+        const koksma__note *note = &t->notes[i];
+        other |= note->untested && !note->pattern && !note->statistic && (!note->n || note->n == t->n.at[k]);
+    }
+    return other;
 }
 
 /* Our mean, and the printed one, of a table's row at column k; NaN: none. */
@@ -124,193 +138,274 @@ static void conclude_order(koksma__report *r, koksma__document *d, const koksma_
         }
     }
     bool tied = false;
-    koksma__doc_say(d, "Ours by mean rank: ");
+    koksma__doc_say(d, "Rank correlation of the printed means with ours: ");
+    for (size_t t = 0; t < tables; t++) {
+        koksma__doc_say(d, "%s%.2f in %s%s", t ? "; " : "", rho[t], t ? "" : "table ", c->tables.at[t]);
+    }
+    koksma__doc_say(d, ".");
+    koksma__doc_say(&all->more, "Ours by mean rank: ");
     for (size_t i = 0; i < n; i++) {
         if (i) {
             const bool falls = ranks[i - 1] > ranks[i] * (1 + 1e-12),
                        equal = !falls && ranks[i - 1] > ranks[i] * (1 - 1e-12);
             test(all, !falls);
             tied |= equal;
-            koksma__doc_say(d, "%s", falls ? " > " : equal ? " = " : " < ");
+            koksma__doc_say(&all->more, "%s", falls ? " > " : equal ? " = " : " < ");
         }
-        koksma__doc_say(d, "%s %.3g", label_of(r, c, c->patterns.at[i]), ranks[i] / (double)tables);
+        say_label(&all->more, r, c, c->patterns.at[i]);
+        koksma__doc_say(&all->more, " %.3g", ranks[i] / (double)tables);
     }
-    koksma__doc_say(d, "%s", tied ? " (equal ranks neither confirm nor deny their order)" : "");
-    koksma__doc_say(d, ". Rank correlation of the printed means with ours:");
-    for (size_t t = 0; t < tables; t++) {
-        koksma__doc_say(d, "%s %.2f in %s", t ? ";" : "", rho[t], c->tables.at[t]);
-    }
-    koksma__doc_say(d, ".");
+    koksma__doc_say(&all->more, "%s. ", tied ? " (equal ranks neither confirm nor deny their order)" : "");
 }
 
 /* ---- best: the first pattern has the least error ----------------------------------------------------------- */
 
+/* Whether a pattern has the least SD (1) or maximum (2) of a table, in ours [0] and in print [1]. */
+static void find_least(koksma__report *r, const koksma__table *t, const char *pattern, int statistic, size_t least[2])
+{
+    double best[2] = {INFINITY, INFINITY}, own[2] = {NAN, NAN};
+    for (size_t i = 0; i < t->n_rows; i++) {
+        const koksma__cell cell = koksma__table_cell(r, t, t->rows[i].pattern, 0);
+        const double values[] = {statistic == 1 ? cell.sd : cell.max, t->rows[i].published[statistic].value};
+        for (size_t k = 0; k < 2; k++) {
+            best[k] = fmin(best[k], values[k]);
+            own[k] = strcmp(t->rows[i].pattern, pattern) ? own[k] : values[k];
+        }
+    }
+    for (size_t k = 0; k < 2; k++) {
+        least[k] += own[k] <= best[k];
+    }
+}
+
 /* In the tables where it has not, only the patterns of `against` have less: each table is a test. More than half of the
-   tables must have it first, which is one more test. */
+   tables must have it first, which is one more test. SD and maximum stand beside it. */
 static void conclude_best(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
 {
-    size_t first = 0;
+    size_t first = 0, by_sd[2] = {0}, by_max[2] = {0};
     for (size_t k = 0; k < c->tables.n; k++) {
         const koksma__table *t = table_of(r, c, c->tables.at[k]);
         const double best = means_of(r, t, c->patterns.at[0], 0).ours;
         size_t before = 0, unexpected = 0;
+        koksma__doc_say(&all->more, "Table %s: ", t->id);
         for (size_t i = 0; i < t->n_rows; i++) {
             const koksma__table_row *row = &t->rows[i];
             const double mean = means_of(r, t, row->pattern, 0).ours;
             all->open += isnan(mean);
             if (mean < best) {
-                koksma__doc_say(d, before ? "; %s" : "%s: after ", before ? row->label : t->id);
-                koksma__doc_say(d, "%s", before++ ? "" : row->label);
+                koksma__doc_say(&all->more, "%s%s", before++ ? "; " : "after ", row->label);
                 unexpected += !koksma__texts_have(&c->against, row->pattern);
             }
         }
-        if (before) {
-            koksma__doc_say(d, ". ");
-        } else {
-            koksma__doc_say(d, "%s: first. ", t->id);
-        }
+        koksma__doc_say(&all->more, before ? ". " : "first. ");
         first += !before;
         test(all, !unexpected);
+        find_least(r, t, c->patterns.at[0], 1, by_sd);
+        find_least(r, t, c->patterns.at[0], 2, by_max);
     }
     test(all, 2 * first > c->tables.n);
-    koksma__doc_say(d, "First in %zu of %zu tables.", first, c->tables.n);
+    koksma__doc_say(
+        d, "First in %zu of %zu tables. Its SD is the least in %zu (in print %zu), its maximum in %zu (%zu).", first,
+        c->tables.n, by_sd[0], by_sd[1], by_max[0], by_max[1]);
 }
 
 /* ---- predictor: a measure orders the patterns as the errors do --------------------------------------------- */
 
-/* The Spearman's correlation of n means from which on it is above 0 at 5 %, by t = rho sqrt((n - 2) / (1 - rho^2)) with
-   n - 2 degrees of freedom. */
-static double sure_from(size_t n)
+/* The rank correlation of a measure with the errors of each table, ours [0] and in print [1], in r's memory; open: of the
+   tests, to count missing rows. NULL after a failure. */
+static double *correlate(koksma__report *r, const koksma__conclusion *c, const koksma__table *by, size_t *open)
 {
-    const double t = n > 2 ? koksma__student_quantile(0.95, (double)n - 2) : (double)NAN;
-    return t / sqrt((double)n - 2 + t * t);
+    const size_t n = c->patterns.n;
+    double *x = koksma__report_memory(r, 4 * n, sizeof *x);
+    double *rho = koksma__report_memory(r, 2 * c->tables.n, sizeof *rho);
+    if (!x || !rho) {
+        return NULL;
+    }
+    list_means(r, c, by, x, x + n);
+    for (size_t k = 0; k < c->tables.n; k++) {
+        list_means(r, c, table_of(r, c, c->tables.at[k]), x + 2 * n, x + 3 * n);
+        rho[2 * k] = koksma__spearman(x, x + 2 * n, n);
+        rho[2 * k + 1] = koksma__spearman(x + n, x + 3 * n, n);
+        for (size_t i = 0; i < n; i++) {
+            *open += isnan(x[i]) || isnan(x[2 * n + i]);
+        }
+    }
+    return rho;
 }
 
-static bool is_sure(double rho, size_t n)
+/* Writes the correlations of a measure in all tables, where they are not surely above 0, and their means into `means`. */
+static void say_correlations(koksma__document *d, const koksma__conclusion *c, const double *rho, double least,
+                             double means[2])
 {
-    return rho > sure_from(n);
+    size_t unsure = 0;
+    for (size_t side = 0; side < 2; side++) {
+        means[side] = 0;
+        for (size_t k = 0; k < c->tables.n; k++) {
+            koksma__doc_say(d, "%s%.2f", k ? ", " : side ? " (in print " : "", rho[2 * k + side]);
+            means[side] += rho[2 * k + side] / (double)c->tables.n;
+        }
+    }
+    koksma__doc_say(d, ")");
+    for (size_t k = 0; k < c->tables.n; k++) {
+        if (!(rho[2 * k] > least - 1e-12)) {
+            koksma__doc_say(d, "%s%s", unsure++ ? ", " : ", not surely above 0 in ", c->tables.at[k]);
+        }
+    }
+    koksma__doc_say(d, ". ");
 }
 
 /* The measure of the first table of `by` must be surely correlated with the errors of each table, which is a test; the
    other tables of `by` stand beside it without a test. */
 static void conclude_predictor(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
 {
-    const size_t n = c->patterns.n;
-    double *x = koksma__report_memory(r, 4 * n, sizeof *x);
-    if (!x) {
-        return;
-    }
-    double *x_printed = x + n, *y = x_printed + n, *y_printed = y + n;
+    const double least = koksma__spearman_limit(c->patterns.n, 0.05);
+    koksma__document averages;
+    koksma__doc_words_begin(&averages);
     for (size_t by = 0; by < c->by.n; by++) {
         const koksma__table *of = table_of(r, c, c->by.at[by]);
-        list_means(r, c, of, x, x_printed);
-        koksma__doc_say(d, "%s%s (table %s):", by ? ". " : "Rank correlation with the error, ours (printed). ",
-                        of->title, of->id);
-        for (size_t k = 0; k < c->tables.n; k++) {
-            const koksma__table *t = table_of(r, c, c->tables.at[k]);
-            list_means(r, c, t, y, y_printed);
-            const double rho = koksma__spearman(x, y, n);
-            koksma__doc_say(d, "%s %.2f (%.2f) in %s", k ? ";" : "", rho, koksma__spearman(x_printed, y_printed, n),
-                            t->id);
-            for (size_t i = 0; i < n && !by; i++) {
-                all->open += isnan(x[i]) || isnan(y[i]);
-            }
-            if (!by) {
-                test(all, is_sure(rho, n));
-            }
+        const double *rho = correlate(r, c, of, by ? &(size_t){0} : &all->open);
+        double means[2];
+        if (!rho) {
+            break;
         }
+        for (size_t k = 0; !by && k < c->tables.n; k++) {
+            test(all, rho[2 * k] > least - 1e-12);
+            koksma__doc_say(d, "%s%s", k ? ", " : "Rank correlation with the error in ", c->tables.at[k]);
+        }
+        koksma__doc_say(by ? &all->more : d, by ? "%s (`%s`, table %s): " : ": ",
+                        of->symbol ? of->symbol : "Beside it", of->scene ? of->scene : of->measure, of->id);
+        say_correlations(by ? &all->more : d, c, rho, least, means);
+        koksma__doc_say(&averages, "%s%s `%s` %.2f (%.2f)", by ? ", " : "On average ", of->symbol ? of->symbol : "",
+                        of->scene ? of->scene : of->measure, means[0], means[1]);
     }
-    koksma__doc_say(d, ". Of %zu patterns a correlation is surely above 0 (at 5 %%) from %.2f on.", n, sure_from(n));
+    koksma__doc_words_append(d, &averages);
+    koksma__doc_say(d, ".");
+    koksma__doc_say(&all->more, "Of %zu patterns a correlation is surely above 0 (at 5 %%) from %.2f on. ",
+                    c->patterns.n, least);
 }
 
 /* ---- before: each pattern has a smaller mean than each of `against` ---------------------------------------- */
 
 enum { NAMED = 2 };
 
-/* Whether a note says that a printed mean is not of our procedure. */
-static bool is_untested(const koksma__table *t, const char *pattern, size_t k)
+/* The comparisons that find a smaller mean in ours [0] and in print [1], and their numbers. */
+typedef struct comparisons {
+    size_t smaller[2], of[2];
+} comparisons;
+
+static void say_comparisons(koksma__document *d, const comparisons *n)
 {
-    const size_t note = koksma__table_note(t, pattern, koksma__table_is_over_n(t) ? t->n.at[k] : 0, 0);
-    return note && t->notes[note - 1].untested;
+    koksma__doc_say(d, "smaller in %zu of %zu comparisons, in print in %zu of %zu", n->smaller[0], n->of[0],
+                    n->smaller[1], n->of[1]);
 }
 
 /* Every comparison in each table at each number of points is a test, by our means; the same comparisons of the printed
-   means stand beside them. NAMED of those that fail are named. Where both means are by another procedure than the printed
-   ones, a test that fails leaves the conclusion undecided. */
+   means stand beside them. NAMED of those that fail are named. Comparisons by another procedure than the printed one are no
+   tests, neither for nor against the paper. */
 static void conclude_before(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
 {
-    size_t in_print = 0, printed = 0, failed = 0;
+    comparisons n[2] = {0};
+    const char *procedure = "";
+    size_t failed = 0;
     for (size_t i = 0; i < c->tables.n * KOKSMA__TABLE_PRINTED; i++) {
         const koksma__table *t = table_of(r, c, c->tables.at[i / KOKSMA__TABLE_PRINTED]);
         const size_t k = i % KOKSMA__TABLE_PRINTED;
         for (size_t j = 0; k < t->n.n && j < c->patterns.n * c->against.n; j++) {
             const char *better = c->patterns.at[j / c->against.n], *worse = c->against.at[j % c->against.n];
             const pair x = means_of(r, t, better, k), y = means_of(r, t, worse, k);
+            const bool other = is_other(t, k), smaller = x.ours < y.ours;
             all->open += isnan(x.ours) || isnan(y.ours);
-            const bool other = is_untested(t, better, k) && is_untested(t, worse, k);
-            test(all, x.ours < y.ours);
-            all->other += other;
-            all->other_failed += other && !(x.ours < y.ours);
-            printed += !isnan(x.printed) && !isnan(y.printed);
-            in_print += x.printed < y.printed;
-            if (!(x.ours < y.ours) && failed++ < NAMED) {
-                koksma__doc_say(d, "%s%s against %s in table %s", failed > 1 ? "; " : "Not: ", label_of(r, c, better),
-                                label_of(r, c, worse), t->id);
-                if (koksma__table_is_over_n(t)) {
-                    koksma__doc_say(d, " at N = %lld", t->n.at[k]);
-                }
+            n[other].of[0]++;
+            n[other].smaller[0] += smaller;
+            n[other].of[1] += !isnan(x.printed) && !isnan(y.printed);
+            n[other].smaller[1] += x.printed < y.printed;
+            if (other) {
+                procedure = t->measure;
+                all->other++;
+                continue;
+            }
+            test(all, smaller);
+            if (!smaller && failed++ < NAMED) {
+                koksma__doc_say(&all->more, failed > 1 ? "; " : "Not: ");
+                say_label(&all->more, r, c, better);
+                koksma__doc_say(&all->more, " against ");
+                say_label(&all->more, r, c, worse);
+                koksma__doc_say(&all->more, koksma__table_is_over_n(t) ? " in table %s at N = %lld" : " in table %s",
+                                t->id, t->n.at[k]);
             }
         }
     }
     if (failed > NAMED) {
-        koksma__doc_say(d, "; and %zu more", failed - NAMED);
+        koksma__doc_say(&all->more, "; and %zu more", failed - NAMED);
     }
-    koksma__doc_say(d, "%s", failed ? ". " : "");
-    koksma__doc_say(d, "Smaller in %zu of %zu comparisons, in print in %zu of %zu.", all->passed, all->tests,
-                    in_print, printed);
+    koksma__doc_say(&all->more, failed ? ". " : "");
+    if (all->tests) {
+        koksma__doc_say(d, "The mean is ");
+        say_comparisons(d, &n[0]);
+        koksma__doc_say(d, ".");
+    }
     if (all->other) {
-        koksma__doc_say(d, " %zu of our comparisons are by another procedure than the printed one (see the note).",
-                        all->other);
+        koksma__document *to = all->tests ? &all->more : d;
+        koksma__doc_say(to, "By our rows' procedure (`%s`) ", procedure);
+        say_comparisons(to, &n[1]);
+        koksma__doc_say(to, to == d ? "." : ". ");
     }
 }
 
 /* ---- bands: the errors of the patterns are in visible bands, and those of `against` are not ---------------- */
 
-/* Each pattern in each image is a test, by the coherence of the mean spectrum. */
-static void test_bands(koksma__report *r, koksma__document *d, const koksma__conclusion *c, const koksma__subject *s,
-                       long long spp, tested *all)
+/* The least and the largest coherence of errors that are to be in bands [0], and of those that are not [1]. */
+typedef struct coherences {
+    double low[2], high[2];
+} coherences;
+
+/* Each pattern in each image is a test, by the coherence of the mean spectrum; those of `beside` stand beside them. */
+static void test_bands(koksma__report *r, const koksma__conclusion *c, const koksma__subject *s, long long spp,
+                       coherences *found, tested *all)
 {
-    koksma__doc_say(d, "_%s_: ", s->scene);
-    for (size_t i = 0; i < c->patterns.n + c->against.n; i++) {
-        const bool expected = i < c->patterns.n;
-        const char *pattern = expected ? c->patterns.at[i] : c->against.at[i - c->patterns.n];
-        const koksma_coherence_values v = koksma__mean_coherence(r, s, pattern, spp);
-        if (!v.images) {
-            all->open++;
-            continue;
+    const koksma__texts *lists[] = {&c->patterns, &c->against, &c->beside};
+    koksma__doc_say(&all->more, "_%s_: ", s->scene);
+    for (size_t list = 0, said = 0; list < 3; list++) {
+        for (size_t i = 0; i < lists[list]->n; i++) {
+            const koksma_coherence_values v = koksma__mean_coherence(r, s, lists[list]->at[i], spp);
+            if (!v.images) {
+                all->open++;
+                continue;
+            }
+            koksma__doc_say(&all->more, "%s", said++ ? "; " : "");
+            say_label(&all->more, r, c, lists[list]->at[i]);
+            koksma__doc_say(&all->more, " %.3g, %s", v.coherence, v.coherent ? "in bands" : "noise");
+            if (list < 2) {
+                test(all, v.coherent == (list == 0));
+                found->low[list] = fmin(found->low[list], v.coherence);
+                found->high[list] = fmax(found->high[list], v.coherence);
+            }
         }
-        test(all, v.coherent == expected);
-        koksma__doc_say(d, "%s %.3g (%.2g)%s; ", label_of(r, c, pattern), v.coherence, v.noise_high,
-                        v.coherent == expected ? ""
-                        : expected             ? ", no bands"
-                                               : ", in bands");
     }
+    koksma__doc_say(&all->more, ". ");
 }
 
 static void conclude_bands(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
 {
     koksma__subject s;
     long long spp;
-    koksma__doc_say(d, "Coherence (noise below), ");
+    coherences found = {{INFINITY, INFINITY}, {0, 0}};
+    koksma__doc_say(&all->more, "Coherence of the errors in ");
     for (size_t i = 0; i < c->tables.n; i++) {
         const koksma__table *t = table_of(r, c, c->tables.at[i]);
         s = koksma__table_images(r->study, t);
-        test_bands(r, d, c, &s, t->n.at[0], all);
+        test_bands(r, c, &s, t->n.at[0], &found, all);
     }
     for (size_t i = 0; next_images(r, c, &i, &s, &spp);) {
-        test_bands(r, d, c, &s, spp, all);
+        test_bands(r, c, &s, spp, &found, all);
     }
-    koksma__doc_say(d, "%zu of %zu as concluded.", all->passed, all->tests);
+    koksma__doc_say(d, "%zu of %zu errors are as concluded", all->passed, all->tests);
+    for (size_t k = 0; k < 2; k++) {
+        if (found.low[k] <= found.high[k]) {
+            koksma__doc_say(d, found.low[k] < found.high[k] ? "%s%.3g to %.3g" : "%s%.3g",
+                            k ? ", without " : ": coherence with bands ", found.low[k], found.high[k]);
+        }
+    }
+    koksma__doc_say(d, ".");
 }
 
 /* ---- metric: images of the first pattern have a larger error than those of the first of `against` ---------- */
@@ -322,8 +417,11 @@ static void conclude_metric(koksma__report *r, koksma__document *d, const koksma
     koksma__subject s;
     long long spp;
     size_t least = SIZE_MAX;
-    koksma__doc_say(d, "`%s` of %s over that of %s: ", c->metric, label_of(r, c, c->patterns.at[0]),
-                    label_of(r, c, c->against.at[0]));
+    koksma__doc_say(d, "Ratios of their %s: ", c->metric);
+    koksma__doc_say(&all->more, "`%s` of ", c->metric);
+    say_label(&all->more, r, c, c->patterns.at[0]);
+    koksma__doc_say(&all->more, " over that of ");
+    say_label(&all->more, r, c, c->against.at[0]);
     for (size_t i = 0; next_images(r, c, &i, &s, &spp);) {
         const koksma__summary x = koksma__read_mean(r, &s, c->patterns.at[0], spp, NULL),
                               y = koksma__read_mean(r, &s, c->against.at[0], spp, NULL);
@@ -334,15 +432,14 @@ static void conclude_metric(koksma__report *r, koksma__document *d, const koksma
         const double ratio = x.mean / y.mean;
         const double half = ratio * koksma__hypot((x.high - x.mean) / x.mean, (y.high - y.mean) / y.mean);
         test(all, ratio - half > 1);
-        koksma__doc_say(d, "%s%.3f (%.3f to %.3f) in %s", all->tests > 1 ? "; " : "", ratio, ratio - half,
+        koksma__doc_say(d, "%s%.2f in %s", all->tests > 1 ? ", " : "", ratio, s.scene);
+        koksma__doc_say(&all->more, "%s %.3f (%.3f to %.3f) in %s", all->tests > 1 ? "," : ":", ratio, ratio - half,
                         ratio + half, s.scene);
         least = x.n < least ? x.n : least;
         least = y.n < least ? y.n : least;
     }
-    if (all->tests) {
-        koksma__doc_say(d, ", of the means of %zu images; surely above 1 in %zu of %zu scenes.", least, all->passed,
-                        all->tests);
-    }
+    koksma__doc_say(d, "; surely above 1 in %zu of %zu.", all->passed, all->tests);
+    koksma__doc_say(&all->more, ", of the means of %zu images. ", all->tests ? least : 0);
 }
 
 /* ---- rates: the patterns converge faster than random points ------------------------------------------------ */
@@ -350,6 +447,13 @@ static void conclude_metric(koksma__report *r, koksma__document *d, const koksma
 /* Exponents that differ from -1/2 by less are taken for those of finite sizes: the part of an error that vanishes faster
    still tilts it. */
 #define TOLERANCE 0.05
+
+static void say_tolerance(tested *all)
+{
+    koksma__doc_say(&all->more,
+                    "Faster means an exponent surely below %.2f; one nearer to -1/2 may be that of finite sizes. ",
+                    -0.5 - TOLERANCE);
+}
 
 /* Reads the means of a pattern at all sizes, those above 0, and returns their number. */
 static size_t read_positive(koksma__report *r, const koksma__subject *s, const char *pattern, double *x,
@@ -377,10 +481,12 @@ static void test_rates(koksma__report *r, koksma__document *d, const koksma__con
     if (!x || !means) {
         return;
     }
-    if (koksma__texts_have(s->patterns, "random") && read_positive(r, s, "random", x, means) == sizes) {
-        random = means[sizes - 1].mean;
-    }
     koksma__doc_say(d, "`%s`, N = %lld to %lld: ", s->measure, s->n->at[0], s->n->at[sizes - 1]);
+    if (koksma__texts_have(s->patterns, "random") && read_positive(r, s, "random", x, means) == sizes) {
+        const koksma__estimate slope = koksma__trend_of(x, means, sizes).slope;
+        random = means[sizes - 1].mean;
+        koksma__doc_say(d, "random N^%.3f^ (± %.3f), ", slope.value, slope.high - slope.value);
+    }
     for (size_t i = 0; i < c->patterns.n; i++) {
         const size_t known = read_positive(r, s, c->patterns.at[i], x, means);
         const koksma__estimate slope = koksma__trend_of(x, means, known).slope;
@@ -389,12 +495,15 @@ static void test_rates(koksma__report *r, koksma__document *d, const koksma__con
             continue;
         }
         test(all, slope.high < -0.5 - TOLERANCE);
-        koksma__doc_say(d, "%s N^%.3f^ (± %.3f)", label_of(r, c, c->patterns.at[i]), slope.value,
-                        slope.high - slope.value);
+        say_label(d, r, c, c->patterns.at[i]);
+        koksma__doc_say(d, " N^%.3f^ (± %.3f)%s", slope.value, slope.high - slope.value,
+                        i + 1 < c->patterns.n ? ", " : ".");
         if (!isnan(random)) {
-            koksma__doc_say(d, ", at the end %.2g times random", means[known - 1].mean / random);
+            koksma__doc_say(&all->more, "At N = %lld ", s->n->at[sizes - 1]);
+            say_label(&all->more, r, c, c->patterns.at[i]);
+            koksma__doc_say(&all->more, " has %.2g times the mean of random points. ",
+                            means[known - 1].mean / random);
         }
-        koksma__doc_say(d, i + 1 < c->patterns.n ? "; " : ". ");
     }
 }
 
@@ -408,8 +517,93 @@ static void conclude_rates(koksma__report *r, koksma__document *d, const koksma_
             test_rates(r, d, c, &s, all);
         }
     }
-    koksma__doc_say(d, "Faster means an exponent surely below %.2f; one nearer to -1/2 may be that of finite sizes.",
-                    -0.5 - TOLERANCE);
+    say_tolerance(all);
+}
+
+/* ---- slopes: the printed tables over several n, by the slopes that stand beside their rows ------------------- */
+
+/* The slope of our means of a row, of all columns; NaN if one is missing. */
+static koksma__estimate slope_of(koksma__report *r, const koksma__table *t, const char *pattern)
+{
+    double x[KOKSMA__TABLE_PRINTED];
+    koksma__summary means[KOKSMA__TABLE_PRINTED];
+    for (size_t k = 0; k < t->n.n; k++) {
+        means[k] = koksma__table_cell(r, t, pattern, k).mean;
+        if (!means[k].n || !(means[k].mean > 0)) {
+            return (koksma__estimate){NAN, NAN, NAN};
+        }
+        x[k] = (double)t->n.at[k];
+    }
+    return koksma__trend_of(x, means, t->n.n).slope;
+}
+
+/* Each row of a pattern is a test: its slope must be surely below -1/2 - TOLERANCE and, of a pattern of `against`, must not
+   be; with `by` it must be above the pattern's slope in that table. Rows by another procedure than the printed one are no
+   tests. */
+static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+{
+    const koksma__table *by = c->by.n ? table_of(r, c, c->by.at[0]) : NULL;
+    const koksma__estimate none = {NAN, NAN, NAN};
+    for (size_t i = 0; i < c->tables.n; i++) {
+        const koksma__table *t = table_of(r, c, c->tables.at[i]);
+        const bool other = is_other(t, 0);
+        koksma__document *to = other ? &all->more : d;
+        koksma__doc_say(to, other ? "By our rows' procedure (`%s`) in table %s:" : "%s in table %s:",
+                        other        ? t->measure
+                        : all->tests ? ";"
+                                     : "Slopes",
+                        t->id);
+        for (size_t k = 0, said = 0; k < c->patterns.n + c->against.n; k++) {
+            const bool faster = k < c->patterns.n;
+            const char *pattern = faster ? c->patterns.at[k] : c->against.at[k - c->patterns.n];
+            if (!koksma__plan_row_of(t, pattern)) {
+                continue;
+            }
+            const koksma__estimate slope = slope_of(r, t, pattern), least = by ? slope_of(r, by, pattern) : none;
+            koksma__doc_say(to, said++ ? ", " : " ");
+            say_label(to, r, c, pattern);
+            koksma__doc_say(to, " %.3f", slope.value);
+            if (by) {
+                koksma__doc_say(to, " (%.3f in table %s)", least.value, by->id);
+            }
+            all->other += other;
+            all->open += isnan(slope.high) || (by && isnan(least.value));
+            if (!other) {
+                test(all, by ? slope.value > least.value : (slope.high < -0.5 - TOLERANCE) == faster);
+            }
+        }
+        koksma__doc_say(to, other ? ". " : "");
+    }
+    koksma__doc_say(d, all->tests ? "." : "");
+    if (!by) {
+        say_tolerance(all);
+    }
+}
+
+/* ---- adaptive: adaptive sampling splits fewer strata needlessly in the first of two figures ------------------ */
+
+/* Each pair of figures is a test, by the share of splits that were needless. */
+static void conclude_adaptive(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+{
+    double share[2] = {0};
+    for (size_t i = 0; i < c->figures.n; i++) {
+        const koksma__figure *f = koksma__plan_figure_of(&r->study->plan, c->part, c->figures.at[i]);
+        const koksma_adaptive_report *cost = &r->adaptive[f - r->study->plan.figures];
+        share[i % 2] = (double)cost->needless / (double)cost->splits;
+        koksma__doc_say(d, "%s%.0f %% in %s%s",
+                        i % 2 ? " against "
+                        : i   ? "; "
+                              : "Needless splits: ",
+                        100 * share[i % 2], i ? "" : "figure ", f->id);
+        koksma__doc_say(&all->more, "%s%s: %.1f more samples a pixel", i ? ", " : "Figure ", f->id,
+                        (double)(cost->samples - cost->first) / (double)cost->first * (double)f->n);
+        if (i % 2) {
+            test(all, share[0] < share[1]);
+            all->open += isnan(share[0] + share[1]);
+        }
+    }
+    koksma__doc_say(d, ".");
+    koksma__doc_say(&all->more, ". ");
 }
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
@@ -425,42 +619,57 @@ static bool has_conclusions(const koksma__report *r)
 {
     bool found = false;
     for (size_t i = 0; i < r->study->plan.n_conclusions; i++) {
-        found |= r->study->plan.conclusions[i].part == r->part;
+        const koksma__conclusion *c = &r->study->plan.conclusions[i];
+        found |= c->part == r->part && !(c->kind->fields & KOKSMA__NEEDS_FIGURES);
     }
     return found;
 }
 
-static void add(koksma__report *r, koksma__document *d, const koksma__conclusion *c)
+static bool is_fitted(const koksma__report *r, const koksma__conclusion *c)
 {
-    static const char *const verdicts[] = {[KOKSMA__ANSWER_UNDECIDED] = "Not decided: rows are missing",
-                                           [KOKSMA__ANSWER_HOLDS] = "Holds",
+    bool fitted = false;
+    for (size_t i = 0; i < c->tables.n; i++) {
+        fitted |= table_of(r, c, c->tables.at[i])->fitted;
+    }
+    return fitted;
+}
+
+void koksma__conclude(koksma__report *r, koksma__document *d, const koksma__conclusion *c)
+{
+    static const char *const verdicts[] = {[KOKSMA__ANSWER_HOLDS] = "Holds",
                                            [KOKSMA__ANSWER_PARTLY] = "Holds in part",
                                            [KOKSMA__ANSWER_FAILS] = "Does not hold"};
     tested all = {0};
-    koksma__document words = {0};
+    koksma__document words;
     koksma__doc_words_begin(&words);
+    koksma__doc_words_begin(&all.more);
     functions[c->kind - koksma__conclusion_kinds](r, &words, c, &all);
-    const bool undecided = all.open || !all.tests || all.other_failed;
-    const koksma__answer_kind answer = undecided                 ? KOKSMA__ANSWER_UNDECIDED
+    const koksma__answer_kind answer = all.open || !all.tests    ? KOKSMA__ANSWER_UNDECIDED
                                        : all.passed == all.tests ? KOKSMA__ANSWER_HOLDS
                                        : all.passed              ? KOKSMA__ANSWER_PARTLY
                                                                  : KOKSMA__ANSWER_FAILS;
     koksma__doc_verdict_begin(d, answer);
-    koksma__doc_say(d, "*%s* _%s._ ", c->says,
-                    all.other_failed && !all.open ? "Not decided: the rows are not by the paper's procedure"
-                                                  : verdicts[answer]);
+    koksma__doc_say(d, "*%s%s:* %s ",
+                    answer                   ? verdicts[answer]
+                    : all.other && !all.open ? "Not decided, as our rows are by another procedure"
+                                             : "Not decided, as rows are missing",
+                    is_fitted(r, c) ? " (scenes fitted)" : "", c->says);
     koksma__doc_words_append(d, &words);
-    if (c->remark) {
-        koksma__doc_say(d, " %s", c->remark);
-    }
     koksma__doc_paragraph_end(d);
+    if (c->remark || !koksma__doc_is_empty(&all.more)) {
+        koksma__doc_paragraph_begin(d);
+        koksma__doc_words_append(d, &all.more);
+        koksma__doc_say(d, "%s", c->remark ? c->remark : "");
+        koksma__doc_paragraph_end(d);
+    }
 }
 
 static void write_conclusions(koksma__report *r, koksma__document *d)
 {
     for (size_t i = 0; !r->status && i < r->study->plan.n_conclusions; i++) {
-        if (r->study->plan.conclusions[i].part == r->part) {
-            add(r, d, &r->study->plan.conclusions[i]);
+        const koksma__conclusion *c = &r->study->plan.conclusions[i];
+        if (c->part == r->part && !(c->kind->fields & KOKSMA__NEEDS_FIGURES)) {
+            koksma__conclude(r, d, c);
         }
     }
 }

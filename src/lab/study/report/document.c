@@ -532,23 +532,24 @@ void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *c)
     memset(d->curves, 0, sizeof d->curves);
 }
 
-void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__series_style style)
+void koksma__doc_series_begin(koksma__document *d, const char *label, const char *pattern, koksma__series_style style)
 {
     static const char *const styles[] = {[KOKSMA__SERIES_LINE] = "line",
                                          [KOKSMA__SERIES_MARKS] = "marks",
                                          [KOKSMA__SERIES_THEORY] = "theory",
                                          [KOKSMA__SERIES_HOLLOW] = "hollow"};
+    const char *of = pattern ? pattern : label;
     koksma__json_begin_object(&d->json, NULL);
     koksma__json_write_text(&d->json, "label", label);
     koksma__json_write_text(&d->json, "style", styles[style]);
     if (style == KOKSMA__SERIES_LINE || style == KOKSMA__SERIES_MARKS) {
-        size_t number = koksma__take_curve_number(label, d->curves);
+        size_t number = koksma__take_curve_number(of, d->curves);
         /* all dashes of the pattern's colour are in use: dashes repeat, and the page gives these lines other marks */
         if (number == KOKSMA__CURVE_STYLES) {
-            for (size_t i = koksma__colour_of(label) % KOKSMA__COLOURS; i < number; i += KOKSMA__COLOURS) {
+            for (size_t i = koksma__colour_of(of) % KOKSMA__COLOURS; i < number; i += KOKSMA__COLOURS) {
                 d->curves[i] = false;
             }
-            number = koksma__take_curve_number(label, d->curves);
+            number = koksma__take_curve_number(of, d->curves);
         }
         koksma__json_write_whole(&d->json, "colour", (long long)(number % KOKSMA__COLOURS));
         koksma__json_write_whole(&d->json, "dash", (long long)(number / KOKSMA__COLOURS % KOKSMA__DASH_GUIDE));

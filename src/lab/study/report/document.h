@@ -153,10 +153,11 @@ typedef enum koksma__series_style {
     KOKSMA__SERIES_HOLLOW
 } koksma__series_style;
 
-/* Begins a chart; write its series, then koksma__doc_end. A series of lines or marks whose label begins with a
-   pattern's name has that pattern's colour, which is the same in all plots. */
+/* Begins a chart; write its series, then koksma__doc_end. A series of lines or marks has the colour of its
+   pattern, which is the same in all plots; pattern NULL: of the pattern with whose name its label begins. */
 void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *chart);
-void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__series_style style);
+void koksma__doc_series_begin(koksma__document *d, const char *label, const char *pattern,
+                              koksma__series_style style);
 /* Adds a point to the open series. low, high: the ends of the error bar of y; NAN: no bar. */
 void koksma__doc_point(koksma__document *d, double x, double y, double low, double high);
 

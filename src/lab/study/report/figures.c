@@ -139,12 +139,12 @@ static void describe_adaptive(const koksma__figure *f, double pixels, const koks
 }
 
 static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__document *d, const koksma__figure *f,
-                                  uint64_t seed, const koksma_run *run, char note[NOTE])
+                                  uint64_t seed, const koksma_run *run, koksma_adaptive_report *report,
+                                  char note[NOTE])
 {
     koksma__variant variant;
     koksma_render_options *options = &variant.render;
     koksma_adaptive_options adaptive;
-    koksma_adaptive_report report;
     koksma_layers layers;
     koksma_strata strata = {.x = (int)f->strata[0], .y = (int)f->strata[1]};
     koksma_render_options_init(options, scene->scene);
@@ -157,17 +157,17 @@ static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__docu
     options->height = scene->height;
     adaptive.strata = f->strata[0] >= 0 ? &strata : NULL;
     adaptive.probes = adaptive.method->own_samples ? PROBES : 0;
-    if (status || (status = koksma_render_adaptive(scene->scene, options, &adaptive, run, &layers, &report))) {
+    if (status || (status = koksma_render_adaptive(scene->scene, options, &adaptive, run, &layers, report))) {
         return status;
     }
     status = adaptive.strata ? add_strata(d, f, &strata) : add_part(d, f, &layers.image);
-    describe_adaptive(f, (double)scene->width * (double)scene->height, &report, note);
+    describe_adaptive(f, (double)scene->width * (double)scene->height, report, note);
     koksma_layers_fini(&layers);
     return status;
 }
 
 static koksma_status add_scene(const koksma_study *study, koksma__document *d, const koksma__figure *f,
-                               const koksma_run *run, char note[NOTE])
+                               const koksma_run *run, koksma_adaptive_report *report, char note[NOTE])
 {
     koksma_image image;
     const koksma__study_scene *scene = koksma__study_scene_of(study, f->scene);
@@ -178,7 +178,7 @@ static koksma_status add_scene(const koksma_study *study, koksma__document *d, c
                                      .height = scene->height,
                                      .seed = koksma__job_seed("figure|%s|%s|%lld", f->scene, f->pattern, f->n)};
     if (f->adaptive) {
-        return add_adaptive(scene, d, f, picture.seed, run, note);
+        return add_adaptive(scene, d, f, picture.seed, run, report, note);
     }
     koksma_status status = koksma__study_render(scene, &picture, run, &image);
     if (!status) {
@@ -246,7 +246,8 @@ static bool has_figures(const koksma__report *r)
     return koksma__plan_of(r)->figures[0] < koksma__plan_of(r)->figures[1];
 }
 
-static void add_figure(koksma__report *r, koksma__document *d, const koksma__figure *f)
+static void add_figure(koksma__report *r, koksma__document *d, const koksma__figure *f,
+                       koksma_adaptive_report *report)
 {
     char id[96], note[NOTE] = "";
     snprintf(id, sizeof id, "figure-%.80s", f->id);
@@ -254,7 +255,8 @@ static void add_figure(koksma__report *r, koksma__document *d, const koksma__fig
     if (f->lines) {
         add_lines(d, f);
     } else {
-        koksma__report_keep(r, f->scene ? add_scene(r->study, d, f, r->run, note) : add_points(d, f, r->run, note));
+        koksma__report_keep(r, f->scene ? add_scene(r->study, d, f, r->run, report, note)
+                                        : add_points(d, f, r->run, note));
     }
     koksma__doc_caption(d);
     koksma__doc_say(d, "Figure %s: %s%s", f->id, f->title, note);
@@ -269,8 +271,17 @@ static void add_figure(koksma__report *r, koksma__document *d, const koksma__fig
 
 static void write_figures(koksma__report *r, koksma__document *d)
 {
+    const koksma__plan *plan = &r->study->plan;
+    koksma_adaptive_report *reports = koksma__report_memory(r, plan->n_figures, sizeof *reports);
     for (size_t i = koksma__plan_of(r)->figures[0]; !r->status && i < koksma__plan_of(r)->figures[1]; i++) {
-        add_figure(r, d, &r->study->plan.figures[i]);
+        add_figure(r, d, &plan->figures[i], &reports[i]);
+    }
+    r->adaptive = reports;
+    for (size_t i = 0; !r->status && i < plan->n_conclusions; i++) {
+        const koksma__conclusion *c = &plan->conclusions[i];
+        if (c->part == r->part && c->kind->fields & KOKSMA__NEEDS_FIGURES) {
+            koksma__conclude(r, d, c);
+        }
     }
 }
 

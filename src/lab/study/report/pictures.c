@@ -298,7 +298,7 @@ static void add_spectra(koksma__report *r, koksma__document *d, const koksma__ta
             continue;
         }
         values[p] = average(r, &task, r->run, &spectrum);
-        koksma__doc_series_begin(d, task.pattern, KOKSMA__SERIES_LINE);
+        koksma__doc_series_begin(d, task.pattern, NULL, KOKSMA__SERIES_LINE);
         for (size_t k = 0; k < spectrum.n; k++) {
             koksma__doc_point(d, ((double)k + 0.5) / (2 * (double)spectrum.n), spectrum.power[k], NAN, NAN);
         }

@@ -21,8 +21,9 @@ typedef struct koksma__report {
     size_t part;                    /* index of the plan that a section of each plan is about */
     char rows[KOKSMA__SHA256_TEXT]; /* SHA-256 of all rows of the store */
     size_t n_memory;
-    void **memory;                         /* of koksma__report_memory */
-    struct koksma__coherences *coherences; /* known so far (pictures.c) */
+    void **memory;                                 /* of koksma__report_memory */
+    struct koksma__coherences *coherences;         /* known so far (pictures.c) */
+    const struct koksma_adaptive_report *adaptive; /* of each figure; in the section of figures alone */
 } koksma__report;
 
 /* Whether to go on: nothing failed yet, and the caller of the report agrees. */
@@ -181,13 +182,13 @@ double koksma__table_printed_slope(const koksma__table *table, const koksma__tab
    those that a note leaves out. */
 typedef struct koksma__z_sums {
     size_t count;
-    size_t one_set, untested; /* number of cells without chance, and of those that a note leaves out */
+    size_t one_set,
+        untested; /* number of cells without chance, and of those that are no test (KOKSMA_VERDICT_UNTESTED) */
     double sum, squares;
 } koksma__z_sums;
 
 /* Adds the z-value of a cell of a table to the sums, or counts it as left out. */
-void koksma__z_add(koksma__z_sums *sums, const koksma__table *table, const koksma__verdict *verdict,
-                   const koksma__cell *cell);
+void koksma__z_add(koksma__z_sums *sums, const koksma__verdict *verdict, const koksma__cell *cell);
 
 /* Whether the means deviate to one side (the sum of z over the root of their number), and whether they spread too far
    (the sum of squares), each at the level alpha. */
@@ -211,6 +212,9 @@ typedef struct koksma__section {
 #define SECTION(name) extern const koksma__section koksma__section_##name;
 #include "study/report/sections.def"
 #undef SECTION
+
+/* Writes a conclusion of a plan: whether it holds, and the evidence. Those on figures follow the figures. */
+void koksma__conclude(koksma__report *r, koksma__document *d, const koksma__conclusion *c);
 
 /* A question of a plan with its blocks. */
 typedef struct koksma__topic {

@@ -62,13 +62,15 @@ static void end_table(koksma__document *d, const koksma__table *t)
     }
 }
 
-/* Writes the columns for the label, the pattern, and the published mean, SD and maximum. */
-static void add_published_columns(koksma__document *d, const char *group)
+/* Writes the columns for the label, the pattern, the verdict on the published mean, which is read first, and the published
+   mean, SD and maximum. */
+static void add_published_columns(koksma__document *d, const char *verdict, const char *group)
 {
     static const char *const names[3][2] = {
         {"published mean", "ave"}, {"published SD", "SD"}, {"published max", "max"}};
     koksma__doc_column(d, &(koksma__column){.name = "row", .title = "pattern"});
     koksma__doc_column(d, &(koksma__column){.name = "pattern", .hidden = true});
+    koksma__doc_column(d, &(koksma__column){.name = "verdict", .title = verdict, .type = KOKSMA__COLUMN_VERDICT});
     for (int i = 0; i < 3; i++) {
         koksma__doc_column(d, &(koksma__column){names[i][0], names[i][1], group, KOKSMA__COLUMN_NUMBER, .digits = 4});
     }
@@ -87,15 +89,6 @@ static void add_published(koksma__document *d, const koksma__printed *printed, s
     }
 }
 
-static void begin_row(koksma__document *d, const koksma__table *t, const koksma__table_row *row)
-{
-    koksma__doc_row(d);
-    koksma__doc_cells(d, "tt", row->label, row->pattern);
-    for (int s = 0; s < 3; s++) {
-        add_published(d, &row->published[s], koksma__table_note(t, row->pattern, 0, s));
-    }
-}
-
 /* Writes a cell with our mean, the number of sets over which it is taken (0: not shown), and the verdict on the
    published mean (NULL: no verdict). */
 static void add_mean(koksma__document *d, const koksma__summary *mean, size_t sets, const koksma__verdict *v)
@@ -105,7 +98,7 @@ static void add_mean(koksma__document *d, const koksma__summary *mean, size_t se
     cell.high = mean->high;
     cell.sets = sets;
     if (v) {
-        cell.note = v->kind == KOKSMA_VERDICT_EXPLAINED ? v->note : 0;
+        cell.note = v->kind == KOKSMA_VERDICT_EXPLAINED || v->kind == KOKSMA_VERDICT_UNTESTED ? v->note : 0;
         cell.verdict = koksma_study_verdict_name(v->kind);
         cell.z = v->z;
         cell.change = v->ratio;
@@ -113,9 +106,15 @@ static void add_mean(koksma__document *d, const koksma__summary *mean, size_t se
     koksma__doc_cell(d, &cell);
 }
 
-static void add_verdict(koksma__document *d, const koksma__verdict *v)
+static void begin_row(koksma__document *d, const koksma__table *t, const koksma__table_row *row,
+                      const koksma__verdict *verdict)
 {
-    add_mean(d, &(koksma__summary){.mean = NAN, .low = NAN, .high = NAN}, 0, v);
+    koksma__doc_row(d);
+    koksma__doc_cells(d, "tt", row->label, row->pattern);
+    add_mean(d, &(koksma__summary){.mean = NAN, .low = NAN, .high = NAN}, 0, verdict);
+    for (int s = 0; s < 3; s++) {
+        add_published(d, &row->published[s], koksma__table_note(t, row->pattern, 0, s));
+    }
 }
 
 /* ---- Discrepancies at one number of points ----------------------------------------------------------------- */
@@ -177,10 +176,8 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
     snprintf(group, sizeof group, "%s, %s%zu set%s", t->measure, differ ? "up to " : "", sets,
              koksma__plural((double)sets));
     begin_table(d, t);
-    add_published_columns(d, "published (100 sets)");
+    add_published_columns(d, "mean agrees", "published (100 sets)");
     add_measure_columns(d, t->measure, group, sets, false);
-    koksma__doc_column(d,
-                       &(koksma__column){.name = "verdict", .title = "mean agrees", .type = KOKSMA__COLUMN_VERDICT});
     if (t->also) {
         add_measure_columns(d, t->also, "beside it", sets, true);
     }
@@ -188,10 +185,9 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
         const koksma__table_row *row = &t->rows[i];
         const koksma__cell cell = koksma__table_cell(r, t, row->pattern, 0);
         const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
-        begin_row(d, t, row);
+        begin_row(d, t, row, &verdict);
         add_measure_cells(d, &cell, differ);
-        add_verdict(d, &verdict);
-        koksma__z_add(&together, t, &verdict, &cell);
+        koksma__z_add(&together, &verdict, &cell);
         if (t->also) {
             const koksma__cell also = koksma__points_cell(r, t, t->also, row->pattern, t->n.at[0]);
             add_measure_cells(d, &also, differ);
@@ -252,14 +248,14 @@ static void add_our_line(sizes_table *s, const koksma__table_row *row, const cha
     koksma__doc_row(s->document);
     koksma__doc_cells(s->document, "ttt", row->label, row->pattern, measure);
     if (own) {
-        koksma__doc_series_begin(&s->chart, row->label, KOKSMA__SERIES_LINE);
+        koksma__doc_series_begin(&s->chart, row->label, row->pattern, KOKSMA__SERIES_LINE);
     }
     for (size_t i = 0; i < n->n; i++) {
         const koksma__cell cell = koksma__points_cell(s->report, s->table, measure, row->pattern, n->at[i]);
         const koksma__verdict verdict = koksma__table_judge(s->table, row, i, &cell);
         add_mean(s->document, &cell.mean, 0, own ? &verdict : NULL);
         if (own) {
-            koksma__z_add(&s->together, s->table, &verdict, &cell);
+            koksma__z_add(&s->together, &verdict, &cell);
             koksma__doc_point(&s->chart, (double)n->at[i], cell.mean.mean, cell.mean.low, cell.mean.high);
         }
         if (cell.mean.n && cell.mean.mean > 0) {
@@ -276,7 +272,7 @@ static void add_our_line(sizes_table *s, const koksma__table_row *row, const cha
 /* Adds the published means of a row to the chart, as hollow marks in the style of our curve. */
 static void add_printed_marks(sizes_table *s, const koksma__table_row *row)
 {
-    koksma__doc_series_begin(&s->chart, row->label, KOKSMA__SERIES_HOLLOW);
+    koksma__doc_series_begin(&s->chart, row->label, row->pattern, KOKSMA__SERIES_HOLLOW);
     for (size_t i = 0; i < s->table->n.n; i++) {
         koksma__doc_point(&s->chart, (double)s->table->n.at[i], row->published[i].value, NAN, NAN);
     }
@@ -340,13 +336,11 @@ static void write_point_tables(koksma__report *r, koksma__document *d)
     size_t i = 0;
     koksma__doc_paragraph(
         d,
-        "The numbers are means, over point sets, of exact values. z is the published mean minus ours, divided by "
-        "the sum of SD √(1/100 + 1/T) and half of the last published digit, where SD and T are the standard "
-        "deviation and the number of our sets: it accounts for the errors of both means and for the rounding. A "
-        "single |z| below %.1f is attributed to chance; in tables over several numbers of points, z is the "
-        "tooltip of each mark. The text below each table tests its values of z together: by chance the largest "
-        "|z| of k independent values exceeds 2 with probability 1 - 0.954^k^ (25 %% for six), and six values of "
-        "-0.8 are as rare as one of -2. _Largest of 100_ is the mean of the largest values in blocks of 100 sets; "
+        "The numbers are means over point sets, by the measure that heads the column. z is the published mean minus "
+        "ours, divided by the sum of SD √(1/100 + 1/T) and half of the last published digit, where SD and T are the "
+        "standard deviation and the number of our sets: it accounts for the errors of both means and for the "
+        "rounding. A single |z| below %.1f is attributed to chance (✓ and z); the text below each table tests its "
+        "values of z together. _Largest of 100_ is the mean of the largest values in blocks of 100 sets; "
         "its ±, from five blocks on, is the SD of these largest values, whereas the other intervals "
         "are " KOKSMA__MEAN_INTERVALS ". With fewer than 100 sets it is the largest value of all.",
         KOKSMA__AGREEMENT_Z);
@@ -381,14 +375,11 @@ static void add_image_columns(koksma__document *d, const koksma__image_block *bl
 {
     const koksma__reference *first = &block->references[0], *last = &block->references[block->n_references - 1];
     char group[2 * KOKSMA_MAX_SPEC + 160];
-    add_published_columns(d, "published");
+    add_published_columns(d, "mean within 25 %", "published");
     snprintf(group, sizeof group, "against %lld %s samples (%s), %lld trial%s", first->spp * first->replicates,
              first->pattern, first->name, block->trials, koksma__plural((double)block->trials));
     add_error_columns(d, first->name, group);
-    koksma__doc_column(
-        d, &(koksma__column){
-               .name = "verdict", .title = "mean within 25 %", .group = group, .type = KOKSMA__COLUMN_VERDICT});
-    koksma__doc_columns(d, "n3 coherence;n3 noise below;n2 p;t in bands");
+    koksma__doc_columns(d, "n3 coherence;n2 p;t in bands");
     if (block->n_references > 1) {
         snprintf(group, sizeof group, "against %lld × %lld %s samples (%s)", last->replicates, last->spp,
                  last->pattern, last->name);
@@ -408,11 +399,9 @@ static void add_image_row(koksma__report *r, koksma__document *d, const koksma__
     const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
     means[0] = cell.mean.mean;
     means[1] = last.mean.mean;
-    begin_row(d, t, row);
+    begin_row(d, t, row, &verdict);
     koksma__doc_cells(d, "inn", koksma__estimate_of(&cell.mean), cell.sd, cell.max);
-    add_verdict(d, &verdict);
-    koksma__doc_cells(d, "nnnt", v.images ? v.coherence : (double)NAN, v.images ? v.noise_high : (double)NAN,
-                      v.images ? v.p : (double)NAN,
+    koksma__doc_cells(d, "nnt", v.images ? v.coherence : (double)NAN, v.images ? v.p : (double)NAN,
                       !v.images    ? "not known"
                       : v.coherent ? "yes"
                                    : "no");
@@ -569,10 +558,10 @@ static void write_image_tables(koksma__report *r, koksma__document *d)
         d,
         "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
         "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get "
-        "no verdict. Coherence is the peak of the mean power spectrum of the errors of the first "
-        "%d trials over its mean: white noise stays below the next column in 97.5 %% of cases, and has as "
-        "large a coherence with probability p. An error with p below %g is in bands or another "
-        "pattern that the eye sees (section _Pictures_).",
+        "no verdict. Coherence (defined in the section _Pictures_) is that of the errors of the first %d trials: "
+        "white "
+        "noise has as large a one with probability p, and an error with p below %g is in bands or another pattern "
+        "that the eye sees.",
         KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
     for (const koksma__table *t; !r->status && (t = next_table(r, true, &i));) {
         add_image_table(r, d, t);

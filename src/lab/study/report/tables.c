@@ -13,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/elementary.h"
 #include "core/status.h"
 #include "study/plan/plan.h"
 #include "study/report/report.h"
@@ -147,6 +146,7 @@ koksma__verdict koksma__table_judge(const koksma__table *t, const koksma__table_
         agrees = fabs(v.z) < KOKSMA__AGREEMENT_Z;
     }
     v.kind = cell->mean.n == 0 || (!t->scene && isnan(v.z)) ? KOKSMA_VERDICT_WAITING
+             : v.note && t->notes[v.note - 1].untested      ? KOKSMA_VERDICT_UNTESTED
              : agrees && t->scene && t->fitted              ? KOKSMA_VERDICT_FITTED
              : agrees                                       ? KOKSMA_VERDICT_AGREES
              : v.note && t->notes[v.note - 1].explained     ? KOKSMA_VERDICT_EXPLAINED
@@ -168,14 +168,14 @@ double koksma__table_printed_slope(const koksma__table *t, const koksma__table_r
     return koksma__trend_of(x, means, t->n.n).slope.value;
 }
 
-void koksma__z_add(koksma__z_sums *sums, const koksma__table *t, const koksma__verdict *v, const koksma__cell *cell)
+void koksma__z_add(koksma__z_sums *sums, const koksma__verdict *v, const koksma__cell *cell)
 {
     if (!isfinite(v->z)) {
         return;
     }
-    if (v->note && t->notes[v->note - 1].untested) {
+    if (v->kind == KOKSMA_VERDICT_UNTESTED) {
         sums->untested++;
-    } else if (!(cell->sd > 0)) { /* all sets are equal, and the difference is only rounding */
+    } else if (!(cell->sd > 0)) { /* all sets are equal */
         sums->one_set++;
     } else {
         sums->count++;
@@ -207,9 +207,12 @@ void koksma__z_say(koksma__document *d, const koksma__z_sums *z)
                         "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by "
                         "chance between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one "
                         "side), and the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
-                        z->count, one_side || spread ? "fail" : "pass", z->count, z->sum / sqrt(k),
+                        z->count, one_side || spread ? "fail alone" : "pass", z->count, z->sum / sqrt(k),
                         one_side ? "fails" : "passes", z->squares, spread ? "fails" : "passes",
                         koksma__chi_squared_quantile(0.95, k));
+        if (one_side || spread) {
+            koksma__doc_say(d, " The section _Agreement with the published means_ weighs the tests of all tables.");
+        }
     } else {
         koksma__doc_say(d, "The values of z have no joint test.");
     }
@@ -217,13 +220,12 @@ void koksma__z_say(koksma__document *d, const koksma__z_sums *z)
         koksma__doc_say(d, " Left out whatever their z:");
     }
     if (z->one_set) {
-        koksma__doc_say(d, " %zu cell%s of a pattern with one set, where only the rounding differs%s", z->one_set,
+        koksma__doc_say(d, " %zu cell%s of a pattern with one set, whose z has no chance in it%s", z->one_set,
                         koksma__plural((double)z->one_set), z->untested ? ";" : ".");
     }
     if (z->untested) {
-        koksma__doc_say(d,
-                        " %zu cell%s whose printed numbers are not means of trials of our procedure (see the notes).",
-                        z->untested, koksma__plural((double)z->untested));
+        koksma__doc_say(d, " %zu cell%s that a note calls no test.", z->untested,
+                        koksma__plural((double)z->untested));
     }
     koksma__doc_paragraph_end(d);
 }
@@ -234,11 +236,11 @@ void koksma__z_say(koksma__document *d, const koksma__z_sums *z)
    errors; and image errors in scenes that were fitted to the published numbers. */
 enum { MEASURES, IMAGES, FITTED, GROUPS };
 
-/* The verdicts of each group, where measures differ for a known reason, and the values of z of each table. */
+/* The verdicts of each group, where the means of measures are no test, and the values of z of each table. */
 typedef struct counts {
-    size_t of[GROUPS][KOKSMA_VERDICT_UNEXPLAINED + 1];
-    char explained[256]; /* such as "1 in table 1; 14 in table 3" */
-    koksma__z_sums *z;   /* [table] */
+    size_t of[GROUPS][KOKSMA_VERDICT_UNTESTED + 1];
+    char untested[256]; /* such as "3 in table 1; 15 in table 3" */
+    koksma__z_sums *z;  /* [table] */
 } counts;
 
 static bool has_tables(const koksma__report *r)
@@ -250,19 +252,17 @@ static bool has_tables(const koksma__report *r)
 static void count_table(koksma__report *r, const koksma__table *t, counts *all, koksma__z_sums *z)
 {
     size_t *of = all->of[!t->scene ? MEASURES : t->fitted ? FITTED : IMAGES];
-    size_t explained = 0;
     for (size_t i = 0; !r->status && i < t->n_rows * t->n.n; i++) {
         const koksma__table_row *row = &t->rows[i / t->n.n];
         const koksma__cell cell = koksma__table_cell(r, t, row->pattern, i % t->n.n);
         const koksma__verdict verdict = koksma__table_judge(t, row, i % t->n.n, &cell);
         of[verdict.kind]++;
-        explained += verdict.kind == KOKSMA_VERDICT_EXPLAINED;
-        koksma__z_add(z, t, &verdict, &cell);
+        koksma__z_add(z, &verdict, &cell);
     }
-    const size_t used = strlen(all->explained);
-    if (explained && !t->scene) {
-        snprintf(all->explained + used, sizeof all->explained - used, "%s%zu in table %.40s", used ? "; " : "",
-                 explained, t->id);
+    const size_t used = strlen(all->untested);
+    if (z->untested) {
+        snprintf(all->untested + used, sizeof all->untested - used, "%s%zu in table %.40s", used ? "; " : "",
+                 z->untested, t->id);
     }
 }
 
@@ -271,8 +271,8 @@ static const char *verb(size_t n)
     return n == 1 ? "differs" : "differ";
 }
 
-/* Writes how many published means of a group agree, unless the group has no means to compare. If some differ for an
-   unknown reason, a second sentence gives their number and is marked as an undecided answer. */
+/* Writes how many published means of a group agree, unless the group has no means to compare. The answer is undecided if
+   some differ for an unknown reason. */
 static void say_group(koksma__document *d, int group, const counts *all)
 {
     const size_t *of = all->of[group];
@@ -284,7 +284,7 @@ static void say_group(koksma__document *d, int group, const counts *all)
     if (group == FITTED) {
         koksma__doc_paragraph_begin(d); /* by construction, so that it answers nothing */
     } else {
-        koksma__doc_answer_begin(d, true);
+        koksma__doc_answer_begin(d, !unexplained);
     }
     koksma__doc_say(d, "%zu of %zu published means ", agree, agree + explained + unexplained);
     if (group == MEASURES) {
@@ -297,24 +297,18 @@ static void say_group(koksma__document *d, int group, const counts *all)
                         group == IMAGES ? "" : ", so their agreement confirms nothing");
     }
     if (explained) {
-        koksma__doc_say(d,
-                        group == MEASURES
-                            ? "; %zu %s where a note below the table says how the printed numbers were made"
-                            : "; %zu %s for a reason that a note below the table gives",
-                        explained, verb(explained));
-        if (group == MEASURES) {
-            koksma__doc_say(d, " (%s)", all->explained);
-        }
+        koksma__doc_say(d, "; %zu %s for a reason that a note below the table gives", explained, verb(explained));
+    }
+    if (unexplained) {
+        koksma__doc_say(d, "; %zu %s for an unknown reason%s: ✗ in the tables", unexplained, verb(unexplained),
+                        group == MEASURES ? " (by chance one of 107 does)" : "");
     }
     koksma__doc_say(d, ".");
-    koksma__doc_paragraph_end(d);
-    if (unexplained) {
-        koksma__doc_answer_begin(d, false);
-        koksma__doc_say(d, "%zu of %zu published means of %s %s for an unknown reason%s: ✗ in the tables.",
-                        unexplained, agree + explained + unexplained, group == MEASURES ? "measures" : "images",
-                        verb(unexplained), group == MEASURES ? " (by chance one of 107 does)" : "");
-        koksma__doc_paragraph_end(d);
+    if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
+        koksma__doc_say(d, " %zu more are no test, as their notes say: %s.", of[KOKSMA_VERDICT_UNTESTED],
+                        all->untested);
     }
+    koksma__doc_paragraph_end(d);
 }
 
 static bool fails(const koksma__z_sums *z, double alpha)
@@ -355,22 +349,21 @@ static void say_joint(koksma__document *d, const koksma__plan *plan, const koksm
                                  : failed ? KOKSMA__ANSWER_UNDECIDED
                                           : KOKSMA__ANSWER_DECIDED);
     koksma__doc_say(d,
-                    "Together, the values of z of %zu of %zu tables pass their joint tests, each at 5 %% for the sum "
-                    "and for the squares",
+                    "The values of z of %zu of %zu tables pass their joint tests, each at 5 %% for the sum and for "
+                    "the squares",
                     tested - failed, tested);
     if (strictly) {
-        koksma__doc_say(d, "; chance alone does not explain the tables that fail: ");
+        koksma__doc_say(d, "; chance alone does not explain the tables that fail: table ");
         list_failed(d, plan, z, all_tests, true);
     }
     if (failed > strictly) {
-        koksma__doc_say(d, "; undecided: ");
+        koksma__doc_say(d, "; undecided: table ");
         list_failed(d, plan, z, all_tests, false);
-        koksma__doc_say(d, ", because of %.0f independent tests one or more fail by chance in %.0f %% of cases",
-                        all_tests, 100 * (1 - koksma__pow(0.95, all_tests)));
+        koksma__doc_say(d, " (of %.0f tests %.2g fail by chance)", all_tests, 0.05 * all_tests);
     }
     for (size_t i = 0; i < plan->n_tables; i++) {
         if (z[i].count < 2 && z[i].untested) {
-            koksma__doc_say(d, named++ ? ", %s" : ". Not tested, because of a note: %s", plan->tables[i].id);
+            koksma__doc_say(d, named++ ? ", %s" : ". No test, because of its note: table %s", plan->tables[i].id);
         }
     }
     koksma__doc_say(d, ".");
@@ -416,7 +409,8 @@ const char *koksma_study_verdict_name(koksma_study_verdict verdict)
                                         [KOKSMA_VERDICT_AGREES] = "agrees",
                                         [KOKSMA_VERDICT_FITTED] = "fitted",
                                         [KOKSMA_VERDICT_EXPLAINED] = "explained",
-                                        [KOKSMA_VERDICT_UNEXPLAINED] = "unexplained"};
+                                        [KOKSMA_VERDICT_UNEXPLAINED] = "unexplained",
+                                        [KOKSMA_VERDICT_UNTESTED] = "untested"};
     return (unsigned)verdict < sizeof names / sizeof *names ? names[verdict] : NULL;
 }
 

@@ -55,7 +55,7 @@ static void put_chart(const koksma__sheet *sheet, const char *name, const koksma
     }
     koksma__doc_chart_begin(d, &(koksma__chart){name, "points n", "RMSE", true, positive, -1});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
-        koksma__doc_series_begin(d, sheet->samplers[s]->text, KOKSMA__SERIES_LINE);
+        koksma__doc_series_begin(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < sheet->n_sizes; i++) {
             const koksma_integration_row *row = &results[s].rows[i];
             koksma__doc_point(d, (double)row->n, row->rmse, row->low, row->high);

@@ -265,7 +265,7 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
     koksma__doc_chart_begin(d, &(koksma__chart){title, "points n", v->measures[m].name, true, positive,
                                                 measure->larger_is_better ? 1 : -1});
     for (size_t s = 0; s < v->n_samplers; s++) {
-        koksma__doc_series_begin(d, v->samplers[s]->text, KOKSMA__SERIES_LINE);
+        koksma__doc_series_begin(d, v->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < v->n_sizes; i++) {
             const koksma__estimate e = mean_of(koksma__sheet_tally(v, s, m, i));
             koksma__doc_point(d, (double)v->sizes[i], e.value, e.low, e.high);

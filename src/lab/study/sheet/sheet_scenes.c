@@ -162,7 +162,7 @@ static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document
     koksma__doc_chart_begin(d,
                             &(koksma__chart){title, "samples a pixel", sheet->metric.metric->title, true, true, -1});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
-        koksma__doc_series_begin(d, sheet->samplers[s]->text, KOKSMA__SERIES_LINE);
+        koksma__doc_series_begin(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t k = 0; k < sheet->n_spp; k++) {
             const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
             for (size_t i = 0; i < sheet->n_samplers; i++) {

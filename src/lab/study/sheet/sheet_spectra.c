@@ -88,7 +88,7 @@ static koksma_status put_picture(const spectra *s, koksma__document *d)
 
 static void put_level(double from, double to, koksma__document *d)
 {
-    koksma__doc_series_begin(d, "random points", KOKSMA__SERIES_THEORY);
+    koksma__doc_series_begin(d, "random points", NULL, KOKSMA__SERIES_THEORY);
     koksma__doc_point(d, from, 1, NAN, NAN);
     koksma__doc_point(d, to, 1, NAN, NAN);
     koksma__doc_end(d);
@@ -103,7 +103,7 @@ static koksma_status put_radial(const spectra *all, size_t n, koksma__document *
         d, &(koksma__chart){"Radial mean of the power", "frequency / sqrt(n)", "power", false, false, 0});
     for (size_t s = 0; s < n && !status; s++) {
         status = koksma_spectrum_rings(&all[s].radial, rings);
-        koksma__doc_series_begin(d, all[s].sampler->text, KOKSMA__SERIES_LINE);
+        koksma__doc_series_begin(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
         for (int r = 0; r < half && !status; r++) {
             koksma__doc_point(d, rings[r].frequency / sqrt((double)all[s].n), rings[r].power, NAN, NAN);
         }
@@ -120,7 +120,7 @@ static void put_pairs(const spectra *all, size_t n, koksma__document *d)
     koksma__doc_chart_begin(d, &(koksma__chart){"Pair correlation", "distance on the torus × sqrt(n)",
                                                 "pairs, relative to random points", false, false, 0});
     for (size_t s = 0; s < n; s++) {
-        koksma__doc_series_begin(d, all[s].sampler->text, KOKSMA__SERIES_LINE);
+        koksma__doc_series_begin(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t b = 0; b < BINS; b++) {
             koksma__doc_point(d, ((double)b + 0.5) * all[s].r_max / BINS * sqrt((double)all[s].n),
                               all[s].pairs[b].mean, NAN, NAN);
