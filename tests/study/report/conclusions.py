@@ -8,12 +8,14 @@ import io
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 KOKSMA = Path(sys.argv[1]).resolve()
+PALETTE = Path(__file__).resolve().parents[3] / "src/lab/plot/palette.def"
 problems = 0
 
 # By theory: jittered falls as n^-0.75 and random as n^-0.5 in l2-star; a lattice of centres leaves bands in a checkerboard
@@ -150,10 +152,11 @@ def check_agreement(report):
              for row in b["rows"] for cell in row if isinstance(cell, dict) and "verdict" in cell]
     of = {v: sum(c["verdict"] == v for c in cells) for v in ("agrees", "unexplained", "untested")}
     headline = next(words(b["text"]) for _, b in blocks(report["content"]) if "published means of measures" in words(b.get("text", [])))
+    more = next(words(b["text"]) for _, b in blocks(report["content"]) if "more are no test" in words(b.get("text", [])))
     near = [c for c in cells if c["verdict"] == "untested" and abs(c["z"]) < 2.6]
     if of["untested"] != 5 or not near or not headline.startswith(f"{of['agrees']} of {of['agrees'] + of['unexplained']} published means of measures agree") \
-            or "5 more are no test, as their notes say: 4 in table other; 1 in table chosen." not in headline:
-        complain(f"{of}, {len(near)} within chance: {headline}")
+            or more != "5 more are no test, as their notes say: 4 in table other; 1 in table chosen.":
+        complain(f"{of}, {len(near)} within chance: {headline} {more}")
 
 
 def check_coherences(report):
@@ -190,6 +193,16 @@ def check_joint_tests(report):
     headline = next(words(b["text"]) for _, b in blocks(report["content"]) if "joint tests" in words(b.get("text", [])))
     if len(tables) != 2 or verdicts != {True, False} or "1 of 2 tables" not in headline or "fail: table sizes. No test, because of its note: table other, chosen." not in headline:
         complain(f"{len(tables)} tables: {headline}")
+
+
+def check_colours(report):
+    """A curve has the colour of its row's pattern, whatever the row's label."""
+    palette = [re.findall(r"[\w-]+", names) for names in re.findall(r"^COLOUR\(\w+, \w+, ([^)]*)\)", PALETTE.read_text(), re.M)]
+    chart = next(b for _, b in blocks(report["content"]) if b["kind"] == "chart" and b["title"].startswith("Table sizes"))
+    colours = {s["label"]: s["colour"] for s in chart["series"] if s["style"] == "line"}
+    wanted = {"jittered": "jittered", "Poisson, d = 2": "random"}
+    if colours != {label: next(i for i, names in enumerate(palette) if pattern in names) for label, pattern in wanted.items()}:
+        complain(f"the colours are {colours}")
 
 
 def check_slopes(report):
@@ -234,6 +247,7 @@ with tempfile.TemporaryDirectory() as folder:
     check_agreement(report)
     check_coherences(report)
     check_joint_tests(report)
+    check_colours(report)
     check_slopes(report)
     check_refusals()
 print(f"{problems} problems with {len(CONCLUSIONS)} conclusions")

@@ -292,12 +292,6 @@ typedef struct comparisons {
     size_t smaller[2], of[2];
 } comparisons;
 
-static void say_comparisons(koksma__document *d, const comparisons *n)
-{
-    koksma__doc_say(d, "smaller in %zu of %zu comparisons, in print in %zu of %zu", n->smaller[0], n->of[0],
-                    n->smaller[1], n->of[1]);
-}
-
 /* Every comparison in each table at each number of points is a test, by our means; the same comparisons of the printed
    means stand beside them. NAMED of those that fail are named. Comparisons by another procedure than the printed one are no
    tests, neither for nor against the paper. */
@@ -339,15 +333,16 @@ static void conclude_before(koksma__report *r, koksma__document *d, const koksma
     }
     koksma__doc_say(&all->more, failed ? ". " : "");
     if (all->tests) {
-        koksma__doc_say(d, "The mean is ");
-        say_comparisons(d, &n[0]);
-        koksma__doc_say(d, ".");
+        koksma__doc_say(d, "The mean is smaller in %zu of %zu comparisons, in print in %zu of %zu.", n[0].smaller[0],
+                        n[0].of[0], n[0].smaller[1], n[0].of[1]);
     }
     if (all->other) {
-        koksma__document *to = all->tests ? &all->more : d;
-        koksma__doc_say(to, "By our rows' procedure (`%s`) ", procedure);
-        say_comparisons(to, &n[1]);
-        koksma__doc_say(to, to == d ? "." : ". ");
+        koksma__doc_say(
+            all->tests ? &all->more : d,
+            "By our rows' procedure (`%s`) it is the other way round in %zu of %zu comparisons, in print in "
+            "%zu of %zu.%s",
+            procedure, n[1].of[0] - n[1].smaller[0], n[1].of[0], n[1].of[1] - n[1].smaller[1], n[1].of[1],
+            all->tests ? " " : "");
     }
 }
 
@@ -625,11 +620,19 @@ static bool has_conclusions(const koksma__report *r)
     return found;
 }
 
+/* Whether the scenes of a conclusion's tables or images were fitted to printed numbers of its plan. */
 static bool is_fitted(const koksma__report *r, const koksma__conclusion *c)
 {
     bool fitted = false;
-    for (size_t i = 0; i < c->tables.n; i++) {
-        fitted |= table_of(r, c, c->tables.at[i])->fitted;
+    for (size_t i = 0; i < r->study->plan.n_tables; i++) {
+        const koksma__table *t = &r->study->plan.tables[i];
+        koksma__subject s;
+        long long spp;
+        bool shown = koksma__texts_have(&c->tables, t->id);
+        for (size_t k = 0; t->scene && next_images(r, c, &k, &s, &spp);) {
+            shown |= !strcmp(s.scene, t->scene);
+        }
+        fitted |= t->part == c->part && t->fitted && shown;
     }
     return fitted;
 }
@@ -649,10 +652,11 @@ void koksma__conclude(koksma__report *r, koksma__document *d, const koksma__conc
                                        : all.passed              ? KOKSMA__ANSWER_PARTLY
                                                                  : KOKSMA__ANSWER_FAILS;
     koksma__doc_verdict_begin(d, answer);
-    koksma__doc_say(d, "*%s%s:* %s ",
+    koksma__doc_say(d, "*%s%s%s:* %s ",
                     answer                   ? verdicts[answer]
                     : all.other && !all.open ? "Not decided, as our rows are by another procedure"
                                              : "Not decided, as rows are missing",
+                    all.other && answer ? ", as far as our procedure is the printed one" : "",
                     is_fitted(r, c) ? " (scenes fitted)" : "", c->says);
     koksma__doc_words_append(d, &words);
     koksma__doc_paragraph_end(d);

@@ -176,7 +176,7 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
     snprintf(group, sizeof group, "%s, %s%zu set%s", t->measure, differ ? "up to " : "", sets,
              koksma__plural((double)sets));
     begin_table(d, t);
-    add_published_columns(d, "mean agrees", "published (100 sets)");
+    add_published_columns(d, "mean agrees, z", "published (100 sets)");
     add_measure_columns(d, t->measure, group, sets, false);
     if (t->also) {
         add_measure_columns(d, t->also, "beside it", sets, true);

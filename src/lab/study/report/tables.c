@@ -304,11 +304,11 @@ static void say_group(koksma__document *d, int group, const counts *all)
                         group == MEASURES ? " (by chance one of 107 does)" : "");
     }
     koksma__doc_say(d, ".");
-    if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
-        koksma__doc_say(d, " %zu more are no test, as their notes say: %s.", of[KOKSMA_VERDICT_UNTESTED],
-                        all->untested);
-    }
     koksma__doc_paragraph_end(d);
+    if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
+        koksma__doc_paragraph(d, "%zu more are no test, as their notes say: %s.", of[KOKSMA_VERDICT_UNTESTED],
+                              all->untested);
+    }
 }
 
 static bool fails(const koksma__z_sums *z, double alpha)
@@ -348,9 +348,7 @@ static void say_joint(koksma__document *d, const koksma__plan *plan, const koksm
     koksma__doc_verdict_begin(d, strictly ? KOKSMA__ANSWER_FAILS
                                  : failed ? KOKSMA__ANSWER_UNDECIDED
                                           : KOKSMA__ANSWER_DECIDED);
-    koksma__doc_say(d,
-                    "The values of z of %zu of %zu tables pass their joint tests, each at 5 %% for the sum and for "
-                    "the squares",
+    koksma__doc_say(d, "The values of z of %zu of %zu tables pass their joint tests (of sum and squares, 5 %% each)",
                     tested - failed, tested);
     if (strictly) {
         koksma__doc_say(d, "; chance alone does not explain the tables that fail: table ");

@@ -54,7 +54,7 @@ function tablesIn(content) {
 
 // What the words of a reproduction's answers mean, and where its tables are.
 function glossary(content) {
-  return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks, in white noise up to 3 to 12, the more the trials have in common. grain: amplitude of slow errors. "
+  return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks, in white noise to about 3, or 12 if all trials have the same points. grain: amplitude of slow errors. "
     + "Slope: exponent of the number of points. z: printed mean minus ours, in standard errors. V(f), D*: variation, star discrepancy. Tables:",
     ...tablesIn(content).flatMap(t => [" ", element("a", { href: `#${t.anchor}` }, t.id.slice(6))]));
 }

@@ -51,11 +51,11 @@ function spread({ value, low, high, sd }, column) {
   return [" ", small(`${half(low)} …`), " ", small(half(high))]; // a narrow column breaks between the two
 }
 
-// The mark of a verdict with z or the relative change after it; alone: the mark has a column of its own.
-function verdictMark(cell, alone) {
+// The mark of a verdict with z or the relative change after it.
+function verdictMark(cell) {
   if (cell.verdict === "new" || cell.verdict === "waiting") return cell.verdict === "new" ? "new" : "not yet";
   const signed = (v, digits) => /[1-9]/.test(v.toFixed(digits)) ? `${v < 0 ? "" : "+"}${v.toFixed(digits)}` : (0).toFixed(digits); // no -0.0
-  const number = cell.z === undefined ? `${signed(100 * cell.change, 0)} %` : `${alone ? "z = " : ""}${signed(cell.z, 1)}`;
+  const number = cell.z === undefined ? `${signed(100 * cell.change, 0)}\u00a0%` : signed(cell.z, 1);
   const mark = cell.verdict === "fitted" ? "fitted" : cell.note ? `note ${cell.note}` : cell.verdict === "unexplained" ? "✗" : "✓";
   const name = { fitted: "note", explained: "note", untested: "note", unexplained: "bad" }[cell.verdict] ?? "good";
   return element("span", { class: name }, cell.verdict === "untested" ? mark : `${mark}\u00a0${number}`);
@@ -69,13 +69,13 @@ function cellContent(cell, column) {
   if (typeof cell === "string") return nameParts(cell);
   if (typeof cell === "number") return [shown(cell, column)];
   const data = Array.isArray(cell) ? { value: cell[0], low: cell[1], high: cell[2] } : cell ?? {};
-  if (column.type === "verdict") return [verdictMark(data, true)];
+  if (column.type === "verdict") return [verdictMark(data)];
   const content = [];
   if (data.text !== undefined) content.push(...nameParts(data.text));
   else if (typeof data.value === "number") content.push(shown(data.value, column), ...spread(data, column));
   else content.push(dash);
   if (data.sets) content.push(" ", small(`(${data.sets} set${data.sets > 1 ? "s" : ""})`));
-  if (data.verdict) content.push(" ", verdictMark(data, false));
+  if (data.verdict) content.push(" ", verdictMark(data));
   else if (data.note) content.push("\u00a0", element("sup", { class: "note" }, data.note)); // else copied digits run together
   return content;
 }
