@@ -256,15 +256,6 @@ static void add_coherence(koksma__document *d, const koksma__task *first, const 
     const char *id = first->image->id; /* blocks may have scenes in common */
     snprintf(name, sizeof name, "coherence-%.20s%s%.20s-%lld", id ? id : "", id ? "-" : "", first->scene->name,
              first->n);
-    koksma__doc_paragraph(
-        d,
-        "Coherence of the error: the peak of its power spectrum over the mean power (of frequencies as high "
-        "if that is larger, so that blue noise counts as noise), from the same trials. Part of an error may be "
-        "common to all trials (column _in common_). For white noise with an "
-        "equally large common part, 95 %% of the coherences lie between the columns _noise from_ and _to_. An "
-        "error is coherent if such noise has a coherence as large with a probability _p_ below %g: it has bands or "
-        "another pattern, which the eye sees sooner than noise of the same size.",
-        KOKSMA_COHERENT_P);
     koksma__doc_table_begin(d, name);
     koksma__doc_columns(d, "t pattern;n3 coherence;n3 noise from;n3 to;n2 p;n2 in common;n2 cycles a pixel;t error");
     for (size_t p = 0; p < n; p++) {
@@ -389,6 +380,17 @@ static void write_pictures(koksma__report *r, koksma__document *d)
         koksma__doc_paragraph(d,
                               "The first trial of every pattern, its absolute error in luminance 8 times as bright, "
                               "and the reference.");
+        koksma__doc_paragraph(
+            d,
+            "Coherence of the error: the peak of the mean power spectrum of its first %d trials over the mean power "
+            "(of "
+            "frequencies as high if that is larger, so that blue noise counts as noise). Part of an error may be "
+            "common "
+            "to all trials (column _in common_). For white noise with an equally large common part, 95 %% of the "
+            "coherences lie between the columns _noise from_ and _to_. An error is coherent if such noise has a "
+            "coherence as large with a probability _p_ below %g: it has bands or another pattern, which the eye sees "
+            "sooner than noise of the same size.",
+            KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
     }
     koksma__doc_append(d, &scenes);
     if (left_out) {
