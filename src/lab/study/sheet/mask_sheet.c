@@ -135,13 +135,13 @@ static koksma_status put_chart(const koksma__mask_sheet *s, const koksma__chart 
     koksma__doc_chart_begin(d, chart);
     for (size_t i = 0; i < s->n && !status; i++) {
         status = make(&s->masks[i], x, y);
-        koksma__doc_series_begin(d, s->names[i], KOKSMA__SERIES_LINE);
+        koksma__doc_series_begin(d, s->names[i], NULL, KOKSMA__SERIES_LINE);
         for (size_t k = 0; k < count && !status; k++) {
             koksma__doc_point(d, x[k], y[k], NAN, NAN);
         }
         koksma__doc_end(d);
     }
-    koksma__doc_series_begin(d, "white noise", KOKSMA__SERIES_THEORY);
+    koksma__doc_series_begin(d, "white noise", NULL, KOKSMA__SERIES_THEORY);
     koksma__doc_point(d, x[0], level, NAN, NAN);
     koksma__doc_point(d, x[count - 1], level, NAN, NAN);
     koksma__doc_end(d);
