@@ -25,8 +25,8 @@ extern "C" {
      nested-scramble     `what` with a nested permutation of digits that is not linear (Owen 1995)
      lattice, recurrence, grid    points of that form, whose numbers `detail` has
      digital             a digital sequence in base 2 whose matrices no table here has; `detail` has their first numbers
-     sequence            each aligned block of 2^k points has one in each of 2^k intervals of every coordinate: a sequence in
-                         base 2 behind nested scrambling and perhaps a shuffle of its indices
+     sequence            each aligned block of 2^k points has one in each of 2^k intervals of every coordinate: a
+                         sequence in base 2 behind nested scrambling and perhaps a shuffle of its indices
      stratified          a Latin hypercube, or one point in each cell of a grid, and nothing above
      scaled, rounded     how the coordinates were mapped to [0,1), or rounded; the other statements are about the mapped
      property            a property, such as net or Latin hypercube

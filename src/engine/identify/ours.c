@@ -185,8 +185,8 @@ static bool is_slow(const koksma_pattern *p)
 /* What tells sets of patterns apart at a glance, whatever the seed: each is true or false of nearly all sets of one. */
 enum { LATIN = 1, HALVES = 2, THIRDS = 4, IN_ORDER = 8, TRAITS = 4 };
 
-/* Finds which traits points have: a Latin hypercube; points 2 i and 2 i + 1 in different halves of the first axis, or three in
-   different thirds; the first coordinate rising with the index, as in a grid's cells. */
+/* Finds which traits points have: a Latin hypercube; points 2 i and 2 i + 1 in different halves of the first axis, or
+   three in different thirds; the first coordinate rising with the index, as in a grid's cells. */
 static koksma_status find_traits(const koksma_points *p, double tolerance, unsigned *traits)
 {
     bool latin, centred;

@@ -4,7 +4,8 @@
  *
  * What a shift modulo 1 leaves alone are differences of points, and what every nested permutation leaves alone is the
  * number of leading digits that two points share. So for each first point p the differences between point p and the
- * points 1 to 12 and some further ones after it are compared with those of the sample, in up to three coordinates; nearly all p fail at the first.
+ * points 1 to 12 and some further ones after it are compared with those of the sample, in up to three coordinates;
+ * nearly all p fail at the first.
  * Those that pass are compared in full (scramble.c). If no p passes, coordinates in another order are tried for a
  * list of usual first points.
  */
