@@ -47,7 +47,6 @@ int koksma__precisions(koksma__sample *s, const koksma_points *points, double to
 typedef struct koksma__source {
     const char *what, *spec;
     int kind, set, dims;
-    bool invertible; /* koksma__index_of works */
 } koksma__source;
 
 typedef struct koksma__coordinate {
@@ -58,12 +57,15 @@ typedef struct koksma__coordinate {
     uint64_t powers[54];                   /* base^k */
     const uint32_t *directions;            /* base 2, with generator matrices */
     uint32_t own[32];                      /* where those are not in a table */
-    uint32_t *matrix;                      /* other bases: entry [r][c] at r * digits + c */
+    uint32_t *matrix, *inverse;            /* other bases: entry [r][c] at r * digits + c */
     uint64_t pivots[32], combinations[32]; /* base 2: an echelon form of the columns, and the columns in each row */
 } koksma__coordinate;
 
 /* Returns source i of the table, or NULL past the last. */
 const koksma__source *koksma__source_at(size_t i);
+
+/* Returns how many coordinates a source has for points of dim dimensions. */
+int koksma__source_dims(const koksma__source *source, int dim);
 
 /* Prepares coordinate j of a source in `dim` dimensions, which koksma__coordinate_fini frees. Errors: MEMORY. */
 koksma_status koksma__coordinate_init(const koksma__source *source, int dim, int j, koksma__coordinate *c);

@@ -22,6 +22,9 @@ enum { PROBES = 16, LEAST_POINTS = 2, NEAR = 16, ENOUGH = 512 };
 
 #define MOST_INDEX ((uint64_t)1 << 48)
 
+/* What is looked for first: points in natural or Gray order, then any order of a sequence's own coordinates. */
+typedef enum preference { ORDERED, SAME_COLUMNS, ANY } preference;
+
 typedef struct hit {
     uint64_t indices[PROBES];
     int k, j;
@@ -98,6 +101,9 @@ static int assign(plain *p, size_t first, size_t last)
     }
     for (size_t h = first; h < last; h++) { /* the same coordinate where that will do, else the first */
         const int k = p->hits[h].k;
+        if (p->hits[h].j != k && p->coordinates[p->hits[h].j].base > p->s->points.n) {
+            continue; /* i / base: the equidistant coordinate of Hammersley's points where their number is a prime */
+        }
         assigned += p->columns[k] < 0;
         p->columns[k] = p->columns[k] < 0 || p->hits[h].j == k ? p->hits[h].j : p->columns[k];
     }
@@ -227,8 +233,8 @@ static bool is_linear(plain *p, int k, const order *o, char text[160])
     return fabs(1 / step - whole) < 1e-6 * whole && whole + 2 >= (double)n && whole <= (double)o->most + 3;
 }
 
-/* Looks at the hits [first, last), whose indices agree; in_order: takes only points in a known order. */
-static koksma_status judge(plain *p, size_t first, size_t last, bool in_order, uint64_t *scratch)
+/* Looks at the hits [first, last), whose indices agree; with what is preferred. */
+static koksma_status judge(plain *p, size_t first, size_t last, preference wanted, uint64_t *scratch)
 {
     const int dim = p->s->points.dim, assigned = assign(p, first, last);
     int except = -1;
@@ -245,8 +251,13 @@ static koksma_status judge(plain *p, size_t first, size_t last, bool in_order, u
     char text[160] = "";
     /* One coordinate has an index for all numbers: without others that agree, only an order says something. */
     const bool ordered = o.gray || (o.stepped && o.step == 1);
-    if (in_order && !ordered) {
+    if (wanted == ORDERED && !ordered) {
         return KOKSMA_OK;
+    }
+    for (int k = 0; k < dim && wanted == SAME_COLUMNS; k++) {
+        if (k != except && p->columns[k] != k) {
+            return KOKSMA_OK;
+        }
     }
     /* A few points of one digital sequence may be points of some coordinates of another by chance. */
     for (int k = 0; k < dim && !ordered && !o.stepped && p->s->points.n < ENOUGH; k++) {
@@ -260,7 +271,7 @@ static koksma_status judge(plain *p, size_t first, size_t last, bool in_order, u
     return evident ? say(p, &o, except, text) : KOKSMA_OK;
 }
 
-static koksma_status compare_source(plain *p, bool in_order)
+static koksma_status compare_source(plain *p, preference wanted)
 {
     const int dim = p->s->points.dim;
     uint64_t *scratch = malloc(p->s->points.n * sizeof *scratch);
@@ -282,24 +293,24 @@ static koksma_status compare_source(plain *p, bool in_order)
              last < p->n_hits && !memcmp(p->hits[first].indices, p->hits[last].indices, sizeof p->hits->indices);) {
             last++;
         }
-        status = judge(p, first, last, in_order, scratch);
+        status = judge(p, first, last, wanted, scratch);
     }
     free(scratch);
     return status;
 }
 
-static koksma_status compare_with(plain *p, const koksma__source *source, bool in_order)
+static koksma_status compare_with(plain *p, const koksma__source *source, preference wanted)
 {
+    const int dims = koksma__source_dims(source, p->s->points.dim);
     int n = 0;
     p->source = source;
-    p->coordinates = calloc((size_t)source->dims, sizeof *p->coordinates);
-    koksma_status status =
-        p->coordinates ? KOKSMA_OK : koksma__fail_memory((size_t)source->dims * sizeof *p->coordinates);
-    for (; !status && n < source->dims && source->invertible; n++) {
+    p->coordinates = calloc((size_t)dims, sizeof *p->coordinates);
+    koksma_status status = p->coordinates ? KOKSMA_OK : koksma__fail_memory((size_t)dims * sizeof *p->coordinates);
+    for (; !status && n < dims; n++) {
         status = koksma__coordinate_init(source, p->s->points.dim, n, &p->coordinates[n]);
     }
     p->n_coordinates = n;
-    status = status ? status : compare_source(p, in_order);
+    status = status ? status : compare_source(p, wanted);
     for (int j = 0; p->coordinates && j < n; j++) {
         koksma__coordinate_fini(&p->coordinates[j]);
     }
@@ -319,9 +330,9 @@ koksma_status koksma__identify_plain(koksma__sample *s)
     p.indices = malloc(s->points.n * sizeof *p.indices);
     koksma_status status = p.columns && p.indices ? KOKSMA_OK : koksma__fail_memory(s->points.n * sizeof *p.indices);
     /* Some points of one sequence may be points of permuted coordinates of another: an order says more than no order. */
-    for (int pass = 0; pass < 2 && !status && !s->named; pass++) {
+    for (preference wanted = ORDERED; wanted <= ANY && !status && !s->named; wanted++) {
         for (size_t i = 0; (source = koksma__source_at(i)) && !status && !s->named; i++) {
-            status = compare_with(&p, source, pass == 0);
+            status = dim > source->dims ? KOKSMA_OK : compare_with(&p, source, wanted);
         }
     }
     free(p.hits);

@@ -19,17 +19,22 @@
 enum { SOBOL, NIEDERREITER, RADICAL, FAURE };
 
 static const koksma__source sources[] = {
-    {"Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201)", "sobol", SOBOL, KOKSMA__JOE_KUO, 1111, true},
-    {"Halton", "halton", RADICAL, 0, 1111, true},
-    {"Sobol' (Bratley & Fox 1988, ACM 659)", "sobol:numbers=bratley-fox", SOBOL, KOKSMA__BRATLEY_FOX, 40, true},
-    {"Niederreiter in base 2 (Bratley, Fox & Niederreiter 1992)", "", NIEDERREITER, 0, 12, true},
-    {"Faure", "faure", FAURE, 0, 1000, false},
-    {"Sobol' (groups of dimensions, of this library)", "sobol:numbers=groups", SOBOL, KOKSMA__GROUPS, 128, true},
+    {"Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201)", "sobol", SOBOL, KOKSMA__JOE_KUO, 1111},
+    {"Halton", "halton", RADICAL, 0, 1111},
+    {"Sobol' (Bratley & Fox 1988, ACM 659)", "sobol:numbers=bratley-fox", SOBOL, KOKSMA__BRATLEY_FOX, 40},
+    {"Niederreiter in base 2 (Bratley, Fox & Niederreiter 1992)", "", NIEDERREITER, 0, 12},
+    {"Faure", "faure", FAURE, 0, 1000},
+    {"Sobol' (groups of dimensions, of this library)", "sobol:numbers=groups", SOBOL, KOKSMA__GROUPS, 128},
 };
 
 const koksma__source *koksma__source_at(size_t i)
 {
     return i < sizeof sources / sizeof *sources ? &sources[i] : NULL;
+}
+
+int koksma__source_dims(const koksma__source *source, int dim)
+{
+    return source->kind == FAURE ? dim : source->dims;
 }
 
 uint64_t koksma__gray(uint64_t i)
@@ -139,10 +144,12 @@ koksma_status koksma__coordinate_init(const koksma__source *source, int dim, int
     }
     c->whole = (double)c->powers[c->digits];
     if (source->kind == FAURE) {
-        const size_t bytes = (size_t)c->digits * (size_t)c->digits * sizeof *c->matrix;
-        c->matrix = malloc(bytes);
-        KOKSMA__REQUIRE_MEMORY(c->matrix, bytes);
+        const size_t entries = (size_t)c->digits * (size_t)c->digits;
+        c->matrix = malloc(2 * entries * sizeof *c->matrix);
+        KOKSMA__REQUIRE_MEMORY(c->matrix, 2 * entries * sizeof *c->matrix);
+        c->inverse = c->matrix + entries;
         koksma__pascal_matrix(c->base, j, c->digits, c->matrix);
+        koksma__pascal_matrix(c->base, ((int)c->base - j) % (int)c->base, c->digits, c->inverse); /* P^base = 1 */
     } else if (source->kind == SOBOL) {
         c->directions = koksma__sobol_directions(j, source->set);
     } else if (source->kind == NIEDERREITER) {
@@ -220,6 +227,24 @@ static uint64_t binary_index(const koksma__coordinate *c, double x, double toler
     return index;
 }
 
+/* a = C^-1 y, where y are the digits of v, the last of which is digit digits - 1 of the coordinate. */
+static uint64_t inverse_index(const koksma__coordinate *c, uint64_t v, int digits)
+{
+    uint32_t y[64];
+    uint64_t index = 0;
+    for (int r = digits - 1; r >= 0; r--, v /= c->base) {
+        y[r] = (uint32_t)(v % c->base);
+    }
+    for (int r = digits - 1; r >= 0; r--) {
+        uint64_t a = 0;
+        for (int l = r; l < digits; l++) {
+            a += (uint64_t)c->inverse[r * c->digits + l] * y[l];
+        }
+        index = index * c->base + a % c->base;
+    }
+    return index;
+}
+
 uint64_t koksma__index_of(const koksma__coordinate *c, double x, double tolerance)
 {
     if (c->directions) {
@@ -230,10 +255,13 @@ uint64_t koksma__index_of(const koksma__coordinate *c, double x, double toleranc
         digits--;
     }
     const double v = nearbyint(x * (double)c->powers[digits]);
-    if (c->matrix || v >= (double)c->powers[digits]) {
+    if (v >= (double)c->powers[digits]) {
         return UINT64_MAX;
     }
     uint64_t rest = (uint64_t)v, index = 0;
+    if (c->matrix) {
+        return inverse_index(c, rest, digits);
+    }
     for (int k = 0; k < digits; k++, rest /= c->base) {
         index = index * c->base + rest % c->base;
     }

@@ -43,7 +43,8 @@ static koksma_status name(koksma__sample *s, const char *relation, const char *w
 /* ---- Digital sequences ---- */
 
 typedef struct digital {
-    uint64_t *xs;                     /* the points, in units of 2^-52 */
+    uint64_t *xs;                     /* the points, in units of 2^-bits */
+    int bits;                         /* fewer if the numbers are rounded; carries then spoil a few */
     size_t n, dim, at[LEVELS], start; /* at[c]: a point i that differs from point i + 1 by difference c */
     int levels;
 } digital;
@@ -60,12 +61,14 @@ static bool alike(const digital *d, size_t i, size_t j)
 
 static bool all_alike(const digital *d, size_t first, size_t step)
 {
-    for (size_t i = first + step; i + 1 < d->n; i += step) {
-        if (!alike(d, first, i)) {
+    size_t count = 0, wrong = 0;
+    for (size_t i = first + step; i + 1 < d->n; i += step, count++) {
+        wrong += !alike(d, first, i);
+        if (wrong && d->bits == BITS) {
             return false;
         }
     }
-    return true;
+    return wrong <= count / 16;
 }
 
 /* Finds the differences, from that of every second pair on. Returns whether there are such. */
@@ -95,9 +98,9 @@ static uint64_t difference(const digital *d, int c, size_t k)
 /* Whether digit 0, or digit c, is the first of all differences of coordinate 0. */
 static bool leads(const digital *d, bool gray)
 {
-    for (int c = 0; c < d->levels; c++) {
+    for (int c = 0; c < d->levels && c < d->bits; c++) {
         const uint64_t v = difference(d, c, 0);
-        if (!v || v >> (BITS - 1 - (gray ? c : 0)) != 1) {
+        if (!v || v >> (d->bits - 1 - (gray ? c : 0)) != 1) {
             return false;
         }
     }
@@ -106,21 +109,25 @@ static bool leads(const digital *d, bool gray)
 
 static koksma_status look_at_digits(koksma__sample *s)
 {
-    digital d = {.n = s->points.n, .dim = (size_t)s->points.dim};
+    digital d = {.n = s->points.n, .dim = (size_t)s->points.dim, .bits = BITS};
+    while (s->tolerance > 0x1p-46 && d.bits > 10 && ldexp(s->tolerance, d.bits) > .002) {
+        d.bits--;
+    }
     const size_t count = d.n * d.dim;
     d.xs = malloc(count * sizeof *d.xs);
     KOKSMA__REQUIRE_MEMORY(d.xs, count * sizeof *d.xs);
     for (size_t i = 0; i < count; i++) {
-        d.xs[i] = (uint64_t)fmin(floor(ldexp(s->points.xs[i], BITS)), ldexp(1, BITS) - 1);
+        d.xs[i] = (uint64_t)fmin(floor(ldexp(s->points.xs[i], d.bits)), ldexp(1, d.bits) - 1);
     }
     bool found = find_differences(&d), triangular = found;
     const bool natural = found && leads(&d, false);
     char detail[400] = "point i + 1 differs from point i by a number for each count of zeros of i + 1";
     for (size_t k = 0; k < d.dim && found; k++) {
         found = difference(&d, 0, k) != 0;
-        for (int c = 0; c < NUMBERS && c < d.levels && k < SHOWN && natural + leads(&d, true) > 0; c++) {
+        for (int c = 0; c < NUMBERS && c < d.levels && c < d.bits && k < SHOWN && natural + leads(&d, true) > 0;
+             c++) {
             const uint64_t v = difference(&d, c, k) ^ (natural && c ? difference(&d, c - 1, k) : 0),
-                           unit = (uint64_t)1 << (BITS - 1 - c);
+                           unit = (uint64_t)1 << (d.bits - 1 - c);
             koksma__append(detail, 330,
                            c   ? " %llu"
                            : k ? "; %llu"
