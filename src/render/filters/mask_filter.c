@@ -20,9 +20,9 @@
 
 enum { MOST = KOKSMA_MASK_MAX_SIDE, PARTS = 256 };
 
-static const koksma_param box_params[] = {{"size", "pixels a side", 0, 2, MOST, NULL, true}, {0}};
+static const koksma_param box_params[] = {{"size", "pixels a side", 2, 2, MOST, NULL, true}, {0}};
 static const koksma_param binomial_params[] = {{"size", "pixels a side", 3, 2, MOST, NULL, true}, {0}};
-static const koksma_param gaussian_params[] = {{"sigma", "standard deviation in pixels", 0, 0.1, 8, NULL, false},
+static const koksma_param gaussian_params[] = {{"sigma", "standard deviation in pixels", 1, 0.1, 8, NULL, false},
                                                {0}};
 
 /* Makes the square filter with this profile of n weights along each axis. */
@@ -161,10 +161,11 @@ koksma_status koksma_mask_filter_parse(const char *text, koksma_mask_filter *out
     }
     for (size_t i = 0; i < sizeof sized / sizeof *sized; i++) {
         if (!strcmp(name, sized[i].name)) {
-            KOKSMA__TRY(koksma__params_parse(name, sized[i].params, rest, values));
-            if (values[0] != 0) { /* without it, the pixel filter of this name */
-                return sized[i].make(values[0], out);
+            if (!*rest && koksma_filter_find(name)) {
+                break; /* without a size, the pixel filter of this name */
             }
+            KOKSMA__TRY(koksma__params_parse(name, sized[i].params, rest, values));
+            return sized[i].make(values[0], out);
         }
     }
     const koksma_filter *filter = koksma_filter_find(name);
