@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What masks do in pictures and over frames: the tables of docs/findings/masks.md.
 
-    tools/mask_study.py pictures [--fast FOLDER] [--seeds N] [--size N] [--spp N] [CASE...]
+    tools/mask_study.py pictures [--fast FOLDER] [--seeds N] [--size N] [--spp N,..] [CASE...]
     tools/mask_study.py frames [--seeds N]
 
 pictures: the error of renders with N samples a pixel, before and after the Gaussian of sigma = 1 that the masks were made
@@ -96,17 +96,23 @@ def pictures(options):
     with tempfile.TemporaryDirectory() as folder:
         masks = make_masks(folder, options.fast)
         for case in options.case or CASES:
-            truth, base = reference(case, options.size, folder), None
-            print("\n%s, %d x %d, %d samples\n| mask | before | after | less |\n|---|---|---|---|" % (case, options.size, options.size, options.spp))
-            for name, (pattern, single) in masks.items():
-                found = np.array([errors(case, pattern, single, options.spp, seed, truth) for seed in range(options.seeds)])
-                mean, half = found.mean(0), interval(found[:, 1])
-                base = (mean[1], half) if name == "void-and-cluster" else base
-                less = ""
-                if base:
-                    ratio = mean[1] / base[0]
-                    less = "%.1f +- %.1f %%" % (100 - 100 * ratio, 100 * ratio * np.hypot(half / mean[1], base[1] / base[0]))
-                print("| %s | %.4f | %.5f +- %.5f | %s |" % (name, mean[0], mean[1], half, less), flush=True)
+            truth = reference(case, options.size, folder)
+            for spp in options.spp:
+                print("\n%s, %d x %d, %d samples\n| mask | before | after | less |\n|---|---|---|---|" % (case, options.size, options.size, spp))
+                compare(case, masks, spp, options.seeds, truth)
+
+
+def compare(case, masks, spp, seeds, truth):
+    base = None
+    for name, (pattern, single) in masks.items():
+        found = np.array([errors(case, pattern, single, spp, seed, truth) for seed in range(seeds)])
+        mean, half = found.mean(0), interval(found[:, 1])
+        base = (mean[1], half) if name == "void-and-cluster" else base
+        less = ""
+        if base:
+            ratio = mean[1] / base[0]
+            less = "%.1f +- %.1f %%" % (100 - 100 * ratio, 100 * ratio * np.hypot(half / mean[1], base[1] / base[0]))
+        print("| %s | %.4f | %.5f +- %.5f | %s |" % (name, mean[0], mean[1], half, less), flush=True)
 
 
 GOLDEN, PLASTIC = (np.sqrt(5) - 1) / 2, 1.32471795724474602596  # x^2 = 1 - x; x^3 = x + 1
@@ -182,7 +188,7 @@ def main():
     parser.add_argument("--fast")
     parser.add_argument("--seeds", type=int, default=0)
     parser.add_argument("--size", type=int, default=512)
-    parser.add_argument("--spp", type=int, default=1)
+    parser.add_argument("--spp", type=lambda text: [int(n) for n in text.split(",")], default=[1])
     options = parser.parse_intermixed_args()
     options.seeds = options.seeds or {"pictures": 100, "frames": 16}[options.study]
     for case in options.case:
