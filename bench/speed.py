@@ -21,7 +21,7 @@ older commit, which is built on the first run (build/speed/base, 3 minutes):
     KOKSMA_BENCH_ROUNDS      turns (3)
 
 scipy, QMCPy, poisson-disc, Mitsuba, POV-Ray and Blender count where they are installed: run it by a Python that has the
-first four."""
+first four. The crate blue-noise is built by cargo, where there is one, from crates.io."""
 import argparse
 import array
 import datetime
@@ -376,6 +376,77 @@ def authors_patterns(table, peers):
                 .02 + math.exp(-20 * ((x / side - .5) ** 2 + (y / side - .5) ** 2)) for y in range(side) for x in range(side)]).tobytes())
     table.alone(part, what, lambda: run(KOKSMA, "generate", "gaussian-blue-noise", "-n", "1000", "--density", density, "--threads", "1", "-q",
                                         "-o", os.path.join(WORK, "bell.txt")), rounds=1)
+
+
+MANIFEST = """[package]
+name = "void-and-cluster"
+version = "0.1.0"
+edition = "2021"
+publish = false
+
+[[bin]]
+name = "void-and-cluster"
+path = "%s/bench/bench_void_and_cluster.rs"
+
+[dependencies]
+blue-noise = "=0.2.2"
+"""
+
+
+def build_mask_crate():
+    """The program of bench_void_and_cluster.rs, which cargo builds from crates.io; None where there is no cargo, or no crate."""
+    folder = os.path.join(WORK, "void_and_cluster")
+    if not shutil.which("cargo"):
+        print("the crate blue-noise is left out: there is no cargo", file=sys.stderr)
+        return None
+    os.makedirs(folder, exist_ok=True)
+    with open(folder + "/Cargo.toml", "w", encoding="utf-8") as file:
+        file.write(MANIFEST % ROOT)
+    done = subprocess.run(["cargo", "build", "--quiet", "--release"], cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode:
+        print("the crate blue-noise is left out: %s" % done.stderr.strip().splitlines()[-1][:200], file=sys.stderr)
+        return None
+    return folder + "/target/release/void-and-cluster"
+
+
+def write_levels(path, levels, size):
+    """A mask of bytes as .npy of their middles."""
+    head = "{'descr': '<f4', 'fortran_order': False, 'shape': (%d, %d), }" % (size, size)
+    with open(path, "wb") as file:
+        file.write(b"\x93NUMPY\x01\x00\x76\x00" + head.ljust(117).encode() + b"\n")
+        file.write(array.array("f", [(level + 0.5) / 256 for level in levels]).tobytes())
+
+
+def masks(table, row):
+    """void-and-cluster beside a crate; the row says what gaussian:sigma=1 leaves of each mask: its autocorrelation is about the
+    Gaussian of 1.5 pixels that both place by."""
+    part, what, size = "6 patterns", "void-and-cluster mask, 128 x 128", 128
+    if not table.has(part, what):
+        return
+    program, raw = build_mask_crate(), os.path.join(WORK, "mask.raw")
+    paths = [os.path.join(WORK, name) for name in ("mask-ours.npy", "mask-theirs.npy")]
+
+    def error(path):
+        done = subprocess.run([KOKSMA, "mask", "check", path, "--filter", "gaussian:sigma=1", "--json"], capture_output=True, text=True,
+                              check=True)
+        return json.loads(done.stdout)["error"]
+
+    def near(_):
+        with open(raw, "rb") as file:
+            write_levels(paths[1], file.read(), size)
+        done = subprocess.run([KOKSMA, "generate", "void-and-cluster:size=%d" % size, "-n", str(size * size)], capture_output=True,
+                              text=True, check=True)
+        levels = bytearray(size * size)
+        for rank, line in enumerate(line for line in done.stdout.splitlines() if not line.startswith("#")):
+            x, y = (int(float(word) * size) for word in line.split())
+            levels[y * size + x] = rank * 256 // (size * size)
+        write_levels(paths[0], levels, size)
+        ours, others = map(error, paths)
+        if ours > 1.01 * others:  # of one seed each
+            sys.exit("speed.py: %s: a Gaussian leaves %.4g here, and %.4g of the crate's" % (what, ours, others))
+        return "error %.4f, theirs %.4f" % (ours, others)
+    table.versus(part, what, lambda: timed(row, "generate", "void-and-cluster:size=%d" % size, size * size, 2)[0], (lambda: run(program, str(size), raw)) if program else None,
+                 "the crate blue-noise 0.2.2", 20, near=near)
 
 
 def waits(table, row):
@@ -739,7 +810,7 @@ def main():
     for part in (lambda: start_up(table, row, base), lambda: measures(table, peers), lambda: patterns(table, peers),
                  lambda: authors_patterns(table, peers),
                  lambda: renders(table, base), lambda: large_data(table, row, base), lambda: python_peers(table, row),
-                 lambda: waits(table, row), lambda: python_package(table),
+                 lambda: masks(table, row), lambda: waits(table, row), lambda: python_package(table),
                  lambda: sampler(table), lambda: threads(table, row), lambda: renderers(table), lambda: kernels(table),
                  lambda: extremes(table, row)):
         part()

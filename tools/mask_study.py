@@ -23,14 +23,15 @@ import numpy as np
 import koksma
 
 FILTER, TILE = "gaussian:sigma=1", 128
-FIXED = ";pixel=regular;lens=regular;time=regular"  # what a G-buffer gives: the middles of pixels, lens and shutter
+FIXED = ";pixel=middle;lens=middle;time=middle"  # what a G-buffer gives: the middles of pixels, lens and shutter
+MIDDLE = ""  # the pattern of samples in the middle: write_middle
 CASES = {  # scene, integrator, patterns of single uses
     "ao-glossy": ("glossy", "ambient-occlusion", ""),
     "ao-glossy-fixed": ("glossy", "ambient-occlusion", FIXED),
     "ao-balls-fixed": ("balls", "ambient-occlusion", FIXED),
     "ao-balls": ("balls", "ambient-occlusion", ""),
-    "shadow": ("ball", "distribution", ";pixel=regular"),
-    "depth-of-field": ("balls", "distribution", ";pixel=regular;time=regular"),
+    "shadow": ("ball", "distribution", ";pixel=middle"),
+    "depth-of-field": ("balls", "distribution", ";pixel=middle;time=middle"),
 }
 
 
@@ -48,18 +49,24 @@ def rms(image):
     return float(np.sqrt(np.mean(np.square(image))))
 
 
-def render(case, pattern, spp, seed, size, fixed_samples=""):
+def write_middle(folder):
+    """A file of samples in the middle of the square, which MIDDLE then is."""
+    global MIDDLE  # pylint: disable=global-statement
+    path = os.path.join(folder, "middle.csv")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(".5,.5\n" * 256)
+    MIDDLE = "file:" + path
+
+
+def render(case, pattern, spp, seed, size):
     scene, integrator, fixed = CASES[case]
-    image = koksma.render(scene, pattern + (fixed.replace("regular", fixed_samples) if fixed_samples else fixed), spp=spp, seed=seed,
-                          integrator=integrator, size=(size, size), threads=1)
+    image = koksma.render(scene, pattern + fixed.replace("middle", MIDDLE), spp=spp, seed=seed, integrator=integrator, size=(size, size),
+                          threads=1)
     return image.mean(2, dtype=float) if image.ndim == 3 else image.astype(float)
 
 
-def reference(case, size, folder):
-    middle = os.path.join(folder, "middle.csv")
-    with open(middle, "w", encoding="utf-8") as file:
-        file.write(".5,.5\n" * 256)
-    return sum(render(case, "sobol:scramble=owen", 256, 1000 + i, size, "file:" + middle) for i in range(4)) / 4
+def reference(case, size):
+    return sum(render(case, "sobol:scramble=owen", 256, 1000 + i, size) for i in range(4)) / 4
 
 
 def make_masks(folder, fast):
@@ -95,8 +102,9 @@ def errors(case, pattern, single, spp, seed, truth):
 def pictures(options):
     with tempfile.TemporaryDirectory() as folder:
         masks = make_masks(folder, options.fast)
+        write_middle(folder)
         for case in options.case or CASES:
-            truth = reference(case, options.size, folder)
+            truth = reference(case, options.size)
             for spp in options.spp:
                 print("\n%s, %d x %d, %d samples\n| mask | before | after | less |\n|---|---|---|---|" % (case, options.size, options.size, spp))
                 compare(case, masks, spp, options.seeds, truth)
@@ -155,7 +163,8 @@ def averages(images):
 def frames(options):
     """Over thresholds of scalar masks, and in ambient occlusion by masks of vectors."""
     with tempfile.TemporaryDirectory() as folder:
-        truth = reference("ao-glossy-fixed", TILE, folder)
+        write_middle(folder)
+        truth = reference("ao-glossy-fixed", TILE)
         print("| | frames | one frame | filtered | average, .1 | filtered | average, .2 | filtered |\n|---|---|---|---|---|---|---|---|")
         for space in ("scalar", "vector2"):
             shape = (TILE, TILE, 1 if space == "scalar" else 2)
