@@ -3,7 +3,7 @@
 """tolerance_peers.py [RUNS]: integrals to a tolerance by Koksma, QMCPy and scipy, for docs/findings/coverage.md.
 
 For functions that no table of this project has, in 3, 7 and 20 dimensions: of each method the medians of the numbers of
-function values and of the true errors in RUNS runs; "k of n done" where some runs state no error within the tolerance, as each
+function values and of the true errors in RUNS runs, and of their ratios; "k of n done" where some runs state no error within the tolerance, as each
 method has LIMIT values at most; "k of n within" where the true error of a run that states one exceeds it.
 
     koksma   koksma.integrate(f, dim, tolerance=...), with its defaults
@@ -107,9 +107,15 @@ def cell(method, f, truth, d, tolerance):
     error, points, done = zip(*runs)
     stated = [e for e, _, ok in runs if ok]
     within = sum(e <= tolerance for e in stated)
-    return (f"{statistics.median(points):,.0f}; {statistics.median(error):.0e}" +
+    text = (f"{statistics.median(points):,.0f}; {statistics.median(error):.0e}" +
             (f"; {sum(done)} of {len(runs)} done" if not all(done) else "") +
             (f"; *{within} of {len(stated)} within*" if within < len(stated) else ""))
+    return text, statistics.median(points), statistics.median(error), all(done) and within == len(stated)
+
+
+#: Rates of the error by which points for the same true error are compared.
+RATES = {"smooth": 1.5, "peak": 1.5, "kink": 1, "jump": 0.75}
+found = []
 
 
 print(f"| function | d | tolerance | {' | '.join(METHODS)} |\n|---|---|---|" + "---|" * len(METHODS))
@@ -117,5 +123,13 @@ for tolerance in (1e-4, 1e-6):
     for make in (smooth, peak, kink, jump):
         for d in (3, 7, 20):
             f, truth = make(d)
-            print(f"| {make.__name__} | {d} | {tolerance:g} | " + " | ".join(cell(m, f, truth, d, tolerance) for m in METHODS.values()) + " |",
-                  flush=True)
+            cells = [cell(m, f, truth, d, tolerance) for m in METHODS.values()]
+            found.append((RATES[make.__name__], cells))
+            print(f"| {make.__name__} | {d} | {tolerance:g} | " + " | ".join(c[0] for c in cells) + " |", flush=True)
+
+print("\n| Koksma beside | cells | points | true error | points for the same true error |\n|---|---|---|---|---|")
+for i, name in list(enumerate(METHODS))[1:]:
+    both = [(rate, cells[0], cells[i]) for rate, cells in found if cells[0][3] and cells[i][3]]
+    ratios = [[ours[1] / theirs[1], ours[2] / theirs[2], ours[1] / theirs[1] * (ours[2] / theirs[2]) ** (1 / rate)]
+              for rate, ours, theirs in both]
+    print(f"| {name} | {len(both)} | " + " | ".join(f"{statistics.median(r):.2g} ({min(r):.2g} to {max(r):.2g})" for r in zip(*ratios)) + " |")

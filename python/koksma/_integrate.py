@@ -417,7 +417,8 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
     estimator, interval : str
         Names of estimators() and intervals(); by default the interval "auto", which takes median or mean.
     confidence : float
-        Shared by all steps that max_points allows, so that the last interval has it whenever the search ends.
+        Of the last interval, whenever the search ends, for about normal estimates whose error falls at least as n**-0.5. With
+        fewer than 6 replicates, a confidence below 0.9 or a proved interval all steps that max_points allows share it.
     replicates, max_points : int
         Number of independent sets; limit of their points together.
     value_range : pair of float

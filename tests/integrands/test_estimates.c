@@ -254,7 +254,45 @@ static void errors_are_within_the_tolerance(void **state)
     }
 }
 
-/* Without a tolerance all steps are done, with the confidence shared by them; the rate of the mean over Owen's scrambling
+static double step_at_a_third(const double *x, int dim)
+{
+    (void)dim;
+    return x[0] < 1.0 / 3 ? 1 : 0;
+}
+
+/* Independent points: the error falls as n^-1/2, the slowest of unbiased sets, and a step after the other may end the
+   search too early. Of 2,000 searches of 95 % at most 100 may err, and so may 20 of 99 %, plus three standard deviations;
+   tolerances are spread over a factor of 2, so that none is the best for the steps. */
+static void searches_hold_whenever_they_end(void **state)
+{
+    (void)state;
+    const int runs = test_repeats(2000, 20);
+    const size_t replicates[] = {6, 15, 40};
+    for (size_t k = 0; k < 3; k++) {
+        int wrong = 0, strictly = 0;
+        for (int run = 0; run < runs; run++) {
+            koksma_tolerance t;
+            koksma_tolerance_options o = {.replicates = replicates[k],
+                                          .most_points = replicates[k] << 12,
+                                          .first_n = 16,
+                                          .seed = 100 * (uint64_t)run,
+                                          .estimate.interval = run % 2 ? "student" : "auto",
+                                          .absolute =
+                                              0.02 * sqrt(15.0 / (double)replicates[k]) * (1 + run / (double)runs)};
+            o.estimate.interval = replicates[k] < 15 ? "student" : o.estimate.interval;
+            for (int strict = 0; strict < 2; strict++) {
+                o.estimate.confidence = strict ? 0.99 : 0.95;
+                assert_ok(integrate(&(call){.at = step_at_a_third}, "random", &o, NULL, &t));
+                assert_true(t.reached);
+                *(strict ? &strictly : &wrong) += fabs(t.steps[t.n_steps - 1].estimate.value - 1.0 / 3) > o.absolute;
+            }
+        }
+        assert_true(wrong <= 0.05 * runs + 3 * sqrt(0.0475 * runs));
+        assert_true(strictly <= 0.01 * runs + 3 * sqrt(0.0099 * runs));
+    }
+}
+
+/* Without a tolerance all steps are done; the rate of the mean over Owen's scrambling
    of a function with a kink in a coordinate is near -3/2, and the prediction of what a smaller error needs follows it. */
 static void a_limit_ends_the_search(void **state)
 {
@@ -266,7 +304,13 @@ static void a_limit_ends_the_search(void **state)
     assert_ok(integrate(&c, "sobol:scramble=owen", &o, NULL, &t));
     assert_false(t.reached);
     assert_int_equal(t.n_steps, 5);
-    assert_near(t.steps[0].estimate.confidence, 0.99, 1e-14);
+    assert_near(t.steps[0].estimate.confidence, 0.95, 1e-14);
+    o.replicates = 5; /* too few for the confidence in each step: the 8 that the limit allows share it */
+    assert_ok(integrate(&c, "sobol:scramble=owen", &o, NULL, &t));
+    assert_int_equal(t.n_steps, 8);
+    assert_near(t.steps[0].estimate.confidence, 1 - 0.05 / 8, 1e-14);
+    o.replicates = 40;
+    assert_ok(integrate(&c, "sobol:scramble=owen", &o, NULL, &t));
     assert_near(t.rate, -1.5, 0.3);
     assert_true(isnan(t.needed));
     o.absolute = 1e-9;
@@ -353,6 +397,7 @@ int main(void)
         cmocka_unit_test(bounded_intervals_are_their_formulas),
         cmocka_unit_test(intervals_cover),
         cmocka_unit_test(errors_are_within_the_tolerance),
+        cmocka_unit_test(searches_hold_whenever_they_end),
         cmocka_unit_test(a_limit_ends_the_search),
         cmocka_unit_test(equal_estimates_have_an_error),
         cmocka_unit_test(equal_values_end_no_search_at_once),
