@@ -122,10 +122,11 @@ typedef struct koksma_tolerance {
    at least .9, with 6 replicates or more and an interval that is not `proved`: for normal estimates whose standard
    deviation falls at least as n^-1/2, all steps together then err with a probability below 1 - confidence (for 15
    replicates and 95 %, in 2.9 %). Else it is divided by Bonferroni: with K steps allowed each interval misses with a
-   probability of (1 - confidence) / K. An interval of width 0 is widened by one point's share of the range of the values so far, (largest -
-   least) / n, on both sides: functions with jumps give equal estimates that are off by less than that. While all values
-   of the function have been equal, which tells nothing of rare peaks, no step but the last one ends the search before
-   2^16 points.
+   probability of (1 - confidence) / K.
+
+   An interval of width 0 is widened by one point's share of the range of the values so far, (largest - least) / n, on
+   both sides: functions with jumps give equal estimates that are off by less than that. While all values of the function
+   have been equal, which tells nothing of rare peaks, no step but the last one ends the search before 2^16 points.
 
      values, context  the function
      pattern          one whose sets are random and unbiased (koksma_is_unbiased)

@@ -229,8 +229,8 @@ static bool go_on(void *context, double fraction)
 /* The confidence of each step's interval. Intervals that are proved share theirs over all steps, by Bonferroni. The others
    have it in each step: a step errs where its estimate is off by more than the tolerance while the interval seems narrow
    enough. For normal estimates both are independent, and if the standard deviation falls at least as n^-1/2 the
-   probabilities of all steps together are at most 0.94 of 1 - confidence for 6 replicates, 0.58 for 15 and 0.88 for 1,000 at
-   95 %, and below 1 from a confidence of 90 % on: only one or two steps have both a narrow interval and a large error. */
+   probabilities of all steps together are at most 0.80 of 1 - confidence for 6 replicates, 0.58 for 15 and 0.88 for
+   1,000 at 95 %, and below 1 from 90 % on: only one or two steps have both a narrow interval and a large error. */
 static double step_confidence(const job *j, size_t steps)
 {
     const koksma_estimate_options *o = &j->options->estimate;
