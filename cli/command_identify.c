@@ -30,7 +30,7 @@ static int read_points(const cli_arguments *arguments, const char *source, uint6
                        koksma_points *points)
 {
     *points = (koksma_points){0};
-    if (cli_source_is_pattern(source)) {
+    if (cli_source_is_pattern(source) || cli_flag(arguments, "scale")) {
         return cli_source_points(arguments, source, seed, run, points);
     }
     const koksma_status status = koksma_points_read_mapped(source, points);

@@ -9,6 +9,7 @@
 
 #include <ctype.h>
 #include <glob.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -144,6 +145,50 @@ static const char *hint(const char *operand, char *text, size_t size)
     return text;
 }
 
+/* The text of --scale; NULL: not given, or not an option of the command. */
+static const char *scale_of(const cli_arguments *arguments)
+{
+    const cli_option *option = arguments->command->options;
+    while (option->name && strcmp(option->name, "scale") != 0) {
+        option++;
+    }
+    return option->name ? cli_text(arguments, "scale", NULL) : NULL;
+}
+
+/* Reads a file and divides its coordinates by the numbers of --scale. Returns the exit code. */
+static int read_scaled(const cli_arguments *arguments, const char *path, const char *scale, koksma_points *points)
+{
+    double divisors[64] = {0};
+    char item[64];
+    size_t n = 0;
+    for (; cli_list_item(scale, n, item, sizeof item); n++) {
+        char *end;
+        const double divisor = strtod(item, &end);
+        if (n == sizeof divisors / sizeof *divisors || end == item || *end || !(divisor > 0 && isfinite(divisor))) {
+            return cli_usage_error(arguments, "--scale %s: it takes positive numbers, as in 512 or 640,480", scale);
+        }
+        divisors[n] = divisor;
+    }
+    const koksma_status status = koksma_points_read_mapped(path, points);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    if (n != 1 && n != (size_t)points->dim) {
+        return cli_usage_error(arguments,
+                               "--scale %s: it takes one number, or one for each of the %d coordinates of %s", scale,
+                               points->dim, path);
+    }
+    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
+        const double divisor = divisors[n == 1 ? 0 : i % (size_t)points->dim], x = points->xs[i];
+        if (!(x >= 0 && x <= divisor)) {
+            cli_usage_error(arguments, "%s: coordinate %.9g is outside 0 to %g of --scale", path, x, divisor);
+            return koksma_status_exit_code(KOKSMA_MALFORMED);
+        }
+        points->xs[i] = x / divisor;
+    }
+    return CLI_YES;
+}
+
 int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t seed, const koksma_run *run,
                       koksma_points *points)
 {
@@ -154,6 +199,14 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
         return code;
     }
     koksma_status status;
+    const char *scale = scale_of(arguments);
+    if (scale && !source.is_pattern) {
+        const int scaled = read_scaled(arguments, text, scale, points);
+        if (scaled) {
+            koksma_points_fini(points);
+        }
+        return scaled;
+    }
     if (source.is_pattern) {
         status = koksma_points_init(points, source.n, source.dim);
         status = status ? status : koksma_generate(&source.spec, seed, run, points);
@@ -163,6 +216,11 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
     if (status == KOKSMA_MISSING && !source.is_pattern) {
         char meant[KOKSMA_MAX_SPEC];
         cli_usage_error(arguments, "%s%s", koksma_error_text(), hint(text, meant, sizeof meant));
+        return koksma_status_exit_code(status);
+    }
+    if (status == KOKSMA_MALFORMED && strstr(koksma_error_text(), "outside [0,1]") &&
+        !strstr(koksma_error_text(), "nan") && !strchr(koksma_error_text(), ';')) {
+        cli_usage_error(arguments, "%s; --scale W,H divides coordinates, such as pixels", koksma_error_text());
         return koksma_status_exit_code(status);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
@@ -369,6 +427,13 @@ int cli_sources_expand(cli_arguments *arguments)
                        koksma_pattern_spec(last, &unknown)
                    ? cli_fail(arguments, KOKSMA_ARGUMENT)
                    : cli_usage_error(arguments, "-n %s: it needs a pattern without @N", of.list);
+    }
+    bool any_file = false;
+    for (int i = 0; i < arguments->n_made; i++) {
+        any_file |= (i > 0 || !takes_name_first(arguments)) && !cli_source_is_pattern(arguments->made[i]);
+    }
+    if (!code && scale_of(arguments) && arguments->n_made && !any_file) {
+        code = cli_usage_error(arguments, "--scale has no effect: no operand is a file");
     }
     const char *dim = cli_text(arguments, "dim", NULL);
     if (!code && dim && of.other && !of.any_bare) {

@@ -12,6 +12,8 @@
     {'p', "patterns", "PATTERN,..|all",                                                                              \
      "further patterns, PATTERN or SPEC@N; all: every pattern that accepts N and DIM"},                              \
         {'n', "n", "N,..", "number of points of patterns without @N"},                                               \
+        {0, "scale", "W[,H..]",                                                                                      \
+         "divide the coordinates of files by W, or by one number for each axis: pixels of an image by its size"},    \
     {                                                                                                                \
         'd', "dim", "DIM", "number of dimensions of patterns without @N (default: 2)"                                \
     }

@@ -146,7 +146,7 @@ class Points(unittest.TestCase):
         found = {(f.property, f.subject): f for f in koksma.verify(koksma.generate("sobol", 64))}
         self.assertTrue(found["net-base-2", "0,1"].holds)
         self.assertTrue(found["progressive", found_subject(found, "progressive")].holds)
-        names = ["distinct", "origin-unique", "origin-present", "below-one-as-float"]
+        names = ["distinct", "origin-unique", "origin-not-missing", "below-one-as-float"]
         self.assertEqual([found[name, "-"].holds for name in names], [True] * 4)
         bad = [f.property for f in koksma.verify([[0, 0], [0, 0], [1 - 1e-9, 0.5]]) if not f.holds]
         self.assertTrue({"distinct", "origin-unique", "below-one-as-float"} <= set(bad), bad)

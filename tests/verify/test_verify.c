@@ -33,7 +33,7 @@ TEST_CASE(healthy_points_pass)
     koksma_points p = test_points("sobol", 256, 2, 0);
     static const char *const properties[][2] = {
         {"net-base-2", "0,1"},       {"latin", "0"},      {"latin", "1"},         {"stratified", "16 x 16"},
-        {"stratified", "4 x 64"},    {"distinct", "-"},   {"origin-unique", "-"}, {"origin-present", "-"},
+        {"stratified", "4 x 64"},    {"distinct", "-"},   {"origin-unique", "-"}, {"origin-not-missing", "-"},
         {"below-one-as-float", "-"}, {"progressive", "-"}};
     for (size_t i = 0; i < sizeof properties / sizeof *properties; i++) {
         const koksma_finding f = one(&p, properties[i][0], properties[i][1]);
@@ -277,7 +277,7 @@ TEST_CASE(the_origin)
 {
     koksma_points p = test_points("sobol", 65, 2, 0);
     koksma_points skipped = {64, 2, p.xs + 2}; /* the first point dropped */
-    const koksma_finding f = one(&skipped, "origin-present", "-");
+    const koksma_finding f = one(&skipped, "origin-not-missing", "-");
     assert_false(f.holds);
     assert_false(one(&skipped, "net-base-2", "0,1").holds);
     p.xs[2 * 3] = p.xs[2 * 3 + 1] = 0;
@@ -299,14 +299,14 @@ TEST_CASE(the_origin)
                  {"void-and-cluster:size=4", 4, 2}};
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) {
         p = test_points(whole[i].pattern, whole[i].n, whole[i].dim, 0);
-        assert_true(one(&p, "origin-present", "-").holds);
+        assert_true(one(&p, "origin-not-missing", "-").holds);
         koksma_points_fini(&p);
     }
     static const size_t sizes[] = {2, 3, 63, 100};
     for (size_t i = 0; i < 4; i++) {
         p = test_points("sobol", sizes[i] + 1, 4, 0);
         skipped = (koksma_points){sizes[i], 4, p.xs + 4};
-        assert_false(one(&skipped, "origin-present", "-").holds);
+        assert_false(one(&skipped, "origin-not-missing", "-").holds);
         koksma_points_fini(&p);
     }
 }

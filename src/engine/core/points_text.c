@@ -202,6 +202,37 @@ static koksma_status bad_number(const reader *r, const char *field)
                         field);
 }
 
+/* Whether a line has decimal commas: a comma between digits, and another separator of fields. */
+static bool has_decimal_commas(const char *line)
+{
+    bool comma = false, other = false;
+    for (const char *s = line; *s && *s != '#'; s++) {
+        const bool inside = s > line && strchr("0123456789", s[-1]) && s[1] && strchr("0123456789", s[1]);
+        comma |= *s == ',' && inside;
+        other |= *s == ';' || *s == '\t' || (*s == ' ' && s > line && s[-1] != ',' && s[1] && s[1] != ',');
+    }
+    return comma && other;
+}
+
+/* The end of a message on coordinate number `field` of a row, which is outside [0,1]: what the file probably has. */
+static const char *outside_hint(const reader *r, double x, int field, const char *end)
+{
+    const koksma_points *p = r->points; /* n counts coordinates */
+    const size_t rows = p->dim ? p->n / (size_t)p->dim : 0;
+    const char *next = next_field(end);
+    const bool more = next && *next;
+    if (has_decimal_commas(r->line)) {
+        return "; the line has decimal commas: write points, as in 0.5";
+    }
+    if (field == 0 && rows > 0 && p->dim > 1 && more && x == p->xs[0] + (double)rows) {
+        return "; the first column counts the rows: leave it out";
+    }
+    if (field == 0 && rows == 0 && !more && x == floor(x)) {
+        return "; if the line says how many points follow, write it as a comment, '# n N'";
+    }
+    return "";
+}
+
 static koksma_status read_row(reader *r, const char *s)
 {
     int fields = 0;
@@ -212,8 +243,8 @@ static koksma_status read_row(reader *r, const char *s)
             return bad_number(r, s);
         }
         KOKSMA__FAIL_IF(r->mapped ? !isfinite(x) : !(x >= 0 && x <= 1), KOKSMA_MALFORMED,
-                        "%s: line %zu: coordinate %.17g is %s", r->name, r->line_number, x,
-                        r->mapped ? "not finite" : "outside [0,1]");
+                        "%s: line %zu: coordinate %.17g is %s%s", r->name, r->line_number, x,
+                        r->mapped ? "not finite" : "outside [0,1]", r->mapped ? "" : outside_hint(r, x, fields, end));
         if (++fields > KOKSMA_MAX_DIM) {
             return malformed(r, "more than 4096 coordinates");
         }

@@ -100,8 +100,8 @@ const koksma__property koksma__property_stratified = {
 /* ---- The origin -------------------------------------------------------------------------------------------------- */
 
 /*
- * origin-unique and origin-present: how many points are at the origin. The first point of a digital sequence is the
- * origin; a generator that skips it destroys the net property of the sequence's prefixes. origin-present fails where
+ * origin-unique and origin-not-missing: how many points are at the origin. The first point of a digital sequence is the
+ * origin; a generator that skips it destroys the net property of the sequence's prefixes. origin-not-missing fails where
  * the points look like points 1 to n of such a sequence: each coordinate takes different multiples of 2^-m, 2^m > n,
  * of which none is 0 and not all are odd multiples. O(n dim).
  */
@@ -170,8 +170,8 @@ const koksma__property koksma__property_origin_unique = {
     .look = look_unique,
 };
 
-const koksma__property koksma__property_origin_present = {
-    .public = {.name = "origin-present",
+const koksma__property koksma__property_origin_not_missing = {
+    .public = {.name = "origin-not-missing",
                .meaning = "the points do not look like an unscrambled sequence whose first point, the origin, is "
                           "missing; value: number of points at the origin"},
     .look = look_present,
