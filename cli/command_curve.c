@@ -57,7 +57,8 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     CLI_SOURCE_OPTIONS,
     CLI_CURVE_OPTIONS("curve", "2 sqrt(n); quality: 7 sqrt(n)",
-                      "rings and pairs have standard errors, and quality is that of the mean spectrum"),
+                      "rings, pairs and screen have standard errors, and quality is that of the mean spectrum"),
+    {'f', "filter", "FILTER", "{curve:filter}: as of `koksma mask` (default: gaussian:sigma=1.5)"},
     {'o', "output", "FILE.npy|.csv|.txt|{images}",
      "{curve:output}: write all values to this file, as numbers or as a grey image"},
     CLI_ROW_OPTIONS,
@@ -72,6 +73,7 @@ const cli_command cli_command_curve = {
     .details = "{curve-meanings}"
                "`koksma plot --curve` draws them.",
     .examples = "koksma curve rings pattern:poisson-disk-maximal@1024\n"
+                "koksma curve screen ranking-keys@4@2 --trials 8\n"
                 "koksma curve pairs points.txt\n",
     .options = options,
     .run = run,

@@ -12,7 +12,7 @@
 
 #include "cli.h"
 
-enum { CLI_CURVE_COLUMNS = 4, CLI_MAX_PANELS = 64 };
+enum { CLI_CURVE_COLUMNS = 5, CLI_MAX_PANELS = 64 };
 
 typedef struct cli_curve cli_curve;
 

@@ -33,7 +33,7 @@ MAY_USE = {
     "measures": "core kernels stats warps",
     "masks": "core kernels patterns warps",
     "api": "core patterns measures warps",
-    "integrands": "core stats patterns api verify",
+    "integrands": "core stats patterns masks api verify",
     "verify": "core patterns measures api",
     "identify": "core patterns api verify",
     "optimise": "core kernels patterns measures api",

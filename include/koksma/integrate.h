@@ -18,6 +18,7 @@
 #define KOKSMA_INTEGRATE_H
 
 #include <koksma/koksma.h>
+#include <koksma/mask.h>
 #include <koksma/series.h>
 
 #ifdef __cplusplus
@@ -208,6 +209,40 @@ KOKSMA_API koksma_status koksma_integral_sensitivity(const koksma_integral *inte
    MEMORY. */
 KOKSMA_API koksma_status koksma_integral_component(const koksma_integral *integral, const int *axes, size_t n_axes,
                                                    koksma_integral **out);
+
+/* ---- Errors over a screen ----------------------------------------------------------------------------- */
+
+enum { KOKSMA_SCREEN_MAX_DIM = 4, KOKSMA_SCREEN_MAX_SIDE = 512, KOKSMA_SCREEN_MAX_SPP = 256 };
+
+typedef struct koksma_screen_options {
+    int dim;    /* coordinates of the integrands, 1 to KOKSMA_SCREEN_MAX_DIM */
+    int side;   /* pixels a side of the image, up to KOKSMA_SCREEN_MAX_SIDE; z-sampler takes powers of two */
+    size_t spp; /* samples a pixel, 1 to KOKSMA_SCREEN_MAX_SPP */
+    koksma_mask_filter filter; /* width and height are at most side / 2; need not be normalised */
+    uint64_t seed;             /* image t has the seed + t */
+    uint64_t trials;           /* number of images, 1 to 4096 */
+} koksma_screen_options;
+
+/* Errors for 100 integrands of `coordinates` of the coordinates, as root mean squares over integrands and images. Each
+   number has its standard error over the images, NaN with one image. */
+typedef struct koksma_screen_row {
+    int coordinates;
+    double plain, plain_error; /* error of a pixel in units of that of as many random points */
+    double blurred,
+        blurred_error; /* error after the filter, in units of that of white noise with the same plain error */
+} koksma_screen_row;
+
+/* Measures how much of the error a filter over the screen leaves, for steps, ramps, boxes, products and Genz's families
+   with random parameters that no pattern of the library was made with.
+     pattern  a pattern of images (with a parameter `width`, which is set to options->side) or of tiles (mask-offset,
+              mask-file): one set has all pixels. Any other: each pixel has a set with a seed of its own. A pattern of
+              fewer dimensions fills the coordinates in groups, each with another seed, and from the second on with the
+              samples of each pixel in a random order
+     rows     receives options->dim rows, for 1, 2 .. options->dim coordinates
+   Cost: trials * side^2 * spp * dim * 100 values. Errors: those of koksma_generate and koksma_mask_filter_check,
+   ARGUMENT, DIM, N. */
+KOKSMA_API koksma_status koksma_screen_errors(const koksma_spec *pattern, const koksma_screen_options *options,
+                                              const koksma_run *run, koksma_screen_row *rows);
 
 #ifdef __cplusplus
 }

@@ -33,6 +33,7 @@ from ._plot import Picture, plot, plot_compare, plot_convergence
 from ._rank import Asked, Ranked, Ranking, SizeCheck, Target, rank, rank_to_error
 from ._render import (Layers, Replicates, SceneCheck, ScenePart, adaptive, check_scene, filters, integrators, read_image, render, render_replicates, scenes,
                       version, write_image)
+from ._screen import ScreenError, screen_errors
 from ._series import Convergence, Trials, convergence, trials
 from ._spectrum import PairCorrelation, Spectrum, pair_correlation, spectrum
 from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
@@ -43,14 +44,16 @@ __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Cost", "Datasheet", "Engine",
     "Error", "Finding", "ForbiddenError", "Identity", "ImageGroup", "Integral", "Integrand", "Integration",
     "Interval", "Layers", "MalformedError", "MaskQuality", "Member", "MetricValue", "MissingError", "Modifier",
-    "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "Replicates", "SceneCheck",
-    "SceneGain", "SceneOptimum", "ScenePart", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Step", "Study",
-    "Summary", "TableRow", "Target", "Trials", "UnsupportedError", "Value", "Witness", "adaptive", "allow_exec", "audit",
+    "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "Replicates",
+    "SceneCheck", "SceneGain", "SceneOptimum", "ScenePart", "ScreenError", "Sensitivity", "Share", "SizeCheck",
+    "Spectrum", "Step", "Study", "Summary", "TableRow", "Target", "Trials", "UnsupportedError", "Value", "Witness",
+    "adaptive", "allow_exec", "audit",
     "canonical", "check_scene", "compare", "convergence", "datasheet", "estimators", "filters", "generate",
     "has_ranges", "identify", "integrand", "integrands", "integrate", "integrators", "intervals", "local_discrepancy",
     "mask", "mask_quality", "measure", "measures", "metrics", "modifiers", "optimise", "optimise_scene",
     "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence", "radial_power", "rank",
-    "rank_to_error", "read", "read_image", "read_mask", "records", "refuse_unknown", "render", "render_replicates", "scenes", "sensitivity", "spectrum",
+    "rank_to_error", "read", "read_image", "read_mask", "records", "refuse_unknown", "render", "render_replicates",
+    "scenes", "screen_errors", "sensitivity", "spectrum",
     "study_images", "trials", "verify", "verify_sets", "version", "warp_points", "warps", "write", "write_image",
     "write_mask",
 ]

@@ -43,7 +43,7 @@ def _space(name: Any) -> Any:
     return found
 
 
-def _filter(given: Union[str, npt.ArrayLike]) -> s.MaskFilter:
+def filter_of(given: Union[str, npt.ArrayLike]) -> s.MaskFilter:
     """The filter of a text, or of an array of weights."""
     result = s.MaskFilter()
     if isinstance(given, (str, bytes, os.PathLike)):
@@ -135,7 +135,7 @@ def mask(filter: Union[str, npt.ArrayLike] = "gaussian:sigma=1", size: Optional[
     >>> quality.error < quality.white / 2
     True
     """
-    options = s.MaskOptions(filter=_filter(filter), open=flag("open", open), levels=whole("levels", levels, 0, s.MAX_INT),
+    options = s.MaskOptions(filter=filter_of(filter), open=flag("open", open), levels=whole("levels", levels, 0, s.MAX_INT),
                             seed=seed_of(seed), swaps=real("swaps", swaps), target=real("target", target))
     width, height = (whole("size", side, s.MASK_MIN, s.MASK_MAX) for side in pair("size", (128, 128) if size is None else size))
     options.space = _space("scalar" if space is None else space)
@@ -182,7 +182,7 @@ def mask_quality(mask: npt.ArrayLike, filter: Union[str, npt.ArrayLike] = "gauss
     array, found = _as_mask("mask", mask, space)
     count = whole("tests", tests, 1, 65536) if tests is not None else 256 if array.shape[2] == 1 else 400
     result = s.MaskQuality()
-    call(core().koksma_mask_measure, array.shape[1], array.shape[0], found, _pointer(array), byref(_filter(filter)), count, byref(result),
+    call(core().koksma_mask_measure, array.shape[1], array.shape[0], found, _pointer(array), byref(filter_of(filter)), count, byref(result),
          run_at=6, threads=threads)
     return MaskQuality(result.error, result.white, result.inside, result.seam)
 

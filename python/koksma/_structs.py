@@ -207,6 +207,14 @@ class IntegrationOptions(Structure):
     _fields_ = [("sizes", c_size_t * MAX_SIZES), ("n_sizes", c_size_t), ("seed", c_uint64), ("trials", c_uint64), ("tests", c_size_t)]
 
 
+class ScreenOptions(Structure):
+    _fields_ = [("dim", c_int), ("side", c_int), ("spp", c_size_t), ("filter", MaskFilter), ("seed", c_uint64), ("trials", c_uint64)]
+
+
+class ScreenRow(Structure):
+    _fields_ = [("coordinates", c_int), ("plain", c_double), ("plain_error", c_double), ("blurred", c_double), ("blurred_error", c_double)]
+
+
 class Estimator(Structure):
     _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("interval", c_char_p), ("of", c_void_p)]
 
@@ -484,7 +492,8 @@ LAYOUTS = [
     ("integrate.h", "koksma_integral_facts", IntegralFacts), ("integrate.h", "koksma_integration_row", IntegrationRow),
     ("integrate.h", "koksma_integration_slope", IntegrationSlope), ("integrate.h", "koksma_integration", Integration),
     ("integrate.h", "koksma_integration_options", IntegrationOptions), ("integrate.h", "koksma_share", Share),
-    ("integrate.h", "koksma_sensitivity", Sensitivity),
+    ("integrate.h", "koksma_sensitivity", Sensitivity), ("integrate.h", "koksma_screen_options", ScreenOptions),
+    ("integrate.h", "koksma_screen_row", ScreenRow),
     ("estimate.h", "koksma_estimator", Estimator), ("estimate.h", "koksma_interval", Interval),
     ("estimate.h", "koksma_estimate_options", EstimateOptions), ("estimate.h", "koksma_integral_estimate", IntegralEstimate),
     ("estimate.h", "koksma_tolerance_options", ToleranceOptions), ("estimate.h", "koksma_tolerance_step", ToleranceStep),

@@ -127,6 +127,8 @@ VALID = {
     "koksma_sensitivity *": "a_buffer(sizeof(koksma_sensitivity))", "const int *": "two_axes()",
     "koksma_integrand_find.name": "\"disk\"", "koksma_integral_open.text": "\"disk\"", "koksma_integral_open.dim": "2",
     "koksma_integral_of_function.dim": "2", "koksma_integral_sensitivity.n_axes": "2", "koksma_integral_component.n_axes": "2", "koksma_integral_sensitivity.samples": "16",
+    "koksma_screen_options *": "screen_options()", "koksma_screen_row *": "a_buffer(2 * sizeof(koksma_screen_row))",
+    "koksma_screen_errors.pattern": "a_pattern(\"gaussian-jittered:sigma=0.2\")",
     "koksma_integration_errors.pattern": "a_pattern(\"gaussian-jittered:sigma=0.2\")",
     "koksma_estimator_find.name": "\"mean\"", "koksma_interval_find.name": "\"student\"", "koksma_integral_estimate *": "a_buffer(sizeof(koksma_integral_estimate))",
     "koksma_estimate_options *": "a_zero(sizeof(koksma_estimate_options))", "koksma_estimate_integral.n": "16", "koksma_estimate_integral.values": "a_buffer(16 * sizeof(double))",

@@ -177,6 +177,12 @@ static void *integration_options(void)
     return COPY(koksma_integration_options, {.sizes = {4, 9, 16}, .n_sizes = 3, .seed = 1, .trials = 1});
 }
 
+static void *screen_options(void)
+{
+    return COPY(koksma_screen_options,
+                {.dim = 2, .side = 8, .spp = 1, .filter = {.width = 2, .height = 1, .weights = {1, 1}}, .trials = 1});
+}
+
 static koksma_status first_coordinates(void *context, const koksma_points *points, double *values)
 {
     (void)context;

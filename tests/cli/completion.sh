@@ -56,7 +56,7 @@ measure x -m ^ all $(all measures)
 measure x --measures star,l2-st^ l2-star
 measure x --warp ^ $(all warps)
 measure x --prefixes ^ powers
-curve ^ power rings quality pairs
+curve ^ power rings quality screen pairs
 curve power ^ FILES
 curve power x --half ^
 verify ^ FILES

@@ -84,7 +84,7 @@ def main():
         "table": (["patterns", "measures", "integrands", "scenes", "warps"], lambda w: ["list", w]),
         "verb": (["estimate", "export", "report", "audit", "images"], lambda w: ["study", w]),
         "property": (names("properties", "property"), lambda w: ["verify", "random@4", "-e", w]),
-        "curve": (["power", "rings", "quality", "pairs"], lambda w: ["curve", w, "random@4"]),
+        "curve": (["power", "rings", "quality", "screen", "pairs"], lambda w: ["curve", w, "random@4"]),
         "drawn curve": (["radial", "anisotropy", "convergence"], lambda w: ["plot", "random@4", "-c", w, "-o", "x.svg"]),
         "warp": (names("warps", "warp"), lambda w: ["measure", "random@4", "--warp", w]),
         "pairing": (["shuffled", "aligned", "native"], lambda w: ["render", "ball", "--pairing", w, "-o", "x.pfm"]),

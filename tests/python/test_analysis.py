@@ -53,6 +53,16 @@ class Series(unittest.TestCase):
         low, high = koksma.trials("random", 8, trials=4).interval
         self.assertAlmostEqual(high - low, 2 * half, delta=1e-9)
 
+    def test_screen_errors_are_the_programs(self):
+        ours = koksma.screen_errors("z-sampler", 2, 3, filter="box:size=4", trials=3, seed=7)
+        theirs = rows("curve", "screen", "z-sampler@2@3", "--filter", "box:size=4", "--trials", "3", "--seed", "7")
+        for a, b in zip(ours, theirs):
+            self.assertEqual((a.coordinates, a.plain, a.plain_error, a.blurred, a.blurred_error), tuple(
+                b[k] for k in ("coordinates", "plain", "plain_standard_error", "blurred", "blurred_standard_error")))
+        self.assertEqual((len(ours), len(theirs)), (3, 3))
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.screen_errors("random", 1, filter="box:size=40")
+
     def test_convergence_is_the_programs(self):
         sizes = [16, 64, 256]
         ours = koksma.convergence("sobol:scramble=owen", "l2-star", sizes, trials=6)
