@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Makes include/koksma/keys.def: the keys of koksma/keys.h, by simulated annealing. A program of its own, run by hand:
+ * Makes include/koksma/keys.def and keys_4d.def: the keys of koksma/keys.h, by simulated annealing. A program of its
+ * own, run by hand; the first number is that of the coordinates of a key, the second that of proposals a start:
  *
  *     cc -O3 -std=c11 -ffp-contract=off -Iinclude tools/make_keys.c -lm -o /tmp/make_keys
- *     /tmp/make_keys > /tmp/keys.def && mv /tmp/keys.def include/koksma/
+ *     /tmp/make_keys 2 > /tmp/keys.def && mv /tmp/keys.def include/koksma/
+ *     /tmp/make_keys 4 3000000 > /tmp/keys_4d.def && mv /tmp/keys_4d.def include/koksma/
  *
  * Pixel p of a cell takes the samples sequence(key(p) XOR i), i < n, of one Owen-scrambled (0,2)-sequence. Owen scrambling
  * makes the covariance of the errors of two pixels, in the mean over scramblings, a function of key(p) XOR key(q) alone.
@@ -46,28 +48,31 @@ static double uniform(void)
 
 typedef struct integrand {
     int kind;
-    double a, b, c, mean;
+    double a[4], u[4], c, mean; /* a: 0 for coordinates that have no effect */
 } integrand;
 
 static integrand functions[FUNCTIONS];
 
 /* A step, a wave, an exponential or a Gaussian. */
-static double value(const integrand *f, double x, double y)
+static double value(const integrand *f, const double x[4])
 {
-    const double u = x - f->a, v = y - f->b;
+    double sum = f->kind == 3 ? 0 : f->a[0] * x[0];
+    for (int k = f->kind == 3 ? 0 : 1; k < 4; k++) {
+        sum += f->kind == 3 ? f->a[k] * (x[k] - f->u[k]) * (x[k] - f->u[k]) : f->a[k] * x[k];
+    }
     switch (f->kind) {
     case 0:
-        return f->a * x + f->b * y < f->c;
+        return sum < f->c;
     case 1:
-        return cos(f->a * x + f->b * y + f->c);
+        return cos(sum + f->c);
     case 2:
-        return exp(f->a * x + f->b * y);
+        return exp(sum);
     default:
-        return exp(-f->c * (u * u + v * v));
+        return exp(-f->c * sum);
     }
 }
 
-/* A quarter of the steps is parallel to an axis. */
+/* Functions of two coordinates. A quarter of the steps is parallel to an axis. */
 static void make_functions(void)
 {
     enum { SIDE = 1024 };
@@ -78,16 +83,53 @@ static void make_functions(void)
         f->kind = t < STEPS ? 0 : 1 + t % 3;
         if (f->kind == 0) {
             const double angle = pi / 2 * (t % 4 ? 4 * w : t / 4 % 4);
-            *f = (integrand){0, cos(angle), sin(angle), cos(angle) * u + sin(angle) * v, 0};
+            *f = (integrand){0, {cos(angle), sin(angle)}, {0}, cos(angle) * u + sin(angle) * v, 0};
         } else if (f->kind == 1) {
-            *f = (integrand){1, 2 * pi * u, 2 * pi * (2 * v - 1), 2 * pi * w, 0};
+            *f = (integrand){1, {2 * pi * u, 2 * pi * (2 * v - 1)}, {0}, 2 * pi * w, 0};
         } else if (f->kind == 2) {
-            *f = (integrand){2, 4 * u - 2, 4 * v - 2, 0, 0};
+            *f = (integrand){2, {4 * u - 2, 4 * v - 2}, {0}, 0, 0};
         } else {
-            *f = (integrand){3, u, v, 2 + 20 * w * w, 0};
+            *f = (integrand){3, {1, 1}, {u, v}, 2 + 20 * w * w, 0};
         }
         for (int i = 0; i < SIDE * SIDE; i++) {
-            f->mean += value(f, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE) / (SIDE * SIDE);
+            const double x[4] = {(i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE};
+            f->mean += value(f, x) / (SIDE * SIDE);
+        }
+    }
+}
+
+/* A normal random number. */
+static double normal(void)
+{
+    const double radius = sqrt(-2 * log(uniform()));
+    return radius * cos(2 * 3.141592653589793 * uniform());
+}
+
+/* Functions of 1, 2, 3 or 4 of the four coordinates: a quarter each, which ones is random. */
+static void make_functions_4d(void)
+{
+    enum { POINTS = 1 << 20 };
+    const koksma_keys sequence = {{1, 2, 3, 4}, 0, 0, 0};
+    for (int t = 0; t < FUNCTIONS; t++) {
+        integrand *f = &functions[t];
+        int left = 1 + t % 4;
+        *f = (integrand){t / 4 % 2 ? 1 + t / 8 % 3 : 0, {0}, {0}, 0, 0};
+        for (int k = 0; k < 4; k++) {
+            f->u[k] = uniform();
+            if (uniform() * (4 - k) < left) {
+                left--;
+                f->a[k] = f->kind == 0   ? normal()
+                          : f->kind == 1 ? 3 * normal()
+                          : f->kind == 2 ? 4 * uniform() - 2
+                                         : 1;
+                f->c += f->kind == 0 ? f->a[k] * f->u[k] : 0;
+            }
+        }
+        f->c = f->kind == 1 ? 6.283185307179586 * uniform() : f->kind == 3 ? 1 + 9 * uniform() : f->c;
+        for (uint32_t i = 0; i < POINTS; i++) {
+            double x[4];
+            koksma_keys_4d(&sequence, i, x);
+            f->mean += value(f, x) / POINTS;
         }
     }
 }
@@ -129,15 +171,19 @@ static void add_powers(uint32_t m, double blocks[TABLES][KEYS])
     }
 }
 
-static void add_scrambling(const integrand *f, uint32_t m, uint64_t seed)
+static void add_scrambling(const integrand *f, uint32_t m, uint64_t seed, int dims)
 {
     static double blocks[TABLES][KEYS];
     const uint32_t keys = 1u << (BLOCK_BITS + m);
-    const koksma_keys sequence = {{koksma_seed_of(seed, 0), koksma_seed_of(seed, 1)}, koksma_seed_of(seed, 2), 0, 0};
+    const koksma_keys sequence = {
+        {koksma_seed_of(seed, 0), koksma_seed_of(seed, 1), koksma_seed_of(seed, 3), koksma_seed_of(seed, 4)},
+        koksma_seed_of(seed, 2),
+        0,
+        0};
     for (uint32_t i = 0; i < keys; i++) {
-        double xy[2];
-        koksma_keys_2d(&sequence, i, xy);
-        blocks[0][i] = value(f, xy[0], xy[1]) - f->mean;
+        double x[4] = {0};
+        (dims == 2 ? koksma_keys_2d : koksma_keys_4d)(&sequence, i, x);
+        blocks[0][i] = value(f, x) - f->mean;
     }
     for (uint32_t j = 1; j <= m; j++) {
         for (uint32_t b = 0; b < keys >> j; b++) {
@@ -150,13 +196,13 @@ static void add_scrambling(const integrand *f, uint32_t m, uint64_t seed)
 static float g[KEYS];
 
 /* Weights: 1 for 2^m samples, 0.02 for each smaller power of two and for each three quarters of a power of two. */
-static void make_covariances(uint32_t m)
+static void make_covariances(uint32_t m, int dims)
 {
     memset(g, 0, sizeof g);
     for (int t = 0; t < FUNCTIONS; t++) {
         memset(power, 0, sizeof power);
         for (uint64_t s = 0; s < SCRAMBLINGS; s++) {
-            add_scrambling(&functions[t], m, 1000 * (m + 1) + s);
+            add_scrambling(&functions[t], m, 1000 * (m + 1) + s, dims);
         }
         for (uint32_t j = 0; j <= m; j++) {
             for (int three = 0; three < (j + 2 <= m ? 2 : 1); three++) {
@@ -177,11 +223,11 @@ enum { REACH = 7 };
 
 static float gauss[2 * REACH + 1][2 * REACH + 1];
 
-static void make_gauss(void)
+static void make_gauss(double s)
 {
     for (int v = -REACH; v <= REACH; v++) {
         for (int u = -REACH; u <= REACH; u++) {
-            gauss[v + REACH][u + REACH] = u || v ? (float)exp(-(u * u + v * v) / (2 * 1.8 * 1.8)) : 0;
+            gauss[v + REACH][u + REACH] = u || v ? (float)exp(-(u * u + v * v) / (2 * s * s)) : 0;
         }
     }
 }
@@ -263,12 +309,13 @@ static double anneal(uint16_t *keys, uint32_t m, long proposals)
 int main(int argc, char **argv)
 {
     static uint16_t keys[TABLES][PIXELS], tried[PIXELS];
-    const long proposals = argc > 1 ? atol(argv[1]) : 12000000;
-    make_functions();
-    make_gauss();
+    const int dims = argc > 1 && !strcmp(argv[1], "4") ? 4 : 2;
+    const long proposals = argc > 2 ? atol(argv[2]) : 12000000;
+    (dims == 2 ? make_functions : make_functions_4d)();
+    make_gauss(dims == 2 ? 1.8 : 2.12);
     for (uint32_t m = 0; m < TABLES; m++) {
         double least = HUGE_VAL;
-        make_covariances(m);
+        make_covariances(m, dims);
         for (int start = 0; start < STARTS; start++) {
             const double found = anneal(tried, m, proposals);
             fprintf(stderr, "%u samples: energy %.4f\n", 1u << m, found);
@@ -279,7 +326,8 @@ int main(int argc, char **argv)
         }
     }
     printf("/* SPDX-License-Identifier: Apache-2.0 */\n"
-           "/* The keys of koksma/keys.h, for 1, 2, 4 ... 64 samples a pixel. Made by tools/make_keys.c. */\n");
+           "/* The keys of koksma/keys.h for %s, for 1, 2, 4 ... 64 samples a pixel. Made by tools/make_keys.c. */\n",
+           dims == 2 ? "pairs" : "quadruples");
     for (int m = 0; m < TABLES; m++) {
         for (int p = 0; p < PIXELS; p++) {
             printf("%s%d", p % 20 ? ", " : p ? ",\n" : "{", keys[m][p]);

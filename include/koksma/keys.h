@@ -31,6 +31,17 @@
  * Aligned blocks of 2^k samples of a pixel are (0,k,2)-nets in base 2, for all k. The 2^m samples of the 1,024 pixels
  * of a cell are together a (0,m+10,2)-net.
  *
+ * What couples two pairs is white. koksma_keys_4d covers four dimensions by one key, with tables of its own and the first
+ * four dimensions of one Owen-scrambled Sobol' sequence:
+ *
+ *     const koksma_keys pixel = koksma_keys_of_4d(seed, x, y, quadruple, spp);
+ *     double xs[4];
+ *     koksma_keys_4d(&pixel, i, xs);
+ *
+ * Errors are then blue whatever the four couple; one coordinate alone is less so than with pairs, and of the pairs of
+ * coordinates within a quadruple only the first has (0,m,2)-nets. docs/findings/screen-error.md has both beside each
+ * other. Cells, seeds, distributions and orders of samples are as with pairs.
+ *
  * Number the pairs of dimensions 0, 1, 2 ... as you like: each number has its own cells and scramblings. Errors that
  * come from one pair of dimensions are blue noise, errors from several pairs together are white noise. In each pixel
  * and each pair except pair 0, the samples 2^k .. 2^(k+1) - 1, for each k, are in a different random order. Pairs
@@ -44,9 +55,9 @@
 
 enum { KOKSMA_KEYS_SIZE = 32, KOKSMA_KEYS_TABLES = 7 };
 
-/* The key and the scrambling of one pixel and pair of dimensions. Compute them once for all samples. */
+/* The key and the scrambling of one pixel and pair or quadruple of dimensions. Compute them once for all samples. */
 typedef struct koksma_keys {
-    uint32_t seeds[2]; /* seeds of the scrambling of x and of y, equal in all pixels of a cell */
+    uint32_t seeds[4]; /* seeds of the scrambling of the coordinates, equal in all pixels of a cell; pairs use two */
     uint32_t key;      /* index of sample 0 in the sequence: the pixel's key XOR a random word of the cell */
     uint32_t order;    /* seed of the order of samples 2^k .. 2^(k+1) - 1, used if ordered is 1 */
     uint32_t ordered;
@@ -70,13 +81,53 @@ KOKSMA_INLINE uint32_t koksma__shuffled_by_octaves(uint32_t i, uint32_t order)
     return 1u << m | koksma_shuffled(i << (32 - m), order + m * 0x9e3779b9u) >> (32 - m);
 }
 
-/* Returns the key of a pixel of a cell, 32 v + u, for 2^m samples per pixel; m < KOKSMA_KEYS_TABLES. */
+/* Return the key of a pixel of a cell, 32 v + u, for 2^m samples per pixel; m < KOKSMA_KEYS_TABLES. */
 KOKSMA_INLINE uint32_t koksma__key(uint32_t m, uint32_t pixel)
 {
     static const uint16_t keys[KOKSMA_KEYS_TABLES][32 * 32] = {
 #include <koksma/keys.def>
     };
     return keys[m][pixel];
+}
+
+KOKSMA_INLINE uint32_t koksma__key_4d(uint32_t m, uint32_t pixel)
+{
+    static const uint16_t keys[KOKSMA_KEYS_TABLES][32 * 32] = {
+#include <koksma/keys_4d.def>
+    };
+    return keys[m][pixel];
+}
+
+/* Returns the key of a pixel and its scrambling for `group`, the number of a pair (dims = 2) or quadruple (dims = 4). */
+KOKSMA_INLINE koksma_keys koksma__keys_of(uint64_t seed, uint32_t x, uint32_t y, uint32_t group, uint32_t spp,
+                                          uint32_t dims)
+{
+    const uint64_t image = koksma__derived(seed, dims == 2 ? 0xbe5466cfu : 0x34e90c6cu, group);
+    const uint64_t offset = koksma_mix(image);
+    const uint32_t last = KOKSMA_KEYS_SIZE - 1, largest = KOKSMA_KEYS_TABLES - 1;
+    const uint32_t column = x + ((uint32_t)offset & last), row = y + ((uint32_t)(offset >> 32) & last);
+    const uint64_t cell = koksma_domain_of_pixel(image, column / KOKSMA_KEYS_SIZE, row / KOKSMA_KEYS_SIZE).key;
+    const uint64_t pixel = koksma__derived(koksma_domain_of_pixel(image, column, row).key, 0x38d01377u, 0);
+    const uint32_t symmetry = koksma_seed_of(cell, 2);
+    const uint32_t u = (column & last) ^ (symmetry & 1 ? last : 0), v = (row & last) ^ (symmetry & 2 ? last : 0);
+    const uint32_t place = symmetry & 4 ? u * KOKSMA_KEYS_SIZE + v : v * KOKSMA_KEYS_SIZE + u;
+    uint32_t m = 0, lower, key;
+    koksma_keys keys;
+    KOKSMA_ASSERT(spp >= 1 && spp <= 1u << 22);
+    while (m < 22 && 1u << m < spp) {
+        m++;
+    }
+    lower = m > largest ? m - largest : 0;
+    key = dims == 2 ? koksma__key(m - lower, place) : koksma__key_4d(m - lower, place);
+    keys.seeds[0] = koksma_seed_of(cell, 0);
+    keys.seeds[1] = koksma_seed_of(cell, 1);
+    keys.seeds[2] = dims == 2 ? 0 : koksma_seed_of(cell, 4);
+    keys.seeds[3] = dims == 2 ? 0 : koksma_seed_of(cell, 5);
+    keys.key = (key << lower | (koksma_seed_of(pixel, 0) & ((1u << lower) - 1))) ^
+               koksma_seed_of(cell, 3); /* indices whose bits are mostly 0 would have few different scramblings */
+    keys.order = koksma_seed_of_order(pixel);
+    keys.ordered = group > 0;
+    return keys;
 }
 
 /* Returns the key of pixel (x, y) of the image with this seed, and its scrambling, for one pair of dimensions.
@@ -87,28 +138,13 @@ KOKSMA_INLINE uint32_t koksma__key(uint32_t m, uint32_t pixel)
            those of other pixels. */
 KOKSMA_INLINE koksma_keys koksma_keys_of(uint64_t seed, uint32_t x, uint32_t y, uint32_t pair, uint32_t spp)
 {
-    const uint64_t image = koksma__derived(seed, 0xbe5466cfu, pair), offset = koksma_mix(image);
-    const uint32_t last = KOKSMA_KEYS_SIZE - 1, largest = KOKSMA_KEYS_TABLES - 1;
-    const uint32_t column = x + ((uint32_t)offset & last), row = y + ((uint32_t)(offset >> 32) & last);
-    const uint64_t cell = koksma_domain_of_pixel(image, column / KOKSMA_KEYS_SIZE, row / KOKSMA_KEYS_SIZE).key;
-    const uint64_t pixel = koksma__derived(koksma_domain_of_pixel(image, column, row).key, 0x38d01377u, 0);
-    const uint32_t symmetry = koksma_seed_of(cell, 2);
-    const uint32_t u = (column & last) ^ (symmetry & 1 ? last : 0), v = (row & last) ^ (symmetry & 2 ? last : 0);
-    const uint32_t place = symmetry & 4 ? u * KOKSMA_KEYS_SIZE + v : v * KOKSMA_KEYS_SIZE + u;
-    uint32_t m = 0, lower;
-    koksma_keys keys;
-    KOKSMA_ASSERT(spp >= 1 && spp <= 1u << 22);
-    while (m < 22 && 1u << m < spp) {
-        m++;
-    }
-    lower = m > largest ? m - largest : 0;
-    keys.seeds[0] = koksma_seed_of(cell, 0);
-    keys.seeds[1] = koksma_seed_of(cell, 1);
-    keys.key = (koksma__key(m - lower, place) << lower | (koksma_seed_of(pixel, 0) & ((1u << lower) - 1))) ^
-               koksma_seed_of(cell, 3); /* indices whose bits are mostly 0 would have few different scramblings */
-    keys.order = koksma_seed_of_order(pixel);
-    keys.ordered = pair > 0;
-    return keys;
+    return koksma__keys_of(seed, x, y, pair, spp, 2);
+}
+
+/* The same for one quadruple of dimensions, with keys of their own: for koksma_keys_4d. */
+KOKSMA_INLINE koksma_keys koksma_keys_of_4d(uint64_t seed, uint32_t x, uint32_t y, uint32_t quadruple, uint32_t spp)
+{
+    return koksma__keys_of(seed, x, y, quadruple, spp, 4);
 }
 
 /* Returns four words: a, b, 0 and 0. */
@@ -122,11 +158,17 @@ KOKSMA_INLINE koksma__four koksma__two_words(uint32_t a, uint32_t b)
     return x;
 }
 
+/* Returns the index in the sequence of sample i of a pixel. */
+KOKSMA_INLINE uint32_t koksma__keys_index(const koksma_keys *keys, uint32_t i)
+{
+    return keys->key ^ (keys->ordered ? koksma__shuffled_by_octaves(i, keys->order) : i);
+}
+
 /* Returns sample i of a pixel and pair of dimensions as 32-bit fractions, which are the first two of the four
    words. */
 KOKSMA_INLINE koksma__four koksma__keys_four(const koksma_keys *keys, uint32_t i)
 {
-    const uint32_t index = keys->key ^ (keys->ordered ? koksma__shuffled_by_octaves(i, keys->order) : i);
+    const uint32_t index = koksma__keys_index(keys, i);
     return koksma__scramble_four(koksma__two_words(index, koksma_pascal(index)),
                                  koksma__two_words(keys->seeds[0], keys->seeds[1]));
 }
@@ -142,6 +184,49 @@ KOKSMA_INLINE void koksma_keys_2d(const koksma_keys *keys, uint32_t i, double xy
 KOKSMA_INLINE void koksma_keys_2f(const koksma_keys *keys, uint32_t i, float xy[2])
 {
     koksma__to_floats(koksma__keys_four(keys, i), 2, xy);
+}
+
+/* Returns sample i of a pixel and quadruple of dimensions as 32-bit fractions: the first four dimensions of the
+   sequence of Joe & Kuo (2008). Row b of the table is the product of 2^b with the matrices of dimensions 3 and 4, bits
+   in reverse order. */
+KOKSMA_INLINE koksma__four koksma__keys_quadruple(const koksma_keys *keys, uint32_t i)
+{
+    static const uint32_t matrices[32][2] = {
+        {0x00000001u, 0x00000001u}, {0x00000003u, 0x00000003u}, {0x00000006u, 0x00000004u},
+        {0x00000009u, 0x0000000au}, {0x00000017u, 0x0000001fu}, {0x0000003au, 0x0000002eu},
+        {0x00000071u, 0x00000045u}, {0x000000a3u, 0x000000c9u}, {0x00000116u, 0x0000011bu},
+        {0x00000339u, 0x000002a4u}, {0x00000677u, 0x0000079au}, {0x000009aau, 0x00000b67u},
+        {0x00001601u, 0x0000101eu}, {0x00003903u, 0x0000302du}, {0x00007706u, 0x00004041u},
+        {0x0000aa09u, 0x0000a0c3u}, {0x00010117u, 0x0001f104u}, {0x0003033au, 0x0002e28au},
+        {0x00060671u, 0x000457dfu}, {0x000909a3u, 0x000c9baeu}, {0x00171616u, 0x0011a105u},
+        {0x003a3939u, 0x002a7289u}, {0x00717777u, 0x0079e7dbu}, {0x00a3aaaau, 0x00b6dba4u},
+        {0x01170001u, 0x0100011au}, {0x033a0003u, 0x030002a7u}, {0x06710006u, 0x0400079eu},
+        {0x09a30009u, 0x0a000b6du}, {0x16160017u, 0x1f001001u}, {0x3939003au, 0x2e003003u},
+        {0x77770071u, 0x45004004u}, {0xaaaa00a3u, 0xc900a00au}};
+    const uint32_t index = koksma__keys_index(keys, i);
+    uint32_t words[4], b;
+    words[0] = index;
+    words[1] = koksma_pascal(index);
+    words[2] = words[3] = 0;
+    for (b = 0; b < 32; b++) {
+        const uint32_t mask = 0u - (index >> b & 1u);
+        words[2] ^= matrices[b][0] & mask;
+        words[3] ^= matrices[b][1] & mask;
+    }
+    return koksma__scramble_four(koksma__four_of_words(words), koksma__four_of_words(keys->seeds));
+}
+
+/* Computes sample i of a pixel and quadruple of dimensions, in [0,1)^4, with keys of koksma_keys_of_4d. The points equal
+   those of the pattern `ranking-keys:dims=4`. */
+KOKSMA_INLINE void koksma_keys_4d(const koksma_keys *keys, uint32_t i, double xs[4])
+{
+    koksma__to_doubles(koksma__keys_quadruple(keys, i), 4, xs);
+}
+
+/* Computes sample i as floats: the doubles of koksma_keys_4d rounded down to multiples of 2^-24. */
+KOKSMA_INLINE void koksma_keys_4f(const koksma_keys *keys, uint32_t i, float xs[4])
+{
+    koksma__to_floats(koksma__keys_quadruple(keys, i), 4, xs);
 }
 
 #endif

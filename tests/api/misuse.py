@@ -141,7 +141,7 @@ VALID = {
     "koksma_rank_by_command.image": "a_buffer(sizeof(koksma_image))",
     "koksma_rank_process_by_command.context": "a_copy(\"cp {in.pfm} {out.pfm}\", 22)",
     # Inline functions.
-    "koksma_domain": "{7}", "koksma_sobol *": "a_sequence()", "koksma_keys *": "some_keys()", "koksma_keys_of.pair": "0", "uint32_t": "1", "const uint32_t *": "a_buffer(3 * sizeof(uint32_t))",
+    "koksma_domain": "{7}", "koksma_sobol *": "a_sequence()", "koksma_keys *": "some_keys()", "koksma_keys_of.pair": "0", "koksma_keys_of_4d.quadruple": "0", "uint32_t": "1", "const uint32_t *": "a_buffer(3 * sizeof(uint32_t))",
     "int": "1", "koksma_permute.n": "8", "koksma_cmj_2d.columns": "4", "koksma_cmj_2d.rows": "4", "koksma_mask_value.pixels": "16",
     "koksma_mask_2d.spp": "4", "koksma_part_of_sample.s": "0", "float *": "a_buffer(4 * sizeof(float))", "koksma_domain *": "a_buffer(sizeof(koksma_domain))",
     "koksma_findings_fini.findings": "a_zero(sizeof(koksma_findings))", "koksma_identities_fini.identities": "a_zero(sizeof(koksma_identities))",

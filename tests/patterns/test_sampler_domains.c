@@ -93,6 +93,12 @@ static void keys(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
     koksma_keys_2d(&pixel, i, xs);
 }
 
+static void keys4(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
+{
+    const koksma_keys pixel = koksma_keys_of_4d(domain.key, 3, 5, 1, n);
+    koksma_keys_4d(&pixel, i, xs);
+}
+
 /* Pixel 17 of an image with masks of 64 x 64 pixels, which are the same for all domains. */
 static void mask(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
 {
@@ -115,6 +121,7 @@ static const struct {
     {"koksma_r_2d", 2, r},         {"koksma_z_rank", 2, z},
     {"koksma_white_4d", 2, white}, {"koksma_domain_of_sample", 2, parts},
     {"koksma_keys_2d", 2, keys},   {"koksma_mask_2d", 2, mask},
+    {"koksma_keys_4d", 4, keys4},
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 

@@ -116,6 +116,12 @@ static void keys_2d(const place *p, uint32_t i, double *xs)
     koksma_keys_2d(&pixel, i, xs);
 }
 
+static void keys_4d(const place *p, uint32_t i, double *xs)
+{
+    const koksma_keys pixel = koksma_keys_of_4d(image_of(p), p->x, p->y, p->use, SPP);
+    koksma_keys_4d(&pixel, i, xs);
+}
+
 /* A pixel of masks of 64 x 64 that are the same in all images; its sequence is that of a use of the image. */
 static void mask_2d(const place *p, uint32_t i, double *xs)
 {
@@ -144,11 +150,12 @@ static const struct {
     {"koksma_seed_of", 4, seed_of, false},   {"koksma_seed_of_order", 1, seed_of_order, false},
     {"koksma_order", 2, order, false},       {"koksma_z_rank", 1, z_rank, true},
     {"koksma_keys_2d", 2, keys_2d, true},    {"koksma_mask_2d", 2, mask_2d, true},
+    {"koksma_keys_4d", 4, keys_4d, true},
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
 /* Functions without a domain, and those that make domains, which all of the above go through; and, from koksma_sobol_1d
-   on, forms that have the numbers of koksma_sobol_4d, koksma_white_4d or koksma_keys_2d (test_sampler_blocks.c). */
+   on, forms that have the numbers of koksma_sobol_4d, koksma_white_4d, koksma_keys_2d or koksma_keys_4d (test_sampler_blocks.c, test_keys_4d.c). */
 static const char *const parts[] = {"koksma_mix",
                                     "koksma_domain_of_use",
                                     "koksma_domain_of_pixel",
@@ -164,6 +171,7 @@ static const char *const parts[] = {"koksma_mix",
                                     "koksma_place",
                                     "koksma_permute4",
                                     "koksma_keys_of",
+                                    "koksma_keys_of_4d",
                                     "koksma_mask_value",
                                     "koksma_seed_of_frame",
                                     "koksma_sobol_1d",
@@ -182,7 +190,8 @@ static const char *const parts[] = {"koksma_mix",
                                     "koksma_white_1d",
                                     "koksma_white_1f",
                                     "koksma_white_4f",
-                                    "koksma_keys_2f"};
+                                    "koksma_keys_2f",
+                                    "koksma_keys_4f"};
 enum { PARTS = sizeof parts / sizeof *parts };
 
 typedef struct relation {

@@ -6,12 +6,17 @@
  *
  *     point s of pixel (x, y), pair of dimensions k = koksma_keys_2d(koksma_keys_of(seed, x, y, k, spp), s)
  *
+ * With dims=4 a key covers four coordinates, koksma_keys_4d, of one Owen-scrambled Sobol' sequence.
+ *
  * n = width^2 spp; koksma/keys.h documents how the keys are applied. The points of one pixel have the distribution of
- * Owen-scrambled Sobol' points; for spp = 2^m they are a (0,m,2)-net in base 2 in each pair of dimensions. Sources:
+ * Owen-scrambled Sobol' points; for spp = 2^m they are a (0,m,2)-net in base 2 in each pair of dimensions, with
+ * dims=4 in the first pair of a quadruple. Sources:
  * Heitz & others 2019 (ranking keys), Ahmed & Wonka 2020 (blocks of one sequence); the optimised permutation of the
  * blocks is new in this project.
  */
 #include <koksma/keys.h>
+
+#include <string.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
@@ -22,6 +27,7 @@ enum { BLOCK = 4096 };
 typedef struct filling {
     uint64_t seed;
     size_t width, spp;
+    int dims; /* coordinates of a key: 2 or 4 */
     koksma_points *out;
 } filling;
 
@@ -29,20 +35,20 @@ static koksma_status fill_block(void *context, size_t block)
 {
     const filling *f = context;
     const size_t end = (block + 1) * BLOCK < f->out->n ? (block + 1) * BLOCK : f->out->n;
-    for (int k = 0; k < f->out->dim; k += 2) {
+    for (int k = 0; k < f->out->dim; k += f->dims) {
+        const int left = f->out->dim - k;
+        const size_t bytes = (size_t)(left < f->dims ? left : f->dims) * sizeof(double);
         koksma_keys keys = {.key = 0};
         for (size_t i = block * BLOCK; i < end; i++) {
             const size_t pixel = i / f->spp, s = i % f->spp;
-            double xy[2], *x = f->out->xs + i * (size_t)f->out->dim + (size_t)k;
+            double xs[4];
             if (i == block * BLOCK || s == 0) {
-                keys = koksma_keys_of(f->seed, (uint32_t)(pixel % f->width), (uint32_t)(pixel / f->width),
-                                      (uint32_t)k / 2, (uint32_t)f->spp);
+                keys = (f->dims == 2 ? koksma_keys_of : koksma_keys_of_4d)(f->seed, (uint32_t)(pixel % f->width),
+                                                                           (uint32_t)(pixel / f->width),
+                                                                           (uint32_t)(k / f->dims), (uint32_t)f->spp);
             }
-            koksma_keys_2d(&keys, (uint32_t)s, xy);
-            x[0] = xy[0];
-            if (k + 1 < f->out->dim) {
-                x[1] = xy[1];
-            }
+            (f->dims == 2 ? koksma_keys_2d : koksma_keys_4d)(&keys, (uint32_t)s, xs);
+            memcpy(f->out->xs + i * (size_t)f->out->dim + (size_t)k, xs, bytes);
         }
     }
     return KOKSMA_OK;
@@ -54,12 +60,15 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
                     "ranking-keys: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n, pixels,
                     (out->n / pixels + 1) * pixels);
-    filling f = {seed, width, out->n / pixels, out};
+    filling f = {seed, width, out->n / pixels, args->params[1] != 0 ? 4 : 2, out};
     return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, fill_block, &f);
 }
 
+static const char *const dims[] = {"2", "4", NULL};
+
 static const koksma_param params[] = {
     {"width", "pixels a side", 4, 1, 8192, NULL, true},
+    {"dims", "coordinates of a key: errors are blue whatever these couple", 0, 0, 1, dims, true},
     {0},
 };
 
