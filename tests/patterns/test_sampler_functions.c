@@ -155,7 +155,8 @@ static const struct {
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
 /* Functions without a domain, and those that make domains, which all of the above go through; and, from koksma_sobol_1d
-   on, forms that have the numbers of koksma_sobol_4d, koksma_white_4d, koksma_keys_2d or koksma_keys_4d (test_sampler_blocks.c, test_keys_4d.c). */
+   on, forms that have the numbers of koksma_sobol_4d, koksma_white_4d, koksma_keys_2d or koksma_keys_4d
+   (test_sampler_blocks.c, test_keys_4d.c). */
 static const char *const parts[] = {"koksma_mix",
                                     "koksma_domain_of_use",
                                     "koksma_domain_of_pixel",

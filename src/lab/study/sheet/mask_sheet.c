@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Datasheets of masks: errors by filter, pictures of masks and of their spectra, radial means, autocorrelations, histograms,
- * correlations of pairs, and dithering (mask_dither.c), in the format and on the page of a sampler's datasheet. `koksma
- * mask check` prints the same numbers.
+ * Datasheets of masks: errors by filter, pictures of masks and of their spectra, radial means, autocorrelations,
+ * histograms, correlations of pairs, and dithering (mask_dither.c), in the format and on the page of a sampler's
+ * datasheet. `koksma mask check` prints the same numbers.
  */
 #include "study/sheet/mask_dither.h"
 

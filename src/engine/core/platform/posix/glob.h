@@ -3,4 +3,5 @@
 #include "core/platform/windows.h"
 #else
 #include_next <glob.h>
+
 #endif

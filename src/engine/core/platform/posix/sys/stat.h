@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include_next <sys/stat.h>
+
 #include "core/platform/windows.h"
 #ifdef __APPLE__
 #define st_mtim st_mtimespec
