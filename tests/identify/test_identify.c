@@ -43,7 +43,11 @@ static const struct {
     {"QuantLib-halton", "equal", "Halton", 1, false},
     {"QuantLib-sobol-jaeckel", "equal", "Sobol' (Bratley & Fox 1988, ACM 659), Gray order", 1, false},
     {"QuantLib-sobol-joekuo7", "equal", "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201), Gray order", 1, false},
+    {"QuantLib-sobol-unit", "digital", "digital sequence in base 2 of other matrices, Gray order", 1, false},
     {"SALib-sobol", "reordered", "Sobol' (Joe", 0, false},
+    {"boost-faure", "equal", "Faure", 0, false},
+    {"boost-niederreiter", "equal", "Niederreiter in base 2 (Bratley, Fox & Niederreiter 1992), Gray order", 1,
+     false},
     {"chaospy-sobol", "equal", "Sobol' (Bratley & Fox 1988, ACM 659), Gray order", 1, false},
     {"chaospy-halton", "equal", "Halton", 8, false},
     {"chaospy-hammersley", "equal", "Hammersley: Halton, coordinates 0 1 2 i/n", 6, false},
@@ -51,7 +55,10 @@ static const struct {
     {"gsl-sobol", "equal", "Sobol' (Bratley & Fox 1988, ACM 659), Gray order", 1, false},
     {"gsl-niederreiter-2", "reordered", "Niederreiter in base 2", 0, false},
     {"gsl-halton", "equal", "Halton", 1, false},
+    {"mitsuba-multijitter", "stratified", "Latin hypercube", 0, false},
+    {"mitsuba-stratified", "stratified", "jittered points", 0, false},
     {"nevergrad-hammersleysearch", "equal", "Hammersley: Halton, coordinates i/n 0 1 2", 1, false},
+    {"openturns-haselgrove", "recurrence", "additive recurrence of the square roots of primes", 1, false},
     {"openturns-sobol", "equal", "Sobol' (Bratley & Fox 1988, ACM 659), Gray order", 1, false},
     {"optuna-sobol", "reordered", "Sobol' (Joe", 0, false},
     {"pydoe-korobov_sequence", "equal", "rank-1 lattice of 64 points", 0, false},
@@ -68,6 +75,7 @@ static const struct {
     {"scipy-sobol-box", "reordered", "Sobol' (Joe", 0, false},
     {"scipy-halton", "equal", "Halton", 0, false},
     {"scipy-halton-scrambled", "digit-permutation", "Halton", 0, true},
+    {"sobol-burley", "sequence", "scrambled sequence in base 2", 0, false},
     {"sobol-seq-sobol", "equal", "Sobol' (Bratley & Fox 1988, ACM 659), Gray order", 1, false},
     {"torch-sobol", "reordered", "Sobol' (Joe", 0, false},
     {"torch-sobol-scrambled", "linear-scramble", "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201), Gray order", 0, true},
@@ -115,6 +123,31 @@ static void changed_points_are_named(void **state)
     koksma_points_fini(&halton);
 }
 
+/* A sequence from any first point, with the columns reversed. */
+static void reversed_columns_are_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *spec, *what;
+        uint64_t first;
+    } sequences[] = {
+        {"sobol", "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201), coordinates 3 2 1 0", 5},
+        {"sobol:numbers=bratley-fox", "Sobol' (Bratley & Fox 1988, ACM 659), coordinates 3 2 1 0", 100},
+        {"halton", "Halton, coordinates 3 2 1 0", 77},
+        {"faure", "Faure, coordinates 3 2 1 0", 31},
+    };
+    for (size_t s = 0; s < sizeof sequences / sizeof *sequences; s++) {
+        const size_t first = (size_t)sequences[s].first;
+        koksma_points all = test_points(sequences[s].spec, first + 64, 4, 0), some = test_points("random", 64, 4, 0);
+        for (size_t i = 0; i < 4 * some.n; i++) {
+            some.xs[i] = all.xs[4 * (first + i / 4) + 3 - i % 4];
+        }
+        expect(sequences[s].spec, &some, "equal", sequences[s].what, first);
+        koksma_points_fini(&some);
+        koksma_points_fini(&all);
+    }
+}
+
 /* Points with a seed are those of that seed; beyond the seeds that are tried no set is called one of a pattern. */
 static void seeds_are_found_and_no_set_is_called_another(void **state)
 {
@@ -154,9 +187,8 @@ static void bad_points_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(points_of_others_are_named),
-        cmocka_unit_test(changed_points_are_named),
-        cmocka_unit_test(seeds_are_found_and_no_set_is_called_another),
+        cmocka_unit_test(points_of_others_are_named), cmocka_unit_test(changed_points_are_named),
+        cmocka_unit_test(reversed_columns_are_named), cmocka_unit_test(seeds_are_found_and_no_set_is_called_another),
         cmocka_unit_test(bad_points_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
