@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Dithering with masks: a ramp and a rendered scene, both linear light in [0,1], become 1 where they exceed the
- * threshold of their pixel, else 0, and are filtered. The error is the root mean square difference from the picture
- * itself, filtered alike. White noise, Bayer's matrix (1973) and a void-and-cluster mask (Ulichney 1993) stand beside
- * the masks of the sheet.
+ * Dithering with masks: a ramp and a rendered scene, both linear light in [0,1], become 1 where they exceed the threshold
+ * of their pixel, else 0, and are filtered. The error is the root mean square difference from the picture itself, filtered
+ * alike. White noise, Bayer's matrix (1973) and a void-and-cluster mask (Ulichney 1993) are beside the masks of the sheet.
  */
 #include "study/sheet/mask_dither.h"
 
