@@ -13,7 +13,11 @@
 #include "core/lookup.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
+#include "patterns/masks/tile_size.h"
 #include "render/samples/uses.h"
+
+/* the most points of a tile that are tried before a render */
+#define MOST_TRIED ((size_t)1 << 22)
 
 /* ---- Checks ---------------------------------------------------------------------------------------------- */
 
@@ -146,14 +150,26 @@ koksma_status koksma__try_set(const koksma_spec *spec, size_t n, int dim, const 
     return status;
 }
 
+/* Tries the set of a use that is in no group. In the scope pixel a mask has n samples in each pixel of its tile; tiles too
+   large to try are left to the renderer, which refuses those that do not fit. */
+static koksma_status try_single(const koksma_render_options *options, const koksma_spec *spec, size_t n, int dim,
+                                const koksma_run *run)
+{
+    size_t tile[2], pixels = 1;
+    KOKSMA__TRY(koksma__check_single_use(spec));
+    KOKSMA__TRY(koksma__tile_size(spec, tile));
+    if (options->scope == KOKSMA_SCOPE_PIXEL && tile[0]) {
+        pixels = tile[0] * tile[1];
+    }
+    return n <= MOST_TRIED / pixels || pixels == 1 ? koksma__try_set(spec, n * pixels, dim, run) : KOKSMA_OK;
+}
+
 koksma_status koksma__try_use_patterns(const koksma_render_options *options, size_t n, const koksma_run *run)
 {
-    koksma_status status = koksma__check_single_use(&options->pattern);
-    status = status ? status : koksma__try_set(&options->pattern, n, 2, run);
+    koksma_status status = try_single(options, &options->pattern, n, 2, run);
     for (int u = 0; (!status || status == KOKSMA_INTERRUPTED) && u < KOKSMA_N_USES; u++) {
         const koksma_spec *own = &options->patterns[u];
-        const koksma_status single = own->pattern ? koksma__check_single_use(own) : KOKSMA_OK;
-        status = single ? single : own->pattern ? koksma__try_set(own, n, koksma__use_set_dim(own, u), run) : status;
+        status = own->pattern ? try_single(options, own, n, koksma__use_set_dim(own, u), run) : status;
     }
     for (int g = 0; (!status || status == KOKSMA_INTERRUPTED) && g < KOKSMA_MAX_USE_GROUPS; g++) {
         const koksma_use_group *group = &options->groups[g];
