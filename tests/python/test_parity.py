@@ -77,6 +77,29 @@ class Rendering(unittest.TestCase):
                 if "adaptive" in ours:
                     np.testing.assert_array_equal(image, koksma.render(scene, spp=4, size=(24, 18), layers=True, **ours).image)
 
+    def test_replicates(self):
+        with tempfile.TemporaryDirectory() as folder:
+            image, error = (os.path.join(folder, name) for name in ("image.pfm", "error.pfm"))
+            row = json.loads(program("render", "cornell", "-p", "random", "-n", "4", "--size", "16x12", "-s", "5", "--replicates", "6",
+                                     "--error-map", error, "-o", image, "--json"))
+            found = koksma.render_replicates("cornell", "random", 4, 6, size=(16, 12), seed=5)
+            np.testing.assert_array_equal(found.image, koksma.read_image(image))
+            np.testing.assert_array_equal(found.error, koksma.read_image(error))
+            self.assertEqual([row[k] for k in ("replicates", "rays", "mean", "mean_low", "mean_high", "rmse", "rmse_low", "rmse_high")],
+                             [found.replicates, found.rays, found.mean, *found.mean_interval, found.rmse, *found.rmse_interval])
+        for wrong, error in ((dict(pattern="sobol"), "one set"), (dict(replicates=2), "replicates"), (dict(splat=2), "splat")):
+            with self.assertRaisesRegex((koksma.ArgumentError, TypeError), error):
+                koksma.render_replicates("cornell", **{"pattern": "random", **wrong})
+
+    def test_rank_to_error(self):
+        rows = [json.loads(line) for line in program("rank", "ball", "--target-error", "0.02", "--size", "16x12", "-p", "random,jittered",
+                                                     "--time-limit", "0", "-q", "--json").splitlines()]
+        found = koksma.rank_to_error("ball", 0.02, ["random", "jittered"], size=(16, 12), time_limit=None)
+        self.assertEqual([[r[k] for k in ("pattern", "spp", "error", "low", "high", "needed", "rate", "state", "trials")] for r in rows],
+                         [[t.pattern, t.spp, t.error, *t.interval, t.needed, t.rate, t.state, t.trials] for t in found])
+        with self.assertRaisesRegex(koksma.ArgumentError, "target"):
+            koksma.rank_to_error("ball", 0)
+
     def test_sky(self):
         """The bits of the program's --sky and --environment."""
         with tempfile.TemporaryDirectory() as folder:
