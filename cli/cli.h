@@ -63,10 +63,15 @@ const cli_command *cli_command_find(const char *name);
 
 /* Options that most commands have, for the end of an option table. */
 #define CLI_ROW_OPTIONS                                                                                              \
+    {0, "format", "text|csv|latex",                                                                                  \
+     "print rows as CSV with all digits, or as a LaTeX table of the package booktabs (default: text)"},              \
+        CLI_JSON_OPTIONS
+#define CLI_JSON_OPTIONS                                                                                             \
     {0, "json", NULL, "print rows as JSON, one object per line, instead of aligned text"},                           \
         {0, "long", NULL, "print all columns, also those that do not fit the terminal"},                             \
     {                                                                                                                \
-        0, "digits", "N", "significant digits of numbers in text output, 1 to 17 (default: 5; JSON has all)"         \
+        0, "digits", "N",                                                                                            \
+            "significant digits of numbers in text output, 1 to 17 (default: 5; JSON and CSV have all)"              \
     }
 #define CLI_RUN_OPTIONS                                                                                              \
     {0, "threads", "T", "threads to use (default: all)"},                                                            \
@@ -199,6 +204,8 @@ typedef struct cli_rows cli_rows;
    Infinity and NaN are "-". */
 const char *cli_number(double value, char text[CLI_NUMBER]);
 void cli_set_style(int digits, bool all_columns); /* sets the values of --digits and --long */
+enum { CLI_TEXT, CLI_CSV, CLI_LATEX };
+void cli_set_format(int format); /* sets the value of --format */
 
 /* Begins the output of rows. With json each row is printed when it ends; as text all rows are printed by
    cli_rows_close. */

@@ -481,7 +481,7 @@ static const cli_option options[] = {
      "metrics to measure"},
     {0, "format", "csv|json|npy|sha256",
      "export: the format; json: one object per line (default: by the file's ending, else csv)"},
-    CLI_ROW_OPTIONS,
+    CLI_JSON_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
 };

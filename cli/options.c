@@ -249,6 +249,31 @@ static bool is_empty_name(const cli_arguments *arguments, const cli_option *o, c
     return true;
 }
 
+/* Takes --format where it says how rows are printed: in `study export` it is the format of a file. */
+static bool take_format(const cli_arguments *arguments)
+{
+    static const char *const formats[] = {[CLI_TEXT] = "text", [CLI_CSV] = "csv", [CLI_LATEX] = "latex"};
+    const cli_option *option = arguments->command->options;
+    while (option->name && (!option->argument || strcmp(option->argument, "text|csv|latex") != 0)) {
+        option++;
+    }
+    const char *wanted = option->name ? cli_text(arguments, "format", NULL) : NULL;
+    int format = CLI_LATEX;
+    while (wanted && format >= CLI_TEXT && strcmp(wanted, formats[format]) != 0) {
+        format--;
+    }
+    if (wanted && format < CLI_TEXT) {
+        cli_usage_error(arguments, "--format %s: it takes text, csv or latex", wanted);
+        return false;
+    }
+    if (wanted && format != CLI_TEXT && cli_flag(arguments, "json")) {
+        cli_usage_error(arguments, "--format %s excludes --json", wanted);
+        return false;
+    }
+    cli_set_format(wanted ? format : CLI_TEXT);
+    return true;
+}
+
 /* Reads the options that have the same meaning in all commands. Returns the exit code. */
 static int read_shared_options(cli_arguments *arguments)
 {
@@ -267,6 +292,9 @@ static int read_shared_options(cli_arguments *arguments)
             return CLI_USAGE;
         }
         cli_set_style((int)digits, cli_flag(arguments, "long"));
+        if (!take_format(arguments)) {
+            return CLI_USAGE;
+        }
     }
     if (has_option(arguments->command, "allow-exec")) {
         double seconds;

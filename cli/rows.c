@@ -20,6 +20,10 @@
  */
 enum { MOST = 64, LEAST = 28, GAP = 2, NARROWEST = 40, USUAL = 80 };
 
+static int digits = CLI_DIGITS;
+static bool is_long;
+static int format = CLI_TEXT;
+
 typedef struct cli_cell {
     char *key, *text;
     bool is_number;
@@ -247,6 +251,74 @@ static bool same_keys(const cli_cell *row, size_t n, const cli_cell *other, size
     return columns < n && !row[columns].key;
 }
 
+/* ---- Tables for other programs ------------------------------------------------------------------------- */
+
+/* A field of CSV (RFC 4180): in quotes where it needs them. */
+static void print_csv(const cli_cell *c, bool head)
+{
+    const char *text = head ? c->key : c->text;
+    if (!strpbrk(text, ",\"\n")) {
+        fputs(text, stdout);
+        return;
+    }
+    putchar('"');
+    for (; *text; text++) {
+        printf(*text == '"' ? "\"\"" : "%c", *text);
+    }
+    putchar('"');
+}
+
+/* A cell of a LaTeX table: numbers in mathematics, with powers of ten; of texts the special characters escaped. */
+static void print_latex(const cli_cell *c, bool head)
+{
+    static const char special[] = "\\~^<>";
+    static const char *const command[] = {"\\textbackslash{}", "\\textasciitilde{}", "\\textasciicircum{}",
+                                          "\\textless{}", "\\textgreater{}"};
+    const char *text = head ? c->key : c->text, *power = strchr(text, 'e');
+    if (c->is_number && !head) {
+        const int mantissa = (int)(power ? (size_t)(power - text) : strlen(text));
+        printf(!strcmp(text, "-") ? "--"
+               : power            ? "$%.*s \\times 10^{%d}$"
+                                  : "$%.*s$",
+               mantissa, text, power ? atoi(power + 1) : 0);
+        return;
+    }
+    for (; *text; text++) {
+        const char *at = strchr(special, *text);
+        if (at) {
+            fputs(command[at - special], stdout);
+        } else {
+            printf(strchr("#$%&_{}", *text) ? "\\%c" : "%c", *text);
+        }
+    }
+}
+
+/* Prints a block as CSV or as a tabular of booktabs. */
+static void print_foreign(const block *b, bool first)
+{
+    const bool latex = format == CLI_LATEX;
+    if (!first) {
+        putchar('\n'); /* columns change: another table */
+    }
+    if (latex) {
+        printf("%s\\begin{tabular}{", first ? "% needs \\usepackage{booktabs}\n" : "");
+        for (size_t i = 0; i < b->columns; i++) {
+            putchar(b->cells[i].is_number ? 'r' : 'l');
+        }
+        puts("}\n\\toprule");
+    }
+    for (size_t row = 0; row <= b->rows; row++) {
+        for (size_t i = 0; i < b->columns; i++) {
+            fputs(!i ? "" : latex ? " & " : ",", stdout);
+            (latex ? print_latex : print_csv)(cell_at(b, row ? row - 1 : 0, i), !row);
+        }
+        puts(!latex ? "" : row ? " \\\\" : " \\\\\n\\midrule");
+    }
+    if (latex) {
+        puts("\\bottomrule\n\\end{tabular}");
+    }
+}
+
 /* Prints n cells as rows; a cell with a NULL key ends a row. width: the number of columns that rows may take, 0 for
    no limit. */
 static void print_table(const cli_cell *cells, size_t n, int width)
@@ -256,7 +328,11 @@ static void print_table(const cli_cell *cells, size_t n, int width)
         for (end = start; same_keys(&cells[end], n - end, b.cells, b.columns); b.rows++) {
             end += b.columns + 1;
         }
-        print_block(&b, width);
+        if (format == CLI_TEXT) {
+            print_block(&b, width);
+        } else {
+            print_foreign(&b, start == 0);
+        }
     }
 }
 
@@ -269,13 +345,15 @@ struct cli_rows {
     size_t n, capacity;
 };
 
-static int digits = CLI_DIGITS;
-static bool is_long;
-
 void cli_set_style(int n_digits, bool all_columns)
 {
     digits = n_digits;
     is_long = all_columns;
+}
+
+void cli_set_format(int row_format)
+{
+    format = row_format;
 }
 
 static cli_rows no_rows = {.failed = true}; /* the object that replaces the rows when memory runs out; it ignores all
@@ -411,6 +489,9 @@ void cli_row_number(cli_rows *rows, const char *key, double value)
         json_key(rows, key);
         snprintf(text, sizeof text, isfinite(value) ? "%.17g" : "null", value);
         fputs(text, stdout);
+    } else if (format == CLI_CSV) {
+        snprintf(text, sizeof text, "%.17g", value);
+        push(rows, key, isfinite(value) ? text : "", true);
     } else {
         push(rows, key, cli_number(value, text), true);
     }
@@ -450,7 +531,7 @@ int cli_rows_close(cli_rows *rows)
 {
     if (!rows->failed && !rows->json) {
         cli_work_end();
-        print_table(rows->cells, rows->n, is_long ? 0 : cli_terminal_width(STDOUT_FILENO));
+        print_table(rows->cells, rows->n, is_long || format != CLI_TEXT ? 0 : cli_terminal_width(STDOUT_FILENO));
     }
     const bool failed = rows->failed;
     for (size_t i = 0; i < rows->n; i++) {
