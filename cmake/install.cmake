@@ -40,7 +40,7 @@ if(KOKSMA_LAB)
   install(TARGETS koksma-lab-shared EXPORT koksma-targets)
   list(APPEND packages koksma-lab)
 endif()
-install(DIRECTORY include/koksma DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
+install(DIRECTORY include/koksma DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" PATTERN "*.def")
 # Documents in their folders, so that README's links lead somewhere.
 install(FILES LICENSE THIRD_PARTY.md README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs examples ports DESTINATION ${CMAKE_INSTALL_DOCDIR})
