@@ -227,3 +227,25 @@ TEST_CASE(pictures_ask_within_the_first_set)
     render_until_stopped("best-candidate", 1, 65536, &run);
     assert_true(w.asked == 20 && w.longest_s < 1);
 }
+
+/* Counts the questions of the first half, in which a spectrum takes the points one by one. */
+static bool count_early(void *context, double fraction)
+{
+    *(int *)context += fraction > 0 && fraction < 0.5;
+    return true;
+}
+
+TEST_CASE(spectra_ask_at_each_few_thousand_points)
+{
+    koksma_points p = sets_points(1 << 16, 2, 0, 3);
+    koksma_spectrum spectrum;
+    int asked = 0;
+    const koksma_run counting = {.threads = 1, .keep_going = count_early, .context = &asked};
+    const koksma_run stopping = {.threads = 1, .keep_going = stop_at_once, .context = &asked};
+    assert_ok(koksma_spectrum_init(&spectrum, 8));
+    assert_ok(koksma_spectrum_add(&spectrum, &p, KOKSMA_SPECTRUM_FAST, &counting));
+    assert_true(asked >= 15);
+    assert_int_equal(koksma_spectrum_add(&spectrum, &p, KOKSMA_SPECTRUM_FAST, &stopping), KOKSMA_INTERRUPTED);
+    koksma_spectrum_fini(&spectrum);
+    koksma_points_fini(&p);
+}

@@ -168,13 +168,16 @@ koksma_status koksma__power_fast(const koksma_points *points, int half, const ko
         koksma__cos_sin(2 * M_PI * (double)p / (double)j.m, &j.twiddles[2 * p], &j.twiddles[2 * p + 1]);
     }
     find_corrections(&j);
-    for (size_t i = 0; i < points->n; i++) {
-        spread(&j, points->xs + i * (size_t)points->dim);
-    }
     koksma__phases phases = {.share = 0};
     koksma_run phase = koksma__phase_run(&phases, run, 0.5);
-    koksma_status status = koksma__parallel(&phase, j.m / (2 * LANES), transform_columns, &j);
-    phase = koksma__phase_run(&phases, run, 0.5);
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < points->n; i++) {
+        spread(&j, points->xs + i * (size_t)points->dim);
+        status = koksma__look(&phase, i, (double)i / (double)points->n);
+    }
+    phase = koksma__phase_run(&phases, run, 0.25);
+    status = status ? status : koksma__parallel(&phase, j.m / (2 * LANES), transform_columns, &j);
+    phase = koksma__phase_run(&phases, run, 0.25);
     status = status ? status : koksma__parallel(&phase, (rows + LANES - 1) / LANES, transform_rows, &j);
     free(j.grid);
     return status;
