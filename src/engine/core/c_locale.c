@@ -186,11 +186,15 @@ int koksma__snprintf(char *text, size_t size, const char *format, ...)
 
 void koksma__csv_put(FILE *stream, const char *text)
 {
-    if (!strpbrk(text, ",\"\r\n")) {
+    const bool formula = *text && strchr("=+@-\t", *text) && !(*text == '-' && !text[1]);
+    if (!formula && !strpbrk(text, ",\"\r\n")) {
         fputs(text, stream);
         return;
     }
     putc_unlocked('"', stream);
+    if (formula) {
+        putc_unlocked('\'', stream);
+    }
     for (; *text; text++) {
         if (*text == '"') {
             putc_unlocked('"', stream);
