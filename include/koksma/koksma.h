@@ -242,6 +242,7 @@ enum {
 #define KOKSMA_CLAIM(id, bit, name, meaning) KOKSMA_CLAIM_##id = 1u << (bit),
 #include <koksma/claims.def>
 #undef KOKSMA_CLAIM
+    KOKSMA_CLAIM_NONE = 0
 };
 
 struct koksma_pattern {
