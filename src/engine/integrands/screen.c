@@ -10,9 +10,9 @@
  *     blurred = sqrt(1/F sum B / (P sum w^2))        1 for white noise
  *     plain   = sqrt(1/F sum P spp / variance)       1 for random points
  *
- * without the integrands whose errors are all 0. B is a mean over the pixels whose window lies within the image, so
- * that an image has no seam. Standard errors are those of the jackknife over the images, because the pixels of an
- * image depend on each other.
+ * without the integrands whose errors are all 0. B is a mean over the pixels whose window lies within the image, so that
+ * an image has no seam. Standard errors are those of the jackknife over the images, because the pixels of an image
+ * depend on each other.
  *
  * The integrands of k of the coordinates, which are random: FAMILIES families of EACH, with random parameters from a
  * fixed seed: steps and ramps max(0, c - a.x) along a random direction through a random point, indicators of boxes,
