@@ -215,7 +215,7 @@ TEST_CASE(what_is_said_of_sets_of_ours_is_true)
 {
     const char *sets = getenv("KOKSMA_SETS");
     char *end = NULL;
-    size_t n = sets ? strtoul(sets, &end, 10) : (size_t)test_repeats(5, 2), from = 0;
+    size_t n = sets ? strtoul(sets, &end, 10) : (size_t)test_repeats(3, 1), from = 0;
     if (end && *end) {
         from = n;
         n = strtoul(end, NULL, 10);
