@@ -26,7 +26,7 @@ static const char example[] =
     "  \"comment\": \"A plan of koksma study; every object may have a 'comment'. studies/README.md has all "
     "fields.\",\n"
     "  \"name\": \"%s\",\n"
-    "  \"title\": \"Which pattern for 16 samples a pixel?\",\n"
+    "  \"title\": \"Which pattern for 64 samples a pixel?\",\n"
     "  \"metric\": \"mae\",\n"
     "  \"discrepancies\": [\n"
     "    {\n"
