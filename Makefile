@@ -25,6 +25,7 @@
 #   make npm         build the package @koksma/koksma for Node and browsers: build/npm
 #   make deb         write Debian packages to build/deb and check them with lintian
 #   make cross       build for aarch64 and run the tests of libkoksma under qemu; MACHINES="aarch64 s390x i686"
+#                    MACHINES=windows: by mingw-w64; compare all patterns, measures and warps under wine
 #
 #   make help        print this list
 #

@@ -47,8 +47,41 @@ static bool kernels_are_there(void)
     return false;
 }
 
+#ifdef _WIN32
+#include <windows.h>
+
+#include <shellapi.h>
+
+/* Replaces the arguments, which are in the ANSI code page, by those that were given, in UTF-8. The parts of paths are told
+   apart by slashes in all of the program, so that a backslash becomes one. */
+static char **given_arguments(int *argc)
+{
+    wchar_t **wide = CommandLineToArgvW(GetCommandLineW(), argc);
+    char **argv = wide ? calloc((size_t)*argc + 1, sizeof *argv) : NULL;
+    for (int i = 0; argv && i < *argc; i++) {
+        const int size = WideCharToMultiByte(CP_UTF8, 0, wide[i], -1, NULL, 0, NULL, NULL);
+        argv[i] = malloc((size_t)size + 1);
+        if (!argv[i]) {
+            exit(koksma_status_exit_code(KOKSMA_MEMORY));
+        }
+        WideCharToMultiByte(CP_UTF8, 0, wide[i], -1, argv[i], size, NULL, NULL);
+        for (char *s = argv[i]; *s; s++) {
+            *s = *s == '\\' ? '/' : *s;
+        }
+    }
+    return argv;
+}
+#endif
+
 int main(int argc, char **argv)
 {
+#ifdef _WIN32
+    int given = 0;
+    char **arguments = given_arguments(&given);
+    argc = arguments ? given : argc;
+    argv = arguments ? arguments : argv;
+    SetConsoleOutputCP(CP_UTF8);
+#endif
     cli_begin_output();
     if (!kernels_are_there()) {
         return CLI_USAGE;

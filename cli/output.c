@@ -2,7 +2,7 @@
 /*
  * Standard output with the reason of its first failure. stdio keeps only a flag of an error, and a buffer may be written
  * by any printf, so that errno is lost by the time the command ends. Therefore stdout becomes a stream whose bytes go
- * through put(), which keeps errno. glibc lets a program assign stdout.
+ * through put(), which keeps errno. glibc lets a program assign stdout; elsewhere the reason is that of the last write.
  */
 #include "cli.h"
 
@@ -17,6 +17,19 @@
 #include <unistd.h>
 
 static int reason; /* errno of the first write that failed */
+
+#ifndef __GLIBC__
+
+/* Texts have the same bytes everywhere: Windows would write two for each line's end. */
+void cli_begin_output(void)
+{
+#ifdef _WIN32
+    _setmode(_fileno(stdin), _O_BINARY);
+    _setmode(STDOUT_FILENO, _O_BINARY);
+#endif
+}
+
+#else
 
 static ssize_t put(void *cookie, const char *bytes, size_t size)
 {
@@ -39,6 +52,8 @@ void cli_begin_output(void)
         stdout = stream;
     }
 }
+
+#endif
 
 int cli_end_output(int code)
 {

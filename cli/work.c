@@ -22,6 +22,7 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+#ifndef _WIN32
 /* Work asks every few milliseconds whether to go on, but a command that waits for a pipe or a terminal does not. So each
    second after a signal the program is ended if it has not asked and computes nothing. */
 static void on_alarm(int number)
@@ -35,12 +36,16 @@ static void on_alarm(int number)
     alarm(asked ? 0 : 1);
 }
 
+#endif
+
 static void on_signal(int number)
 {
     (void)number;
     interrupted = 1;
     busy_s = processor_seconds();
+#ifndef _WIN32
     alarm(1);
+#endif
     signal(SIGINT, SIG_DFL); /* a second SIGINT or SIGTERM ends the program at once */
     signal(SIGTERM, SIG_DFL);
 }
@@ -182,9 +187,11 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     work->part_s = work->started_s;
     work->run = (koksma_run){
         .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
+#ifndef _WIN32
     /* with SIGXFSZ ignored, a write beyond the limit on file sizes fails instead of killing the program */
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGALRM, on_alarm);
+#endif
     signal(SIGINT, on_signal);
     signal(SIGTERM, on_signal);
     return true;

@@ -14,7 +14,8 @@ if(WIN32 OR APPLE)
   add_compile_definitions($<IF:$<BOOL:${WIN32}>,__USE_MINGW_ANSI_STDIO=1,_DARWIN_C_SOURCE>)
 endif()
 if(WIN32)
-  add_compile_definitions(KOKSMA_BUILD _WIN32_WINNT=0x0602 _FILE_OFFSET_BITS=64) # KOKSMA_BUILD: what is exported
+  add_compile_definitions(KOKSMA_BUILD _WIN32_WINNT=0x0602 _FILE_OFFSET_BITS=64 _CRT_RAND_S) # KOKSMA_BUILD: what is exported
+  add_compile_options("SHELL:-include ${engine}/core/platform/windows.h")
   # gcc aligns the stack to 16 bytes there, and spills vectors of 32 with moves that want 32 (its bug 54412).
   add_compile_options($<$<C_COMPILER_ID:GNU>:-Wa,-muse-unaligned-vector-move>)
   add_link_options(-static) # the threads of mingw, and gcc's own library

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The library for a page in a browser: functions of numbers and texts. One set of points is looked at. Texts go in by
- * explorer_text_in(), results are JSON or arrays; NULL or a status other than 0: koksma_error_text() has the reason.
+ * The core library for a page in a browser: functions of numbers and texts that JavaScript can call (module.js does).
+ * One set of points is the one that is looked at. Texts go in through explorer_text_in(), results come out as JSON or
+ * as arrays; a NULL or a status other than 0 means that koksma_error_text() has the reason.
+ * Long because all functions share one set of points and one text.
  */
 #include <koksma/integrate.h>
 #include <koksma/koksma.h>
@@ -344,7 +346,8 @@ uint32_t *explorer_domain(int what, uint32_t low, uint32_t high, uint32_t x, uin
     return halves;
 }
 
-/* Samples of a domain, in the room of the points. sampler: 0: Sobol', 1-4 D; 1: PMJ02, 2D; 2: independent, 1-4 D. */
+/* Samples first .. first + count - 1 of a domain, in the room of the points. sampler: 0: Sobol, 1 to 4 dimensions; 1: PMJ02,
+   2 dimensions; 2: independent numbers, 1 to 4 dimensions. */
 double *explorer_samples(int sampler, uint32_t low, uint32_t high, uint32_t first, uint32_t count, int dim)
 {
     const koksma_domain domain = {(uint64_t)high << 32 | low};

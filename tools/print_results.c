@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Prints what must have equal bits on every system: the hash of each pattern's set for several n and dimensions, the
- * bits of each measure of some of these sets, and the hash of each warp's points. Patterns without a set of such n or
- * dim print nothing. scripts/cross compares the lines of two systems:
+ * Prints what must have equal bits on every system: the hash of each pattern's set for several n and dimensions, the bits
+ * of each measure of some of these sets, and the hash of each warp's points. Patterns without a set of such n or dim print
+ * nothing. scripts/cross compares the lines of two systems:
  *
  *     print_results >here.txt; wine print_results.exe >there.txt; cmp here.txt there.txt
  */

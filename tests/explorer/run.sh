@@ -1,6 +1,6 @@
 #!/bin/sh
-# run.sh PROGRAM NODE_MODULES [SCREENSHOTS]: builds the explorer and the npm package, compares their numbers with the program's, in Node and then in
-# the page in Chromium. Exit code 77: skipped.
+# run.sh PROGRAM NODE_MODULES [SCREENSHOTS]: builds the explorer and the npm package, compares their numbers with the
+# program's, in Node and then in the page in Chromium. Exit code 77: skipped.
 set -u
 here=$(readlink -f "$(dirname "$0")")
 program=$(readlink -f "$1")

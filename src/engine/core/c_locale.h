@@ -32,8 +32,8 @@ size_t koksma__decimal_write(double x, char text[KOKSMA__DECIMAL_ROOM]);
 /* ---- CSV (RFC 4180), of which this is the only writer; one thread at a time may use a stream ---- */
 
 /* Writes a field. A field with a comma, a quote or the end of a line is put in quotes, and quotes inside it are
-   doubled. A text that a spreadsheet would run as a formula, as it begins with =, +, @, - or a tab, gets an apostrophe before
-   it, inside quotes; a lone "-", which stands for nothing, does not. */
+   doubled. A text that a spreadsheet would run as a formula, as it begins with =, +, @, - or a tab, gets an apostrophe
+   before it, inside quotes; a lone "-", which stands for nothing, does not. */
 KOKSMA__LAB void koksma__csv_put(FILE *stream, const char *text);
 
 /* Write a number as a field, which needs no quotes: whole numbers as digits, others as "%.17g" in the C locale, NaN as an

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Files that are written in one go, above what the system's part does (platform/files_posix.c,
-   platform/files_windows.c). */
+/* Files that are written in one go, above the part of each system (platform/files_posix.c, files_windows.c). */
 #include "core/files.h"
 
 #include <stdio.h>

@@ -19,6 +19,10 @@ static const char *const PLACES[] = {"", "../", "koksma/", "../" KOKSMA_LIBDIR "
 
 bool koksma__module_path(const char *name, char *path, size_t room)
 {
+#ifdef _WIN32
+    char *object = koksma__this_file();
+    {
+#else
     static const char here = 0; /* any address in the program or library that contains this code */
     Dl_info info;
     if (dladdr(&here, &info) && info.dli_fname) {
@@ -26,6 +30,7 @@ bool koksma__module_path(const char *name, char *path, size_t room)
            also resolves symbolic links. */
         char *object = strchr(info.dli_fname, '/') ? realpath(info.dli_fname, NULL) : NULL;
         object = object ? object : realpath("/proc/self/exe", NULL);
+#endif
         const char *slash = object ? strrchr(object, '/') : NULL;
         bool found = false;
         for (size_t i = 0; slash && !found && i < sizeof PLACES / sizeof *PLACES; i++) {

@@ -5,10 +5,10 @@
  * bits, and only a new file is opened. Standard output is written in place.
  */
 #ifdef _WIN32
-#define _CRT_RAND_S /* rand_s */
 #include "core/files.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <windows.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Trees of <search.h>, as treaps: each node has a hash of its own address as priority, and no child has a higher one
- * than its parent, so that the depth is logarithmic whatever the order of the keys is (Seidel & Aragon 1996).
+ * Trees of <search.h>, as treaps: each node has a hash of its own address as priority, and no child has a higher one than
+ * its parent, so that the depth is logarithmic whatever the order of the keys is (Seidel & Aragon 1996).
  */
 #if defined(_WIN32) || defined(__APPLE__)
 #include "core/platform/search_tree.h"

@@ -8,6 +8,7 @@
 #include "core/platform/windows.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -15,8 +16,8 @@
 
 #undef stat
 #undef fstat
-#undef open
 #undef fopen
+#undef open
 #undef fclose
 
 enum { LONG_PATH = 240, MODES = 8, MOST_OPEN = 64 };
@@ -279,6 +280,18 @@ intptr_t koksma__pread(int descriptor, void *bytes, size_t size, int64_t offset)
     const int got = _read(descriptor, bytes, (unsigned)size);
     _lseeki64(descriptor, before, SEEK_SET);
     return got;
+}
+
+/* ---- The machine ---------------------------------------------------------------------------------------- */
+
+long koksma__sysconf(int name)
+{
+    enum { PAGE = 4096 };
+    MEMORYSTATUSEX memory = {.dwLength = sizeof memory};
+    if (name == _SC_PHYS_PAGES) {
+        return GlobalMemoryStatusEx(&memory) ? (long)(memory.ullTotalPhys / PAGE) : -1;
+    }
+    return name == _SC_PAGESIZE ? PAGE : (long)GetActiveProcessorCount(ALL_PROCESSOR_GROUPS);
 }
 
 /* ---- Streams and texts --------------------------------------------------------------------------------- */

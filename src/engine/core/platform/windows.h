@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The functions of POSIX that the sources call and that Windows lacks, or has with paths in the ANSI code page and
-   texts for binary files: here paths are UTF-8, may be longer than 260 characters, and every file is binary. The
-   headers of posix/ include this one; on other systems it is empty. Errors set errno. */
+/* The functions of POSIX that the sources call and that Windows lacks, or has with paths in the ANSI code page and texts
+   for binary files: here paths are UTF-8, may be longer than 260 characters, and every file is binary. The compiler reads this
+   file first (cmake/flags.cmake), as names may be replaced only after the system's headers have been read. posix/ has the
+   headers that Windows lacks. Errors set errno. */
 #ifndef KOKSMA_CORE_PLATFORM_WINDOWS_H
 #define KOKSMA_CORE_PLATFORM_WINDOWS_H
 
 #ifdef _WIN32
 
+/* The sources have functions of these names, and none calls io.h's. */
+#define read koksma__io_read
+#define write koksma__io_write
+#define tell koksma__io_tell
+#define open koksma__io_open
 #include <direct.h>
-#include <fcntl.h>
 #include <io.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -18,6 +23,10 @@
 #include <time.h>
 #include <unistd.h>
 #include <wchar.h>
+#undef read
+#undef write
+#undef tell
+#undef open
 
 #include "core/visibility.h"
 
@@ -59,7 +68,6 @@ KOKSMA__LAB intptr_t koksma__pread(int descriptor, void *bytes, size_t size, int
 #define fstat koksma__fstat
 #define lstat koksma__lstat
 #define S_ISLNK(mode) (((mode)&0xF000) == 0xA000)
-#define open koksma__open
 #define fopen koksma__fopen
 #define fclose koksma__fclose
 #define access koksma__access
@@ -73,12 +81,19 @@ KOKSMA__LAB intptr_t koksma__pread(int descriptor, void *bytes, size_t size, int
 #define pread koksma__pread
 #define putc_unlocked _putc_nolock
 #define fcntl(descriptor, command, ...) 0 /* there are no flags to set */
-enum { O_CLOEXEC = _O_NOINHERIT | _O_BINARY, O_NOCTTY = 0, O_NONBLOCK = 0 };
 
 #undef X_OK
 #define X_OK 0
 #undef PATH_MAX
 #define PATH_MAX 4096
+
+/* ---- The machine ---- */
+
+enum { _SC_NPROCESSORS_ONLN, _SC_PHYS_PAGES, _SC_PAGESIZE };
+
+KOKSMA__LAB long koksma__sysconf(int name);
+
+#define sysconf koksma__sysconf
 
 /* ---- Streams and texts ---- */
 
@@ -95,7 +110,7 @@ KOKSMA__LAB char *koksma__stpcpy(char *to, const char *from);
 
 /* ---- Libraries ---- */
 
-enum { RTLD_NOW = 0, RTLD_LOCAL = 0 };
+enum { RTLD_NOW = 0, RTLD_LOCAL = 0, RTLD_GLOBAL = 0 };
 
 KOKSMA__LAB void *koksma__dlopen(const char *path, int mode);
 KOKSMA__LAB void *koksma__dlsym(void *library, const char *name);

@@ -102,6 +102,21 @@ static koksma_status expand(const placeholders *p, const char *template, const c
 
 /* ---- The directory -------------------------------------------------------------------------------------- */
 
+#ifdef _WIN32
+
+static void remove_folder(const char *folder)
+{
+    (void)folder;
+}
+
+static koksma_status make_folder(char *folder, size_t size)
+{
+    (void)folder, (void)size;
+    return koksma__fail(KOKSMA_UNSUPPORTED, "the command: on this system Koksma runs no programs");
+}
+
+#else
+
 static void remove_folder(const char *folder)
 {
     DIR *entries = opendir(folder);
@@ -122,6 +137,8 @@ static koksma_status make_folder(char *folder, size_t size)
                     size - 16);
     return mkdtemp(folder) ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: %s", folder, strerror(errno));
 }
+
+#endif
 
 static koksma_status run_command(char *command, const koksma_run *run)
 {
