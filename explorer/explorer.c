@@ -346,8 +346,8 @@ uint32_t *explorer_domain(int what, uint32_t low, uint32_t high, uint32_t x, uin
     return halves;
 }
 
-/* Samples first .. first + count - 1 of a domain, in the room of the points. sampler: 0: Sobol, 1 to 4 dimensions; 1: PMJ02,
-   2 dimensions; 2: independent numbers, 1 to 4 dimensions. */
+/* Samples first .. first + count - 1 of a domain, in the room of the points. sampler: 0: Sobol, 1 to 4 dimensions;
+   1: PMJ02, 2 dimensions; 2: independent numbers, 1 to 4 dimensions. */
 double *explorer_samples(int sampler, uint32_t low, uint32_t high, uint32_t first, uint32_t count, int dim)
 {
     const koksma_domain domain = {(uint64_t)high << 32 | low};

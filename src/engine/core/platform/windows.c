@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * POSIX on Windows: paths in UTF-8 become wide ones, made absolute and with the prefix \\?\ where they are long,
- * which lifts the limit of 260 characters. A file's number is that of its volume and its index there, as stat's
- * st_dev and st_ino. Streams into memory are temporary files that the system removes when they are closed.
+ * POSIX on Windows: paths in UTF-8 become wide ones, made absolute and with the prefix \\?\ where they are long, which
+ * lifts the limit of 260 characters. A file's number is that of its volume and its index there, as stat's st_dev and st_ino.
+ * Streams into memory are temporary files that the system removes when they are closed.
  */
 #ifdef _WIN32
 #include "core/platform/windows.h"
