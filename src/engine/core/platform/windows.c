@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * POSIX on Windows: paths in UTF-8 become wide ones, made absolute and with the prefix \\?\ where they are long, which
- * lifts the limit of 260 characters. A file's number is that of its volume and its index there, as stat's st_dev and st_ino.
+ * lifts the limit of 260 characters. A file's st_dev and st_ino are its volume's number and its index there.
  * Streams into memory are temporary files that the system removes when they are closed.
  */
 #ifdef _WIN32

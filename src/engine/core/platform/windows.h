@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The functions of POSIX that the sources call and that Windows lacks, or has with paths in the ANSI code page and texts
    for binary files: here paths are UTF-8, may be longer than 260 characters, and every file is binary. The compiler reads
-   this file first (cmake/flags.cmake), as names may be replaced only after the system's headers have been read. posix/ has the
+   this file first (cmake/flags.cmake), as names may be replaced only after the system's headers. posix/ has the
    headers that Windows lacks. Errors set errno. */
 #ifndef KOKSMA_CORE_PLATFORM_WINDOWS_H
 #define KOKSMA_CORE_PLATFORM_WINDOWS_H
