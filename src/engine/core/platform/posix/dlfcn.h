@@ -3,5 +3,4 @@
 #include "core/platform/windows.h"
 #else
 #include_next <dlfcn.h>
-
 #endif
