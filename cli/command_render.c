@@ -468,7 +468,7 @@ const cli_command cli_command_render = {
         "older image, and ends with exit code 130.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
-                "koksma render ball -p random -n 16 --error-map error.exr -o ball.exr\n"
+                "koksma render ball -p random -n 16 --error-map error.exr -o mean.exr\n"
                 "koksma render cornell --integrator path --aov direct,indirect -o parts.exr\n"
                 "koksma render cornell --integrator path --filter mitchell --splat -o c.exr\n"
                 "koksma render glossy --adaptive hierarchical --counts counts.png -o glossy.exr\n",

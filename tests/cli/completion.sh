@@ -56,13 +56,13 @@ measure x -m ^ all $(all measures)
 measure x --measures star,l2-st^ l2-star
 measure x --warp ^ $(all warps)
 measure x --prefixes ^ powers
-curve ^ power rings quality screen pairs
+curve ^ power rings quality screen pairs prefixes prefix-ratios
 curve power ^ FILES
 curve power x --half ^
 verify ^ FILES
 verify x -e ^ $properties
 verify x --expect latin,prog^ progressive
-plot x -c ^ points power radial anisotropy pairs convergence compare filter filter-response
+plot x -c ^ points power radial anisotropy pairs prefix-ratios convergence compare filter filter-response
 plot x --witness ^ $(all measures)
 plot x -o ^ FILES
 render ^ $(all scenes) FILES

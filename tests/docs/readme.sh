@@ -18,7 +18,8 @@ meshes=$(koksma version | grep -c '^meshes: Embree')
 koksma generate n-rooks -n 16 -q -o points.txt &&
   koksma render ball -n 1 --size 16x16 -q -o ball.exr >/dev/null &&
   koksma render ball -n 4 --size 16x16 -q -o reference.exr >/dev/null && cp reference.exr truth.exr &&
-  cp ball.exr mine_regular_1_0.exr || exit 1
+  cp ball.exr mine_regular_1_0.exr && printf '12.5 40\n320 240\n' >pixels.txt &&
+  koksma mask --filter gaussian:sigma=1 --swaps 1 -q -o other.png >/dev/null || exit 1
 for seed in $(seq 0 31); do koksma generate random -n 4 -s "$seed" -q -o "my_4_$seed.npy" >/dev/null; done
 count=0 failed=0 sheets=0
 sed -n 's/^    \(koksma .*\)/\1/p' "$root/README.md" "$root/docs/commands.md" | sed 's/  *# .*//' | sed 's/-o DIR/-o dir/' >commands

@@ -18,7 +18,7 @@
 #include <cstdio>
 #include <cstring>
 
-enum { N = 1 << 18, NUMBERS = 64, BLOCK = 1 << 14, BLOCKS = 64, FAMILIES = 4 };
+enum { N = 1 << 18, NUMBERS = 72, BLOCK = 1 << 14, BLOCKS = 64, FAMILIES = 4 };
 
 struct sink {
     uint64_t *words;
@@ -132,6 +132,13 @@ __host__ __device__ static void put_pixels(sink &out, uint64_t seed, koksma_doma
     put_all(out, xs, 2);
     koksma_keys_2f(&keys, i % 200, fs);
     put_floats(out, fs, 2);
+    const koksma_keys quadruple = koksma_keys_of_4d(seed, i % 256, i / 256 % 256, i % 3, 1u + i % 200);
+    double four[4];
+    float rounded[4];
+    koksma_keys_4d(&quadruple, i % 200, four);
+    put_all(out, four, 4);
+    koksma_keys_4f(&quadruple, i % 200, rounded);
+    put_floats(out, rounded, 4);
     koksma_mask_2d(&sequence, values, i % 24, 24, xs);
     put_all(out, xs, 2);
 }

@@ -15,6 +15,7 @@ EVERYWHERE = {
     "json": "results are objects", "long": "results are objects", "digits": "numbers are floats", "help": "help() shows docstrings",
     "quiet": "nothing is printed", "allow-exec": "allow_exec", "exec-seconds": "allow_exec(seconds)", "threads": "threads",
     "progress": "a callback where calls are long", "unknown": "refuse_unknown",
+    "format": "to_frame, whose data frames write CSV and LaTeX", "scale": "a quotient of arrays",
 }
 SETS = {"patterns": "generate(pattern)", "n": "generate(n)", "dim": "generate(dim)", "seed": "generate(seed)"}
 
@@ -46,7 +47,8 @@ OPTIONS = {
              "tests": "mask_quality(tests)", "rings": "the power spectrum of an array is NumPy's rfft2", "histogram": "NumPy's histogram",
              "correlation": "NumPy's irfft2 of the product of two rfft2"},
     "curve": {**SETS, "trials": "spectrum(sets) pair_correlation(sets)", "half": "spectrum(half)", "exact": "spectrum(exact)",
-              "r-max": "pair_correlation(r_max)", "bins": "pair_correlation(bins)", "output": "write_image"},
+              "r-max": "pair_correlation(r_max)", "bins": "pair_correlation(bins)", "output": "write_image",
+              "filter": "screen_errors(filter)"},
     "verify": {**SETS, "expect": "Finding", "record": "records", "measure": "records",
                "seeds": "verify_sets"},
     "identify": {**SETS, "seed": "generate(seed)"},
@@ -72,7 +74,7 @@ OPTIONS = {
                   "metric": "datasheet(metric)", "quick": "datasheet(quick)"},
     "study": {"output": "Study(folder) study_images(folder)", "trials": "Study(trials)", "quick": "Study(quick)",
               "time-limit": "Study.run(time_limit) Study.estimate(time_limit)", "rows": "audit(rows)", "seed": "audit(seed)",
-              "reference": "study_images(reference)", "metric": "study_images(metric)", "format": "Study.rows",
+              "reference": "study_images(reference)", "metric": "study_images(metric)",
               **dict.fromkeys(("patterns", "measures", "integrands", "points", "scene", "spp"), "a plan is a dict: Study(plan)")},
     "reproduce": {"output": "Study(folder)", "trials": "Study(trials)", "quick": "Study(quick)", "papers-only": "Study(plan)", "table": "Study.table(id)"},
     "list": {},
