@@ -54,8 +54,8 @@ function tablesIn(content) {
 
 // What the words of a reproduction's answers mean, and where its tables are.
 function glossary(content) {
-  return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks, in white noise to about 3, or 12 if all trials have the same points. grain: amplitude of slow errors. "
-    + "Slope: exponent of the number of points. z: printed mean minus ours, in standard errors. V(f), D*: variation, star discrepancy. Tables:",
+  return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks, beside what white noise leaves (3 to 4, or to 12 where all trials have the same points). grain: amplitude of slow errors. "
+    + "Slope: exponent of the number of points. z: printed mean minus ours, in standard errors with half of the last printed digit. V(f), D*: variation, star discrepancy. Tables:",
     ...tablesIn(content).flatMap(t => [" ", element("a", { href: `#${t.anchor}` }, t.id.slice(6))]));
 }
 
