@@ -52,8 +52,8 @@ static bool kernels_are_there(void)
 
 #include <shellapi.h>
 
-/* Replaces the arguments, which are in the ANSI code page, by those that were given, in UTF-8. The parts of paths are told
-   apart by slashes in all of the program, so that a backslash becomes one. */
+/* Replaces the arguments, which are in the ANSI code page, by those that were given, in UTF-8. The parts of paths are
+   separated by slashes in all of the program, so that a backslash becomes one. */
 static char **given_arguments(int *argc)
 {
     wchar_t **wide = CommandLineToArgvW(GetCommandLineW(), argc);

@@ -116,6 +116,19 @@ static koksma_status check_options(const koksma_datasheet_options *o)
     return KOKSMA_OK;
 }
 
+koksma_status koksma__sheet_finish(koksma__document *d, koksma_status status, double start_s, char **json)
+{
+    size_t size;
+    if (status) {
+        koksma__json_writer_fini(&d->json);
+        return status;
+    }
+    koksma__json_break(&d->json);
+    koksma__json_write_rounded(&d->json, "seconds", koksma__now_s() - start_s, 3);
+    koksma__json_end(&d->json);
+    return koksma__json_finish(&d->json, json, &size);
+}
+
 koksma_status koksma_datasheet(const koksma_datasheet_options *options, const koksma_run *run, char **json)
 {
     KOKSMA__REQUIRE(options, json);
@@ -123,7 +136,6 @@ koksma_status koksma_datasheet(const koksma_datasheet_options *options, const ko
     const double start_s = koksma__now_s();
     koksma__sheet *sheet = calloc(1, sizeof *sheet);
     koksma__document d = {0};
-    size_t size;
     *json = NULL;
     koksma_status status = sheet ? check_options(options) : koksma__fail_memory(sizeof *sheet);
     if (!status) {
@@ -131,14 +143,7 @@ koksma_status koksma_datasheet(const koksma_datasheet_options *options, const ko
         status = koksma__sheet_choose(sheet);
         status = status ? status : put_content(sheet, &d);
     }
-    if (!status) {
-        koksma__json_break(&d.json);
-        koksma__json_write_rounded(&d.json, "seconds", koksma__now_s() - start_s, 3);
-        koksma__json_end(&d.json);
-        status = koksma__json_finish(&d.json, json, &size);
-    } else {
-        koksma__json_writer_fini(&d.json);
-    }
+    status = koksma__sheet_finish(&d, status, start_s, json);
     if (sheet) {
         koksma__sheet_values_fini(&sheet->plane);
         koksma__json_writer_fini(&sheet->notes.json);

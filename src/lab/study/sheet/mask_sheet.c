@@ -14,6 +14,7 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
+#include "study/sheet/sheet.h"
 
 enum { RINGS = 32, BINS = 32, FARTHEST = 12, SIDE = 200, WHITE = 2, SCALAR_TESTS = 256, VECTOR_TESTS = 400 };
 
@@ -330,7 +331,6 @@ koksma_status koksma_mask_datasheet(const koksma_mask *masks, const char *const 
     const double start_s = koksma__now_s();
     koksma__mask_sheet s = {masks, names, n, filters, NULL, n_filters, run};
     koksma__document d = {0};
-    size_t size;
     s.filters = malloc(n_filters * sizeof *s.filters);
     KOKSMA__REQUIRE_MEMORY(s.filters, n_filters * sizeof *s.filters);
     koksma_status status = KOKSMA_OK;
@@ -341,14 +341,7 @@ koksma_status koksma_mask_datasheet(const koksma_mask *masks, const char *const 
         put_head(&s, &d);
         status = put_content(&s, &d);
     }
-    if (!status) {
-        koksma__json_break(&d.json);
-        koksma__json_write_rounded(&d.json, "seconds", koksma__now_s() - start_s, 3);
-        koksma__json_end(&d.json);
-        status = koksma__json_finish(&d.json, json, &size);
-    } else {
-        koksma__json_writer_fini(&d.json);
-    }
+    status = koksma__sheet_finish(&d, status, start_s, json);
     free(s.filters);
     return status;
 }
