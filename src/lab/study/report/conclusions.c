@@ -253,32 +253,56 @@ static void say_correlations(koksma__document *d, const koksma__conclusion *c, c
     koksma__doc_say(d, ". ");
 }
 
-/* The measure of the first table of `by` must be surely correlated with the errors of each table, which is a test; the
-   other tables of `by` stand beside it without a test. */
+/* What a report calls the measure of a table: its symbol, or the measure or scene. */
+static const char *name_of(const koksma__table *t)
+{
+    return t->symbol ? t->symbol : t->scene ? t->scene : t->measure;
+}
+
+/* Each measure of `by` must be surely correlated with the errors of each table, which is a test. The words give the
+   correlations of the first, those of the others are evidence; then the means over the tables of all, and which is
+   least. */
 static void conclude_predictor(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
 {
     const double least = koksma__spearman_limit(c->patterns.n, 0.05);
+    const char *worst[2] = {"", ""};
+    double lowest[2] = {INFINITY, INFINITY};
+    bool printed = true; /* whether all measures are in print */
     koksma__document averages;
     koksma__doc_words_begin(&averages);
     for (size_t by = 0; by < c->by.n; by++) {
         const koksma__table *of = table_of(r, c, c->by.at[by]);
-        const double *rho = correlate(r, c, of, by ? &(size_t){0} : &all->open);
+        const double *rho = correlate(r, c, of, &all->open);
         double means[2];
         if (!rho) {
             break;
         }
-        for (size_t k = 0; !by && k < c->tables.n; k++) {
+        for (size_t k = 0; k < c->tables.n; k++) {
             test(all, rho[2 * k] > least - 1e-12);
-            koksma__doc_say(d, "%s%s", k ? ", " : "Rank correlation with the error in ", c->tables.at[k]);
+            if (!by) {
+                koksma__doc_say(d, "%s%s", k ? ", " : "Rank correlation with the error in ", c->tables.at[k]);
+            }
         }
-        koksma__doc_say(by ? &all->more : d, by ? "%s (`%s`, table %s): " : ": ",
-                        of->symbol ? of->symbol : "Beside it", of->scene ? of->scene : of->measure, of->id);
+        koksma__doc_say(by ? &all->more : d, by ? "%s (`%s`, table %s): " : ": ", name_of(of),
+                        of->scene ? of->scene : of->measure, of->id);
         say_correlations(by ? &all->more : d, c, rho, least, means);
-        koksma__doc_say(&averages, "%s%s `%s` %.2f (%.2f)", by ? ", " : "On average ", of->symbol ? of->symbol : "",
-                        of->scene ? of->scene : of->measure, means[0], means[1]);
+        koksma__doc_say(&averages, "%s%s%s`%s` %.2f (%.2f)", by ? ", " : "On average ", of->symbol ? of->symbol : "",
+                        of->symbol ? " " : "", of->scene ? of->scene : of->measure, means[0], means[1]);
+        printed &= !isnan(means[1]);
+        for (size_t side = 0; side < 2; side++) {
+            worst[side] = means[side] < lowest[side] ? name_of(of) : worst[side];
+            lowest[side] = fmin(lowest[side], means[side]);
+        }
     }
     koksma__doc_words_append(d, &averages);
-    koksma__doc_say(d, ".");
+    if (c->by.n > 1) {
+        koksma__doc_say(d, ": %s predicts worst", worst[0]);
+        koksma__doc_say(d, printed ? ", in print %s" : "%s",
+                        !printed                     ? ""
+                        : strcmp(worst[0], worst[1]) ? worst[1]
+                                                     : "too");
+    }
+    koksma__doc_say(d, ". %zu of %zu correlations are surely above 0.", all->passed, all->tests);
     koksma__doc_say(&all->more, "Of %zu patterns a correlation is surely above 0 (at 5 %%) from %.2f on. ",
                     c->patterns.n, least);
 }
@@ -348,10 +372,21 @@ static void conclude_before(koksma__report *r, koksma__document *d, const koksma
 
 /* ---- bands: the errors of the patterns are in visible bands, and those of `against` are not ---------------- */
 
-/* The least and the largest coherence of errors that are to be in bands [0], and of those that are not [1]. */
+/* The least and the largest coherence of errors that are in bands [0], and of those that are not [1]. */
 typedef struct coherences {
     double low[2], high[2];
 } coherences;
+
+/* Whether errors are in bands: coherent, with at least two periods over the longer side of the picture. A single slow wave
+   is a shade. *period: in pixels. */
+static bool is_banded(const koksma__report *r, const koksma__subject *s, const koksma_coherence_values *v,
+                      double *period)
+{
+    int width, height;
+    koksma__block_size(s->images, koksma__study_scene_of(r->study, s->scene), &width, &height);
+    *period = 1 / koksma__hypot(v->frequency_x, v->frequency_y);
+    return v->coherent && 2 * *period <= (width > height ? width : height);
+}
 
 /* Each pattern in each image is a test, by the coherence of the mean spectrum; those of `beside` stand beside them. */
 static void test_bands(koksma__report *r, const koksma__conclusion *c, const koksma__subject *s, long long spp,
@@ -366,13 +401,21 @@ static void test_bands(koksma__report *r, const koksma__conclusion *c, const kok
                 all->open++;
                 continue;
             }
+            double period;
+            const bool banded = is_banded(r, s, &v, &period);
             koksma__doc_say(&all->more, "%s", said++ ? "; " : "");
             say_label(&all->more, r, c, lists[list]->at[i]);
-            koksma__doc_say(&all->more, " %.3g, %s", v.coherence, v.coherent ? "in bands" : "noise");
+            koksma__doc_say(&all->more, " %.3g, %s", v.coherence,
+                            !v.coherent ? "noise"
+                            : banded    ? "in bands"
+                                        : "a shade");
+            if (v.coherent) {
+                koksma__doc_say(&all->more, " of period %.3g pixels", period);
+            }
             if (list < 2) {
-                test(all, v.coherent == (list == 0));
-                found->low[list] = fmin(found->low[list], v.coherence);
-                found->high[list] = fmax(found->high[list], v.coherence);
+                test(all, banded == (list == 0));
+                found->low[!banded] = fmin(found->low[!banded], v.coherence);
+                found->high[!banded] = fmax(found->high[!banded], v.coherence);
             }
         }
     }
@@ -557,9 +600,9 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
             const koksma__estimate slope = slope_of(r, t, pattern), least = by ? slope_of(r, by, pattern) : none;
             koksma__doc_say(to, said++ ? ", " : " ");
             say_label(to, r, c, pattern);
-            koksma__doc_say(to, " %.3f", slope.value);
+            koksma__doc_say(to, " %.3f ± %.3f", slope.value, slope.high - slope.value);
             if (by) {
-                koksma__doc_say(to, " (%.3f in table %s)", least.value, by->id);
+                koksma__doc_say(to, " (%.3f ± %.3f in table %s)", least.value, least.high - least.value, by->id);
             }
             all->other += other;
             all->open += isnan(slope.high) || (by && isnan(least.value));
@@ -570,7 +613,9 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
         koksma__doc_say(to, other ? ". " : "");
     }
     koksma__doc_say(d, all->tests ? "." : "");
-    if (!by) {
+    if (by) {
+        koksma__doc_say(&all->more, "The values are compared; ± of a pattern with one set is that of the fit. ");
+    } else {
         say_tolerance(all);
     }
 }

@@ -176,7 +176,7 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
     snprintf(group, sizeof group, "%s, %s%zu set%s", t->measure, differ ? "up to " : "", sets,
              koksma__plural((double)sets));
     begin_table(d, t);
-    add_published_columns(d, "mean agrees, z", "published (100 sets)");
+    add_published_columns(d, "mean agrees, z", "published");
     add_measure_columns(d, t->measure, group, sets, false);
     if (t->also) {
         add_measure_columns(d, t->also, "beside it", sets, true);
@@ -283,7 +283,9 @@ static void add_printed_marks(sizes_table *s, const koksma__table_row *row)
 static void say_means(koksma__document *d, bool published, size_t sets, bool differ)
 {
     koksma__doc_paragraph_begin(d);
-    koksma__doc_say(d, published ? "Published means are over 100 sets, ours over %s%zu" : "Means are over %s%zu sets",
+    koksma__doc_say(d,
+                    published ? "Published means are taken to be over 100 sets, ours are over %s%zu"
+                              : "Means are over %s%zu sets",
                     differ ? "up to " : "", sets);
     koksma__doc_say(d, ". Slopes are least squares over all columns; _theory_ is the exponent of the pattern for "
                        "large N, which a slope "
@@ -338,8 +340,9 @@ static void write_point_tables(koksma__report *r, koksma__document *d)
         d,
         "The numbers are means over point sets, by the measure that heads the column. z is the published mean minus "
         "ours, divided by the sum of SD √(1/100 + 1/T) and half of the last published digit, where SD and T are the "
-        "standard deviation and the number of our sets: it accounts for the errors of both means and for the "
-        "rounding. A single |z| below %.1f is attributed to chance (✓ and z); the text below each table tests its "
+        "standard deviation and the number of our sets: it accounts for the errors of both means, the published one "
+        "taken to be over 100 sets, and for the rounding. A single |z| below %.1f is attributed to chance (✓ and z); "
+        "the text below each table tests its "
         "values of z together. _Largest of 100_ is the mean of the largest values in blocks of 100 sets; "
         "its ±, from five blocks on, is the SD of these largest values, whereas the other intervals "
         "are " KOKSMA__MEAN_INTERVALS ". With fewer than 100 sets it is the largest value of all.",

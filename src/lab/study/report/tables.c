@@ -207,9 +207,12 @@ void koksma__z_say(koksma__document *d, const koksma__z_sums *z)
                         "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by "
                         "chance between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one "
                         "side), and the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
-                        z->count, one_side || spread ? "fail alone" : "pass", z->count, z->sum / sqrt(k),
-                        one_side ? "fails" : "passes", z->squares, spread ? "fails" : "passes",
-                        koksma__chi_squared_quantile(0.95, k));
+                        z->count,
+                        one_side && spread   ? "fail both tests"
+                        : one_side || spread ? "fail one of two tests"
+                                             : "pass both tests",
+                        z->count, z->sum / sqrt(k), one_side ? "fails" : "passes", z->squares,
+                        spread ? "fails" : "passes", koksma__chi_squared_quantile(0.95, k));
         if (one_side || spread) {
             koksma__doc_say(d, " The section _Agreement with the published means_ weighs the tests of all tables.");
         }
@@ -355,7 +358,7 @@ static void say_joint(koksma__document *d, const koksma__plan *plan, const koksm
         list_failed(d, plan, z, all_tests, true);
     }
     if (failed > strictly) {
-        koksma__doc_say(d, "; undecided: table ");
+        koksma__doc_say(d, "; one that fails decides nothing for table ");
         list_failed(d, plan, z, all_tests, false);
         koksma__doc_say(d, " (of %.0f tests %.2g fail by chance)", all_tests, 0.05 * all_tests);
     }
