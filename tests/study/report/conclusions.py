@@ -128,6 +128,12 @@ def report_of(plan, folder):
     return json.loads(Path(folder, "report.json").read_text())
 
 
+def evidence(report, what):
+    """The paragraph below a conclusion."""
+    return next(words(c["text"]) for _, b in blocks(report["content"]) for c, before in zip(b.get("content", [])[1:], b.get("content", []))
+                if what in words(before.get("text", [])))
+
+
 def check_verdicts(report, rows):
     said = {words(b["text"]).split(": ", 1)[1]: b for under, b in blocks(report["content"]) if under and ("concludes" in under[-1] or under[-1] == "Figures") and "answer" in b}
     for what, verdict, _ in CONCLUSIONS:
@@ -140,12 +146,11 @@ def check_verdicts(report, rows):
             means.setdefault(row["pattern"], []).append(float(row["value"]))
     order = ["multi-jittered", "jittered", "random"]
     rho = spearman([sum(means[p]) / len(means[p]) for p in order], [1, 2, 4])
-    if f"{rho:.2f} in table errors" not in words(next(b for t, b in said.items() if t.startswith("order true"))["text"]):
+    if f"{rho:.2f} in table errors" not in evidence(report, "order true"):
         complain(f"the rank correlation is {rho:.2f}")
     # Each measure is named as its table computes it; of five patterns a rho from .9 on is sure (Zar 1984).
     text = words(next(b for t, b in said.items() if t.startswith("predictor half true"))["text"])
-    below = next(words(c["text"]) for _, b in blocks(report["content"]) for c, before in zip(b.get("content", [])[1:], b.get("content", []))
-                 if "predictor half true" in words(before.get("text", [])))
+    below = evidence(report, "predictor half true")
     if "min-distance predicts worst." not in text or "S l2-star" not in text or "S (l2-star, table S)" not in below or "from 0.90 on" not in below:
         complain(f"predictors: {text} {below}")
 
@@ -156,10 +161,10 @@ def check_agreement(report):
              for row in b["rows"] for cell in row if isinstance(cell, dict) and "verdict" in cell]
     of = {v: sum(c["verdict"] == v for c in cells) for v in ("agrees", "unexplained", "untested")}
     headline = next(words(b["text"]) for _, b in blocks(report["content"]) if "published means of measures" in words(b.get("text", [])))
-    more = next(words(b["text"]) for _, b in blocks(report["content"]) if "more are no test" in words(b.get("text", [])))
+    more = next(words(b["text"]) for _, b in blocks(report["content"]) if "that are no test, as" in words(b.get("text", [])))
     near = [c for c in cells if c["verdict"] == "untested" and abs(c["z"]) < 2.6]
     if of["untested"] != 5 or not near or not headline.startswith(f"{of['agrees']} of {of['agrees'] + of['unexplained']} published means of measures agree") \
-            or more != "5 more are no test, as their notes say: 4 in table other; 1 in table chosen.":
+            or more != "The 5 that are no test, as their notes say: 4 in table other; 1 in table chosen.":
         complain(f"{of}, {len(near)} within chance: {headline} {more}")
 
 
@@ -174,7 +179,7 @@ def check_coherences(report):
             for row in block["rows"]:
                 of = dict(zip(names, row))
                 value = of["coherence"][0] if isinstance(of["coherence"], list) else of["coherence"]
-                bands = {"yes": True, "no": False, "coherent": True, "noise": False}[of.get("in bands", of.get("error"))]
+                bands = {"yes": True, "no": False, "coherent": True, "noise": False}[of.get("coherent", of.get("error"))]
                 found.setdefault((scene, of["pattern"]), set()).add((value, of["p"], bands))
     both = [key for key, values in found.items() if len(values) > 1]
     if both or len(found) < 8:

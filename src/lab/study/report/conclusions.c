@@ -59,6 +59,12 @@ static bool is_other(const koksma__table *t, size_t k)
     return other;
 }
 
+/* The measure by which a table over n is judged: the exact one that stands beside that of the printed numbers, if any. */
+static const char *judged_by(const koksma__table *t)
+{
+    return t->also && koksma__table_is_over_n(t) && !is_other(t, 0) ? t->also : t->measure;
+}
+
 /* Our mean, and the printed one, of a table's row at column k; NaN: none. */
 typedef struct pair {
     double ours, printed;
@@ -66,7 +72,8 @@ typedef struct pair {
 
 static pair means_of(koksma__report *r, const koksma__table *t, const char *pattern, size_t k)
 {
-    const koksma__cell cell = koksma__table_cell(r, t, pattern, k);
+    const koksma__cell cell = t->scene ? koksma__table_cell(r, t, pattern, k)
+                                       : koksma__points_cell(r, t, judged_by(t), pattern, t->n.at[k]);
     return (pair){cell.mean.n ? cell.mean.mean : (double)NAN, koksma__plan_row_of(t, pattern)->published[k].value};
 }
 
@@ -138,24 +145,24 @@ static void conclude_order(koksma__report *r, koksma__document *d, const koksma_
         }
     }
     bool tied = false;
-    koksma__doc_say(d, "Rank correlation of the printed means with ours: ");
+    koksma__doc_say(&all->more, "Rank correlation of the printed means with ours: ");
     for (size_t t = 0; t < tables; t++) {
-        koksma__doc_say(d, "%s%.2f in %s%s", t ? "; " : "", rho[t], t ? "" : "table ", c->tables.at[t]);
+        koksma__doc_say(&all->more, "%s%.2f in %s%s", t ? "; " : "", rho[t], t ? "" : "table ", c->tables.at[t]);
     }
-    koksma__doc_say(d, ".");
-    koksma__doc_say(&all->more, "Ours by mean rank: ");
+    koksma__doc_say(&all->more, ". ");
+    koksma__doc_say(d, "Ours by mean rank: ");
     for (size_t i = 0; i < n; i++) {
         if (i) {
             const bool falls = ranks[i - 1] > ranks[i] * (1 + 1e-12),
                        equal = !falls && ranks[i - 1] > ranks[i] * (1 - 1e-12);
             test(all, !falls);
             tied |= equal;
-            koksma__doc_say(&all->more, "%s", falls ? " > " : equal ? " = " : " < ");
+            koksma__doc_say(d, "%s", falls ? " > " : equal ? " = " : " < ");
         }
-        say_label(&all->more, r, c, c->patterns.at[i]);
-        koksma__doc_say(&all->more, " %.3g", ranks[i] / (double)tables);
+        say_label(d, r, c, c->patterns.at[i]);
+        koksma__doc_say(d, " %.3g", ranks[i] / (double)tables);
     }
-    koksma__doc_say(&all->more, "%s. ", tied ? " (equal ranks neither confirm nor deny their order)" : "");
+    koksma__doc_say(d, "%s.", tied ? " (equal ranks neither confirm nor deny their order)" : "");
 }
 
 /* ---- best: the first pattern has the least error ----------------------------------------------------------- */
@@ -372,9 +379,10 @@ static void conclude_before(koksma__report *r, koksma__document *d, const koksma
 
 /* ---- bands: the errors of the patterns are in visible bands, and those of `against` are not ---------------- */
 
-/* The least and the largest coherence of errors that are in bands [0], and of those that are not [1]. */
+/* The least and the largest coherence of errors that are in bands [0], and of those that are noise [1]. */
 typedef struct coherences {
     double low[2], high[2];
+    koksma__document beside; /* the words of those of `beside` */
 } coherences;
 
 /* Whether errors are in bands: coherent, with at least two periods over the longer side of the picture. A single slow wave
@@ -403,19 +411,23 @@ static void test_bands(koksma__report *r, const koksma__conclusion *c, const kok
             }
             double period;
             const bool banded = is_banded(r, s, &v, &period);
+            const char *kind = !v.coherent ? "noise" : banded ? "in bands" : "a shade";
             koksma__doc_say(&all->more, "%s", said++ ? "; " : "");
             say_label(&all->more, r, c, lists[list]->at[i]);
-            koksma__doc_say(&all->more, " %.3g, %s", v.coherence,
-                            !v.coherent ? "noise"
-                            : banded    ? "in bands"
-                                        : "a shade");
+            koksma__doc_say(&all->more, " %.3g, %s", v.coherence, kind);
             if (v.coherent) {
                 koksma__doc_say(&all->more, " of period %.3g pixels", period);
             }
-            if (list < 2) {
+            if (list == 2) {
+                koksma__doc_say(&found->beside, koksma__doc_is_empty(&found->beside) ? " Beside it: " : "; ");
+                say_label(&found->beside, r, c, lists[list]->at[i]);
+                koksma__doc_say(&found->beside, " in %s %.3g, %s", s->scene, v.coherence, kind);
+            } else {
                 test(all, banded == (list == 0));
-                found->low[!banded] = fmin(found->low[!banded], v.coherence);
-                found->high[!banded] = fmax(found->high[!banded], v.coherence);
+                if (banded == v.coherent) {
+                    found->low[!banded] = fmin(found->low[!banded], v.coherence);
+                    found->high[!banded] = fmax(found->high[!banded], v.coherence);
+                }
             }
         }
     }
@@ -426,7 +438,8 @@ static void conclude_bands(koksma__report *r, koksma__document *d, const koksma_
 {
     koksma__subject s;
     long long spp;
-    coherences found = {{INFINITY, INFINITY}, {0, 0}};
+    coherences found = {.low = {INFINITY, INFINITY}};
+    koksma__doc_words_begin(&found.beside);
     koksma__doc_say(&all->more, "Coherence of the errors in ");
     for (size_t i = 0; i < c->tables.n; i++) {
         const koksma__table *t = table_of(r, c, c->tables.at[i]);
@@ -440,10 +453,14 @@ static void conclude_bands(koksma__report *r, koksma__document *d, const koksma_
     for (size_t k = 0; k < 2; k++) {
         if (found.low[k] <= found.high[k]) {
             koksma__doc_say(d, found.low[k] < found.high[k] ? "%s%.3g to %.3g" : "%s%.3g",
-                            k ? ", without " : ": coherence with bands ", found.low[k], found.high[k]);
+                            k ? ", of noise " : ": coherence with bands ", found.low[k], found.high[k]);
         }
     }
     koksma__doc_say(d, ".");
+    if (!koksma__doc_is_empty(&found.beside)) {
+        koksma__doc_words_append(d, &found.beside);
+        koksma__doc_say(d, ".");
+    }
 }
 
 /* ---- metric: images of the first pattern have a larger error than those of the first of `against` ---------- */
@@ -566,7 +583,7 @@ static koksma__estimate slope_of(koksma__report *r, const koksma__table *t, cons
     double x[KOKSMA__TABLE_PRINTED];
     koksma__summary means[KOKSMA__TABLE_PRINTED];
     for (size_t k = 0; k < t->n.n; k++) {
-        means[k] = koksma__table_cell(r, t, pattern, k).mean;
+        means[k] = koksma__points_cell(r, t, judged_by(t), pattern, t->n.at[k]).mean;
         if (!means[k].n || !(means[k].mean > 0)) {
             return (koksma__estimate){NAN, NAN, NAN};
         }
@@ -576,8 +593,8 @@ static koksma__estimate slope_of(koksma__report *r, const koksma__table *t, cons
 }
 
 /* Each row of a pattern is a test: its slope must be surely below -1/2 - TOLERANCE and, of a pattern of `against`, must not
-   be; with `by` it must be above the pattern's slope in that table. Rows by another procedure than the printed one are no
-   tests. */
+   be; with `by` it must be surely above the pattern's slope in that table. Rows by another procedure than the printed
+   one are no tests. */
 static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
 {
     const koksma__table *by = c->by.n ? table_of(r, c, c->by.at[0]) : NULL;
@@ -586,11 +603,14 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
         const koksma__table *t = table_of(r, c, c->tables.at[i]);
         const bool other = is_other(t, 0);
         koksma__document *to = other ? &all->more : d;
-        koksma__doc_say(to, other ? "By our rows' procedure (`%s`) in table %s:" : "%s in table %s:",
+        koksma__doc_say(to, other ? "By our rows' procedure (`%s`) in table %s:" : "%s in table %s",
                         other        ? t->measure
                         : all->tests ? ";"
                                      : "Slopes",
                         t->id);
+        if (!other && judged_by(t) != t->measure) {
+            koksma__doc_say(to, " (`%s`)", judged_by(t));
+        }
         for (size_t k = 0, said = 0; k < c->patterns.n + c->against.n; k++) {
             const bool faster = k < c->patterns.n;
             const char *pattern = faster ? c->patterns.at[k] : c->against.at[k - c->patterns.n];
@@ -605,16 +625,17 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
                 koksma__doc_say(to, " (%.3f ± %.3f in table %s)", least.value, least.high - least.value, by->id);
             }
             all->other += other;
-            all->open += isnan(slope.high) || (by && isnan(least.value));
+            all->open += isnan(slope.high) || (by && isnan(least.high));
             if (!other) {
-                test(all, by ? slope.value > least.value : (slope.high < -0.5 - TOLERANCE) == faster);
+                test(all, by ? slope.low > least.high : (slope.high < -0.5 - TOLERANCE) == faster);
             }
         }
         koksma__doc_say(to, other ? ". " : "");
     }
     koksma__doc_say(d, all->tests ? "." : "");
     if (by) {
-        koksma__doc_say(&all->more, "The values are compared; ± of a pattern with one set is that of the fit. ");
+        koksma__doc_say(&all->more,
+                        "The intervals must be apart; that of a pattern with one set is that of the fit. ");
     } else {
         say_tolerance(all);
     }

@@ -382,7 +382,7 @@ static void add_image_columns(koksma__document *d, const koksma__image_block *bl
     snprintf(group, sizeof group, "against %lld %s samples (%s), %lld trial%s", first->spp * first->replicates,
              first->pattern, first->name, block->trials, koksma__plural((double)block->trials));
     add_error_columns(d, first->name, group);
-    koksma__doc_columns(d, "n3 coherence;n2 p;t in bands");
+    koksma__doc_columns(d, "n3 coherence;n2 p;t coherent");
     if (block->n_references > 1) {
         snprintf(group, sizeof group, "against %lld × %lld %s samples (%s)", last->replicates, last->spp,
                  last->pattern, last->name);
@@ -563,8 +563,9 @@ static void write_image_tables(koksma__report *r, koksma__document *d)
         "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get "
         "no verdict. Coherence (defined in the section _Pictures_) is that of the errors of the first %d trials: "
         "white "
-        "noise has as large a one with probability p, and an error with p below %g is in bands or another pattern "
-        "that the eye sees.",
+        "noise has as large a one with probability p, and an error with p below %g is coherent: in bands, a slow "
+        "shade or "
+        "another pattern that the eye sees.",
         KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
     for (const koksma__table *t; !r->status && (t = next_table(r, true, &i));) {
         add_image_table(r, d, t);

@@ -303,13 +303,15 @@ static void say_group(koksma__document *d, int group, const counts *all)
         koksma__doc_say(d, "; %zu %s for a reason that a note below the table gives", explained, verb(explained));
     }
     if (unexplained) {
-        koksma__doc_say(d, "; %zu %s for an unknown reason%s: ✗ in the tables", unexplained, verb(unexplained),
-                        group == MEASURES ? " (by chance one of 107 does)" : "");
+        koksma__doc_say(d, "; %zu %s for an unknown reason: ✗ in the tables", unexplained, verb(unexplained));
+    }
+    if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
+        koksma__doc_say(d, "; %zu more are no test", of[KOKSMA_VERDICT_UNTESTED]);
     }
     koksma__doc_say(d, ".");
     koksma__doc_paragraph_end(d);
     if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
-        koksma__doc_paragraph(d, "%zu more are no test, as their notes say: %s.", of[KOKSMA_VERDICT_UNTESTED],
+        koksma__doc_paragraph(d, "The %zu that are no test, as their notes say: %s.", of[KOKSMA_VERDICT_UNTESTED],
                               all->untested);
     }
 }

@@ -33,7 +33,7 @@ function answersIn(content, path = []) {
 function count(answers) {
   const of = answers.filter(a => a.concludes), number = answer => of.filter(a => a.block.answer === answer).length;
   if (!of.length) return `The data decide ${answers.filter(a => a.block.answer !== "undecided").length} of ${answers.length} answers; ? marks the others.`;
-  return `Of ${of.length} conclusions ${number("holds")} hold (✓), ${number("partly")} in part, ${number("fails")} not (✗); ${number("undecided")} undecided (?).`;
+  return `Of ${of.length} conclusions ${number("holds")} hold (✓), ${number("partly")} in part ((✓)), ${number("fails")} not (✗); ${number("undecided")} undecided (?).`;
 }
 
 function verdict(answers, ...legend) {
@@ -54,7 +54,7 @@ function tablesIn(content) {
 
 // What the words of a reproduction's answers mean, and where its tables are.
 function glossary(content) {
-  return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks, beside what white noise leaves (3 to 4, or to 12 where all trials have the same points). grain: amplitude of slow errors. "
+  return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks; white noise leaves about 3, and more where all trials have the same points. A wave with less than two periods over the picture is a shade, no bands. grain: amplitude of slow errors. "
     + "Slope: exponent of the number of points. z: printed mean minus ours, in standard errors with half of the last printed digit. V(f), D*: variation, star discrepancy. Tables:",
     ...tablesIn(content).flatMap(t => [" ", element("a", { href: `#${t.anchor}` }, t.id.slice(6))]));
 }
