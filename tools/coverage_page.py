@@ -26,19 +26,18 @@ def table(head, rows):
     print()
 
 
-def ratio(row, other):
-    value = row["mean"] / row[other]
+def ratio(row):
+    value = row["mean"] / row["median"]
     return f"{value:.2f}" if value < 10 else f"{value:,.0f}"
 
 
-for other in ("median", "auto_rmse"):
-    print(f"RMSE of the mean divided by that of {other.removesuffix('_rmse')}, `{PATTERNS[0]}`, n = {MOST:,}:\n")
-    cells = {(r["integrand"], r["dim"]): r for r in ROWS if r["pattern"] == PATTERNS[0] and r["n"] == MOST}
-    names = dict.fromkeys((r["kind"], r["integrand"]) for r in ROWS)
-    table(["kind", "integrand"] + [f"d = {d}" for d in DIMS],
-          [[kind, f"`{name}`"] + [ratio(cells[name, d], other) if (name, d) in cells else "" for d in DIMS] for kind, name in names])
+print(f"RMSE of the mean divided by that of the median, `{PATTERNS[0]}`, n = {MOST:,}:\n")
+cells = {(r["integrand"], r["dim"]): r for r in ROWS if r["pattern"] == PATTERNS[0] and r["n"] == MOST}
+names = dict.fromkeys((r["kind"], r["integrand"]) for r in ROWS)
+table(["kind", "integrand"] + [f"d = {d}" for d in DIMS],
+      [[kind, f"`{name}`"] + [ratio(cells[name, d]) if (name, d) in cells else "" for d in DIMS] for kind, name in names])
 
-print("The same over all integrands of a kind: medians, from the least to the most:\n")
+print("RMSE of the mean divided by that of others over all integrands of a kind: medians, from the least to the most:\n")
 table(["pattern", "kind"] + [e for e in ("median", "median-of-means", "trimmed", "auto")],
       [[f"`{p}`", kind] + ["{:.2f} ({:.2f} to {:,.2f})".format(statistics.median(v), min(v), max(v)) for e in
                            ("median", "median-of-means", "trimmed", "auto_rmse") for v in
@@ -52,8 +51,7 @@ table(["pattern", "kind", *INTERVALS],
                            ([r for r in ROWS if r["pattern"] == p and r["kind"] == kind and r[i] is not None],)]
        for p in PATTERNS for kind in ("smooth", "kink", "jump")])
 
-print(f"Cells with a coverage below {LOW}:\n")
-table(["interval", "cells"],
-      [[i, ", ".join(f"`{r['integrand']}` d = {r['dim']}, n = {r['n']}{' (owen)' if 'owen' in r['pattern'] else ''}: {r[i]:.3f}" for r in
-                     sorted(bad, key=lambda r: r[i])[:12]) + (f", and {len(bad) - 12} more" if len(bad) > 12 else "") + f" ({len(bad)} of {len(ROWS)})"]
-       for i in INTERVALS for bad in ([r for r in ROWS if r[i] is not None and r[i] < LOW],) if bad])
+for i in INTERVALS:
+    bad = sorted((r for r in ROWS if r[i] is not None and r[i] < LOW), key=lambda r: r[i])
+    print(f"{i}: {len(bad)} of {len(ROWS)} cells below {LOW}; the lowest: " + "; ".join(
+        f"`{r['integrand']}` d = {r['dim']}, n = {r['n']}, {r['pattern']}: {r[i]:.3f}" for r in bad[:5]))
