@@ -39,7 +39,7 @@
  *     koksma_keys_4d(&pixel, i, xs);
  *
  * Errors are then blue whatever the four couple; one coordinate alone is less so than with pairs, and of the pairs of
- * coordinates within a quadruple only the first has (0,m,2)-nets. docs/findings/screen-error.md has both beside each
+ * coordinates within a quadruple only the first has (0,m,2)-nets. docs/findings/screen-noise.md has both beside each
  * other. Cells, seeds, distributions and orders of samples are as with pairs.
  *
  * Number the pairs of dimensions 0, 1, 2 ... as you like: each number has its own cells and scramblings. Errors that
