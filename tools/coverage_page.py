@@ -38,9 +38,9 @@ table(["kind", "integrand"] + [f"d = {d}" for d in DIMS],
       [[kind, f"`{name}`"] + [ratio(cells[name, d]) if (name, d) in cells else "" for d in DIMS] for kind, name in names])
 
 print("RMSE of the mean divided by that of others over all integrands of a kind: medians, from the least to the most:\n")
-table(["pattern", "kind"] + [e for e in ("median", "median-of-means", "trimmed", "auto")],
+table(["pattern", "kind"] + [e for e in ("median", "median-of-means", "auto")],
       [[f"`{p}`", kind] + ["{:.2f} ({:.2f} to {:,.2f})".format(statistics.median(v), min(v), max(v)) for e in
-                           ("median", "median-of-means", "trimmed", "auto_rmse") for v in
+                           ("median", "median-of-means", "auto_rmse") for v in
                            ([r["mean"] / r[e] for r in ROWS if r["pattern"] == p and r["kind"] == kind],)]
        for p in PATTERNS for kind in ("smooth", "kink", "jump")])
 
