@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// page_picture.js FILE[#HASH] PICTURE.png WIDTHxHEIGHT [TEXT]: a page in headless Chromium as a picture, once it has not
-// changed for two seconds, from its first line that begins with TEXT. playwright-core is taken from build/node (scripts/setup browser).
+// page_picture.js FILE[#HASH] PICTURE.png WIDTHxHEIGHT: a page in headless Chromium as a picture, once it has not
+// changed for two seconds. playwright-core is taken from build/node (scripts/setup browser).
 "use strict";
 const path = require("path");
 const playwright = require(require.resolve("playwright-core", { paths: [path.join(__dirname, "../build/node")] }));
-const [file, picture, size, text] = process.argv.slice(2), [width, height] = size.split("x").map(Number);
+const [file, picture, size] = process.argv.slice(2), [width, height] = size.split("x").map(Number);
 
 (async () => {
   const browser = await playwright.chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
@@ -14,9 +14,6 @@ const [file, picture, size, text] = process.argv.slice(2), [width, height] = siz
   while (now !== before) {
     await page.waitForTimeout(2000);
     [before, now] = [now, await page.content()];
-  }
-  if (text) {
-    await page.evaluate(begin => [...document.querySelectorAll("main *")].find(e => e.textContent.startsWith(begin)).scrollIntoView(), text);
   }
   await page.screenshot({ path: picture });
   await browser.close();
