@@ -212,8 +212,9 @@ static int ascending(const void *a, const void *b)
 }
 
 /* Prints the number of different values of a mask of one number, and how often the rarest and the most frequent one
-   occurs. Returns false without memory. */
-static bool put_histogram(cli_rows *rows, const koksma_mask *mask)
+   occurs; with a warning to stderr, if they are not equally often. warn: the file's name; NULL: no warning. Returns false
+   without memory. */
+static bool put_histogram(cli_rows *rows, const koksma_mask *mask, const char *warn)
 {
     const size_t n = (size_t)mask->width * (size_t)mask->height;
     float *sorted = malloc(n * sizeof *sorted);
@@ -231,6 +232,12 @@ static bool put_histogram(cli_rows *rows, const koksma_mask *mask)
         most = next - i > most ? next - i : most;
     }
     free(sorted);
+    if (warn && most > least + 1) { /* one more where the levels of a picture do not divide the pixels */
+        fprintf(stderr,
+                "koksma mask: %s: warning: no permutation: some numbers occur %zu times, others %zu, so that a "
+                "threshold keeps no exact share of the pixels; --from makes a mask of these numbers\n",
+                warn, least, most);
+    }
     cli_row_whole(rows, "levels", levels);
     cli_row_whole(rows, "least_often", least);
     cli_row_whole(rows, "most_often", most);
@@ -238,7 +245,7 @@ static bool put_histogram(cli_rows *rows, const koksma_mask *mask)
 }
 
 static int put_quality(cli_rows *rows, const char *path, const koksma_mask *mask, const char *filter,
-                       const koksma_mask_quality *q)
+                       const koksma_mask_quality *q, bool warn)
 {
     cli_row_text(rows, "file", path);
     cli_row_whole(rows, "width", (uint64_t)mask->width);
@@ -250,7 +257,7 @@ static int put_quality(cli_rows *rows, const char *path, const koksma_mask *mask
     cli_row_number(rows, "ratio", q->error / q->white);
     cli_row_number(rows, "inside", q->inside);
     cli_row_number(rows, "seam", q->seam);
-    const bool ok = mask->space->dim > 1 || put_histogram(rows, mask);
+    const bool ok = mask->space->dim > 1 || put_histogram(rows, mask, warn ? path : NULL);
     cli_row_end(rows);
     return ok ? CLI_YES : cli_no_memory();
 }
@@ -338,7 +345,8 @@ static int put_filters(const cli_arguments *arguments, cli_rows *rows, const cha
         status = status ? status
                         : koksma_mask_measure(mask->width, mask->height, mask->space, mask->values, &filter,
                                               (int)tests, run, &q);
-        code = status ? cli_fail(arguments, status) : put_quality(rows, path, mask, text, &q);
+        code = status ? cli_fail(arguments, status)
+                      : put_quality(rows, path, mask, text, &q, !i && !cli_flag(arguments, "quiet"));
     }
     return code;
 }
