@@ -52,11 +52,15 @@ enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
 #define KOKSMA__LUMINANCE(rgb) (0.2126 * (rgb)[0] + 0.7152 * (rgb)[1] + 0.0722 * (rgb)[2])
 
 /* Returns the luminance of a pixel. */
+static inline double koksma__luminance_of(const float rgb[3])
+{
+    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
+}
+
 static inline double koksma__luminance(const koksma_image *image, size_t pixel)
 {
     const float *p = image->pixels + pixel * (size_t)image->channels;
-    return image->channels == 1 ? (double)p[0]
-                                : 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
+    return image->channels == 1 ? (double)p[0] : koksma__luminance_of(p);
 }
 
 /* The transfer function of sRGB (IEC 61966-2-1): linear light of a level of [0,1], its inverse, and the level of 8 bits. */
