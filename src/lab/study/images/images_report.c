@@ -93,30 +93,12 @@ static void put_answer(koksma__document *d, const koksma__images *all, long long
     koksma__doc_paragraph_end(d);
 }
 
-static void put_columns(koksma__document *d)
-{
-    static const koksma__column columns[] = {
-        {.name = "images"},
-        {.name = "trials", .type = KOKSMA__COLUMN_NUMBER, .digits = 9},
-        {.name = "error", .type = KOKSMA__COLUMN_INTERVAL, .digits = 4},
-        {.name = "behind the first", .title = "behind, %", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3},
-        {.name = "rmse", .title = "RMSE", .type = KOKSMA__COLUMN_NUMBER, .digits = 4},
-        {.name = "largest error", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true},
-        {.name = "coherent", .title = "bands"},
-        {.name = "position", .type = KOKSMA__COLUMN_NUMBER, .digits = 9, .hidden = true},
-        {.name = "coherence", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true},
-    };
-    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
-        koksma__doc_column(d, &columns[i]);
-    }
-}
-
 static void put_table(koksma__document *d, const koksma__images *all, long long spp)
 {
-    char name[64];
-    snprintf(name, sizeof name, spp ? "errors-%lld" : "errors", spp);
-    koksma__doc_sorted_table_begin(d, name, "error", false, false);
-    put_columns(d);
+    koksma__doc_sorted_table_begin(d, "error", false, false, spp ? "errors-%lld" : "errors", spp);
+    koksma__doc_columns(d,
+                        "t images;n9 trials;i4 error;i3 behind the first#behind, %%;n4 rmse#RMSE;n3h largest error;"
+                        "t coherent#bands;n9h position;n3h coherence");
     for (size_t i = 0; i < all->n; i++) {
         const koksma_images_row *row = &all->rows[i];
         if (row->spp == spp) {
@@ -204,7 +186,7 @@ static void put_slopes(koksma__document *d, const koksma__images *all)
                           "Slope of the logarithm of the error over that of the number of samples, with its 95 %% "
                           "interval; independent random samples have -0.5. Simulated intervals hold in 94 to 98 %%.");
     put_chart(d, all);
-    koksma__doc_sorted_table_begin(d, "slopes", "slope", false, false);
+    koksma__doc_sorted_table_begin(d, "slope", false, false, "slopes");
     koksma__doc_columns(d, "t images;i3 slope");
     for (size_t i = 0; i < all->n; i++) {
         const koksma_images_row *row = &all->rows[i];

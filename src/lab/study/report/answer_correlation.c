@@ -202,8 +202,7 @@ static void add_combinations(koksma__document *d, const koksma__cases *cases, co
     }
     koksma__doc_section(d, NULL, "Combinations of measures, tried on the scene left out");
     say_findings(d, cases, &f);
-    snprintf(text, sizeof text, "combinations-%.40s", cases->topic->id);
-    koksma__doc_table_begin(d, text);
+    koksma__doc_table_begin(d, "combinations-%.40s", cases->topic->id);
     koksma__doc_columns(d, "t scene left out;n7 cases;t single measure;n3 its Spearman;t pair;n3 pair's Spearman;"
                            "n2 penalty of all;n3 all's Spearman;t best in hindsight;n3 hindsight's Spearman");
     for (size_t s = 0; s < f.n_scenes; s++) {
@@ -270,15 +269,11 @@ static koksma_status add_part(koksma__document *d, const koksma__rho_means *s, c
 static void add_parts(koksma__report *r, koksma__document *d, const koksma__rho_means *s, const char *name,
                       const char *id, const char *title, const part *parts, size_t n)
 {
-    char file[64];
-    snprintf(file, sizeof file, "correlation-%.10s-%.40s", name, id);
     koksma__doc_section(d, NULL, "%s", title);
-    koksma__doc_table_begin(d, file);
-    koksma__doc_column(d, &(koksma__column){.name = name});
-    koksma__doc_columns(d, "n7 cases;t best;t significantly worse than the best");
+    koksma__doc_table_begin(d, "correlation-%.10s-%.40s", name, id);
+    koksma__doc_columns(d, "t %s;n7 cases;t best;t significantly worse than the best", name);
     for (size_t m = 0; m < s->n; m++) {
-        koksma__doc_column(d,
-                           &(koksma__column){.name = s->of[m].measure, .type = KOKSMA__COLUMN_INTERVAL, .digits = 2});
+        koksma__doc_columns(d, "i2 %s", s->of[m].measure);
     }
     for (size_t i = 0; !r->status && i < n; i++) {
         koksma__report_keep(r, add_part(d, s, r->run, &parts[i]));
@@ -406,15 +401,12 @@ static void add_measures(koksma__document *d, const char *id, const koksma__rho_
     const size_t n_variants = s->n_variants < KOKSMA__RHO_VARIANTS ? s->n_variants : KOKSMA__RHO_VARIANTS;
     const koksma__rho_ranking *r = &j->of[0];
     const koksma__estimate none = {NAN, NAN, NAN};
-    char text[KOKSMA__VARIANT_TEXT + 64];
-    snprintf(text, sizeof text, "correlation-%.40s", id);
-    koksma__doc_table_begin(d, text);
+    koksma__doc_table_begin(d, "correlation-%.40s", id);
     koksma__doc_columns(d, "t measure;i3 mean Spearman;n2 p of 0 (Holm);n3 lowest without a scene;"
                            "n3 highest without a scene;i2 less the first;n2 p of that (Holm);n7 cases;"
                            "n7 cases that exclude 0");
     for (size_t v = 0; v < n_variants; v++) {
-        snprintf(text, sizeof text, "mean, %s", s->variants[v][0] ? s->variants[v] : "defaults");
-        koksma__doc_column(d, &(koksma__column){.name = text, .type = KOKSMA__COLUMN_NUMBER, .digits = 3});
+        koksma__doc_columns(d, "n3 mean, %s", s->variants[v][0] ? s->variants[v] : "defaults");
     }
     for (size_t i = 0; i < r->n; i++) {
         const koksma__rho_sums *m = &s->of[r->at[i].measure];
@@ -505,21 +497,14 @@ void koksma__answer_correlation(koksma__report *r, koksma__document *d, const ko
     const koksma__cases cases = koksma__cases_of(r, topic);
     listing l = {.most_patterns = 0};
     size_t most = 0; /* cases, if no two blocks have the same */
-    char name[64];
     for (size_t b = 0; b < topic->n_images; b++) {
         const koksma__image_block *i = topic->images[b];
         most += i->scenes.n * i->variants.n * i->spp.n;
     }
     l.combined = koksma__report_memory(r, most, sizeof *l.combined);
-    snprintf(name, sizeof name, "correlations-%.40s", topic->id);
-    koksma__doc_table_begin(&l.list, name);
-    koksma__doc_columns(&l.list, "t scene;t options;n7 samples;t measure;n7 patterns");
-    for (size_t i = 0; i < 2; i++) {
-        koksma__doc_column(&l.list, &(koksma__column){.name = i ? "Kendall" : "Spearman",
-                                                      .group = topic->metric,
-                                                      .type = KOKSMA__COLUMN_INTERVAL,
-                                                      .digits = 3});
-    }
+    koksma__doc_table_begin(&l.list, "correlations-%.40s", topic->id);
+    koksma__doc_columns(&l.list, "t scene;t options;n7 samples;t measure;n7 patterns;i3 Spearman##%s;i3 Kendall##%s",
+                        topic->metric, topic->metric);
     koksma__cases_visit(&cases, list_case, &l);
     koksma__doc_table_end(&l.list);
     if (!r->status && l.means.n) {

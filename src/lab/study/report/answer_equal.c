@@ -43,7 +43,6 @@ static void add_rows(koksma__report *r, koksma__document *d, const koksma__subje
 
 void koksma__answer_equal(koksma__report *r, koksma__document *d, const koksma__topic *topic)
 {
-    char text[KOKSMA_MAX_SPEC + 64];
     for (size_t b = 0; b < topic->n_images; b++) {
         const koksma__image_block *block = topic->images[b];
         bool has_target = false;
@@ -53,13 +52,9 @@ void koksma__answer_equal(koksma__report *r, koksma__document *d, const koksma__
         if (block->spp.n < 2 || !has_target) {
             continue;
         }
-        snprintf(text, sizeof text, "equal-%.32s-%zu", topic->id, b + 1);
-        koksma__doc_table_begin(d, text);
-        koksma__doc_columns(d, "t scene;t pattern");
-        snprintf(text, sizeof text, "samples as good as %d of %s", EQUAL_TO, block->patterns.at[0]);
-        koksma__doc_column(
-            d, &(koksma__column){.name = text, .group = topic->metric, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
-        koksma__doc_columns(d, "t how");
+        koksma__doc_table_begin(d, "equal-%.32s-%zu", topic->id, b + 1);
+        koksma__doc_columns(d, "t scene;t pattern;i3 samples as good as %lld of %s##%s;t how", (long long)EQUAL_TO,
+                            block->patterns.at[0], topic->metric);
         for (size_t k = 0; k < block->scenes.n * block->variants.n; k++) {
             const koksma__subject s =
                 koksma__subject_of_images(block, block->scenes.at[k / block->variants.n],

@@ -191,11 +191,9 @@ void koksma__answer_inequality(koksma__report *r, koksma__document *d, const kok
 {
     verdict all = {0};
     koksma__document rows = {0};
-    char file[64];
     koksma__phases phases = {0};
     const koksma_run run = koksma__phase_run(&phases, r->run, 0); /* many short calls: their fractions say nothing */
-    snprintf(file, sizeof file, "inequality-%.32s", topic->id);
-    koksma__doc_table_begin(&rows, file);
+    koksma__doc_table_begin(&rows, "inequality-%.32s", topic->id);
     koksma__doc_columns(&rows, "t f;t pattern;n6 N;n3 D*;n3 |error|;n3 V(f);n3 V(f) D*;n2 |error| / V(f) D*");
     for (size_t b = 0; b < topic->n_discrepancies; b++) {
         const koksma__discrepancy_block *block = topic->discrepancies[b];

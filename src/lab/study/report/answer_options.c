@@ -128,17 +128,6 @@ static void add_rows(koksma__report *r, koksma__document *d, koksma__subject s, 
     }
 }
 
-static void add_columns(koksma__document *d, const koksma__subject *s, const koksma__texts *of)
-{
-    char text[KOKSMA__VARIANT_TEXT + 64];
-    koksma__doc_columns(d, s->images ? "t scene;t pattern;n7 N" : "t measure;t pattern;n7 N");
-    for (size_t v = 0; v < of->n; v++) {
-        snprintf(text, sizeof text, "%s%s", v ? "relative change: " : "", name_of(of->at[v]));
-        koksma__doc_column(
-            d, &(koksma__column){.name = text, .group = s->metric, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
-    }
-}
-
 /* Adds the sentences and the table of the block of a subject, whose cases are its scenes or its measures. */
 static void add_block(koksma__report *r, koksma__document *d, const char *id, size_t number, koksma__subject s,
                       const koksma__texts *of)
@@ -146,10 +135,11 @@ static void add_block(koksma__report *r, koksma__document *d, const char *id, si
     const koksma__texts *cases = s.images ? &s.images->scenes : &s.points->measures;
     const options o = {of, koksma__report_memory(r, of->n, sizeof *o.changes)};
     koksma__document rows = {0};
-    char name[64];
-    snprintf(name, sizeof name, "options-%.32s-%zu", id, number);
-    koksma__doc_table_begin(&rows, name);
-    add_columns(&rows, &s, of);
+    koksma__doc_table_begin(&rows, "options-%.32s-%zu", id, number);
+    koksma__doc_columns(&rows, s.images ? "t scene;t pattern;n7 N" : "t measure;t pattern;n7 N");
+    for (size_t v = 0; v < of->n; v++) {
+        koksma__doc_columns(&rows, "i3 %s%s##%s", v ? "relative change: " : "", name_of(of->at[v]), s.metric);
+    }
     for (size_t i = 0; i < cases->n; i++) {
         *(s.images ? &s.scene : &s.measure) = cases->at[i];
         add_rows(r, &rows, s, &o);

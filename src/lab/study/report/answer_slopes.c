@@ -311,20 +311,6 @@ static const char *bound_of(const koksma__subject *s, const curve *like, curve *
     return bound.source;
 }
 
-static void add_columns(koksma__document *d, const koksma__subject *s)
-{
-    char text[64];
-    koksma__doc_columns(d, "t pattern");
-    koksma__doc_column(
-        d, &(koksma__column){.name = "slope", .group = s->metric, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
-    koksma__doc_columns(d, "t power law?");
-    for (size_t i = 0; i < s->n->n; i++) {
-        snprintf(text, sizeof text, "N = %lld", s->n->at[i]);
-        koksma__doc_column(
-            d, &(koksma__column){.name = text, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3, .hidden = true});
-    }
-}
-
 /* Adds the row and the line of a pattern. */
 static void add_pattern(koksma__document *d, koksma__document *chart, const slopes *s, size_t p, const curve *c)
 {
@@ -383,7 +369,7 @@ static void add_rows(koksma__report *r, koksma__document *d, koksma__document *c
 static void add_subject(koksma__report *r, koksma__document *d, const char *id, size_t number,
                         const koksma__subject *of)
 {
-    char file[64], title[256];
+    char title[256];
     const size_t n = of->patterns->n;
     slopes s = {.of = of,
                 .sense = sense_of(of),
@@ -395,13 +381,15 @@ static void add_subject(koksma__report *r, koksma__document *d, const char *id, 
     if (r->status) {
         return;
     }
-    snprintf(file, sizeof file, "slopes-%.32s-%zu", id, number);
     snprintf(title, sizeof title, "%.200s against N", of->name);
     koksma__doc_chart_begin(&chart, &(koksma__chart){title, of->images ? "samples a pixel" : "points",
                                                      of->images ? of->metric : of->measure, true, true,
                                                      s.sense == LARGER ? 1 : -1});
-    koksma__doc_sorted_table_begin(&rows, file, "slope", true, false);
-    add_columns(&rows, of);
+    koksma__doc_sorted_table_begin(&rows, "slope", true, false, "slopes-%.32s-%zu", id, number);
+    koksma__doc_columns(&rows, "t pattern;i3 slope##%s;t power law?", of->metric);
+    for (size_t i = 0; i < of->n->n; i++) {
+        koksma__doc_columns(&rows, "i3h N = %lld", of->n->at[i]);
+    }
     add_rows(r, &rows, &chart, &s);
     koksma__doc_table_end(&rows);
     koksma__doc_end(&chart);

@@ -233,29 +233,6 @@ static double position_of(const koksma__metric_means *means, size_t patterns, si
     return position;
 }
 
-static void add_metric_columns(koksma__document *d, const char *metric)
-{
-    char name[KOKSMA_MAX_SPEC + 32];
-    koksma__doc_column(
-        d, &(koksma__column){
-               .name = metric, .title = "mean 95 %", .group = metric, .type = KOKSMA__COLUMN_INTERVAL, .digits = 4});
-    snprintf(name, sizeof name, "%s, position", metric);
-    koksma__doc_column(
-        d, &(koksma__column){
-               .name = name, .title = "position", .group = metric, .type = KOKSMA__COLUMN_NUMBER, .digits = 3});
-    snprintf(name, sizeof name, "%s, robust", metric);
-    koksma__doc_column(d, &(koksma__column){.name = name,
-                                            .title = "without 0.1 %",
-                                            .group = metric,
-                                            .type = KOKSMA__COLUMN_NUMBER,
-                                            .digits = 4,
-                                            .hidden = true});
-    snprintf(name, sizeof name, "%s, top share", metric);
-    koksma__doc_column(
-        d,
-        &(koksma__column){.name = name, .group = metric, .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
-}
-
 /* Adds the table of the means by all metrics of the block, of the images with the largest number of samples, in the order
    of the table above it, and names the pattern with the least mean by each metric. */
 static void add_metrics(koksma__report *r, koksma__document *d, const char *id, size_t number, const standing *s)
@@ -263,7 +240,6 @@ static void add_metrics(koksma__report *r, koksma__document *d, const char *id, 
     const koksma__texts *metrics = &s->of->images->metrics, *patterns = s->of->patterns;
     const size_t n = metrics->n;
     koksma__metric_means *means = koksma__report_memory(r, patterns->n * n, sizeof *means);
-    char file[64];
     if (!means) {
         return;
     }
@@ -271,7 +247,6 @@ static void add_metrics(koksma__report *r, koksma__document *d, const char *id, 
         means[i] =
             koksma__read_metric(r, s->of, patterns->at[i / n], s->of->n->at[s->of->n->n - 1], metrics->at[i % n]);
     }
-    snprintf(file, sizeof file, "metrics-%.32s-%zu", id, number);
     koksma__doc_section(d, NULL, "By all metrics");
     koksma__doc_paragraph_begin(d);
     koksma__doc_say(d, "The least error with %s, by each metric:", s->last);
@@ -284,10 +259,14 @@ static void add_metrics(koksma__report *r, koksma__document *d, const char *id, 
     }
     koksma__doc_say(d, ".");
     koksma__doc_paragraph_end(d);
-    koksma__doc_table_begin(d, file);
+    koksma__doc_table_begin(d, "metrics-%.32s-%zu", id, number);
     koksma__doc_columns(d, "t pattern");
     for (size_t m = 0; m < n; m++) {
-        add_metric_columns(d, metrics->at[m]);
+        const char *metric = metrics->at[m];
+        koksma__doc_columns(d,
+                            "i4 %s#mean 95 %%#%s;n3 %s, position#position#%s;n4h %s, robust#without 0.1 %%#%s;"
+                            "n3h %s, top share##%s",
+                            metric, metric, metric, metric, metric, metric, metric, metric);
     }
     for (size_t i = 0; i < patterns->n; i++) {
         koksma__doc_row(d);
@@ -313,8 +292,7 @@ static bool add_means(koksma__report *r, koksma__document *d, const standing *s)
     koksma__doc_columns(d, "t pattern");
     for (size_t k = 0; k < of->n->n; k++) {
         name_column(of, k, text);
-        koksma__doc_column(
-            d, &(koksma__column){.name = text, .group = of->metric, .type = KOKSMA__COLUMN_INTERVAL, .digits = 4});
+        koksma__doc_columns(d, "i4 %s##%s", text, of->metric);
     }
     if (of->images) {
         koksma__doc_columns(d, "t in bands with");
@@ -338,14 +316,12 @@ static bool add_means(koksma__report *r, koksma__document *d, const standing *s)
 static void add_table(koksma__report *r, koksma__document *d, const char *id, size_t number,
                       const koksma__subject *of)
 {
-    char file[64];
     standing s = {
         .of = of, .means = koksma__read_means(r, of), .by = koksma__report_memory(r, of->patterns->n, sizeof *s.by)};
     if (r->status) {
         return;
     }
     order(&s);
-    snprintf(file, sizeof file, "means-%.32s-%zu", id, number);
     name_column(of, of->n->n - 1, s.last);
     koksma__doc_section(d, NULL, "%s", of->name);
     if (s.known > 1) {
@@ -358,7 +334,7 @@ static void add_table(koksma__report *r, koksma__document *d, const char *id, si
     if (of->images) {
         say_reference(r, d, of);
     }
-    koksma__doc_sorted_table_begin(d, file, s.last, false, of->larger);
+    koksma__doc_sorted_table_begin(d, s.last, false, of->larger, "means-%.32s-%zu", id, number);
     if (add_means(r, d, &s) && koksma_study_left_out_at(r->study, 0)) {
         koksma__doc_paragraph(d, "A cell without a number has no results: the section *Left out* gives the reasons.");
     }

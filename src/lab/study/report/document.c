@@ -368,14 +368,11 @@ void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t 
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
-void koksma__doc_table_begin(koksma__document *d, const char *name)
+static void begin_table(koksma__document *d, const char *column, bool by_width, bool descending, const char *format,
+                        va_list arguments)
 {
-    koksma__doc_sorted_table_begin(d, name, NULL, false, false);
-}
-
-void koksma__doc_sorted_table_begin(koksma__document *d, const char *name, const char *column, bool by_width,
-                                    bool descending)
-{
+    char name[256];
+    koksma__vsnprintf(name, sizeof name, format, arguments);
     begin_block(d, "table", NULL);
     koksma__json_write_text(&d->json, "name", name);
     if (column) {
@@ -389,41 +386,72 @@ void koksma__doc_sorted_table_begin(koksma__document *d, const char *name, const
     d->in_rows = false;
 }
 
-void koksma__doc_column(koksma__document *d, const koksma__column *c)
+void koksma__doc_table_begin(koksma__document *d, const char *format, ...)
 {
-    static const char *const types[] = {[KOKSMA__COLUMN_TEXT] = "text",
-                                        [KOKSMA__COLUMN_NUMBER] = "number",
-                                        [KOKSMA__COLUMN_INTERVAL] = "interval",
-                                        [KOKSMA__COLUMN_SPREAD] = "spread",
-                                        [KOKSMA__COLUMN_VERDICT] = "verdict"};
-    koksma__json_begin_object(&d->json, NULL);
-    koksma__json_write_text(&d->json, "name", c->name);
-    koksma__json_write_text(&d->json, "type", types[c->type]);
-    put_text(d, "title", c->title);
-    put_text(d, "group", c->group);
-    if (c->digits) {
-        put_number(d, c->fixed ? "decimals" : "digits", c->digits);
-    }
-    put_flag(d, "hidden", c->hidden);
-    put_flag(d, "merged", c->merged);
-    koksma__json_end(&d->json);
+    va_list arguments;
+    va_start(arguments, format);
+    begin_table(d, NULL, false, false, format, arguments);
+    va_end(arguments);
 }
 
-void koksma__doc_columns(koksma__document *d, const char *columns)
+void koksma__doc_sorted_table_begin(koksma__document *d, const char *column, bool by_width, bool descending,
+                                    const char *format, ...)
 {
-    while (*columns) {
-        char name[128];
-        const char type = *columns++;
-        const int digits = *columns == ' ' ? 0 : *columns++ - '0';
-        const size_t length = strcspn(++columns, ";");
-        snprintf(name, sizeof name, "%.*s", (int)length, columns);
-        koksma__doc_column(d, &(koksma__column){.name = name,
-                                                .type = type == 't'   ? KOKSMA__COLUMN_TEXT
-                                                        : type == 'n' ? KOKSMA__COLUMN_NUMBER
-                                                                      : KOKSMA__COLUMN_INTERVAL,
-                                                .digits = digits});
-        columns += length + (columns[length] == ';');
+    va_list arguments;
+    va_start(arguments, format);
+    begin_table(d, column, by_width, descending, format, arguments);
+    va_end(arguments);
+}
+
+/* Writes one of the heads of a column, which ends at '#' or ';', and returns the rest. */
+static const char *put_head(koksma__document *d, const char *key, const char *at, va_list *arguments)
+{
+    char text[2 * KOKSMA_MAX_SPEC + 256] = "";
+    const char *end = at + strcspn(at, "#;");
+    if (end - at == 2 && !strncmp(at, "%s", 2)) {
+        put_text(d, key, va_arg(*arguments, const char *));
+        return end;
     }
+    for (size_t used = 0; at < end && used < sizeof text; used = strlen(text)) {
+        const size_t plain = strcspn(at, "%#;"), number = plain ? 0 : strspn(at, "%l");
+        snprintf(text + used, sizeof text - used, "%.*s", (int)plain, at);
+        at += plain;
+        if (number == 3) {
+            snprintf(text + used, sizeof text - used, "%lld", va_arg(*arguments, long long));
+        } else if (!plain) {
+            snprintf(text + used, sizeof text - used, "%s", number == 2 ? "%" : va_arg(*arguments, const char *));
+        }
+        at += plain ? 0 : number == 2 ? 2 : number + 1;
+    }
+    put_text(d, key, text[0] ? text : NULL);
+    return end;
+}
+
+void koksma__doc_columns(koksma__document *d, const char *columns, ...)
+{
+    static const char letters[] = "tnisv";
+    static const char *const types[] = {"text", "number", "interval", "spread", "verdict"};
+    va_list arguments;
+    va_start(arguments, columns);
+    for (const char *at = columns; *at; at += *at == ';') {
+        const char *name = strchr(at, ' ') + 1, *type = strchr(letters, *at);
+        const int digits = at[1] >= '1' && at[1] <= '9' ? at[1] - '0' : 0;
+        const char *const fixed = memchr(at, 'f', (size_t)(name - at));
+        const char *const hidden = memchr(at, 'h', (size_t)(name - at)),
+                          *merged = memchr(at, 'm', (size_t)(name - at));
+        koksma__json_begin_object(&d->json, NULL);
+        at = put_head(d, "name", name, &arguments);
+        koksma__json_write_text(&d->json, "type", types[type - letters]);
+        at = *at == '#' ? put_head(d, "title", at + 1, &arguments) : at;
+        at = *at == '#' ? put_head(d, "group", at + 1, &arguments) : at;
+        if (digits) {
+            put_number(d, fixed ? "decimals" : "digits", digits);
+        }
+        put_flag(d, "hidden", hidden);
+        put_flag(d, "merged", merged);
+        koksma__json_end(&d->json);
+    }
+    va_end(arguments);
 }
 
 void koksma__doc_row(koksma__document *d)

@@ -86,25 +86,6 @@ void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t 
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
-typedef enum koksma__column_type {
-    KOKSMA__COLUMN_TEXT,
-    KOKSMA__COLUMN_NUMBER,
-    KOKSMA__COLUMN_INTERVAL, /* a value with its 95 % interval */
-    KOKSMA__COLUMN_SPREAD,   /* a value with its standard deviation */
-    KOKSMA__COLUMN_VERDICT   /* whether a published number agrees with the computed one */
-} koksma__column_type;
-
-typedef struct koksma__column {
-    const char *name;  /* head of the column in the CSV file */
-    const char *title; /* head on the page; NULL: the same as `name` */
-    const char *group; /* common head above neighbouring columns with an equal `group`; NULL: none */
-    koksma__column_type type;
-    int digits;  /* significant digits on the page; decimal places if `fixed` */
-    bool fixed;  /* `digits` counts decimal places */
-    bool hidden; /* the page hides the column; the data and the CSV file have it */
-    bool merged; /* the page merges cells of neighbouring rows with equal texts */
-} koksma__column;
-
 /* A cell with more than a value. koksma__cell_of sets the value and all other fields to NAN, 0 or NULL, which means
    unused. */
 typedef struct koksma__cell_data {
@@ -118,16 +99,19 @@ typedef struct koksma__cell_data {
 
 koksma__cell_data koksma__cell_of(double value);
 
-/* Begins a table: write its columns first, then its rows. `name` is the name of its CSV file without the extension.
+/* Begins a table: write its columns first, then its rows. The format gives the name of its CSV file without the extension.
    A row may have fewer cells than columns. */
-void koksma__doc_table_begin(koksma__document *d, const char *name);
+void koksma__doc_table_begin(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 /* Begins a table that the page sorts by a column: by the column's values, or by the widths of its intervals. */
-void koksma__doc_sorted_table_begin(koksma__document *d, const char *name, const char *column, bool by_width,
-                                    bool descending);
-void koksma__doc_column(koksma__document *d, const koksma__column *column);
-/* Several columns, such as "t pattern;n7 cases;i3 slope": the type of each (t text, n number, i interval), its digits
-   and its name. */
-void koksma__doc_columns(koksma__document *d, const char *columns);
+void koksma__doc_sorted_table_begin(koksma__document *d, const char *column, bool by_width, bool descending,
+                                    const char *format, ...) KOKSMA_PRINTF(5, 6);
+/* Columns, such as "t pattern;n7 cases;i3fh %s, slope#slope#%s". Each has a letter for its type: t text, n number, i value
+   with its 95 % interval, s value with its standard deviation, v verdict on a published number; then the digits on the
+   page; then letters: f the digits are decimal places, h the page hides the column, m it merges cells of neighbouring rows
+   with equal texts. After a blank follow the name, which heads the CSV file; after '#' the head on the page if that
+   differs; after another '#' a common head above neighbouring columns. The conversions are %s and %lld; a head that is
+   empty, or "%s" alone for NULL, is left out. */
+void koksma__doc_columns(koksma__document *d, const char *columns, ...) KOKSMA_PRINTF(2, 3);
 void koksma__doc_row(koksma__document *d);
 /* Cells of the open row. types has a letter for each, which is the type of its argument: t a text, n a double, z a size_t,
    d a long long, i a koksma__estimate. NAN: a dash. */

@@ -252,11 +252,9 @@ static size_t first_served(const koksma__image_block *block)
 static void add_coherence(koksma__document *d, const koksma__task *first, const koksma_coherence_values *values,
                           size_t n)
 {
-    char name[64];
     const char *id = first->image->id; /* blocks may have scenes in common */
-    snprintf(name, sizeof name, "coherence-%.20s%s%.20s-%lld", id ? id : "", id ? "-" : "", first->scene->name,
-             first->n);
-    koksma__doc_table_begin(d, name);
+    koksma__doc_table_begin(d, "coherence-%.20s%s%.20s-%lld", id ? id : "", id ? "-" : "", first->scene->name,
+                            first->n);
     koksma__doc_columns(d, "t pattern;n3 coherence;n3 noise from;n3 to;n2 p;n2 in common;n2 cycles a pixel;t error");
     for (size_t p = 0; p < n; p++) {
         const koksma_coherence_values *v = &values[p];

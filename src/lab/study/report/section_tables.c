@@ -45,7 +45,7 @@ static void begin_table(koksma__document *d, const koksma__table *t)
     char id[96];
     snprintf(id, sizeof id, "table-%.80s", t->id);
     koksma__doc_section(d, id, "Table %s: %s", t->id, t->title);
-    koksma__doc_table_begin(d, id);
+    koksma__doc_table_begin(d, "%s", id);
 }
 
 /* Ends the table and writes its notes. The section stays open for further paragraphs. */
@@ -66,14 +66,10 @@ static void end_table(koksma__document *d, const koksma__table *t)
    mean, SD and maximum. */
 static void add_published_columns(koksma__document *d, const char *verdict, const char *group)
 {
-    static const char *const names[3][2] = {
-        {"published mean", "ave"}, {"published SD", "SD"}, {"published max", "max"}};
-    koksma__doc_column(d, &(koksma__column){.name = "row", .title = "pattern"});
-    koksma__doc_column(d, &(koksma__column){.name = "pattern", .hidden = true});
-    koksma__doc_column(d, &(koksma__column){.name = "verdict", .title = verdict, .type = KOKSMA__COLUMN_VERDICT});
-    for (int i = 0; i < 3; i++) {
-        koksma__doc_column(d, &(koksma__column){names[i][0], names[i][1], group, KOKSMA__COLUMN_NUMBER, .digits = 4});
-    }
+    koksma__doc_columns(d,
+                        "t row#pattern;th pattern;v verdict#%s;n4 published mean#ave#%s;n4 published SD#SD#%s;"
+                        "n4 published max#max#%s",
+                        verdict, group, group, group);
 }
 
 /* Writes a cell with a number as published, and its note; a dash if the paper has no number there. */
@@ -145,16 +141,11 @@ static void count_sets(koksma__report *r, const koksma__table *t, size_t *most, 
    one, of which the page shows only the mean. */
 static void add_measure_columns(koksma__document *d, const char *measure, const char *group, size_t sets, bool beside)
 {
-    char name[KOKSMA_MAX_SPEC + 64], largest[64];
-    snprintf(name, sizeof name, "%s, mean", measure);
-    koksma__doc_column(
-        d, &(koksma__column){name, beside ? measure : "mean 95 %", group, KOKSMA__COLUMN_INTERVAL, .digits = 4});
-    snprintf(name, sizeof name, "%s, SD", measure);
-    koksma__doc_column(d, &(koksma__column){name, "SD", group, KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = beside});
-    snprintf(name, sizeof name, "%s, max", measure);
-    snprintf(largest, sizeof largest, "largest of %zu", sets < 100 ? sets : (size_t)100);
-    koksma__doc_column(d,
-                       &(koksma__column){name, largest, group, KOKSMA__COLUMN_SPREAD, .digits = 3, .hidden = beside});
+    koksma__doc_columns(d,
+                        beside ? "i4 %s, mean#%s#%s;n3h %s, SD#SD#%s;s3h %s, max#largest of %lld#%s"
+                               : "i4 %s, mean#%s#%s;n3 %s, SD#SD#%s;s3 %s, max#largest of %lld#%s",
+                        measure, beside ? measure : "mean 95 %", group, measure, group, measure,
+                        sets < 100 ? (long long)sets : 100LL, group);
 }
 
 static void add_measure_cells(koksma__document *d, const koksma__cell *cell, bool differ)
@@ -210,18 +201,11 @@ typedef struct sizes_table {
 
 static void add_size_columns(koksma__document *d, const koksma__table *t)
 {
-    char name[40];
-    koksma__doc_column(d, &(koksma__column){.name = "row", .title = "pattern", .merged = true});
-    koksma__doc_column(d, &(koksma__column){.name = "pattern", .hidden = true});
-    koksma__doc_column(d, &(koksma__column){.name = "values", .title = "mean"});
+    koksma__doc_columns(d, "tm row#pattern;th pattern;t values#mean");
     for (size_t i = 0; i < t->n.n; i++) {
-        snprintf(name, sizeof name, "%lld point%s", t->n.at[i], koksma__plural((double)t->n.at[i]));
-        koksma__doc_column(d, &(koksma__column){.name = name, .type = KOKSMA__COLUMN_INTERVAL, .digits = 4});
+        koksma__doc_columns(d, "i4 %lld point%s", t->n.at[i], koksma__plural((double)t->n.at[i]));
     }
-    koksma__doc_column(
-        d, &(koksma__column){
-               .name = "slope", .title = "slope 95 %", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3, .fixed = true});
-    koksma__doc_columns(d, "n3 theory;n2 × random");
+    koksma__doc_columns(d, "i3f slope#slope 95 %%;n3 theory;n2 × random");
 }
 
 /* Adds the row with the printed means. */
@@ -360,18 +344,8 @@ const koksma__section koksma__section_point_tables = {"Irregularity of the patte
 /* Adds the columns for the mean, SD and maximum of the error against a reference. */
 static void add_error_columns(koksma__document *d, const char *of, const char *group)
 {
-    static const koksma__column columns[] = {{"mean", "mean 95 %", .type = KOKSMA__COLUMN_INTERVAL, .digits = 5},
-                                             {"SD", "SD", .type = KOKSMA__COLUMN_NUMBER, .digits = 4},
-                                             {"max", "max", .type = KOKSMA__COLUMN_NUMBER, .digits = 3}};
-    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
-        char name[KOKSMA_MAX_SPEC + 64];
-        koksma__column column = columns[i];
-        snprintf(name, sizeof name, "%s, %s", of, column.name);
-        column.name = name;
-        column.group = group;
-        column.fixed = true;
-        koksma__doc_column(d, &column);
-    }
+    koksma__doc_columns(d, "i5f %s, mean#mean 95 %%#%s;n4f %s, SD#SD#%s;n3f %s, max#max#%s", of, group, of, group, of,
+                        group);
 }
 
 static void add_image_columns(koksma__document *d, const koksma__image_block *block)

@@ -182,8 +182,7 @@ static koksma_status put_table(dithering *e, koksma__document *d)
     koksma__doc_table_begin(d, "dithering");
     koksma__doc_columns(d, "t picture;t thresholds");
     for (size_t f = 0; f < e->sheet->n_filters; f++) {
-        koksma__doc_column(
-            d, &(koksma__column){.name = e->sheet->filter_names[f], .type = KOKSMA__COLUMN_NUMBER, .digits = 3});
+        koksma__doc_columns(d, "n3 %s", e->sheet->filter_names[f]);
     }
     koksma_status status = KOKSMA_OK;
     for (size_t picture = 0; picture < PICTURES && !status; picture++) {

@@ -68,11 +68,7 @@ static void put_chart(const koksma__sheet *sheet, const char *name, const koksma
 static void put_table(const koksma__sheet *sheet, const koksma_integration *results, koksma__document *d)
 {
     koksma__doc_table_begin(d, "integrals");
-    koksma__doc_column(d, &(koksma__column){.name = "integrand", .merged = true});
-    koksma__doc_columns(d, "t sampler;i3 RMSE");
-    koksma__doc_column(
-        d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 2, .fixed = true});
-    koksma__doc_columns(d, "n3 gain;n9 sets");
+    koksma__doc_columns(d, "tm integrand;t sampler;i3 RMSE;i2f slope;n3 gain;n9 sets");
     size_t approximate = 0;
     for (size_t k = 0; k < N_INTEGRANDS * sheet->n_samplers; k++) {
         const koksma_integration *r = &results[k];

@@ -229,14 +229,8 @@ static void put_summary(const koksma__sheet_values *v, koksma__document *d)
 {
     const size_t last = v->n_sizes - 1;
     koksma__doc_table_begin(d, "measures");
-    koksma__doc_columns(d, "t measure");
-    koksma__doc_column(d, &(koksma__column){.name = "mean", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
-    koksma__doc_column(
-        d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 2, .fixed = true});
-    if (v->n_samplers > 1) {
-        koksma__doc_columns(d, "t best of the others");
-        koksma__doc_column(d, &(koksma__column){.name = "its mean", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
-    }
+    koksma__doc_columns(d, v->n_samplers > 1 ? "t measure;i3 mean;i2f slope;t best of the others;i3 its mean"
+                                             : "t measure;i3 mean;i2f slope");
     for (size_t m = 0; m < v->n_measures; m++) {
         if (v->measures[m].left_out) {
             continue;
@@ -278,12 +272,8 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
 /* Writes a table with every number in its own row. */
 static void put_values(const koksma__sheet_values *v, const char *name, koksma__document *d)
 {
-    koksma__doc_table_begin(d, name);
-    koksma__doc_column(d, &(koksma__column){.name = "measure", .merged = true});
-    koksma__doc_column(d, &(koksma__column){.name = "sampler", .merged = true});
-    koksma__doc_columns(d, "n9 n;i4 mean");
-    koksma__doc_column(d, &(koksma__column){.name = "SD", .type = KOKSMA__COLUMN_NUMBER, .digits = 2});
-    koksma__doc_columns(d, "n9 sets");
+    koksma__doc_table_begin(d, "%s", name);
+    koksma__doc_columns(d, "tm measure;tm sampler;n9 n;i4 mean;n2 SD;n9 sets");
     for (size_t m = 0; m < v->n_measures; m++) {
         for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
             for (size_t i = 0; i < v->n_sizes; i++) {
@@ -301,12 +291,7 @@ static void put_values(const koksma__sheet_values *v, const char *name, koksma__
 static void put_slopes(const koksma__sheet_values *v, koksma__document *d)
 {
     koksma__doc_table_begin(d, "slopes");
-    koksma__doc_column(d, &(koksma__column){.name = "measure", .merged = true});
-    koksma__doc_columns(d, "t sampler");
-    koksma__doc_column(
-        d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3, .fixed = true});
-    koksma__doc_column(d, &(koksma__column){.name = "theory", .type = KOKSMA__COLUMN_NUMBER, .digits = 2});
-    koksma__doc_column(d, &(koksma__column){.name = "best possible", .type = KOKSMA__COLUMN_NUMBER, .digits = 2});
+    koksma__doc_columns(d, "tm measure;t sampler;i3f slope;n2 theory;n2 best possible");
     for (size_t m = 0; m < v->n_measures; m++) {
         for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
             koksma__doc_row(d);

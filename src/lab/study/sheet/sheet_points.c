@@ -110,7 +110,7 @@ static void put_matrix(const koksma__sheet *sheet, const koksma_findings *findin
     koksma__doc_table_begin(d, "properties");
     koksma__doc_columns(d, "t property");
     for (size_t s = 0; s < sheet->n_samplers; s++) {
-        koksma__doc_column(d, &(koksma__column){.name = sheet->samplers[s]->text});
+        koksma__doc_columns(d, "t %s", sheet->samplers[s]->text);
     }
     for (size_t p = 0; (property = koksma_property_at(p)) && !property->of_sets; p++) { /* those of sets come last */
         char text[48];
@@ -126,9 +126,8 @@ static void put_matrix(const koksma__sheet *sheet, const koksma_findings *findin
 
 static void put_findings(const koksma_findings *findings, const char *name, koksma__document *d)
 {
-    koksma__doc_table_begin(d, name);
-    koksma__doc_column(d, &(koksma__column){.name = "property", .merged = true});
-    koksma__doc_columns(d, "t subject;t holds;n6 value;t detail");
+    koksma__doc_table_begin(d, "%s", name);
+    koksma__doc_columns(d, "tm property;t subject;t holds;n6 value;t detail");
     for (size_t i = 0; i < findings->count; i++) {
         const koksma_finding *f = &findings->items[i];
         koksma__doc_row(d);

@@ -78,32 +78,10 @@ static const char *decision_of(const koksma_rank_row *row)
 
 static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
-    char name[128];
-    snprintf(name, sizeof name, "scene-%s", sheet->scenes[scene]);
-    koksma__doc_table_begin(d, name);
-    koksma__doc_column(d, &(koksma__column){.name = "samples a pixel",
-                                            .title = "samples",
-                                            .digits = 9,
-                                            .merged = true,
-                                            .type = KOKSMA__COLUMN_NUMBER});
-    koksma__doc_columns(d, "t sampler;i4 error");
-    koksma__doc_column(d, &(koksma__column){.name = "behind the first",
-                                            .title = "behind",
-                                            .type = KOKSMA__COLUMN_INTERVAL,
-                                            .digits = 2,
-                                            .fixed = true});
-    koksma__doc_column(d, &(koksma__column){.name = "coherent", .title = "bands"});
-    koksma__doc_column(
-        d, &(koksma__column){.name = "position", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
-    koksma__doc_column(
-        d, &(koksma__column){.name = "coherence", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
-    koksma__doc_column(d, &(koksma__column){.name = "decision", .hidden = true});
-    koksma__doc_column(
-        d, &(koksma__column){.name = "images", .type = KOKSMA__COLUMN_NUMBER, .digits = 9, .hidden = true});
-    koksma__doc_column(
-        d, &(koksma__column){.name = "robust", .type = KOKSMA__COLUMN_NUMBER, .digits = 4, .hidden = true});
-    koksma__doc_column(
-        d, &(koksma__column){.name = "top share", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
+    koksma__doc_table_begin(d, "scene-%s", sheet->scenes[scene]);
+    koksma__doc_columns(d,
+                        "n9m samples a pixel#samples;t sampler;i4 error;i2f behind the first#behind;t coherent#bands;"
+                        "n3h position;n3h coherence;th decision;n9h images;n4h robust;n3h top share");
     for (size_t k = 0; k < sheet->n_spp; k++) {
         const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
         for (size_t i = 0; i < sheet->n_samplers; i++) {
