@@ -88,8 +88,8 @@ static const char *const scene_names[SCENES] = {"s0", "s1", "s2", "s3"};
 static const char *const measure_names[MEASURES] = {"A", "B", "C", "D", "E"};
 
 /* Correlations of measures by scene, with resamples of this standard deviation; without a scene (SCENES: all). */
-static void add_means(koksma__rho_means *s, const double rho[MEASURES][SCENES], size_t measures, double sd,
-                      size_t without)
+static void add_means(koksma__report *r, koksma__rho_means *s, const double rho[MEASURES][SCENES], size_t measures,
+                      double sd, size_t without)
 {
     double draws[KOKSMA__RHO_SAMPLES];
     *s = (koksma__rho_means){0};
@@ -101,11 +101,11 @@ static void add_means(koksma__rho_means *s, const double rho[MEASURES][SCENES], 
                 for (uint64_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
                     draws[i] = rho[m][k] + sd * normal(10 * m + k, i);
                 }
-                assert_ok(koksma__rho_add(s, &source, &e, draws));
+                koksma__rho_add(r, s, &source, &e, draws);
             }
         }
     }
-    koksma__rho_order(s);
+    koksma__rho_order(r, s);
 }
 
 static size_t number_of(const koksma__rho_means *s, const char *measure)
@@ -127,12 +127,12 @@ TEST_CASE(headline_without_one_scene)
 {
     const double rho[MEASURES][SCENES] = {
         {.92, .92, .92, .92}, {.5, .5, .5, .5}, {.9, .9, .9, -.4}, {.05, -.05, .05, -.05}};
+    koksma__report report = {0};
     koksma__rho_means s;
-    koksma__rho_jackknife j;
     koksma__document words = {0};
     char text[4096];
-    add_means(&s, rho, 4, 0.03, SCENES);
-    assert_ok(koksma__rho_leave_out(&s, NULL, &j));
+    add_means(&report, &s, rho, 4, 0.03, SCENES);
+    const koksma__rho_jackknife j = koksma__rho_leave_out(&report, &s);
     assert_int_equal(j.n, 1 + SCENES);
     assert_true(j.of[0].n_pairs == 6 && j.of[0].n == 4);
     const size_t a = number_of(&s, "A"), b = number_of(&s, "B"), c = number_of(&s, "C"), d = number_of(&s, "D");
@@ -150,8 +150,7 @@ TEST_CASE(headline_without_one_scene)
     assert_non_null(strstr(text, "A than B and D;"));
     assert_null(strstr(text, "A than C"));
     assert_non_null(strstr(text, "2 more differences are sure over all scenes, but not if some scene is left out."));
-    koksma__rho_jackknife_fini(&j);
-    koksma__rho_fini(&s);
+    koksma__report_release(&report);
     koksma__json_writer_fini(&words.json);
 }
 
@@ -159,12 +158,12 @@ TEST_CASE(headline_without_one_scene)
 TEST_CASE(headline_that_depends_on_a_scene)
 {
     const double rho[MEASURES][SCENES] = {{.95, .95, .95, -.5}, {.6, .6, .6, .6}};
+    koksma__report report = {0};
     koksma__rho_means s;
-    koksma__rho_jackknife j;
     koksma__document words = {0};
     char text[4096];
-    add_means(&s, rho, 2, 0.03, SCENES);
-    assert_ok(koksma__rho_leave_out(&s, NULL, &j));
+    add_means(&report, &s, rho, 2, 0.03, SCENES);
+    const koksma__rho_jackknife j = koksma__rho_leave_out(&report, &s);
     koksma__rho_say(&words, &s, &j);
     said(&words, text, sizeof text);
     assert_non_null(strstr(text, "The best predictor depends on the scenes. Over all of them it is B (mean Spearman "
@@ -172,8 +171,7 @@ TEST_CASE(headline_that_depends_on_a_scene)
     assert_non_null(strstr(text, "; without s3 it is A."));
     assert_non_null(strstr(text, "No measure is surely better than another, whichever one scene is left out."));
     assert_null(strstr(text, "The last is"));
-    koksma__rho_jackknife_fini(&j);
-    koksma__rho_fini(&s);
+    koksma__report_release(&report);
     koksma__json_writer_fini(&words.json);
 }
 
@@ -186,14 +184,13 @@ TEST_CASE(statements_survive_any_scene)
         for (uint64_t i = 0; i < (uint64_t)MEASURES * SCENES; i++) {
             rho[i / SCENES][i % SCENES] = 0.8 - 0.2 * (double)(i / SCENES) + 0.3 * (uniform(t, i) - 0.5);
         }
+        koksma__report report = {0};
         koksma__rho_means all, less;
-        koksma__rho_jackknife j;
-        add_means(&all, rho, MEASURES, 0.05, SCENES);
-        assert_ok(koksma__rho_leave_out(&all, NULL, &j));
+        add_means(&report, &all, rho, MEASURES, 0.05, SCENES);
+        const koksma__rho_jackknife j = koksma__rho_leave_out(&report, &all);
         for (size_t k = 0; k < SCENES; k++) {
-            koksma__rho_ranking r;
-            add_means(&less, rho, MEASURES, 0.05, k);
-            assert_ok(koksma__rho_rank(&less, &(koksma__rho_subset){0}, NULL, &r));
+            add_means(&report, &less, rho, MEASURES, 0.05, k);
+            const koksma__rho_ranking r = koksma__rho_rank(&report, &less, &(koksma__rho_subset){0});
             for (size_t a = 0; a < MEASURES; a++) {
                 for (size_t b = 0; b < MEASURES; b++) {
                     const size_t x = number_of(&less, measure_names[a]), y = number_of(&less, measure_names[b]);
@@ -207,11 +204,8 @@ TEST_CASE(statements_survive_any_scene)
             if (koksma__rho_always(&j, KOKSMA__RHO_FIRST, number_of(&all, "A"), 0)) {
                 assert_int_equal(r.at[0].measure, number_of(&less, "A"));
             }
-            koksma__rho_ranking_fini(&r);
-            koksma__rho_fini(&less);
         }
-        koksma__rho_jackknife_fini(&j);
-        koksma__rho_fini(&all);
+        koksma__report_release(&report);
     }
     assert_true(stated > 0 && dropped > 0);
 }
@@ -221,23 +215,21 @@ TEST_CASE(means_of_parts)
 {
     const double rho[MEASURES][SCENES] = {{.9, .5, .3, .1}, {.2, .4, .6, .8}};
     const bool first_two[SCENES] = {true, true, false, false};
+    koksma__report report = {0};
     koksma__rho_means s;
     koksma__rho_ranking r;
-    add_means(&s, rho, 2, 0.02, SCENES);
-    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.scenes = first_two}, NULL, &r));
+    add_means(&report, &s, rho, 2, 0.02, SCENES);
+    r = koksma__rho_rank(&report, &s, &(koksma__rho_subset){.scenes = first_two});
     assert_string_equal(s.of[r.at[0].measure].measure, "A");
     assert_near(r.at[0].mean.value, 0.7, 1e-15);
     assert_near(r.at[1].less.value, 0.3 - 0.7, 1e-15);
     assert_in_range(1000 * (r.at[0].mean.high - r.at[0].mean.low), 50, 61); /* 2 x 1.96 x 0.02 / sqrt(2) = 0.0554 */
-    koksma__rho_ranking_fini(&r);
-    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.spp = 4}, NULL, &r)); /* s2 and s3 */
+    r = koksma__rho_rank(&report, &s, &(koksma__rho_subset){.spp = 4});     /* s2 and s3 */
     assert_string_equal(s.of[r.at[0].measure].measure, "B");
     assert_near(r.at[0].mean.value, 0.7, 1e-15);
-    koksma__rho_ranking_fini(&r);
-    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.scenes = first_two, .spp = 4}, NULL, &r));
+    r = koksma__rho_rank(&report, &s, &(koksma__rho_subset){.scenes = first_two, .spp = 4});
     assert_int_equal(r.n, 0);
-    koksma__rho_ranking_fini(&r);
-    koksma__rho_fini(&s);
+    koksma__report_release(&report);
 }
 
 /* ---- Rank regression ----------------------------------------------------------------------------------- */

@@ -417,7 +417,7 @@ TEST_CASE(correlations_as_shown)
     } cases[] = {{{1, -1, 1}, 6}, {{1, 1, 1}, 6}, {{1, 1, 1}, 8}, {{0.9, 0.5, 1}, 8}, {{0.2, -0.3, 0.6}, 8}};
     const double draws[KOKSMA__RHO_SAMPLES] = {0};
     koksma__rho_means means = {0};
-    koksma__rho_jackknife jackknife;
+    koksma__report report = {0};
     koksma__document words = {0};
     char text[4096];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -425,17 +425,17 @@ TEST_CASE(correlations_as_shown)
         assert_near(shown.value, cases[i].rho.value, 0);
         assert_int_equal(isnan(shown.low) && isnan(shown.high), i < 3);
         const koksma__rho_source source = {"star", "ball", "", 16, cases[i].n_patterns};
-        assert_ok(koksma__rho_add(&means, &source, &shown, draws));
+        koksma__rho_add(&report, &means, &source, &shown, draws);
     }
     assert_int_equal(means.of[0].sure, 1);
-    assert_ok(koksma__rho_leave_out(&means, NULL, &jackknife));
+    koksma__rho_order(&report, &means);
+    const koksma__rho_jackknife jackknife = koksma__rho_leave_out(&report, &means);
     koksma__rho_say(&words, &means, &jackknife);
-    koksma__rho_jackknife_fini(&jackknife);
     assert_non_null(
         strstr(said(&words, text, sizeof text),
                "over 5 cases; the interval excludes 0 in 1 of them; 2 have fewer than 7 patterns, too few "
                "for an interval; 1 are in perfect order, which has no interval)"));
-    koksma__rho_fini(&means);
+    koksma__report_release(&report);
     koksma__json_writer_fini(&words.json);
 }
 

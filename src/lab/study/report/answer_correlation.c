@@ -238,13 +238,11 @@ static void append(char *text, size_t size, const char *between, const char *mor
 
 /* Adds a row: the mean of every measure, the best measure, and those that are significantly worse than the best, by Holm's
    method over the pairs of measures in that row. */
-static koksma_status add_part(koksma__document *d, const koksma__rho_means *s, const koksma_run *run, const part *of)
+static void add_part(koksma__report *report, koksma__document *d, const koksma__rho_means *s, const part *of)
 {
-    koksma__rho_ranking r;
-    const koksma_status status = koksma__rho_rank(s, &(koksma__rho_subset){of->scenes, of->spp}, run, &r);
-    if (status || !r.n) {
-        koksma__rho_ranking_fini(&r);
-        return status;
+    const koksma__rho_ranking r = koksma__rho_rank(report, s, &(koksma__rho_subset){of->scenes, of->spp});
+    if (!r.n) {
+        return;
     }
     char worse[512] = "";
     for (size_t i = 1; i < r.n; i++) {
@@ -261,8 +259,6 @@ static koksma_status add_part(koksma__document *d, const koksma__rho_means *s, c
         }
         koksma__doc_cells(d, "i", mean);
     }
-    koksma__rho_ranking_fini(&r);
-    return KOKSMA_OK;
 }
 
 /* Adds a table with n parts as rows. `name` is the head of its first column. */
@@ -276,7 +272,7 @@ static void add_parts(koksma__report *r, koksma__document *d, const koksma__rho_
         koksma__doc_columns(d, "i2 %s", s->of[m].measure);
     }
     for (size_t i = 0; !r->status && i < n; i++) {
-        koksma__report_keep(r, add_part(d, s, r->run, &parts[i]));
+        add_part(r, d, s, &parts[i]);
     }
     koksma__doc_table_end(d);
     koksma__doc_end(d);
@@ -391,7 +387,7 @@ static void list_case(const koksma__cases *cases, void *context, const koksma__c
     koksma__doc_cells(d, "ttdtzii", p->scene, p->variant[0] ? p->variant : "defaults", p->spp, p->of->label, found.n,
                       rho, koksma__rho_shown(&tau, found.n));
     const koksma__rho_source source = {p->of->label, p->scene, p->variant, p->spp, found.n};
-    koksma__report_keep(r, koksma__rho_add(&l->means, &source, &rho, draws));
+    koksma__rho_add(r, &l->means, &source, &rho, draws);
 }
 
 /* Writes the table of all measures, with their means over all cases. */
@@ -475,15 +471,14 @@ static void add_scatter(const koksma__cases *cases, void *context, const koksma_
 static void add_answer(koksma__document *d, const koksma__cases *cases, listing *l)
 {
     koksma__report *r = cases->report;
-    koksma__rho_jackknife jackknife;
-    koksma__rho_order(&l->means);
-    if (!koksma__report_keep(r, koksma__rho_leave_out(&l->means, r->run, &jackknife))) {
+    koksma__rho_order(r, &l->means);
+    const koksma__rho_jackknife jackknife = koksma__rho_leave_out(r, &l->means);
+    if (r->status) {
         return;
     }
     koksma__rho_say(d, &l->means, &jackknife);
     say_limits(d, l);
     add_measures(d, cases->topic->id, &l->means, &jackknife);
-    koksma__rho_jackknife_fini(&jackknife);
     add_breakdowns(r, d, cases->topic, &l->means);
     add_combinations(d, cases, l);
     koksma__doc_collapsed_section(d, NULL, "Every case, with intervals");
@@ -512,5 +507,4 @@ void koksma__answer_correlation(koksma__report *r, koksma__document *d, const ko
     }
     koksma__report_keep(r, l.list.json.status);
     koksma__json_writer_fini(&l.list.json);
-    koksma__rho_fini(&l.means);
 }

@@ -43,6 +43,20 @@ void *koksma__report_memory(koksma__report *r, size_t n, size_t size)
     return *slot;
 }
 
+void *koksma__report_add(koksma__report *r, void *items, size_t *n, size_t size)
+{
+    void **list = items;
+    if (!(*n & (*n - 1))) { /* a power of 2, or 0: the list is full */
+        void *more = koksma__report_memory(r, 2 * *n, size);
+        if (!more) {
+            return NULL;
+        }
+        memcpy(more, *n ? *list : more, *n * size);
+        *list = more;
+    }
+    return (char *)*list + size * (*n)++;
+}
+
 void koksma__report_release(koksma__report *r)
 {
     while (r->n_memory) {

@@ -199,6 +199,7 @@ static void write_questions(koksma__report *r, koksma__document *d)
             koksma__report_keep(r, koksma__fail_interrupted());
         }
         answer_question(r, d, &plan->questions[i]);
+        koksma__report_release(r);
     }
     for (size_t i = 0; !r->status && i < plan->n_parts; i++) {
         if (plan->parts[i].asks) {

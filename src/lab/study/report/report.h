@@ -32,8 +32,13 @@ bool koksma__report_goes_on(koksma__report *r);
 /* Keeps a status, unless an earlier one was a failure. Returns whether nothing failed yet. */
 bool koksma__report_keep(koksma__report *r, koksma_status status);
 
-/* Memory for n zeroed items, which the end of the section frees; NULL after a failure, which may be of this memory. */
+/* Memory for n zeroed items, which the end of the question or section frees; NULL after a failure, which may be of this
+   memory. */
 void *koksma__report_memory(koksma__report *r, size_t n, size_t size);
+
+/* Adds a zeroed item to a list of *n items in such memory, which may move; returns it, or NULL after a failure. items: the
+   address of the list. */
+void *koksma__report_add(koksma__report *r, void *items, size_t *n, size_t size);
 void koksma__report_release(koksma__report *r);
 
 /* The plan that a section of each plan is about. */

@@ -11,76 +11,65 @@
 #include "study/report/rho.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "core/capacity.h"
-#include "core/parallel.h"
 #include "core/status.h"
 
 /* Finds or adds the sums of a measure; NULL: no memory. */
-static koksma__rho_sums *sums_of(koksma__rho_means *s, const char *measure)
+static koksma__rho_sums *sums_of(koksma__report *r, koksma__rho_means *s, const char *measure)
 {
     for (size_t m = 0; m < s->n; m++) {
         if (!strcmp(s->of[m].measure, measure)) {
             return &s->of[m];
         }
     }
-    koksma__rho_sums *of = koksma__add_one(&s->of, &s->n, sizeof *of);
+    koksma__rho_sums *of = koksma__report_add(r, &s->of, &s->n, sizeof *of);
     if (of) {
         of->measure = measure;
     }
     return of;
 }
 
-static koksma_status index_of(const char ***texts, size_t *n, const char *text, size_t *index)
+static size_t index_of(koksma__report *r, const char ***texts, size_t *n, const char *text)
 {
-    for (*index = 0; *index < *n; ++*index) {
-        if (!strcmp((*texts)[*index], text)) {
-            return KOKSMA_OK;
-        }
+    size_t i = 0;
+    while (i < *n && strcmp((*texts)[i], text) != 0) {
+        i++;
     }
-    const char **added = koksma__add_one(texts, n, sizeof *added);
-    if (!added) {
-        return KOKSMA_MEMORY;
+    const char **added = i < *n ? NULL : koksma__report_add(r, texts, n, sizeof *added);
+    if (added) {
+        *added = text;
     }
-    *added = text;
-    return KOKSMA_OK;
+    return i;
 }
 
-static koksma_status add_size(koksma__rho_means *s, long long spp)
+static void add_size(koksma__report *r, koksma__rho_means *s, long long spp)
 {
     for (size_t i = 0; i < s->n_sizes; i++) {
         if (s->sizes[i] == spp) {
-            return KOKSMA_OK;
+            return;
         }
     }
-    long long *size = koksma__add_one(&s->sizes, &s->n_sizes, sizeof *size);
-    if (!size) {
-        return KOKSMA_MEMORY;
+    long long *size = koksma__report_add(r, &s->sizes, &s->n_sizes, sizeof *size);
+    if (size) {
+        *size = spp;
     }
-    *size = spp;
-    return KOKSMA_OK;
 }
 
 /* Finds or adds the cell of a scene and a number of samples; NULL: no memory. */
-static koksma__rho_cell *cell_of(koksma__rho_sums *of, size_t scene, long long spp)
+static koksma__rho_cell *cell_of(koksma__report *r, koksma__rho_sums *of, size_t scene, long long spp)
 {
     for (size_t c = 0; c < of->n_cells; c++) {
         if (of->cells[c].scene == scene && of->cells[c].spp == spp) {
             return &of->cells[c];
         }
     }
-    koksma__rho_cell *cell = koksma__add_one(&of->cells, &of->n_cells, sizeof *cell);
-    if (!cell) {
-        return NULL;
+    koksma__rho_cell *cell = koksma__report_add(r, &of->cells, &of->n_cells, sizeof *cell);
+    if (cell) {
+        *cell = (koksma__rho_cell){
+            .scene = scene, .spp = spp, .draws = koksma__report_memory(r, KOKSMA__RHO_SAMPLES, sizeof *cell->draws)};
     }
-    *cell = (koksma__rho_cell){.scene = scene, .spp = spp, .draws = calloc(KOKSMA__RHO_SAMPLES, sizeof *cell->draws)};
-    if (!cell->draws) {
-        (void)koksma__fail_memory(KOKSMA__RHO_SAMPLES * sizeof *cell->draws);
-        return NULL;
-    }
-    return cell;
+    return r->status ? NULL : cell;
 }
 
 koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns)
@@ -89,17 +78,16 @@ koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_pattern
     return says ? *rho : (koksma__estimate){rho->value, NAN, NAN};
 }
 
-koksma_status koksma__rho_add(koksma__rho_means *s, const koksma__rho_source *source, const koksma__estimate *rho,
-                              const double draws[KOKSMA__RHO_SAMPLES])
+void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const koksma__rho_source *source,
+                     const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES])
 {
-    size_t v, scene;
-    koksma__rho_sums *of = sums_of(s, source->measure);
-    koksma_status status = of ? index_of(&s->variants, &s->n_variants, source->variant, &v) : KOKSMA_MEMORY;
-    status = status ? status : index_of(&s->scenes, &s->n_scenes, source->scene, &scene);
-    status = status ? status : add_size(s, source->spp);
-    koksma__rho_cell *cell = status ? NULL : cell_of(of, scene, source->spp);
+    koksma__rho_sums *of = sums_of(r, s, source->measure);
+    const size_t v = index_of(r, &s->variants, &s->n_variants, source->variant),
+                 scene = index_of(r, &s->scenes, &s->n_scenes, source->scene);
+    add_size(r, s, source->spp);
+    koksma__rho_cell *cell = of ? cell_of(r, of, scene, source->spp) : NULL;
     if (!cell) {
-        return KOKSMA_MEMORY;
+        return;
     }
     const bool few = source->n_patterns < KOKSMA__LEAST_PAIRS;
     cell->total += rho->value;
@@ -117,7 +105,6 @@ koksma_status koksma__rho_add(koksma__rho_means *s, const koksma__rho_source *so
         of->rho[v] += rho->value;
         of->cases[v]++;
     }
-    return KOKSMA_OK;
 }
 
 static double mean_rho(const koksma__rho_sums *m)
@@ -126,8 +113,9 @@ static double mean_rho(const koksma__rho_sums *m)
 }
 
 /* Uses insertion sort, because measures and numbers of samples are few. */
-void koksma__rho_order(koksma__rho_means *s)
+void koksma__rho_order(koksma__report *r, koksma__rho_means *s)
 {
+    s->draws = koksma__report_memory(r, s->n * KOKSMA__RHO_SAMPLES, sizeof *s->draws);
     for (size_t m = 1; m < s->n; m++) {
         const koksma__rho_sums of = s->of[m];
         size_t at = m;
@@ -146,17 +134,6 @@ void koksma__rho_order(koksma__rho_means *s)
     }
 }
 
-void koksma__rho_fini(koksma__rho_means *s)
-{
-    for (size_t m = 0; m < s->n; m++) {
-        for (size_t c = 0; c < s->of[m].n_cells; c++) {
-            free(s->of[m].cells[c].draws);
-        }
-        free(s->of[m].cells);
-    }
-    KOKSMA__FREE(s->of, s->variants, s->scenes, s->sizes);
-}
-
 /* ---- Rankings ---------------------------------------------------------------------------------------------- */
 
 static const double LEVEL = 0.05;
@@ -167,8 +144,8 @@ static bool is_in(const koksma__rho_subset *of, const koksma__rho_cell *cell)
 }
 
 /* Computes a measure's mean over the subset, and its resamples; out->cases = 0: the measure has no such cases. */
-static koksma_status stand(const koksma__rho_sums *m, const koksma__rho_subset *of, double *draws,
-                           koksma__rho_standing *out)
+static void stand(koksma__report *r, const koksma__rho_sums *m, const koksma__rho_subset *of, double *draws,
+                  koksma__rho_standing *out)
 {
     size_t few = 0;
     double total = 0;
@@ -191,43 +168,55 @@ static koksma_status stand(const koksma__rho_sums *m, const koksma__rho_subset *
         draws[i] *= share;
     }
     const koksma__draws mean = {total * share, 1, draws}, zero = {0, 0, draws};
-    const koksma_status status = koksma__bootstrap_difference(&mean, &zero, KOKSMA__RHO_SAMPLES, &out->mean);
+    koksma__report_keep(r, koksma__bootstrap_difference(&mean, &zero, KOKSMA__RHO_SAMPLES, &out->mean));
     out->p = koksma__resampled_p(draws, 1, NULL, 0, KOKSMA__RHO_SAMPLES);
     if (few) {
         out->mean.low = out->mean.high = NAN;
         out->p = 1;
     }
-    return status;
+}
+
+/* Finds by how much each mean is less than the first, and adjusts the p-values of the means by Holm's method. */
+static void compare_means(koksma__report *r, koksma__rho_ranking *k, double *const *draws)
+{
+    double *p = koksma__report_memory(r, k->n, sizeof *p);
+    for (size_t i = 0; p && i < k->n; i++) {
+        p[i] = k->at[i].p;
+    }
+    koksma__report_keep(r, p ? koksma__holm(p, k->n) : r->status);
+    for (size_t i = 0; !r->status && i < k->n; i++) {
+        const koksma__draws mean = {k->at[i].mean.value, 1, draws[i]}, first = {k->at[0].mean.value, 1, draws[0]};
+        k->at[i].p = p[i];
+        koksma__report_keep(r, koksma__bootstrap_difference(&mean, &first, KOKSMA__RHO_SAMPLES, &k->at[i].less));
+        if (i == 0 || isnan(k->at[i].mean.low) || isnan(k->at[0].mean.low)) {
+            k->at[i].less.low = k->at[i].less.high = NAN;
+        }
+    }
 }
 
 /* Computes the p-values of all pairs of measures that can be compared, adjusted by Holm's method. */
-static koksma_status compare_pairs(const koksma_run *run, koksma__rho_ranking *r, double *const *draws)
+static void compare_pairs(koksma__report *r, koksma__rho_ranking *k, double *const *draws)
 {
-    const size_t n = r->n;
-    double *p = malloc((n * n + 1) * sizeof *p);
-    KOKSMA__REQUIRE_MEMORY(p, (n * n + 1) * sizeof *p);
-    koksma_status status = KOKSMA_OK;
-    for (size_t a = 0; !status && a < n; a++) {
-        status = koksma__ask(run);
-        for (size_t b = a; !status && b < n; b++) {
-            const koksma__rho_standing *x = &r->at[a], *y = &r->at[b];
+    const size_t n = k->n;
+    double *p = koksma__report_memory(r, n * n, sizeof *p);
+    for (size_t a = 0; koksma__report_goes_on(r) && a < n; a++) {
+        for (size_t b = a; b < n; b++) {
+            const koksma__rho_standing *x = &k->at[a], *y = &k->at[b];
             const bool compared = a != b && x->cases == y->cases && !isnan(x->mean.low) && !isnan(y->mean.low);
-            r->p[a * n + b] = r->p[b * n + a] = compared ? 1 : (double)NAN;
+            k->p[a * n + b] = k->p[b * n + a] = compared ? 1 : (double)NAN;
             if (compared) {
-                p[r->n_pairs++] = koksma__resampled_p(draws[a], 1, draws[b], 1, KOKSMA__RHO_SAMPLES);
+                p[k->n_pairs++] = koksma__resampled_p(draws[a], 1, draws[b], 1, KOKSMA__RHO_SAMPLES);
             }
         }
     }
-    status = status ? status : koksma__holm(p, r->n_pairs);
-    for (size_t a = 0, k = 0; !status && a < n; a++) {
+    koksma__report_keep(r, p ? koksma__holm(p, k->n_pairs) : r->status);
+    for (size_t a = 0, next = 0; !r->status && a < n; a++) {
         for (size_t b = a + 1; b < n; b++) {
-            if (!isnan(r->p[a * n + b])) {
-                r->p[a * n + b] = r->p[b * n + a] = p[k++];
+            if (!isnan(k->p[a * n + b])) {
+                k->p[a * n + b] = k->p[b * n + a] = p[next++];
             }
         }
     }
-    free(p);
-    return status;
 }
 
 /* Sorts the standings and their resamples by mean. */
@@ -246,76 +235,29 @@ static void order(koksma__rho_ranking *r, double **draws)
     }
 }
 
-static koksma_status fill(const koksma__rho_means *s, const koksma__rho_subset *of, const koksma_run *run,
-                          koksma__rho_ranking *r, double **draws)
+koksma__rho_ranking koksma__rho_rank(koksma__report *r, const koksma__rho_means *s, const koksma__rho_subset *of)
 {
-    koksma_status status = KOKSMA_OK;
-    for (size_t m = 0; !status && m < s->n; m++) {
-        koksma__rho_standing *standing = &r->at[r->n];
+    koksma__rho_ranking k = {.at = koksma__report_memory(r, s->n, sizeof *k.at),
+                             .place = koksma__report_memory(r, s->n, sizeof *k.place),
+                             .p = koksma__report_memory(r, s->n * s->n, sizeof *k.p)};
+    double **draws = koksma__report_memory(r, s->n, sizeof *draws);
+    for (size_t m = 0; koksma__report_goes_on(r) && m < s->n; m++) {
+        koksma__rho_standing *standing = &k.at[k.n];
         *standing = (koksma__rho_standing){.measure = m};
-        status = koksma__ask(run);
-        status = status ? status : stand(&s->of[m], of, draws[r->n], standing);
-        r->n += standing->cases > 0;
+        draws[k.n] = s->draws + k.n * KOKSMA__RHO_SAMPLES;
+        stand(r, &s->of[m], of, draws[k.n], standing);
+        k.n += standing->cases > 0;
     }
-    if (status) {
-        return status;
+    order(&k, draws);
+    compare_means(r, &k, draws);
+    compare_pairs(r, &k, draws);
+    for (size_t m = 0; !r->status && m < s->n; m++) {
+        k.place[m] = k.n;
     }
-    order(r, draws);
-    double *p = malloc((r->n + 1) * sizeof *p);
-    KOKSMA__REQUIRE_MEMORY(p, (r->n + 1) * sizeof *p);
-    for (size_t i = 0; i < r->n; i++) {
-        p[i] = r->at[i].p;
+    for (size_t i = 0; !r->status && i < k.n; i++) {
+        k.place[k.at[i].measure] = i;
     }
-    status = koksma__holm(p, r->n);
-    for (size_t i = 0; !status && i < r->n; i++) {
-        const koksma__draws mean = {r->at[i].mean.value, 1, draws[i]}, first = {r->at[0].mean.value, 1, draws[0]};
-        r->at[i].p = p[i];
-        status = koksma__bootstrap_difference(&mean, &first, KOKSMA__RHO_SAMPLES, &r->at[i].less);
-        if (i == 0 || isnan(r->at[i].mean.low) || isnan(r->at[0].mean.low)) {
-            r->at[i].less.low = r->at[i].less.high = NAN;
-        }
-    }
-    free(p);
-    return status ? status : compare_pairs(run, r, draws);
-}
-
-koksma_status koksma__rho_rank(const koksma__rho_means *s, const koksma__rho_subset *of, const koksma_run *run,
-                               koksma__rho_ranking *r)
-{
-    const size_t size = KOKSMA__RHO_SAMPLES * sizeof(double);
-    *r = (koksma__rho_ranking){.at = calloc(s->n + 1, sizeof *r->at),
-                               .place = calloc(s->n + 1, sizeof *r->place),
-                               .p = calloc(s->n * s->n + 1, sizeof *r->p)};
-    double **draws = calloc(s->n + 1, sizeof *draws);
-    const bool complete = r->at && r->place && r->p && draws;
-    koksma_status status = complete ? KOKSMA_OK : koksma__fail_memory(s->n * s->n * sizeof *r->p);
-    for (size_t m = 0; !status && m < s->n; m++) {
-        draws[m] = malloc(size);
-        status = draws[m] ? KOKSMA_OK : koksma__fail_memory(size);
-    }
-    status = status ? status : fill(s, of, run, r, draws);
-    for (size_t m = 0; !status && m < s->n; m++) {
-        r->place[m] = r->n;
-    }
-    for (size_t i = 0; !status && i < r->n; i++) {
-        r->place[r->at[i].measure] = i;
-    }
-    for (size_t m = 0; draws && m < s->n; m++) {
-        free(draws[m]);
-    }
-    free(draws);
-    if (status) {
-        koksma__rho_ranking_fini(r);
-    }
-    return status;
-}
-
-void koksma__rho_ranking_fini(koksma__rho_ranking *r)
-{
-    free(r->at);
-    free(r->place);
-    free(r->p);
-    *r = (koksma__rho_ranking){0};
+    return r->status ? (koksma__rho_ranking){0} : k;
 }
 
 bool koksma__rho_is_better(const koksma__rho_ranking *r, size_t a, size_t b)
@@ -333,33 +275,18 @@ static bool predicts(const koksma__rho_ranking *r, size_t measure)
 
 /* ---- Without one scene --------------------------------------------------------------------------------- */
 
-koksma_status koksma__rho_leave_out(const koksma__rho_means *s, const koksma_run *run, koksma__rho_jackknife *j)
+koksma__rho_jackknife koksma__rho_leave_out(koksma__report *r, const koksma__rho_means *s)
 {
     const size_t n = s->n_scenes > 1 ? 1 + s->n_scenes : 1;
-    bool *scenes = malloc((s->n_scenes + 1) * sizeof *scenes);
-    *j = (koksma__rho_jackknife){.of = calloc(n, sizeof *j->of)};
-    koksma_status status = scenes && j->of ? KOKSMA_OK : koksma__fail_memory(n * sizeof *j->of);
-    while (!status && j->n < n) {
+    bool *scenes = koksma__report_memory(r, s->n_scenes, sizeof *scenes);
+    koksma__rho_jackknife j = {.of = koksma__report_memory(r, n, sizeof *j.of)};
+    for (; !r->status && j.n < n; j.n++) {
         for (size_t k = 0; k < s->n_scenes; k++) {
-            scenes[k] = j->n != 1 + k;
+            scenes[k] = j.n != 1 + k;
         }
-        status = koksma__rho_rank(s, &(koksma__rho_subset){.scenes = scenes}, run, &j->of[j->n]);
-        j->n += !status;
+        j.of[j.n] = koksma__rho_rank(r, s, &(koksma__rho_subset){.scenes = scenes});
     }
-    free(scenes);
-    if (status) {
-        koksma__rho_jackknife_fini(j);
-    }
-    return status;
-}
-
-void koksma__rho_jackknife_fini(koksma__rho_jackknife *j)
-{
-    for (size_t i = 0; i < j->n; i++) {
-        koksma__rho_ranking_fini(&j->of[i]);
-    }
-    free(j->of);
-    *j = (koksma__rho_jackknife){0};
+    return j;
 }
 
 bool koksma__rho_always(const koksma__rho_jackknife *j, koksma__rho_statement statement, size_t a, size_t b)

@@ -3,7 +3,7 @@
  * Rank correlations of measures with image errors. Sums by measure, scene and number of samples give means over any set of
  * scenes; all cases are resampled together, so that the means of two measures can be compared resample by resample.
  * Rankings of the measures by these means say which differ significantly, and which statements hold whichever one scene is
- * left out.
+ * left out. All is in the report's memory; after a failure of the report, rankings are empty.
  */
 #ifndef KOKSMA_STUDY_REPORT_RHO_H
 #define KOKSMA_STUDY_REPORT_RHO_H
@@ -42,6 +42,7 @@ typedef struct koksma__rho_means {
     koksma__rho_sums *of;
     const char **variants, **scenes;
     long long *sizes; /* numbers of samples per pixel */
+    double *draws;    /* of all measures, for the ranking that is being made */
 } koksma__rho_means;
 
 /* The case that a correlation belongs to; the strings must outlive the means. */
@@ -56,15 +57,13 @@ typedef struct koksma__rho_source {
 koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns);
 
 /* Adds a case: rho from koksma__rho_shown, and its resamples. For a measure that is better when larger, the caller
-   reverses the sign of rho and of its resamples. Errors: MEMORY. */
-koksma_status koksma__rho_add(koksma__rho_means *s, const koksma__rho_source *source, const koksma__estimate *rho,
-                              const double draws[KOKSMA__RHO_SAMPLES]);
+   reverses the sign of rho and of its resamples. */
+void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const koksma__rho_source *source,
+                     const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES]);
 
-/* Sorts the measures by their mean over all cases, the largest first and equal means in the plan's order, and sorts
-   the numbers of samples. */
-void koksma__rho_order(koksma__rho_means *s);
-
-void koksma__rho_fini(koksma__rho_means *s);
+/* Ends adding: sorts the measures by their mean over all cases, the largest first and equal means in the plan's order, and
+   sorts the numbers of samples. */
+void koksma__rho_order(koksma__report *r, koksma__rho_means *s);
 
 /* A subset of the cases. scenes: whether each scene is in it; NULL: all scenes. spp: the number of samples; 0:
    all. */
@@ -89,10 +88,8 @@ typedef struct koksma__rho_ranking {
     double *p;                /* n x n p-values of "the means are equal", by Holm over the pairs; NaN: not compared */
 } koksma__rho_ranking;
 
-/* Ranks the measures over a subset of the cases. Errors: MEMORY, INTERRUPTED. */
-koksma_status koksma__rho_rank(const koksma__rho_means *s, const koksma__rho_subset *of, const koksma_run *run,
-                               koksma__rho_ranking *ranking);
-void koksma__rho_ranking_fini(koksma__rho_ranking *ranking);
+/* Ranks the measures over a subset of the cases. */
+koksma__rho_ranking koksma__rho_rank(koksma__report *r, const koksma__rho_means *s, const koksma__rho_subset *of);
 
 /* Whether measure a has a significantly larger mean than measure b (at 5 % for all pairs
    together). Measures are indices in koksma__rho_means. */
@@ -105,10 +102,8 @@ typedef struct koksma__rho_jackknife {
     koksma__rho_ranking *of;
 } koksma__rho_jackknife;
 
-/* Computes the rankings over all scenes and without each of them. Errors: MEMORY, INTERRUPTED. */
-koksma_status koksma__rho_leave_out(const koksma__rho_means *s, const koksma_run *run,
-                                    koksma__rho_jackknife *jackknife);
-void koksma__rho_jackknife_fini(koksma__rho_jackknife *jackknife);
+/* Computes the rankings over all scenes and without each of them. */
+koksma__rho_jackknife koksma__rho_leave_out(koksma__report *r, const koksma__rho_means *s);
 
 /* Statements on measures. */
 typedef enum koksma__rho_statement {
