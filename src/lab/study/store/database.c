@@ -17,6 +17,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -369,19 +370,20 @@ void koksma__statement_close(koksma__statement *statement)
     sqlite3_finalize(statement);
 }
 
-void koksma__bind_text(koksma__statement *s, int *column, const char *text)
+void koksma__bind(koksma__statement *s, int column, const char *types, ...)
 {
-    sqlite3_bind_text(s, (*column)++, text, -1, SQLITE_STATIC);
-}
-
-void koksma__bind_whole(koksma__statement *s, int *column, long long value)
-{
-    sqlite3_bind_int64(s, (*column)++, value);
-}
-
-void koksma__bind_number(koksma__statement *s, int *column, double value)
-{
-    sqlite3_bind_double(s, (*column)++, value);
+    va_list values;
+    va_start(values, types);
+    for (; *types; types++, column++) {
+        if (*types == 't') {
+            sqlite3_bind_text(s, column, va_arg(values, const char *), -1, SQLITE_STATIC);
+        } else if (*types == 'w') {
+            sqlite3_bind_int64(s, column, va_arg(values, long long));
+        } else {
+            sqlite3_bind_double(s, column, va_arg(values, double));
+        }
+    }
+    va_end(values);
 }
 
 koksma_status koksma__statement_run(koksma__database *database, koksma__statement *s)
@@ -406,40 +408,26 @@ void koksma__statement_reset(koksma__statement *s)
     sqlite3_reset(s);
 }
 
-const char *koksma__column_text(koksma__statement *s, int column)
+bool koksma__read(koksma__statement *s, int column, const char *types, ...)
 {
-    const char *text = (const char *)sqlite3_column_text(s, column);
-    return text ? text : "";
-}
-
-long long koksma__column_whole(koksma__statement *s, int column)
-{
-    return sqlite3_column_int64(s, column);
-}
-
-double koksma__column_number(koksma__statement *s, int column)
-{
-    return koksma__column_is_null(s, column) ? (double)NAN : sqlite3_column_double(s, column);
-}
-
-bool koksma__column_is_null(koksma__statement *s, int column)
-{
-    return sqlite3_column_type(s, column) == SQLITE_NULL;
-}
-
-bool koksma__column_read_number(koksma__statement *s, int column, double *out)
-{
-    const int type = sqlite3_column_type(s, column);
-    *out = type == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, column);
-    return type == SQLITE_NULL || (type == SQLITE_FLOAT && isfinite(*out));
-}
-
-bool koksma__column_has_whole(koksma__statement *s, int column)
-{
-    return sqlite3_column_type(s, column) == SQLITE_INTEGER;
-}
-
-bool koksma__column_has_text(koksma__statement *s, int column)
-{
-    return sqlite3_column_type(s, column) == SQLITE_TEXT;
+    bool right = true;
+    va_list out;
+    va_start(out, types);
+    for (; *types; types++, column++) {
+        const int type = sqlite3_column_type(s, column);
+        if (*types == 't') {
+            const char *text = (const char *)sqlite3_column_text(s, column);
+            *va_arg(out, const char **) = text ? text : "";
+            right = right && type == SQLITE_TEXT;
+        } else if (*types == 'w') {
+            *va_arg(out, long long *) = sqlite3_column_int64(s, column);
+            right = right && type == SQLITE_INTEGER;
+        } else {
+            const double number = type == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, column);
+            *va_arg(out, double *) = number;
+            right = right && (type == SQLITE_NULL || (type == SQLITE_FLOAT && isfinite(number)));
+        }
+    }
+    va_end(out);
+    return right;
 }

@@ -51,13 +51,11 @@ static koksma_status write_seal(koksma__store *store)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_TEXT];
     char text[64];
-    int column = 1;
     if (store->seal.rows == store->sealed.rows && store->seal.sum == store->sealed.sum) {
         return KOKSMA_OK;
     }
     snprintf(text, sizeof text, "%lld %" PRIu64, store->seal.rows, store->seal.sum);
-    koksma__bind_text(s, &column, "seal");
-    koksma__bind_text(s, &column, text);
+    koksma__bind(s, 1, "tt", "seal", text);
     store->sealed = store->seal;
     return koksma__statement_run(store->database, s);
 }
@@ -99,7 +97,6 @@ koksma_status koksma__store_put_text(koksma__store *store, const char *key, cons
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_TEXT];
     char *old;
-    int column = 1;
     koksma_status status = koksma__store_find_text(store, key, &old);
     if (!status && old) {
         koksma__seal_add(&store->seal, -1, koksma__checksum_of_text(key, old));
@@ -109,8 +106,7 @@ koksma_status koksma__store_put_text(koksma__store *store, const char *key, cons
         return status;
     }
     koksma__seal_add(&store->seal, 1, koksma__checksum_of_text(key, value));
-    koksma__bind_text(s, &column, key);
-    koksma__bind_text(s, &column, value);
+    koksma__bind(s, 1, "tt", key, value);
     return koksma__store_write(store, KOKSMA__PUT_TEXT);
 }
 
@@ -118,10 +114,10 @@ koksma_status koksma__store_find_text(koksma__store *store, const char *key, cha
 {
     koksma__statement *s = store->queries[KOKSMA__GET_TEXT];
     koksma_status status = KOKSMA_OK;
-    int column = 1;
-    koksma__bind_text(s, &column, key);
-    const bool found = koksma__next_row(store->database, s, &status);
-    *value = found ? strdup(koksma__column_text(s, 0)) : NULL;
+    const char *text = NULL;
+    koksma__bind(s, 1, "t", key);
+    const bool found = koksma__next_row(store->database, s, &status) && koksma__read(s, 0, "t", &text);
+    *value = found ? strdup(text) : NULL;
     if (found && !*value) {
         status = koksma__fail_memory(1);
     }
@@ -180,20 +176,15 @@ void koksma__store_forget_files(koksma__store *store)
     koksma__store_leave(store, KOKSMA_OK);
 }
 
-static void bind_reference(koksma__store *store, koksma__statement *s, int *column, const koksma__series *series,
+static void bind_reference(koksma__store *store, koksma__statement *s, const koksma__series *series,
                            koksma__series *key)
 {
     koksma__store_bind_key(store, series, key);
     /* In a series of image errors, measured_by has the revisions that made the reference; this row belongs to the
        reference itself. */
     key->made_by = key->measured_by;
-    koksma__bind_text(s, column, key->scene);
-    koksma__bind_text(s, column, key->scene_hash);
-    koksma__bind_text(s, column, key->options);
-    koksma__bind_whole(s, column, key->width);
-    koksma__bind_whole(s, column, key->height);
-    koksma__bind_text(s, column, key->what);
-    koksma__bind_text(s, column, key->made_by);
+    koksma__bind(s, 1, "tttwwtt", key->scene, key->scene_hash, key->options, key->width, key->height, key->what,
+                 key->made_by);
 }
 
 static koksma_status find_reference(koksma__store *store, const koksma__series *series, koksma__series *key,
@@ -201,13 +192,13 @@ static koksma_status find_reference(koksma__store *store, const koksma__series *
 {
     koksma__statement *s = store->queries[KOKSMA__GET_REFERENCE];
     koksma_status status = KOKSMA_OK;
-    int column = 1;
-    bind_reference(store, s, &column, series, key);
+    const char *pixels;
+    bind_reference(store, s, series, key);
     *row = (koksma__reference_row){.standard_error = NAN};
     *found = koksma__next_row(store->database, s, &status);
     if (*found) {
-        row->standard_error = koksma__column_number(s, 0);
-        snprintf(row->pixels, sizeof row->pixels, "%s", koksma__column_text(s, 1));
+        koksma__read(s, 0, "nt", &row->standard_error, &pixels);
+        snprintf(row->pixels, sizeof row->pixels, "%s", pixels);
     }
     koksma__statement_reset(s);
     return status;
@@ -220,7 +211,6 @@ koksma_status koksma__store_put_reference(koksma__store *store, const koksma__se
     koksma__series key;
     koksma__reference_row old;
     bool found;
-    int column = 1;
     koksma__store_enter(store);
     koksma_status status = find_reference(store, series, &key, &old, &found);
     if (!status && found) {
@@ -228,9 +218,8 @@ koksma_status koksma__store_put_reference(koksma__store *store, const koksma__se
     }
     if (!status) {
         koksma__seal_add(&store->seal, 1, koksma__checksum_of_reference(&key, row->standard_error, row->pixels));
-        bind_reference(store, s, &column, series, &key);
-        koksma__bind_number(s, &column, row->standard_error);
-        koksma__bind_text(s, &column, row->pixels);
+        bind_reference(store, s, series, &key);
+        koksma__bind(s, 8, "nt", row->standard_error, row->pixels);
         status = koksma__store_write(store, KOKSMA__PUT_REFERENCE);
     }
     return koksma__store_leave(store, status);
@@ -247,17 +236,9 @@ koksma_status koksma__store_reference(koksma__store *store, const koksma__series
 koksma_status koksma__store_put_run(koksma__store *store, const koksma__run_record *record)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_RUN];
-    int column = 1;
     koksma__store_enter(store);
-    koksma__bind_text(s, &column, record->started);
-    koksma__bind_text(s, &column, record->machine);
-    koksma__bind_text(s, &column, record->version);
-    koksma__bind_whole(s, &column, record->workers);
-    koksma__bind_whole(s, &column, record->jobs);
-    koksma__bind_number(s, &column, record->seconds);
-    koksma__bind_number(s, &column, record->idle_seconds);
-    koksma__bind_number(s, &column, record->processor_seconds);
-    koksma__bind_number(s, &column, record->store_seconds);
+    koksma__bind(s, 1, "tttwwnnnn", record->started, record->machine, record->version, record->workers, record->jobs,
+                 record->seconds, record->idle_seconds, record->processor_seconds, record->store_seconds);
     return koksma__store_leave(store, koksma__store_write(store, KOKSMA__PUT_RUN));
 }
 
@@ -265,22 +246,19 @@ koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_r
 {
     koksma__statement *s = store->queries[KOKSMA__GET_RUN];
     koksma_status status = KOKSMA_OK;
-    int column = 1;
+    const char *started, *machine, *version;
     koksma__store_enter(store);
-    koksma__bind_whole(s, &column, i);
+    koksma__bind(s, 1, "w", i);
     *found = koksma__next_row(store->database, s, &status);
     if (*found) {
-        snprintf(record->started, sizeof record->started, "%s", koksma__column_text(s, 0));
-        snprintf(record->machine, sizeof record->machine, "%s", koksma__column_text(s, 1));
-        snprintf(record->version, sizeof record->version, "%s", koksma__column_text(s, 2));
-        record->workers = koksma__column_whole(s, 3);
-        record->jobs = koksma__column_whole(s, 4);
-        double *const numbers[] = {&record->seconds, &record->idle_seconds, &record->processor_seconds,
-                                   &record->store_seconds};
-        bool right = true;
-        for (int k = 0; k < 4; k++) {
-            right = koksma__column_read_number(s, 5 + k, numbers[k]) && !isnan(*numbers[k]) && right;
-        }
+        const bool right =
+            koksma__read(s, 0, "tttwwnnnn", &started, &machine, &version, &record->workers, &record->jobs,
+                         &record->seconds, &record->idle_seconds, &record->processor_seconds,
+                         &record->store_seconds) &&
+            !isnan(record->seconds + record->idle_seconds + record->processor_seconds + record->store_seconds);
+        snprintf(record->started, sizeof record->started, "%s", started);
+        snprintf(record->machine, sizeof record->machine, "%s", machine);
+        snprintf(record->version, sizeof record->version, "%s", version);
         if (!right) {
             status = koksma__fail(KOKSMA_MALFORMED,
                                   "%s: the run of %.24s in table run has a time that is infinite or no number; move "

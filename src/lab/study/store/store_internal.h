@@ -61,11 +61,10 @@ bool koksma__database_had_conflict(koksma__database *database);
 koksma_status koksma__statement_open(koksma__database *database, const char *sql, koksma__statement **out);
 void koksma__statement_close(koksma__statement *statement);
 
-/* Bind a value to parameter number *column, counted from 1, and increment *column. A text must stay valid until the
-   statement's next reset; NaN is stored as NULL. */
-void koksma__bind_text(koksma__statement *statement, int *column, const char *text);
-void koksma__bind_whole(koksma__statement *statement, int *column, long long value);
-void koksma__bind_number(koksma__statement *statement, int *column, double value);
+/* Binds values to the parameters of a statement from number `first` on, counted from 1. types has a letter for each, which
+   is the type of its argument: t a text, which must stay valid until the statement's next reset; w a long long; n a double,
+   of which NaN is stored as NULL. */
+void koksma__bind(koksma__statement *statement, int first, const char *types, ...);
 
 /* Runs a statement that returns no rows. */
 koksma_status koksma__statement_run(koksma__database *database, koksma__statement *statement);
@@ -75,17 +74,10 @@ koksma_status koksma__statement_run(koksma__database *database, koksma__statemen
 bool koksma__next_row(koksma__database *database, koksma__statement *statement, koksma_status *status);
 void koksma__statement_reset(koksma__statement *statement);
 
-/* Columns of the current row, counted from 0. A damaged database may contain NULL where the schema forbids it: NULL
-   is returned as an empty text, 0, or NaN. */
-const char *koksma__column_text(koksma__statement *statement, int column);
-long long koksma__column_whole(koksma__statement *statement, int column);
-double koksma__column_number(koksma__statement *statement, int column);
-bool koksma__column_is_null(koksma__statement *statement, int column);
-
-/* Whether a column has the type of the schema: a finite number or NULL, which is read as NaN; a whole number; a text. */
-bool koksma__column_read_number(koksma__statement *statement, int column, double *number);
-bool koksma__column_has_whole(koksma__statement *statement, int column);
-bool koksma__column_has_text(koksma__statement *statement, int column);
+/* Reads columns of the current row from number `first` on, counted from 0: t a const char *, w a long long, n a double,
+   whose addresses follow. A damaged database may contain anything: NULL is read as an empty text, 0, or NaN. Returns
+   whether every column has its type: a text; a whole number; a finite number or NULL. */
+bool koksma__read(koksma__statement *statement, int first, const char *types, ...);
 
 /* Checksums of a store's rows and their sum, the seal, which shows whether the store holds exactly what runs
    wrote. */
@@ -135,8 +127,8 @@ typedef enum koksma__query {
     KOKSMA__N_QUERIES
 } koksma__query;
 
-/* Number of rows that PUT_ROWS inserts; number of columns before the id in GET_SERIES; version of the schema. */
-enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SERIES_COLUMNS = 13, KOKSMA__SCHEMA = 7 };
+/* Number of rows that PUT_ROWS inserts; version of the schema. */
+enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SCHEMA = 7 };
 
 /* Rows are gathered in memory and written together, because one statement for each row would take most of the
    time of small jobs. A killed run loses the rows of this many seconds, or of one job if that takes longer. */

@@ -164,9 +164,11 @@ static koksma_status look(const char *path, bool *exists, koksma__database **out
 static koksma_status check_pages(koksma__database *database)
 {
     koksma__statement *check;
+    const char *found;
     koksma_status status = KOKSMA_OK;
     KOKSMA__TRY(koksma__statement_open(database, "PRAGMA quick_check(1)", &check));
-    if (koksma__next_row(database, check, &status) && strcmp(koksma__column_text(check, 0), "ok") != 0) {
+    if (koksma__next_row(database, check, &status) && koksma__read(check, 0, "t", &found) &&
+        strcmp(found, "ok") != 0) {
         status = koksma__fail(KOKSMA_MALFORMED, "%s: database disk image is malformed; move it away to begin anew",
                               koksma__database_path(database));
     }

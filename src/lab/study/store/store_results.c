@@ -85,7 +85,8 @@ static koksma_status read_rows(koksma__store *store, const visitor *v, koksma__s
     koksma_status status = KOKSMA_OK;
     koksma__kept_rows kept = {.all = true};
     while (koksma__next_row(store->database, s, &status)) {
-        koksma__row row = {.id = koksma__column_whole(s, 0)};
+        koksma__row row;
+        koksma__read(s, 0, "w", &row.id);
         status = koksma__store_read_row(store, s, 1, &row);
         koksma__seal_add(found, 1, koksma__checksum_of_row(&row));
         kept.all = kept.all && keep(&kept, &row);
@@ -188,11 +189,11 @@ static koksma_status each_in_database(koksma__store *store, const wanted *w)
     const bool filter = store->found.rows / ROWS_A_LOOKUP <= w->end;
     koksma__statement *s = store->queries[filter ? KOKSMA__FILTER_RESULTS : KOKSMA__GET_RESULTS];
     koksma_status status = KOKSMA_OK;
-    int column = 1;
-    koksma__bind_whole(s, &column, koksma__group_of(w->series));
-    koksma__bind_whole(s, &column, w->end);
+    koksma__bind(s, 1, "ww", koksma__group_of(w->series), w->end);
     while (koksma__next_row(store->database, s, &status)) {
-        koksma__row row = {.id = koksma__column_whole(s, 0) << 32};
+        koksma__row row;
+        koksma__read(s, 0, "w", &row.id);
+        row.id <<= 32;
         status = koksma__store_read_row(store, s, 1, &row);
         status = status ? status : pass_result(store, w, &row);
     }

@@ -27,13 +27,12 @@ void koksma__store_rows_fini(koksma__store *store)
     free(store->spare.at);
 }
 
-static void bind_row(koksma__statement *s, int *column, const koksma__row *from)
+/* Binds row number k of a statement. */
+static void bind_row(koksma__statement *s, int k, const koksma__row *from)
 {
-    koksma__bind_whole(s, column, from->id);
-    koksma__bind_whole(s, column, (long long)from->seed);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        koksma__bind_number(s, column, from->values[k]);
-    }
+    _Static_assert(KOKSMA__RESULT_VALUES == 4, "as the statement has it");
+    koksma__bind(s, 1 + 6 * k, "wwnnnn", from->id, (long long)from->seed, from->values[0], from->values[1],
+                 from->values[2], from->values[3]);
 }
 
 static void add_checksum(koksma__store *store, int sign, const koksma__row *row)
@@ -45,8 +44,7 @@ static koksma_status find_row(koksma__store *store, koksma__row *row, bool *foun
 {
     koksma__statement *s = store->queries[KOKSMA__GET_ROW];
     koksma_status status = KOKSMA_OK;
-    int column = 1;
-    koksma__bind_whole(s, &column, row->id);
+    koksma__bind(s, 1, "w", row->id);
     *found = koksma__next_row(store->database, s, &status);
     if (*found) {
         status = koksma__store_read_row(store, s, 0, row);
@@ -60,7 +58,6 @@ static koksma_status put_one(koksma__store *store, const koksma__row *from)
 {
     koksma__row row = {.id = from->id};
     bool found;
-    int column = 1;
     KOKSMA__TRY(find_row(store, &row, &found));
     if (found) {
         add_checksum(store, -1, &row);
@@ -71,7 +68,7 @@ static koksma_status put_one(koksma__store *store, const koksma__row *from)
         row.values[k] = isnan(row.values[k]) ? from->values[k] : row.values[k];
     }
     add_checksum(store, 1, &row);
-    bind_row(store->queries[KOKSMA__PUT_ROW], &column, &row);
+    bind_row(store->queries[KOKSMA__PUT_ROW], 0, &row);
     return koksma__statement_run(store->database, store->queries[KOKSMA__PUT_ROW]);
 }
 
@@ -80,9 +77,8 @@ static koksma_status put_one(koksma__store *store, const koksma__row *from)
 static koksma_status put_many(koksma__store *store, const koksma__row *from, size_t *done)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_ROWS];
-    int column = 1;
     for (int k = 0; k < KOKSMA__ROWS_AT_ONCE; k++) {
-        bind_row(s, &column, &from[k]);
+        bind_row(s, k, &from[k]);
     }
     koksma_status status = koksma__statement_run(store->database, s);
     const bool conflict = status && koksma__database_had_conflict(store->database);

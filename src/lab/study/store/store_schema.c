@@ -64,9 +64,9 @@ static koksma_status compare(koksma__database *database, int *n)
     koksma_status status = koksma__statement_open(database, "SELECT sql, type, name FROM sqlite_schema", &s);
     *n = 0;
     while (koksma__next_row(database, s, &status)) {
-        const char *sql = koksma__column_text(s, 0), *type = koksma__column_text(s, 1);
-        const char *name = koksma__column_text(s, 2);
-        if (koksma__column_is_null(s, 0) && !strcmp(type, "index") && !strncmp(name, "sqlite_autoindex_", 17)) {
+        const char *sql, *type, *name;
+        if (!koksma__read(s, 0, "ttt", &sql, &type, &name) && !strcmp(type, "index") &&
+            !strncmp(name, "sqlite_autoindex_", 17)) {
             continue; /* skips the indices that SQLite makes for UNIQUE and PRIMARY KEY */
         }
         free(out);

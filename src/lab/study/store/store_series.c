@@ -13,26 +13,16 @@ static const long long MOST_SERIES = 1 << 26;
 
 /* Binds the part of the key that all series of a group share: all columns up to the height, and the revisions of the
    points. */
-static void bind_group(koksma__statement *s, int *column, const koksma__series *key)
+static void bind_group(koksma__statement *s, const koksma__series *key)
 {
-    koksma__bind_text(s, column, key->kind);
-    koksma__bind_text(s, column, key->scene);
-    koksma__bind_text(s, column, key->scene_hash);
-    koksma__bind_text(s, column, key->options);
-    koksma__bind_text(s, column, key->pattern);
-    koksma__bind_whole(s, column, key->n);
-    koksma__bind_whole(s, column, key->dim);
-    koksma__bind_whole(s, column, key->width);
-    koksma__bind_whole(s, column, key->height);
-    koksma__bind_text(s, column, key->made_by);
+    koksma__bind(s, 1, "tttttwwwwt", key->kind, key->scene, key->scene_hash, key->options, key->pattern, key->n,
+                 key->dim, key->width, key->height, key->made_by);
 }
 
-static void bind_series(koksma__statement *s, int *column, const koksma__series *key)
+static void bind_series(koksma__statement *s, const koksma__series *key)
 {
-    bind_group(s, column, key);
-    koksma__bind_text(s, column, key->what);
-    koksma__bind_text(s, column, key->metric);
-    koksma__bind_text(s, column, key->measured_by);
+    bind_group(s, key);
+    koksma__bind(s, 11, "ttt", key->what, key->metric, key->measured_by);
 }
 
 /* Checks the number of a series; a number out of range is a sign of damage. */
@@ -50,11 +40,11 @@ static koksma_status next_series(koksma__store *store, const koksma__series *key
 {
     koksma__statement *s = store->queries[KOKSMA__NEXT_SERIES];
     koksma_status status = KOKSMA_OK;
-    int column = 1;
-    bind_group(s, &column, key);
-    const bool found = koksma__next_row(store->database, s, &status);
-    const long long last = found ? koksma__column_whole(s, 0) : 0,
-                    last_of_all = found ? koksma__column_whole(s, 1) : 0;
+    long long last = 0, last_of_all = 0;
+    bind_group(s, key);
+    if (koksma__next_row(store->database, s, &status)) {
+        koksma__read(s, 0, "ww", &last, &last_of_all);
+    }
     koksma__statement_reset(s);
     status = status ? status : check_number(store, last);
     status = status ? status : check_number(store, last_of_all);
@@ -67,10 +57,9 @@ static koksma_status next_series(koksma__store *store, const koksma__series *key
 static koksma_status add_series(koksma__store *store, const koksma__series *key, long long *id)
 {
     koksma__statement *s = store->queries[KOKSMA__ADD_SERIES];
-    int column = 1;
     KOKSMA__TRY(next_series(store, key, id));
-    bind_series(s, &column, key);
-    koksma__bind_whole(s, &column, *id);
+    bind_series(s, key);
+    koksma__bind(s, 14, "w", *id);
     koksma__seal_add(&store->seal, 1, koksma__checksum_of_series(key, *id));
     const koksma_status status = koksma__store_write(store, KOKSMA__ADD_SERIES);
     koksma__store_forget(store);
@@ -82,12 +71,14 @@ koksma_status koksma__store_series(koksma__store *store, const koksma__series *s
     koksma__statement *s = store->queries[KOKSMA__FIND_SERIES];
     koksma_status status = KOKSMA_OK;
     koksma__series key;
-    int column = 1;
     koksma__store_enter(store);
     koksma__store_bind_key(store, series, &key);
-    bind_series(s, &column, &key);
+    bind_series(s, &key);
+    *id = 0;
     const bool found = koksma__next_row(store->database, s, &status);
-    *id = found ? koksma__column_whole(s, 0) : 0;
+    if (found) {
+        koksma__read(s, 0, "w", id);
+    }
     koksma__statement_reset(s);
     status = status ? status : check_number(store, *id);
     if (!status && !found && add) {
@@ -100,7 +91,10 @@ static koksma_status last_series(koksma__store *store, long long *last)
 {
     koksma__statement *s = store->queries[KOKSMA__LAST_SERIES];
     koksma_status status = KOKSMA_OK;
-    *last = koksma__next_row(store->database, s, &status) ? koksma__column_whole(s, 0) : 0;
+    *last = 0;
+    if (koksma__next_row(store->database, s, &status)) {
+        koksma__read(s, 0, "w", last);
+    }
     koksma__statement_reset(s);
     return status ? status : check_number(store, *last);
 }
@@ -118,9 +112,11 @@ koksma_status koksma__store_know_series(koksma__store *store)
     store->known = calloc(store->n_known, sizeof *store->known);
     KOKSMA__REQUIRE_MEMORY(store->known, store->n_known * sizeof *store->known);
     while (koksma__next_row(store->database, s, &status)) {
-        const long long id = koksma__column_whole(s, KOKSMA__SERIES_COLUMNS);
-        if (id >= 0 && (size_t)id < store->n_known) {
-            store->known[id].alone = strcmp(koksma__column_text(s, 0), "discrepancy") != 0;
+        koksma__series key;
+        long long id;
+        status = koksma__store_read_series(store, s, &key, &id);
+        if (!status && id >= 0 && (size_t)id < store->n_known) {
+            store->known[id].alone = strcmp(key.kind, "discrepancy") != 0;
         }
     }
     koksma__statement_reset(s);

@@ -31,39 +31,22 @@ static koksma_status fail_reference(const koksma__store *store, const koksma__se
 
 koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, int column, koksma__row *row)
 {
-    bool right = koksma__column_has_whole(s, column) && row->id >> 32 < KOKSMA__MOST_TRIALS;
-    row->seed = (uint64_t)koksma__column_whole(s, column);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        right = koksma__column_read_number(s, column + 1 + k, &row->values[k]) && right;
-    }
-    return right ? KOKSMA_OK : fail_row(store, "result", row->id);
+    long long seed;
+    const bool right =
+        koksma__read(s, column, "wnnnn", &seed, &row->values[0], &row->values[1], &row->values[2], &row->values[3]);
+    row->seed = (uint64_t)seed;
+    return right && row->id >> 32 < KOKSMA__MOST_TRIALS ? KOKSMA_OK : fail_row(store, "result", row->id);
 }
 
 /* Reads the columns of GET_SERIES. */
 koksma_status koksma__store_read_series(koksma__store *store, koksma__statement *s, koksma__series *key,
                                         long long *id)
 {
-    bool right = koksma__column_has_whole(s, KOKSMA__SERIES_COLUMNS);
-    for (int k = 0; k < KOKSMA__SERIES_COLUMNS; k++) {
-        right = right && (k >= 5 && k <= 8 ? koksma__column_has_whole : koksma__column_has_text)(s, k);
-    }
-    *id = koksma__column_whole(s, KOKSMA__SERIES_COLUMNS);
-    *key = (koksma__series){
-        .id = *id,
-        .kind = koksma__column_text(s, 0),
-        .scene = koksma__column_text(s, 1),
-        .scene_hash = koksma__column_text(s, 2),
-        .options = koksma__column_text(s, 3),
-        .pattern = koksma__column_text(s, 4),
-        .what = koksma__column_text(s, 9),
-        .metric = koksma__column_text(s, 10),
-        .made_by = koksma__column_text(s, 11),
-        .measured_by = koksma__column_text(s, 12),
-        .n = koksma__column_whole(s, 5),
-        .dim = koksma__column_whole(s, 6),
-        .width = koksma__column_whole(s, 7),
-        .height = koksma__column_whole(s, 8),
-    };
+    *key = (koksma__series){0};
+    const bool right = koksma__read(s, 0, "tttttwwwwttttw", &key->kind, &key->scene, &key->scene_hash, &key->options,
+                                    &key->pattern, &key->n, &key->dim, &key->width, &key->height, &key->what,
+                                    &key->metric, &key->made_by, &key->measured_by, id);
+    key->id = *id;
     return right ? KOKSMA_OK : fail_row(store, "series", *id);
 }
 
@@ -92,18 +75,12 @@ koksma_status koksma__store_visit_references(koksma__store *store,
     koksma__statement *s = store->queries[KOKSMA__GET_REFERENCES];
     koksma_status status = KOKSMA_OK;
     while (koksma__next_row(store->database, s, &status)) {
-        const koksma__series key = {.kind = "image",
-                                    .pattern = "",
-                                    .scene = koksma__column_text(s, 0),
-                                    .scene_hash = koksma__column_text(s, 1),
-                                    .options = koksma__column_text(s, 2),
-                                    .width = koksma__column_whole(s, 3),
-                                    .height = koksma__column_whole(s, 4),
-                                    .what = koksma__column_text(s, 5),
-                                    .made_by = koksma__column_text(s, 6)};
+        koksma__series key = {.kind = "image", .pattern = ""};
         koksma__reference_row row;
-        const bool right = koksma__column_read_number(s, 7, &row.standard_error);
-        snprintf(row.pixels, sizeof row.pixels, "%s", koksma__column_text(s, 8));
+        const char *pixels;
+        const bool right = koksma__read(s, 0, "tttwwttnt", &key.scene, &key.scene_hash, &key.options, &key.width,
+                                        &key.height, &key.what, &key.made_by, &row.standard_error, &pixels);
+        snprintf(row.pixels, sizeof row.pixels, "%s", pixels);
         status = right ? visit(context, &key, &row) : fail_reference(store, &key);
     }
     koksma__statement_reset(s);
@@ -128,7 +105,9 @@ koksma_status koksma__seal_rest(koksma__store *store, koksma__seal *seal)
     koksma_status status = koksma__store_visit_series(store, add_series, seal);
     status = status ? status : koksma__store_visit_references(store, add_reference, seal);
     while (koksma__next_row(store->database, s, &status)) {
-        koksma__seal_add(seal, 1, koksma__checksum_of_text(koksma__column_text(s, 0), koksma__column_text(s, 1)));
+        const char *key, *value;
+        koksma__read(s, 0, "tt", &key, &value);
+        koksma__seal_add(seal, 1, koksma__checksum_of_text(key, value));
     }
     koksma__statement_reset(s);
     return status;
