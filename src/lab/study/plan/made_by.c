@@ -136,39 +136,50 @@ koksma_status koksma__reference_parse(const char *text, char name[KOKSMA_MAX_SPE
    on the contents of such a file, so that their hash is part of the result's key: after a change of the file, new rows
    are made and the old rows are kept. */
 
-/* Receives a pattern with an operand. */
-typedef koksma_status (*visitor)(void *context, const koksma_spec *spec);
+/* The patterns with an operand that a row names: those of an image's uses or that of a set of points, then those of the
+   reference. A text that can't be parsed has none: its reader says what is wrong with it. */
+typedef struct walk {
+    const char *reference; /* NULL: its patterns are being walked, or there is none */
+    koksma_render_options options;
+    size_t next;
+} walk;
 
-static koksma_status visit_pattern(const koksma_spec *spec, visitor visit, void *context)
+static void read_patterns(walk *w, bool image, const char *patterns)
 {
-    return spec->pattern && spec->pattern->operand ? visit(context, spec) : KOKSMA_OK;
+    w->next = 0;
+    w->options = (koksma_render_options){0};
+    if (patterns[0] && (image ? koksma_render_patterns(patterns, &w->options)
+                              : koksma_pattern_spec(patterns, &w->options.pattern))) {
+        w->options = (koksma_render_options){0};
+    }
 }
 
-/* Calls `visit` for the patterns with an operand among those of an image's uses, or for the pattern of a set of points. A
-   text that can't be parsed has none: its reader says what is wrong with it. */
-static koksma_status visit_patterns(bool image, const char *patterns, visitor visit, void *context)
+static walk begin_walk(const koksma__row_texts *row)
 {
-    koksma_render_options options = {0};
-    const koksma_spec *spec;
-    koksma_status status = KOKSMA_OK;
-    if (!patterns[0] ||
-        (image ? koksma_render_patterns(patterns, &options) : koksma_pattern_spec(patterns, &options.pattern))) {
-        return KOKSMA_OK;
-    }
-    for (size_t i = 0; !status && (spec = koksma__image_pattern_at(&options, i)); i++) {
-        status = visit_pattern(spec, visit, context);
-    }
-    return status;
+    walk w = {.reference = row->reference[0] ? row->reference : NULL};
+    read_patterns(&w, row->image, row->patterns);
+    return w;
 }
 
-static koksma_status visit_row(const koksma__row_texts *row, visitor visit, void *context)
+/* The next of these patterns; NULL: there is none. */
+static const koksma_spec *next_operand(walk *w)
 {
-    char name[KOKSMA_MAX_SPEC], of_reference[KOKSMA_MAX_SPEC];
+    char name[KOKSMA_MAX_SPEC], patterns[KOKSMA_MAX_SPEC];
     long long spp, replicates;
-    const koksma_status status = visit_patterns(row->image, row->patterns, visit, context);
-    const bool has_reference = !status && row->reference[0] &&
-                               !koksma__reference_parse(row->reference, name, of_reference, &spp, &replicates);
-    return has_reference ? visit_patterns(true, of_reference, visit, context) : status;
+    for (;;) {
+        const koksma_spec *spec = koksma__image_pattern_at(&w->options, w->next++);
+        if (spec && spec->pattern && spec->pattern->operand) {
+            return spec;
+        }
+        if (!spec) {
+            const char *reference = w->reference;
+            w->reference = NULL;
+            if (!reference || koksma__reference_parse(reference, name, patterns, &spp, &replicates)) {
+                return NULL;
+            }
+            read_patterns(w, true, patterns);
+        }
+    }
 }
 
 /* Whether the operand of a pattern is a family of files (file_names.h). Only patterns that read points have one: for all
@@ -256,56 +267,42 @@ static uint64_t look_up(koksma__point_files *known, char *path, bool family)
     return file.hash;
 }
 
-/* The hash of all files that were visited. */
-typedef struct all_files {
-    koksma__point_files *known;
-    size_t n;
-    uint64_t hash;
-} all_files;
-
 /* An operand that is no path has the hash 0. Its numbers are in the pattern's text, so that the key needs no hash of
    them; the 0 is part of the keys of rows that stores have. */
-static koksma_status add_hash(void *context, const koksma_spec *spec)
-{
-    char path[KOKSMA_MAX_SPEC];
-    all_files *all = context;
-    const uint64_t hash = find_path(spec, path) ? look_up(all->known, path, is_family(spec)) : 0;
-    all->hash = all->n++ ? (all->hash * 0x100000001b3) ^ hash : hash;
-    return KOKSMA_OK;
-}
-
 void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash, const koksma__row_texts *row,
                               char out[KOKSMA__HASH_TEXT])
 {
-    all_files all = {.known = known};
-    visit_row(row, add_hash, &all);
-    const size_t used = (size_t)snprintf(out, KOKSMA__HASH_TEXT, "%s", scene_hash);
-    if (all.n && used < KOKSMA__HASH_TEXT) {
-        snprintf(out + used, KOKSMA__HASH_TEXT - used, "%s%016llx", used ? "+" : "", (unsigned long long)all.hash);
-    }
-}
-
-static koksma_status can_be_read(void *context, const koksma_spec *spec)
-{
     char path[KOKSMA_MAX_SPEC];
-    koksma__file_set *sets = NULL;
-    size_t count = 0;
-    uint64_t hash;
-    (void)context;
-    if (!find_path(spec, path)) {
-        return KOKSMA_OK;
+    const koksma_spec *spec;
+    walk w = begin_walk(row);
+    size_t n = 0;
+    uint64_t all = 0;
+    while ((spec = next_operand(&w))) {
+        const uint64_t hash = find_path(spec, path) ? look_up(known, path, is_family(spec)) : 0;
+        all = n++ ? (all * 0x100000001b3) ^ hash : hash;
     }
-    if (!is_family(spec)) {
-        return koksma__hash_file(path, &hash);
+    const size_t used = (size_t)snprintf(out, KOKSMA__HASH_TEXT, "%s", scene_hash);
+    if (n && used < KOKSMA__HASH_TEXT) {
+        snprintf(out + used, KOKSMA__HASH_TEXT - used, "%s%016llx", used ? "+" : "", (unsigned long long)all);
     }
-    const koksma_status status = koksma__file_sets(path, &sets, &count);
-    free(sets);
-    return status;
 }
 
 koksma_status koksma__points_can_be_read(const koksma__row_texts *row)
 {
-    return visit_row(row, can_be_read, NULL);
+    char path[KOKSMA_MAX_SPEC];
+    const koksma_spec *spec;
+    walk w = begin_walk(row);
+    koksma_status status = KOKSMA_OK;
+    while (!status && (spec = next_operand(&w))) {
+        koksma__file_set *sets = NULL;
+        size_t count = 0;
+        uint64_t hash;
+        if (find_path(spec, path)) {
+            status = is_family(spec) ? koksma__file_sets(path, &sets, &count) : koksma__hash_file(path, &hash);
+            free(sets);
+        }
+    }
+    return status;
 }
 
 /* Finding one of a family's files takes as long as reading so many bytes for each of them. */
@@ -333,49 +330,37 @@ static uint64_t length_of_family(const char *path)
     return longest + (uint64_t)count * LOOK_UP;
 }
 
-static koksma_status add_length(void *context, const koksma_spec *spec)
-{
-    char path[KOKSMA_MAX_SPEC];
-    uint64_t *all = context;
-    if (find_path(spec, path) && !spec->pattern->runs_code) {
-        *all += is_family(spec) ? length_of_family(path) : length_of(path);
-    }
-    return KOKSMA_OK;
-}
-
 uint64_t koksma__points_files_length(const koksma__row_texts *row)
 {
-    uint64_t all = 0;
-    visit_row(row, add_length, &all);
-    return all;
-}
-
-/* What a row names. */
-typedef struct files_of_row {
-    bool files, families;
-} files_of_row;
-
-static koksma_status find_files(void *context, const koksma_spec *spec)
-{
     char path[KOKSMA_MAX_SPEC];
-    files_of_row *of = context;
-    of->files |= find_path(spec, path) && !spec->pattern->runs_code;
-    of->families |= is_family(spec);
-    return KOKSMA_OK;
+    const koksma_spec *spec;
+    walk w = begin_walk(row);
+    uint64_t all = 0;
+    while ((spec = next_operand(&w))) {
+        if (find_path(spec, path) && !spec->pattern->runs_code) {
+            all += is_family(spec) ? length_of_family(path) : length_of(path);
+        }
+    }
+    return all;
 }
 
 bool koksma__points_read_files(const koksma__row_texts *row)
 {
-    files_of_row of = {0};
-    visit_row(row, find_files, &of);
-    return of.files;
+    char path[KOKSMA_MAX_SPEC];
+    const koksma_spec *spec;
+    walk w = begin_walk(row);
+    while ((spec = next_operand(&w)) && (spec->pattern->runs_code || !find_path(spec, path))) {
+    }
+    return spec;
 }
 
 bool koksma__points_have_family(const koksma__row_texts *row)
 {
-    files_of_row of = {0};
-    visit_row(row, find_files, &of);
-    return of.families;
+    const koksma_spec *spec;
+    walk w = begin_walk(row);
+    while ((spec = next_operand(&w)) && !is_family(spec)) {
+    }
+    return spec;
 }
 
 void koksma__point_files_fini(koksma__point_files *known)

@@ -230,14 +230,14 @@ bool koksma__texts_have(const koksma__texts *texts, const char *text)
     return false;
 }
 
-bool koksma__wholes_have(const koksma__wholes *wholes, long long value)
+bool koksma__wholes_have(const koksma__wholes *sorted, long long value)
 {
-    for (size_t i = 0; i < wholes->n; i++) {
-        if (wholes->at[i] == value) {
-            return true;
-        }
+    size_t low = 0, high = sorted->n;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        *(sorted->at[middle] <= value ? &low : &high) = middle;
     }
-    return false;
+    return sorted->n && sorted->at[low] == value;
 }
 
 bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,

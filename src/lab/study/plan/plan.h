@@ -314,10 +314,9 @@ void koksma__texts_fini(koksma__texts *texts);
 /* Appends a copy of the text. Errors: MEMORY. */
 koksma_status koksma__texts_add(koksma__texts *texts, const char *text);
 
-/* Whether a list contains a text, or a number. */
+/* Whether a list contains a text, or a number; the sizes of blocks are sorted. */
 bool koksma__texts_have(const koksma__texts *texts, const char *text);
-
-bool koksma__wholes_have(const koksma__wholes *wholes, long long value);
+bool koksma__wholes_have(const koksma__wholes *sorted, long long value);
 
 /* The table and the figure of a part with this id, and the row of a table with this pattern; NULL: none. */
 const koksma__table *koksma__plan_table_of(const koksma__plan *plan, size_t part, const char *id);

@@ -14,17 +14,6 @@
 #include "study/report/report.h"
 #include "study/run/references.h"
 
-/* Whether a sorted list has the number n; plans sort their sizes when they are parsed. */
-static bool has_size(const koksma__wholes *sizes, long long n)
-{
-    size_t low = 0, high = sizes->n;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        *(sizes->at[middle] <= n ? &low : &high) = middle;
-    }
-    return sizes->n && sizes->at[low] == n;
-}
-
 /* ---- Measures ------------------------------------------------------------------------------------------ */
 
 /* Adds a measure in a number of dimensions, unless it is listed already. */
@@ -65,7 +54,7 @@ koksma__cases koksma__cases_of(koksma__report *r, const koksma__topic *topic)
 /* Whether a block evaluates the case's measure, without a warp, at the case's dimension and number of points. */
 static bool measures_it(const koksma__discrepancy_block *d, const koksma__case *at)
 {
-    return !d->warps.n && d->dim == at->of->dim && has_size(&d->n, at->spp) &&
+    return !d->warps.n && d->dim == at->of->dim && koksma__wholes_have(&d->n, at->spp) &&
            koksma__texts_have(&d->measures, at->of->measure);
 }
 
@@ -103,7 +92,7 @@ static bool same_pictures(const koksma_study *study, const koksma__image_block *
 static bool renders_it(const koksma_study *study, const koksma__image_block *i, const koksma__case *at)
 {
     return i == at->image ||
-           (has_size(&i->spp, at->spp) && koksma__texts_have(&i->variants, at->variant) &&
+           (koksma__wholes_have(&i->spp, at->spp) && koksma__texts_have(&i->variants, at->variant) &&
             koksma__texts_have(&i->scenes, at->scene) && same_pictures(study, i, at->image, at->scene));
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads every number of a report that comes from the store: looks a series up by its key, reads its trials below the
- * plan's number of trials, and sums them up as a mean with an interval (koksma__summarize_sets). Nothing is cached between
+ * plan's number of trials, and sums them up as a mean with an interval. Nothing is cached between
  * calls, because SQLite caches the pages of the store. The summaries are not SQL's: sums are compensated, in the order of
  * the trials, so that equal rows give equal bits on all machines.
  */
@@ -96,6 +96,7 @@ koksma__subject koksma__subject_of_images(const koksma__image_block *block, cons
                          .scene = scene,
                          .variant = variant,
                          .metric = metric,
+                         .reference = &block->references[block->n_references - 1],
                          .patterns = &block->patterns,
                          .n = &block->spp};
     koksma__case_name(scene, variant, s.name, sizeof s.name);
@@ -146,13 +147,6 @@ koksma__result *koksma__read_results(koksma__report *r, const koksma__series *se
     return results;
 }
 
-koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n)
-{
-    return n == 1 && koksma__has_one_set(pattern)
-               ? koksma__exactly(results->values[0])
-               : koksma__summarize_sizes(results->values, n, KOKSMA__RESULT_STRIDE);
-}
-
 /* Reads the results of a subject: of its measure, or the images' rows of a kind. */
 static koksma__result *read_subject(koksma__report *r, const koksma__subject *s, const char *pattern, long long n,
                                     const char *kind, const char *metric, size_t *count)
@@ -168,7 +162,7 @@ static koksma__result *read_subject(koksma__report *r, const koksma__subject *s,
     const koksma__study_scene *scene = koksma__study_scene_of(r->study, s->scene);
     int width, height;
     koksma__block_size(s->images, scene, &width, &height);
-    koksma__reference_name(&s->images->references[s->images->n_references - 1], name);
+    koksma__reference_name(s->reference, name);
     series.kind = kind;
     series.metric = metric;
     series.scene = scene->name;
@@ -189,8 +183,9 @@ static koksma__summary mean_by(koksma__report *r, const koksma__subject *s, cons
         read_subject(r, s, pattern, n, in_image ? "image" : "metric", in_image ? "" : metric, &count);
     koksma__summary mean = {.mean = NAN};
     if (found) { /* a deterministic pattern has one point set, whose value is exact, but its images differ */
-        mean = s->points ? koksma__summarize_sets(pattern, found, count)
-                         : koksma__summarize_sizes(found->values, count, KOKSMA__RESULT_STRIDE);
+        mean = s->points && count == 1 && koksma__has_one_set(pattern)
+                   ? koksma__exactly(found->values[0])
+                   : koksma__summarize_sizes(found->values, count, KOKSMA__RESULT_STRIDE);
     }
     if (results) {
         *results = found;

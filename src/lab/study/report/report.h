@@ -61,7 +61,8 @@ typedef struct koksma__subject {
     const koksma__discrepancy_block *points; /* NULL: of images */
     const koksma__image_block *images;       /* NULL: of points */
     const char *measure, *warp;              /* of points; warp "": none */
-    const char *scene, *variant, *metric;    /* of images; the reference is the block's last one */
+    const char *scene, *variant, *metric;    /* of images */
+    const koksma__reference *reference;      /* that images are compared with; the block's last one at first */
     const koksma__texts *patterns;
     const koksma__wholes *n;
     bool larger;                          /* whether larger means are better */
@@ -76,10 +77,8 @@ koksma__subject koksma__subject_of_images(const koksma__image_block *block, cons
 /* Reads the results of a series for trials below `trials`. The caller frees them; NULL after a failure. */
 koksma__result *koksma__read_results(koksma__report *r, const koksma__series *series, long long trials, size_t *n);
 
-/* The summary of the values of a pattern's point sets; exact for a deterministic pattern, which has only one set. */
-koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n);
-
-/* The mean over the trials of a pattern with n points or samples. Unless `results` is NULL, *results gets them, the value
+/* The mean over the trials of a pattern with n points or samples; exact for the points of a deterministic pattern, which
+   has only one set. Unless `results` is NULL, *results gets them, the value
    first in each; the caller frees them. */
 koksma__summary koksma__read_mean(koksma__report *r, const koksma__subject *s, const char *pattern, long long n,
                                   koksma__result **results);

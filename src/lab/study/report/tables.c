@@ -54,18 +54,11 @@ koksma__cell koksma__points_cell(koksma__report *r, const koksma__table *t, cons
                                          r->study->plan.name, t->id, measure, n));
         return cell;
     }
-    const koksma__series series = {.kind = "discrepancy",
-                                   .scene = "",
-                                   .scene_hash = "",
-                                   .options = "",
-                                   .pattern = pattern,
-                                   .what = measure,
-                                   .n = n,
-                                   .dim = block->dim};
-    size_t sets;
-    koksma__result *results = koksma__read_results(r, &series, block->trials, &sets);
+    const koksma__subject points = koksma__subject_of_points(block, measure, "");
+    koksma__result *results;
+    cell.mean = koksma__read_mean(r, &points, pattern, n, &results);
     if (results) {
-        cell.mean = koksma__summarize_sets(pattern, results, sets);
+        const size_t sets = cell.mean.n;
         cell.sd = cell.mean.sd;
         koksma__largest_of(results->values, sets, KOKSMA__RESULT_STRIDE, 100, &cell.max, &cell.max_sd);
         cell.max_sd = sets < 500 ? (double)NAN : cell.max_sd; /* an SD of fewer than five blocks says nothing */
@@ -78,25 +71,12 @@ koksma__cell koksma__points_cell(koksma__report *r, const koksma__table *t, cons
 koksma__cell koksma__image_cell(koksma__report *r, const koksma__table *t, const koksma__reference *reference,
                                 const char *pattern)
 {
-    const koksma__study_scene *scene = koksma__study_scene_of(r->study, t->scene);
-    koksma__cell cell = {0};
-    char name[KOKSMA__REFERENCE_NAME];
-    size_t n;
-    int width, height;
-    koksma__reference_name(reference, name);
-    koksma__block_size(&r->study->plan.images[t->images], scene, &width, &height);
-    const koksma__series series = {.kind = "image",
-                                   .scene = scene->name,
-                                   .scene_hash = scene->hash,
-                                   .options = "",
-                                   .pattern = pattern,
-                                   .what = name,
-                                   .n = t->n.at[0],
-                                   .width = width,
-                                   .height = height};
-    koksma__result *results = koksma__read_results(r, &series, r->study->plan.images[t->images].trials, &n);
+    koksma__subject images = koksma__table_images(r->study, t);
+    koksma__result *results;
+    images.reference = reference;
+    koksma__cell cell = {.mean = koksma__read_mean(r, &images, pattern, t->n.at[0], &results)};
     if (results) {
-        cell.mean = koksma__summarize_sizes(results->values, n, KOKSMA__RESULT_STRIDE);
+        const size_t n = cell.mean.n;
         cell.sd = koksma__summarize_sizes(results->values + 1, n, KOKSMA__RESULT_STRIDE).mean;
         const koksma__summary max = koksma__summarize_sizes(results->values + 2, n, KOKSMA__RESULT_STRIDE);
         cell.max = max.mean;
