@@ -10,8 +10,8 @@
 #include "core/clock.h"
 #include "core/random.h"
 #include "stats/stats.h"
+#include "study/ranking/ranking_contest.h"
 #include "study/ranking/ranking_decisions.h"
-#include "study/ranking/ranking_reference.h"
 #include "study/run/study.h"
 #include "test.h"
 

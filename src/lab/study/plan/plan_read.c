@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/adaptive.h>
+#include <koksma/image.h>
 #include <koksma/render.h>
 #include <koksma/study.h>
 #include <koksma/warp.h>
@@ -17,6 +19,226 @@
 #include "study/plan/plans_embedded.h"
 #include "study/plan/variants.h"
 #include "json/json.h"
+
+/* ---- Figures ----------------------------------------------------------------------------------------------------- */
+
+/* Reads and checks the figures of a plan. A figure shows points, random lines, a rendered scene, or the strata
+   into which an adaptive method subdivided a pixel. */
+
+enum { MAX_N = 1 << 20, MAX_DRAWN = 1 << 22 };
+#define MIN_EXPOSURE 1e-3
+#define MAX_EXPOSURE 1e3
+
+static koksma_status get_wholes(const koksma__json_node *node, const char *key, size_t n, long long *out)
+{
+    koksma__json_node list;
+    size_t length;
+    koksma_status status = koksma__json_member(node, key, &list);
+    status = status ? status : koksma__json_length(&list, n, &length);
+    KOKSMA__JSON_FAIL_IF(!status && length != n, &list, "it needs %zu numbers", n);
+    for (size_t i = 0; !status && i < n; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        status = koksma__json_whole(&item, 0, KOKSMA_MAX_IMAGE_SIDE, &out[i]);
+    }
+    return status;
+}
+
+static koksma_status check_words(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                 const koksma__figure *f)
+{
+    koksma_adaptive_options adaptive;
+    koksma_scene *scene;
+    koksma_status status = f->scene ? koksma__scene_files_open(&trials->totals->scenes, f->scene, &scene) : KOKSMA_OK;
+    if (!status && f->adaptive) {
+        status = koksma_adaptive_parse(f->adaptive, &adaptive);
+        if (!status && adaptive.method->own_samples && !koksma__image_pattern_is_one(f->pattern)) {
+            status = koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive=%s: it needs one pattern for all uses", f->pattern,
+                                  f->adaptive);
+        }
+    }
+    if (status) {
+        return koksma__json_fail_in(node, status);
+    }
+    KOKSMA__JSON_FAIL_IF(f->warp && !koksma_warp_find(f->warp), node, "no warp '%s'; 'koksma list warps' names them",
+                         f->warp);
+    KOKSMA__JSON_FAIL_IF(!f->scene && (f->adaptive || *f->variant || f->detail[2]), node,
+                         "options, adaptive and detail need a scene");
+    KOKSMA__JSON_FAIL_IF(strstr(f->variant, "adaptive="), node,
+                         "a figure's method is its own field 'adaptive', not one of its options");
+    KOKSMA__JSON_FAIL_IF(f->strata[0] >= 0 && !f->adaptive, node, "strata need an adaptive method");
+    KOKSMA__JSON_FAIL_IF(f->spaces.n && f->strata[0] < 0, node, "spaces need strata");
+    KOKSMA__JSON_FAIL_IF(f->exposure != 1 && (!f->scene || f->strata[0] >= 0), node,
+                         "exposure needs the picture of a scene");
+    return KOKSMA_OK;
+}
+
+/* Reads the member "lines": random lines in the square ("primal") or their dual points ("dual"). */
+static koksma_status get_lines(const koksma__json_node *node, koksma__figure *f)
+{
+    char *word = NULL;
+    koksma_status status = koksma__plan_text(node, "lines", false, &word);
+    f->lines = word != NULL;
+    f->dual = word && !strcmp(word, "dual");
+    if (!status && word && !f->dual && strcmp(word, "primal") != 0) {
+        status = koksma__json_fail(node, "lines '%s': it takes primal or dual", word);
+    }
+    if (!status && f->lines && (f->scene || f->warp || f->cells)) {
+        status = koksma__json_fail(node, "lines can't be combined with a scene, a warp or cells");
+    }
+    free(word);
+    return status;
+}
+
+/* Reads an item of "figures"; checks that all together draw at most 2^22 points, as a page has them (plan_figures.c). */
+static koksma_status parse_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "id",       "title",  "pattern",  "scene", "n",
+                                       "cells",   "adaptive", "strata", "detail",   "warp",  "options",
+                                       "lines",   "printed",  "spaces", "exposure", NULL};
+    koksma__figure *f = item;
+    koksma__texts variants = {0};
+    f->strata[0] = f->strata[1] = -1;
+    f->exposure = 1;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_id(node, true, &f->id);
+    status = status ? status : koksma__plan_text(node, "title", true, &f->title);
+    status = status ? status : koksma__plan_text(node, "scene", false, &f->scene);
+    status = status ? status : koksma__plan_text(node, "adaptive", false, &f->adaptive);
+    status = status ? status : koksma__plan_text(node, "warp", false, &f->warp);
+    status = status ? status : koksma__plan_text(node, "printed", false, &f->printed);
+    status = status
+                 ? status
+                 : koksma__plan_pattern(node, "pattern", f->scene ? koksma__image_pattern_text : koksma__pattern_text,
+                                        true, trials->stored, &f->pattern);
+    status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_N, &f->n);
+    status = status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);
+    status = status ? status : get_lines(node, f);
+    if (!status && koksma__json_has(node, "strata")) {
+        status = get_wholes(node, "strata", 2, f->strata);
+    }
+    if (!status && koksma__json_has(node, "detail")) {
+        status = get_wholes(node, "detail", 4, f->detail);
+    }
+    if (!status && koksma__json_has(node, "spaces")) {
+        status = koksma__plan_texts(node, "spaces", NULL, &f->spaces);
+    }
+    status =
+        status ? status : koksma__json_get_number(node, "exposure", false, MIN_EXPOSURE, MAX_EXPOSURE, &f->exposure);
+    status = status ? status : koksma__variants_parse(node, &variants);
+    if (!status && variants.n != 1) {
+        status = koksma__json_fail(node, "a figure can have only one value of each option");
+    }
+    if (!status) {
+        f->variant = variants.at[0];
+        variants.at[0] = NULL;
+    }
+    koksma__texts_fini(&variants);
+    return status ? status : check_words(node, trials, f);
+}
+
+static koksma_status check_figures(const koksma__json_node *root, const koksma__plan_trials *trials,
+                                   const koksma__plan *plan)
+{
+    long long *drawn = &trials->totals->drawn;
+    for (size_t i = 0; i < plan->n_figures; i++) {
+        *drawn += plan->figures[i].scene ? 0 : plan->figures[i].n;
+        if (*drawn > MAX_DRAWN) {
+            koksma__json_node figures;
+            koksma__json_member(root, "figures", &figures);
+            const koksma__json_node figure = koksma__json_item(&figures, i);
+            return koksma__json_fail(&figure, "with it the figures draw more than %d points and lines together",
+                                     MAX_DRAWN);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* ---- Metrics ----------------------------------------------------------------------------------------------------- */
+
+/*
+ * The metrics of a plan. The member `metric` names the metric that ranks patterns, and `metrics` lists further
+ * metrics; a question may name another metric for its ranking. Every image block evaluates the metrics that all
+ * studies evaluate (in_all_studies) and all that the plan names, so that any of them can rank the patterns in a
+ * later report of the same rows. A metric that takes long in comparison with a render, such as FLIP, is evaluated
+ * only if the plan names it.
+ */
+
+/* parse_metrics reads the members "metric" and "metrics" of the plan; call it when the image blocks have been
+   read. set_metrics lists the metrics of all image blocks; call it when the questions, which may name
+   metrics, have been read. */
+static koksma_status parse_metrics(const koksma__json_node *root, koksma__plan *plan)
+{
+    static const char *const keys[] = {"metric", "metrics"};
+    koksma_status status = koksma__plan_spec(root, "metric", koksma__metric_text, false, &plan->metric);
+    if (!status && koksma__json_has(root, "metrics")) {
+        status = koksma__plan_texts(root, "metrics", koksma__metric_text, &plan->metrics);
+    }
+    for (size_t i = 0; !status && !plan->n_images && i < sizeof keys / sizeof *keys; i++) {
+        koksma__json_node node;
+        if (koksma__json_has(root, keys[i])) {
+            koksma__json_member(root, keys[i], &node);
+            status = koksma__json_fail(&node, "the plan has no 'images', whose error it would measure");
+        }
+    }
+    if (!status && !plan->metric) {
+        plan->metric = strdup(KOKSMA__DEFAULT_METRIC);
+        status = plan->metric ? KOKSMA_OK : koksma__fail_memory(sizeof KOKSMA__DEFAULT_METRIC);
+    }
+    return status;
+}
+
+/* Appends a metric to a list with free capacity, unless the list contains it already. */
+static koksma_status add(koksma__texts *to, const char *metric)
+{
+    if (koksma__texts_have(to, metric)) {
+        return KOKSMA_OK;
+    }
+    char *copy = strdup(metric);
+    KOKSMA__REQUIRE_MEMORY(copy, strlen(metric));
+    to->at[to->n++] = copy;
+    return KOKSMA_OK;
+}
+
+static koksma_status set_block(const koksma__plan *plan, koksma__image_block *block)
+{
+    const koksma_metric *metric;
+    const size_t named = 1 + plan->metrics.n + plan->n_questions + plan->n_conclusions;
+    size_t n = 0;
+    while (koksma_metric_at(n)) {
+        n++;
+    }
+    block->metrics.at = calloc(n + named, sizeof *block->metrics.at);
+    KOKSMA__REQUIRE_MEMORY(block->metrics.at, (n + named) * sizeof *block->metrics.at);
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && (metric = koksma_metric_at(i)); i++) {
+        status = metric->in_all_studies ? add(&block->metrics, metric->name) : KOKSMA_OK;
+    }
+    status = status ? status : add(&block->metrics, plan->metric);
+    for (size_t i = 0; !status && i < plan->metrics.n; i++) {
+        status = add(&block->metrics, plan->metrics.at[i]);
+    }
+    for (size_t i = 0; !status && i < plan->n_questions; i++) {
+        status = plan->questions[i].metric ? add(&block->metrics, plan->questions[i].metric) : KOKSMA_OK;
+    }
+    for (size_t i = 0; !status && i < plan->n_conclusions; i++) {
+        const koksma__conclusion *c = &plan->conclusions[i];
+        const bool is_of_block = c->metric && c->images && block->id && !strcmp(c->images, block->id);
+        status = is_of_block ? add(&block->metrics, c->metric) : KOKSMA_OK;
+    }
+    return status;
+}
+
+static koksma_status set_metrics(const koksma__json_node *root, koksma__plan *plan)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t b = 0; !status && b < plan->n_images; b++) {
+        status = set_block(plan, &plan->images[b]);
+        KOKSMA__JSON_FAIL_IF(!status && plan->images[b].metrics.n > KOKSMA__MOST_METRICS, root,
+                             "images[%zu]: %zu metrics, with those of all studies; a block of images has at most %d",
+                             b, plan->images[b].metrics.n, KOKSMA__MOST_METRICS);
+    }
+    return status;
+}
 
 enum { MAX_SPP = 1 << 20, MAX_NAME = 64, MAX_VARIANTS = 1 << 16 };
 
@@ -240,25 +462,18 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     status = status ? status : koksma__plan_text(root, "title", true, &p->title);
     status = status ? status : koksma__plan_text(root, "about", false, &p->about);
     status = status ? status : koksma__plan_text(root, "order", false, &p->order);
-    status = status ? status
-                    : koksma__plan_list(root, "discrepancies", false, sizeof *p->discrepancies, parse_discrepancy,
-                                        trials, (void **)&p->discrepancies, &p->n_discrepancies);
-    status = status ? status
-                    : koksma__plan_list(root, "images", false, sizeof *p->images, parse_image, trials,
-                                        (void **)&p->images, &p->n_images);
-    status = status ? status : koksma__plan_metrics(root, p);
-    status = status ? status
-                    : koksma__plan_list(root, "tables", false, sizeof *p->tables, koksma__plan_table, trials,
-                                        (void **)&p->tables, &p->n_tables);
-    status = status ? status
-                    : koksma__plan_list(root, "figures", false, sizeof *p->figures, koksma__plan_figure, trials,
-                                        (void **)&p->figures, &p->n_figures);
-    status = status ? status
-                    : koksma__plan_list(root, "questions", false, sizeof *p->questions, koksma__plan_question, trials,
-                                        (void **)&p->questions, &p->n_questions);
-    status = status ? status
-                    : koksma__plan_list(root, "conclusions", false, sizeof *p->conclusions, koksma__plan_conclusion,
-                                        trials, (void **)&p->conclusions, &p->n_conclusions);
+#define LIST(items, parser)                                                                                          \
+    status = status ? status                                                                                         \
+                    : koksma__plan_list(root, #items, false, sizeof *p->items, parser, trials, (void **)&p->items,   \
+                                        &p->n_##items)
+    LIST(discrepancies, parse_discrepancy);
+    LIST(images, parse_image);
+    status = status ? status : parse_metrics(root, p);
+    LIST(tables, koksma__plan_table);
+    LIST(figures, parse_figure);
+    LIST(questions, koksma__plan_question);
+    LIST(conclusions, koksma__plan_conclusion);
+#undef LIST
     static const char *const with_ids[] = {"tables", "figures", "questions"};
     for (size_t i = 0; !status && !trials->stored && i < sizeof with_ids / sizeof *with_ids; i++) {
         status = check_ids(root, with_ids[i]);
@@ -267,9 +482,9 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     KOKSMA__JSON_FAIL_IF(!status && p->n_discrepancies + p->n_images == 0, root,
                          "the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
     status = status ? status : koksma__plan_check_tables(root, trials, p);
-    status = status ? status : koksma__plan_check_figures(root, trials, p);
+    status = status ? status : check_figures(root, trials, p);
     status = status ? status : koksma__plan_check_conclusions(root, trials, p);
-    status = status ? status : koksma__plan_set_metrics(root, p);
+    status = status ? status : set_metrics(root, p);
     return status ? status : koksma__plan_own(p);
 }
 

@@ -32,7 +32,7 @@ koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 /* Parses an integrand; the canonical text is "error of SPEC". */
 koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
-/* Parses a metric of image errors (plan_metrics.c). */
+/* Parses a metric of image errors. */
 koksma_status koksma__metric_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
 /* Reads the member `key` as a spec that `parser` checks; *out is its canonical form, which the caller frees. */
@@ -68,12 +68,6 @@ koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, 
                                 koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
                                 size_t *n);
 
-/* koksma__plan_metrics reads the members "metric" and "metrics" of the plan; call it when the image blocks have been
-   read. koksma__plan_set_metrics lists the metrics of all image blocks; call it when the questions, which may name
-   metrics, have been read (plan_metrics.c). */
-koksma_status koksma__plan_metrics(const koksma__json_node *root, koksma__plan *plan);
-koksma_status koksma__plan_set_metrics(const koksma__json_node *root, koksma__plan *plan);
-
 /* Counts comparisons of a check, of which the plans of a study may take 2^28 together. Error: MALFORMED, at the node. */
 koksma_status koksma__plan_step(const koksma__json_node *node, const koksma__plan_trials *trials, uint64_t n);
 
@@ -92,11 +86,6 @@ koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, cons
 koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
 koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan_trials *trials,
                                         const koksma__plan *plan);
-
-/* Reads an item of "figures"; checks that all together draw at most 2^22 points, as a page has them (plan_figures.c). */
-koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
-koksma_status koksma__plan_check_figures(const koksma__json_node *root, const koksma__plan_trials *trials,
-                                         const koksma__plan *plan);
 
 /* Check that every pattern can make each number of points, of samples of an image block, or of samples of a
    reference, and that every measure accepts each number of points. In a block with `skip` the sizes that a pattern or

@@ -43,6 +43,16 @@ koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return status;
 }
 
+koksma_status koksma__metric_text(const char *text, char out[KOKSMA_MAX_SPEC])
+{
+    koksma_metric_spec spec;
+    const koksma_status status = koksma_metric_parse(text, &spec);
+    if (!status) {
+        koksma_metric_text(&spec, out);
+    }
+    return status;
+}
+
 /* An integrand is parsed in the first dimension that it supports, because its canonical text does not depend on the
    dimension. */
 koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])

@@ -10,8 +10,47 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "study/ranking/ranking_reference.h"
+#include "image/metrics/metrics.h"
+#include "study/plan/variants.h"
+#include "study/ranking/ranking_decisions.h"
 #include "study/run/run_control.h"
+#include "study/run/study.h"
+
+/*
+ * The reference images that a ranking measures errors against, for one metric: each is the mean of independent
+ * replicates. For the jackknife estimate of the reference's own error (ranking_decisions.c), the means over all
+ * replicates but one are also stored. A ranking begins with a reference of stage 0, which costs as much as 16 trials, and
+ * goes on to those of stages 1 and 2, with 4 and 16 times as many samples, after a number of rounds.
+ * Errors of all stages are added up: the jackknife leaves out the replicates r of all
+ * stages together. The samples depend only on the scene, the size, the samples per pixel and the stage.
+ */
+typedef struct koksma__rank_reference {
+    koksma_metric_spec metric;
+    int width, height;
+    size_t pixels, values; /* values: pixels times metric.metric->channels */
+    double *mean;          /* mean of each value over the replicates */
+    double *without;       /* the mean of value v over all replicates except r is at r * values + v */
+    double error;          /* expected mean absolute error of the luminance of `mean`; NaN: not known */
+    int made;              /* number of replicates rendered so far */
+} koksma__rank_reference;
+
+enum { KOKSMA__RANK_STAGES = 3 };
+
+/* The samples per pixel of a replicate when the patterns have spp samples per pixel: a square number, which suits
+   jittered samplers of other renderers. */
+long long koksma__rank_reference_spp(int spp, int stage);
+
+void koksma__rank_reference_fini(koksma__rank_reference *reference);
+
+/* Indices of a trial's errors: at 0 the error against the reference, at 1 + r the error against the reference
+   without replicate r, and then two values that show how much a few pixels contribute to the error. */
+enum {
+    KOKSMA__RANK_ROBUST = 1 + KOKSMA__RANK_REPLICATES,
+    KOKSMA__RANK_TOP_SHARE,
+    KOKSMA__RANK_ERRORS,
+};
+
+/* ---- Contests ---------------------------------------------------------------------------------------------- */
 
 typedef struct koksma__contestant {
     size_t pattern;        /* index into the options' patterns */
@@ -80,7 +119,8 @@ static inline int koksma__contest_stage(const koksma_rank_options *options, int 
     return options->full_reference ? KOKSMA__RANK_STAGES - 1 : i;
 }
 
-/* Makes the reference of a stage, or takes that of the options. Errors: those of ranking_reference.h. */
+/* Makes the reference of a stage, or takes that of the options. Errors: those of rendering, IMPOSSIBLE (a
+   pixel is not a finite number, or another renderer makes equal pictures for all seeds), MEMORY, INTERRUPTED. */
 koksma_status koksma__contest_make_reference(const koksma_rank_options *options, const koksma__study_scene *scene,
                                              const char *variant, int stage, const koksma_run *run,
                                              koksma__rank_reference *reference);

@@ -19,7 +19,6 @@
 #include "core/status.h"
 #include "study/ranking/ranking_contest.h"
 #include "study/ranking/ranking_setup.h"
-
 enum { STEPS = 4, LEVELS = 11, FITTED = 5, MOST_TRIES = 4096 };
 
 #define LEVEL 0.025       /* of each bound of an interval of 95 % */

@@ -169,9 +169,6 @@ void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d);
 /* Tests whether samplers[0] is unbiased, from many sets; notes the reason if it cannot be tested. */
 koksma_status koksma__sheet_look_for_bias(koksma__sheet *sheet);
 
-/* Writes what was found, as the first paragraph of the verdict. */
-void koksma__sheet_put_bias(koksma__sheet *sheet, koksma__document *d);
-
 /* ---- The other sections ---------------------------------------------------------------------------------------- */
 
 /* Drawings, verified properties and projections of the points; spectra and pair correlations; errors of integration; the

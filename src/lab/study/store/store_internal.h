@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The internal interface of the store. store_open.c creates and opens it, store_schema.c checks its tables,
+/* The internal interface of the store. store_open.c creates and opens it, and checks its tables,
    store_tables.c reads and checks rows, store_series.c finds ids of series,
    store_rows.c writes results, store_results.c reads them; store.c has locks, transactions, texts, references and
    runs. */
@@ -220,15 +220,6 @@ koksma_status koksma__store_write(koksma__store *store, koksma__query query);
 
 koksma_status koksma__store_put_text(koksma__store *store, const char *key, const char *value);
 koksma_status koksma__store_find_text(koksma__store *store, const char *key, char **value);
-
-/* ---- store_schema.c ------------------------------------------------------------------------------------------- */
-
-/* Checks that the database is a store of KOKSMA__SCHEMA and has no other tables. Errors: MALFORMED (another program's
-   database, or another schema). */
-koksma_status koksma__schema_check(koksma__database *database, const koksma__database_header *header);
-
-/* Creates the tables of KOKSMA__SCHEMA in an empty database. */
-koksma_status koksma__schema_make(koksma__database *database);
 
 /* ---- store_tables.c ------------------------------------------------------------------------------------------- */
 
