@@ -717,7 +717,7 @@ void koksma__conclude(koksma__report *r, koksma__document *d, const koksma__conc
                                        : all.passed == all.tests ? KOKSMA__ANSWER_HOLDS
                                        : all.passed              ? KOKSMA__ANSWER_PARTLY
                                                                  : KOKSMA__ANSWER_FAILS;
-    koksma__doc_verdict_begin(d, answer);
+    koksma__doc_answer_begin(d, answer);
     koksma__doc_say(d, "*%s%s%s:* %s ",
                     answer                   ? verdicts[answer]
                     : all.other && !all.open ? "Not decided, as our rows are by another procedure"

@@ -274,7 +274,7 @@ void koksma__doc_paragraph_begin(koksma__document *d)
     begin_paragraph(d, NULL, NULL);
 }
 
-void koksma__doc_verdict_begin(koksma__document *d, koksma__answer_kind kind)
+void koksma__doc_answer_begin(koksma__document *d, koksma__answer_kind kind)
 {
     static const char *const names[] = {[KOKSMA__ANSWER_UNDECIDED] = "undecided",
                                         [KOKSMA__ANSWER_DECIDED] = "decided",
@@ -282,11 +282,6 @@ void koksma__doc_verdict_begin(koksma__document *d, koksma__answer_kind kind)
                                         [KOKSMA__ANSWER_PARTLY] = "partly",
                                         [KOKSMA__ANSWER_FAILS] = "fails"};
     begin_paragraph(d, "answer", names[kind]);
-}
-
-void koksma__doc_answer_begin(koksma__document *d, bool decided)
-{
-    koksma__doc_verdict_begin(d, decided ? KOKSMA__ANSWER_DECIDED : KOKSMA__ANSWER_UNDECIDED);
 }
 
 void koksma__doc_metric_begin(koksma__document *d, const char *metric)

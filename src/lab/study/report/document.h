@@ -54,10 +54,8 @@ void koksma__doc_collapsed_section(koksma__document *d, const char *id, const ch
 void koksma__doc_paragraph(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 void koksma__doc_paragraph_begin(koksma__document *d);
 void koksma__doc_paragraph_end(koksma__document *d);
-/* Begins a paragraph that answers the question of its section, which the page also shows in its overview. decided:
-   whether the data decide the question. */
-void koksma__doc_answer_begin(koksma__document *d, bool decided);
-/* The same for a conclusion that is tested. */
+/* Begins a paragraph that answers the question of its section, which the page also shows in its overview. kind: whether the
+   data decide the question (true or false), or what they say of a conclusion. */
 typedef enum koksma__answer_kind {
     KOKSMA__ANSWER_UNDECIDED,
     KOKSMA__ANSWER_DECIDED,
@@ -65,7 +63,7 @@ typedef enum koksma__answer_kind {
     KOKSMA__ANSWER_PARTLY,
     KOKSMA__ANSWER_FAILS
 } koksma__answer_kind;
-void koksma__doc_verdict_begin(koksma__document *d, koksma__answer_kind kind);
+void koksma__doc_answer_begin(koksma__document *d, koksma__answer_kind kind);
 /* Words that are written before those in front of them: begin them in a document of their own, write them with
    koksma__doc_say, and append them to the open words of d. */
 void koksma__doc_words_begin(koksma__document *words);

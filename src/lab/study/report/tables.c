@@ -330,9 +330,9 @@ static void say_joint(koksma__document *d, const koksma__plan *plan, const koksm
     if (!tested) {
         return;
     }
-    koksma__doc_verdict_begin(d, strictly ? KOKSMA__ANSWER_FAILS
-                                 : failed ? KOKSMA__ANSWER_UNDECIDED
-                                          : KOKSMA__ANSWER_DECIDED);
+    koksma__doc_answer_begin(d, strictly ? KOKSMA__ANSWER_FAILS
+                                : failed ? KOKSMA__ANSWER_UNDECIDED
+                                         : KOKSMA__ANSWER_DECIDED);
     koksma__doc_say(d, "The values of z of %zu of %zu tables pass their joint tests (of sum and squares, 5 %% each)",
                     tested - failed, tested);
     if (strictly) {
