@@ -293,13 +293,6 @@ static koksma_status decode(entry *e, const char *name, const unsigned char *byt
     return status || !e->use.border ? status : add_border(&e->image, &e->use);
 }
 
-koksma_status koksma__scene_image_remark(koksma_scene *scene, const char *name, const char *text)
-{
-    return koksma__unknown_count(scene->unknown, scene->n_unknown, text)
-               ? KOKSMA_OK
-               : koksma__unknown_add(&scene->unknown, &scene->n_unknown, name, 1, text);
-}
-
 /* Reads the image of the entry, or finds it. Failures that another attempt would repeat are kept. */
 static koksma_status read_or_find(koksma_scene *scene, const char *name, entry *new, koksma_image **out)
 {
@@ -324,7 +317,9 @@ static koksma_status read_or_find(koksma_scene *scene, const char *name, entry *
         new->status = status;
         new->text = status ? strdup(koksma_error_text()) : NULL;
         status = status && !new->text ? koksma__fail_memory(1) : add(scene, new, &e);
-        status = status || !*new->remark ? status : koksma__scene_image_remark(scene, name, new->remark);
+        status = status || !*new->remark
+                     ? status
+                     : koksma__unknown_put(&scene->unknown, &scene->n_unknown, name, 1, new->remark);
         if (status) {
             free(new->text);
             koksma_image_fini(&new->image);

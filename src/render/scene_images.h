@@ -45,9 +45,6 @@ koksma_status koksma__scene_image_within(koksma_scene *scene, const char *name, 
 /* Moves an image into the scene. On failure *from is unchanged. Errors: MALFORMED (too much memory), MEMORY. */
 koksma_status koksma__scene_image_keep(koksma_scene *scene, koksma_image *from, koksma_image **out);
 
-/* Adds what koksma_image_remark said of an image to the scene's warnings. Error: MEMORY. */
-koksma_status koksma__scene_image_remark(koksma_scene *scene, const char *name, const char *text);
-
 /* Frees an image, unless a material or light still uses it. image may be NULL. */
 void koksma__scene_image_drop(koksma_scene *scene, const koksma_image *image);
 

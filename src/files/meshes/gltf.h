@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reader of glTF 2.0, JSON and buffers, in several files: gltf_read.c opens the file; gltf.c reads its buffers and
-   accessors; gltf_schema.c checks that the parts fit together; gltf_materials.c reads its materials; gltf_meshes.c
-   makes meshes from primitives; gltf_nodes.c places them and reads the lights and the camera. This header declares what
-   these files share. */
+/* The reader of glTF 2.0 in three files: gltf.c opens a file and reads its buffers and accessors; gltf_schema.c checks that
+   the parts fit together; gltf_scene.c reads what the scene shows. This header declares what these files share. */
 #ifndef KOKSMA_MESHES_GLTF_H
 #define KOKSMA_MESHES_GLTF_H
 
@@ -33,6 +31,22 @@ typedef struct koksma__gltf_bytes {
     size_t size;
 } koksma__gltf_bytes;
 
+/* A part of a buffer. */
+typedef struct koksma__gltf_view {
+    size_t buffer, offset, size, stride;
+} koksma__gltf_view;
+
+/* The elements of an accessor. */
+typedef struct koksma__gltf_elements {
+    const unsigned char *first; /* set by koksma__gltf_elements_at */
+    size_t n, stride;
+    int component; /* glTF's number of the component type, 5120 to 5126 */
+    int width;     /* number of components of an element; 0: it is a matrix */
+    bool normalised;
+    size_t view, offset; /* view: 1 + its index; 0: it has none */
+    size_t beyond;       /* of indices: 1 + the largest; 0: not computed yet */
+} koksma__gltf_elements;
+
 /* The state of reading one file. An array that belongs to a list of the file has the same indices as that list. */
 typedef struct koksma__gltf {
     koksma__mesh_file *out;
@@ -41,16 +55,17 @@ typedef struct koksma__gltf {
     koksma__gltf_bytes binary;   /* the binary chunk of a GLB file */
     koksma__gltf_bytes *buffers; /* contents of the file's buffers */
     koksma__gltf_bytes *images;  /* images within the file, each loaded when first needed */
-    koksma__list shown;          /* placements of the file's meshes */
+    koksma__gltf_view *views;
+    koksma__gltf_elements *accessors;
+    koksma__list shown; /* placements of the file's meshes */
+    bool *has_parent;   /* of nodes */
     bool *mesh_shown;
-    /* whether a mesh that is shown uses the material; the last entry stands for primitives without a material */
-    bool *material_used;
-    bool *material_tinted; /* whether a mesh that is shown and has vertex colours uses the material; indexed like
-                              material_used */
-    size_t *beyond;        /* 1 + the largest index in an accessor of indices; 0: not computed yet */
-    koksma__names listed;  /* the extensions that the file says it uses */
-    size_t text_size;      /* of the JSON */
-    size_t index_bytes;    /* of the accessors of indices whose `beyond` is computed */
+    /* whether a mesh that is shown, or one with vertex colours, uses the material; the last entry stands for primitives
+       without a material */
+    bool *material_used, *material_tinted;
+    koksma__names listed; /* the extensions that the file says it uses */
+    size_t text_size;     /* of the JSON */
+    size_t index_bytes;   /* of the accessors of indices whose `beyond` is computed */
 } koksma__gltf;
 
 /* The list `key` of an object; if the object lacks it, *n is 0. */
@@ -62,25 +77,13 @@ koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i);
 /* Follows a path of keys, "extensions/KHR_materials_ior", into nested objects. Returns false if a key is missing. */
 bool koksma__gltf_find(const koksma__json_node *from, const char *path, koksma__json_node *out);
 
-/* The position and type of an accessor's elements. */
-typedef struct koksma__gltf_elements {
-    const unsigned char *first;
-    size_t n, stride;
-    int component; /* glTF's number of the component type, 5120 to 5126 */
-    int width;     /* number of components of an element */
-    bool normalised;
-} koksma__gltf_elements;
-
-/* Loads all buffers whose data exist. Errors: MISSING, MALFORMED, MEMORY. */
-koksma_status koksma__gltf_load_buffers(koksma__gltf *g);
-
 /* Decodes a data URI in base64 into bytes that the koksma__mesh_file owns; errors name the field f. Errors:
    MALFORMED, MEMORY. */
 koksma_status koksma__gltf_decode(koksma__gltf *g, const koksma__json_node *f, const char *uri,
                                   koksma__gltf_bytes *out);
 
 /* The bytes of a buffer view. Errors: MALFORMED (its buffer is missing). */
-koksma_status koksma__gltf_view(const koksma__gltf *g, size_t view, koksma__gltf_bytes *out, size_t *stride);
+koksma_status koksma__gltf_view_bytes(const koksma__gltf *g, size_t view, koksma__gltf_bytes *out);
 
 /* The accessor whose index is the member `key` of the object. Errors: MALFORMED. */
 koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const koksma__json_node *object, const char *key,
@@ -98,23 +101,15 @@ float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k);
 /* gltf_schema.c. Names each member of the file's objects that glTF 2.0 does not have, in g->out->unknown. Error: MEMORY. */
 koksma_status koksma__gltf_name_unknown(koksma__gltf *g);
 
-/* Finds the lists of the root object, and checks that every index of another item is in range, every buffer view and
-   accessor lies within its buffer or view, and nodes form trees. Errors: MALFORMED, MEMORY. */
+/* Finds the lists of the root object, makes the arrays, and checks that every index of another item is in range, every
+   buffer view and accessor lies within its buffer or view, and nodes form trees. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_check(koksma__gltf *g);
 
 /* Whether the reader supports the extension of this name. */
 bool koksma__gltf_reads(const char *extension);
 
-/* gltf_materials.c. Reads the materials that g->material_used marks, at their indices. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__gltf_read_materials(koksma__gltf *g);
-
-/* The set of texture coordinates, 0 or 1, for meshes of a material: that of the material's first texture. */
-int koksma__gltf_uv_set(const koksma__gltf *g, size_t material);
-
-/* gltf_meshes.c. Checks all meshes, and reads those that the scene shows, placed. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__gltf_read_meshes(koksma__gltf *g);
-
-/* gltf_nodes.c. Adds the meshes' placements to g->shown, and lights and camera to the file. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__gltf_read_nodes(koksma__gltf *g);
+/* Reads the meshes that the scene shows, placed, with their materials, the lights and the camera. Errors: MALFORMED,
+   MEMORY. */
+koksma_status koksma__gltf_read_scene(koksma__gltf *g);
 
 #endif

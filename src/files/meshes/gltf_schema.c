@@ -87,7 +87,7 @@ static const struct {
 static const char *const extensions[] = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
                                          "KHR_materials_ior", "KHR_texture_transform", NULL};
 
-enum { N_KINDS = sizeof kinds / sizeof *kinds, MOST_NAMES = 32, MOST_READ = 1 << 30 };
+enum { N_KINDS = sizeof kinds / sizeof *kinds, MOST_READ = 1 << 30 };
 
 #define MARKS " :=>" /* that end a name in the members of a kind */
 
@@ -113,28 +113,6 @@ static bool is_named(const char *key, const char *name, size_t length)
     return any || strspn(key + length - 1, "0123456789") == strlen(key + length - 1);
 }
 
-/* The words between separators of a text, for a suggestion. */
-typedef struct words {
-    char items[MOST_NAMES][40];
-    size_t n;
-} words;
-
-static const char *word_at(const void *from, size_t i)
-{
-    const words *w = from;
-    return i < w->n ? w->items[i] : NULL;
-}
-
-/* Adds the names of a list: "A B:KIND C=TEXT D>LIST", or "A|B". */
-static void add_words(words *to, const char *list, const char *separators, const char *ends)
-{
-    while (*list && to->n < MOST_NAMES) {
-        const size_t whole = strcspn(list, separators), length = strcspn(list, ends);
-        snprintf(to->items[to->n++], sizeof *to->items, "%.*s", (int)(length < whole ? length : whole), list);
-        list += whole + (list[whole] != 0);
-    }
-}
-
 static const char *extension_at(const void *unused, size_t i)
 {
     (void)unused;
@@ -152,13 +130,12 @@ bool koksma__gltf_reads(const char *extension)
 
 /* Names a member or value. To find its line takes time, so that in a huge file more of them only count. */
 static koksma_status name_one(koksma__gltf *g, const field *at, const char *what, const char *key,
-                              koksma_name_at *name, const void *known, size_t kind)
+                              const char *closest, size_t kind)
 {
     koksma__mesh_file *out = g->out;
-    char text[256];
-    const char *closest = koksma_closest_name(key, name, known);
-    snprintf(text, sizeof text, "%s'%.64s' of %s is unknown%s%s%s", what, key, kinds[kind].name,
-             closest ? "; did you mean '" : "", closest ? closest : "", closest ? "'?" : "");
+    char text[256], meant[KOKSMA__OR_MEANT];
+    snprintf(text, sizeof text, "%s'%.64s' of %s is unknown%s", what, key, kinds[kind].name,
+             koksma__or_meant(closest, meant));
     if (out->n_unknown && out->n_unknown * g->text_size > MOST_READ) {
         out->unknown[out->n_unknown - 1].n++;
         return KOKSMA_OK;
@@ -172,36 +149,35 @@ static koksma_status name_one(koksma__gltf *g, const field *at, const char *what
 static koksma_status check_value(koksma__gltf *g, const field *at, const char *key, const char *values, size_t length,
                                  size_t kind)
 {
-    words known = {.n = 0};
-    char list[96], what[80];
+    koksma__word_list known = {.n = 0};
+    char what[80];
     const char *text = NULL;
-    snprintf(list, sizeof list, "%.*s", (int)length, values);
-    add_words(&known, list, "|", "|");
     if (!koksma__json_is_text(at) || koksma__json_text(at, &text)) {
         return KOKSMA_OK; /* its reader says what is wrong */
     }
+    koksma__word_list_add(&known, values, length, "|", "|");
     for (size_t i = 0; i < known.n; i++) {
         if (!strcmp(known.items[i], text)) {
             return KOKSMA_OK;
         }
     }
     snprintf(what, sizeof what, "%.60s ", key);
-    return name_one(g, at, what, text, word_at, &known, kind);
+    return name_one(g, at, what, text, koksma__word_list_closest(&known, text), kind);
 }
 
-static koksma_status walk(koksma__gltf *g, const field *object, size_t kind);
+static koksma_status walk(koksma__gltf *g, const field *object, size_t kind, bool names);
 
 /* Walks an object or a list of objects. */
-static koksma_status walk_all(koksma__gltf *g, const field *at, size_t kind)
+static koksma_status walk_all(koksma__gltf *g, const field *at, size_t kind, bool names)
 {
     size_t n = 0;
     if (!koksma__json_is_array(at)) {
-        return walk(g, at, kind);
+        return walk(g, at, kind, names);
     }
     KOKSMA__TRY(koksma__json_length(at, KOKSMA__GLTF_ITEMS, &n));
     for (size_t i = 0; i < n; i++) {
         const field item = koksma__json_item(at, i);
-        KOKSMA__TRY(walk(g, &item, kind));
+        KOKSMA__TRY(walk(g, &item, kind, names));
     }
     return KOKSMA_OK;
 }
@@ -214,67 +190,15 @@ static koksma_status walk_extensions(koksma__gltf *g, const field *object, size_
     for (void *at = NULL; koksma__json_is_object(object) && koksma__json_next(object, &at, &key, &member);) {
         const size_t found = kind_of(key, strlen(key));
         if (koksma__gltf_reads(key) && found < N_KINDS) {
-            KOKSMA__TRY(walk_all(g, &member, found));
+            KOKSMA__TRY(walk_all(g, &member, found, true));
         } else if (!koksma__names_find(&g->listed, key, strlen(key), &ignored)) { /* otherwise named already */
-            KOKSMA__TRY(name_one(g, &member, "extension ", key, extension_at, NULL, kind));
+            KOKSMA__TRY(name_one(g, &member, "extension ", key, koksma_closest_name(key, extension_at, NULL), kind));
         }
     }
     return KOKSMA_OK;
 }
 
-/* Checks a member of an object by the list of the members that its kind has. */
-static koksma_status check_member(koksma__gltf *g, const field *member, const char *key, size_t kind)
-{
-    words known = {.n = 0};
-    for (const char *at = kinds[kind].members; *at; at += *at == ' ') {
-        const size_t whole = strcspn(at, " "), length = strcspn(at, MARKS);
-        if (is_named(key, at, length)) {
-            const char *more = at + length + 1;
-            const size_t rest = whole - length - (whole > length);
-            return at[length] == ':'   ? walk_all(g, member, kind_of(more, rest))
-                   : at[length] == '=' ? check_value(g, member, key, more, rest, kind)
-                                       : KOKSMA_OK;
-        }
-        at += whole;
-    }
-    add_words(&known, kinds[kind].members, " ", MARKS);
-    return name_one(g, member, "", key, word_at, &known, kind);
-}
-
-static koksma_status walk(koksma__gltf *g, const field *object, size_t kind)
-{
-    const char *key;
-    field member;
-    for (void *at = NULL; koksma__json_is_object(object) && koksma__json_next(object, &at, &key, &member);) {
-        if (!strcmp(key, "extensions")) {
-            KOKSMA__TRY(walk_extensions(g, &member, kind));
-        } else if (strcmp(key, "extras") != 0) {
-            KOKSMA__TRY(check_member(g, &member, key, kind));
-        }
-    }
-    return KOKSMA_OK;
-}
-
-koksma_status koksma__gltf_name_unknown(koksma__gltf *g)
-{
-    return walk(g, &g->root, 0);
-}
-
-/* ---- Checks ------------------------------------------------------------------------------------------------- */
-
-/* Calls f for every item of a list of the root. */
-static koksma_status each(const koksma__gltf *g, int list,
-                          koksma_status (*f)(const koksma__gltf *g, const field *item))
-{
-    for (size_t i = 0; i < g->n[list]; i++) {
-        const field item = koksma__gltf_item(g, list, i);
-        KOKSMA__TRY(f(g, &item));
-    }
-    return KOKSMA_OK;
-}
-
-/* Checks that the member `key`, if the object has it, is the index of an item of the list that is named by `length`
-   characters. */
+/* Checks that the member `key` of an object is the index of an item of the list that is named by `length` characters. */
 static koksma_status check_index(const koksma__gltf *g, const field *object, const char *key, const char *list,
                                  size_t length)
 {
@@ -283,41 +207,59 @@ static koksma_status check_index(const koksma__gltf *g, const field *object, con
     while (strlen(lists[i].key) != length || memcmp(lists[i].key, list, length) != 0) {
         i++;
     }
-    KOKSMA__TRY(koksma__json_get_whole(object, key, false, 0, KOKSMA__GLTF_ITEMS, &number));
-    KOKSMA__JSON_FAIL_IF(koksma__json_has(object, key) && (size_t)number >= g->n[i], object,
+    KOKSMA__TRY(koksma__json_get_whole(object, key, true, 0, KOKSMA__GLTF_ITEMS, &number));
+    KOKSMA__JSON_FAIL_IF((size_t)number >= g->n[i], object,
                          "%s: there is no %s %lld; the file has %zu, numbered from 0", key, lists[i].item, number,
                          g->n[i]);
     return KOKSMA_OK;
 }
 
-/* Checks the indices within an object of this kind. */
-static koksma_status check_indices(const koksma__gltf *g, const field *object, size_t kind)
+/* Checks a member of an object by the list of the members that its kind has. */
+static koksma_status check_member(koksma__gltf *g, const field *object, field *member, const char *key, size_t kind,
+                                  bool names)
 {
+    koksma__word_list known = {.n = 0};
     for (const char *at = kinds[kind].members; *at; at += *at == ' ') {
-        const size_t whole = strcspn(at, " "), length = strcspn(at, MARKS), rest = whole - length - (whole > length);
-        char key[40];
-        field member;
-        size_t n = 0;
-        snprintf(key, sizeof key, "%.*s", (int)length, at);
-        if (at[length] == '>') {
-            KOKSMA__TRY(check_index(g, object, key, at + length + 1, rest));
-        } else if (at[length] == ':' && koksma__json_has(object, key)) {
-            const size_t of = kind_of(at + length + 1, rest);
-            KOKSMA__TRY(koksma__json_member(object, key, &member));
-            if (koksma__json_is_object(&member)) {
-                KOKSMA__TRY(check_indices(g, &member, of));
-            } else if (koksma__json_is_array(&member)) {
-                KOKSMA__TRY(koksma__json_length(&member, KOKSMA__GLTF_ITEMS, &n));
+        const size_t whole = strcspn(at, " "), length = strcspn(at, MARKS);
+        if (is_named(key, at, length)) {
+            const char *more = at + length + 1;
+            const size_t rest = whole - length - (whole > length);
+            if (at[length] == ':') {
+                KOKSMA__TRY(names ? KOKSMA_OK : koksma__json_member(object, key, member)); /* with its path */
+                return walk_all(g, member, kind_of(more, rest), names);
             }
-            for (size_t i = 0; i < n; i++) {
-                const field item = koksma__json_item(&member, i);
-                KOKSMA__TRY(check_indices(g, &item, of));
-            }
+            return at[length] == '=' && names    ? check_value(g, member, key, more, rest, kind)
+                   : at[length] == '>' && !names ? check_index(g, object, key, more, rest)
+                                                 : KOKSMA_OK;
         }
         at += whole;
     }
+    koksma__word_list_add(&known, kinds[kind].members, strlen(kinds[kind].members), " ", MARKS);
+    return names ? name_one(g, member, "", key, koksma__word_list_closest(&known, key), kind) : KOKSMA_OK;
+}
+
+/* Walks the members of an object; names: names those that are unknown, or otherwise checks the indices of others. */
+static koksma_status walk(koksma__gltf *g, const field *object, size_t kind, bool names)
+{
+    const char *key;
+    field member;
+    for (void *at = NULL; koksma__json_is_object(object) && koksma__json_next(object, &at, &key, &member);) {
+        const bool extends = !strcmp(key, "extensions");
+        if (extends && names) {
+            KOKSMA__TRY(walk_extensions(g, &member, kind));
+        } else if (!extends && strcmp(key, "extras") != 0) {
+            KOKSMA__TRY(check_member(g, object, &member, key, kind, names));
+        }
+    }
     return KOKSMA_OK;
 }
+
+koksma_status koksma__gltf_name_unknown(koksma__gltf *g)
+{
+    return walk(g, &g->root, 0, true);
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------- */
 
 static koksma_status bytes(const field *object, const char *key, bool needed, long long *out)
 {
@@ -325,14 +267,7 @@ static koksma_status bytes(const field *object, const char *key, bool needed, lo
     return koksma__json_get_whole(object, key, needed, 0, 1 << 30, out);
 }
 
-static koksma_status check_buffer(const koksma__gltf *g, const field *f)
-{
-    long long length;
-    (void)g;
-    return bytes(f, "byteLength", true, &length);
-}
-
-static koksma_status check_view(const koksma__gltf *g, const field *f)
+static koksma_status check_view(const koksma__gltf *g, const field *f, koksma__gltf_view *out)
 {
     long long number = 0, offset = 0, length = 0, room = 0, stride = 0;
     KOKSMA__TRY(koksma__json_get_whole(f, "buffer", true, 0, KOKSMA__GLTF_ITEMS, &number));
@@ -345,49 +280,49 @@ static koksma_status check_view(const koksma__gltf *g, const field *f)
                          "its %lld bytes, from byte %lld on, go beyond the end of a buffer of %lld bytes", length,
                          offset, room);
     KOKSMA__JSON_FAIL_IF(stride > 252, f, "byteStride is %lld; it must be at most 252", stride);
+    *out = (koksma__gltf_view){(size_t)number, (size_t)offset, (size_t)length, (size_t)stride};
     return KOKSMA_OK;
 }
 
-/* Number of components of an element; 0: unknown type. */
-static long long components_of(const char *type)
+static koksma_status check_accessor(const koksma__gltf *g, const field *f, koksma__gltf_elements *out)
 {
     static const struct {
         const char *type;
         int n;
     } types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
-    size_t i = 0;
-    while (i < sizeof types / sizeof *types && strcmp(types[i].type, type) != 0) {
-        i++;
-    }
-    return i < sizeof types / sizeof *types ? types[i].n : 0;
-}
-
-static koksma_status check_accessor(const koksma__gltf *g, const field *f)
-{
-    long long number = 0, offset = 0, count = 0, component = 0, room = 0, stride = 0;
+    enum { TYPES = sizeof types / sizeof *types };
+    long long number = 0, offset = 0, count = 0, component = 0;
     const char *type = "";
+    size_t t = 0;
     KOKSMA__TRY(bytes(f, "byteOffset", false, &offset));
     KOKSMA__TRY(koksma__json_get_whole(f, "count", true, 1, (long long)KOKSMA__MAX_VERTICES, &count));
     KOKSMA__TRY(koksma__json_get_whole(f, "componentType", true, 5120, 5126, &component));
     KOKSMA__TRY(koksma__json_get_text(f, "type", true, &type));
-    const long long size = components_of(type) * (long long)koksma__gltf_component_size((int)component);
+    KOKSMA__TRY(koksma__json_get_flag(f, "normalized", false, &out->normalised));
+    while (t < TYPES && strcmp(types[t].type, type) != 0) {
+        t++;
+    }
+    const size_t size = t < TYPES ? (size_t)types[t].n * koksma__gltf_component_size((int)component) : 0;
     KOKSMA__JSON_FAIL_IF(!size, f, "elements of type '%.32s' and component type %lld do not exist", type, component);
     KOKSMA__JSON_FAIL_IF(koksma__json_has(f, "sparse"), f, "sparse accessors are not read");
+    out->n = (size_t)count;
+    out->component = (int)component;
+    out->width = t < 4 ? types[t].n : 0;
+    out->offset = (size_t)offset;
     if (!koksma__json_has(f, "bufferView")) {
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__json_get_whole(f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &number));
-    const field view = koksma__gltf_item(g, KOKSMA__GLTF_VIEWS, (size_t)number);
-    KOKSMA__TRY(bytes(&view, "byteLength", true, &room));
-    KOKSMA__TRY(bytes(&view, "byteStride", false, &stride));
-    stride = stride > size ? stride : size;
-    KOKSMA__JSON_FAIL_IF(offset + (count - 1) * stride + size > room, f,
-                         "%lld elements of %lld bytes lie beyond a view of %lld bytes", count, size, room);
+    const koksma__gltf_view *view = &g->views[number];
+    out->view = (size_t)number + 1;
+    out->stride = view->stride > size ? view->stride : size;
+    KOKSMA__JSON_FAIL_IF(out->offset + (out->n - 1) * out->stride + size > view->size, f,
+                         "%lld elements of %zu bytes lie beyond a view of %zu bytes", count, size, view->size);
     return KOKSMA_OK;
 }
 
 /* Checks that no node has two parents and that the roots of scenes have no parent, so that there are no cycles. */
-static koksma_status check_tree(const koksma__gltf *g, unsigned char *has_parent)
+static koksma_status check_tree(const koksma__gltf *g)
 {
     field nodes, scenes, list;
     size_t n, n_scenes = 0;
@@ -401,9 +336,9 @@ static koksma_status check_tree(const koksma__gltf *g, unsigned char *has_parent
                 const field child = koksma__json_item(&list, c);
                 long long number = 0;
                 status = koksma__json_whole(&child, 0, (long long)g->n[KOKSMA__GLTF_NODES] - 1, &number);
-                KOKSMA__JSON_FAIL_IF(!status && has_parent[number], &child,
+                KOKSMA__JSON_FAIL_IF(!status && g->has_parent[number], &child,
                                      pass ? "node %lld has a parent" : "node %lld has two parents", number);
-                has_parent[status ? 0 : number] |= !pass;
+                g->has_parent[status ? 0 : number] |= !pass;
             }
         }
     }
@@ -426,6 +361,24 @@ static koksma_status check_required(const koksma__gltf *g)
     return KOKSMA_OK;
 }
 
+/* Allocates zeroed arrays that are as long as the file's lists. */
+static koksma_status make_arrays(koksma__gltf *g)
+{
+    const size_t *n = g->n;
+    g->buffers = calloc(n[KOKSMA__GLTF_BUFFERS] + 1, sizeof *g->buffers);
+    g->images = calloc(n[KOKSMA__GLTF_IMAGES] + 1, sizeof *g->images);
+    g->views = calloc(n[KOKSMA__GLTF_VIEWS] + 1, sizeof *g->views);
+    g->accessors = calloc(n[KOKSMA__GLTF_ACCESSORS] + 1, sizeof *g->accessors);
+    g->has_parent = calloc(n[KOKSMA__GLTF_NODES] + 1, sizeof *g->has_parent);
+    g->mesh_shown = calloc(n[KOKSMA__GLTF_MESHES] + 1, sizeof *g->mesh_shown);
+    g->material_used = calloc(n[KOKSMA__GLTF_MATERIALS] + 1, sizeof *g->material_used);
+    g->material_tinted = calloc(n[KOKSMA__GLTF_MATERIALS] + 1, sizeof *g->material_tinted);
+    return g->buffers && g->images && g->views && g->accessors && g->has_parent && g->mesh_shown &&
+                   g->material_used && g->material_tinted
+               ? KOKSMA_OK
+               : koksma__fail_memory(n[KOKSMA__GLTF_ACCESSORS] * sizeof *g->accessors);
+}
+
 koksma_status koksma__gltf_check(koksma__gltf *g)
 {
     const field *root = &g->root;
@@ -438,13 +391,20 @@ koksma_status koksma__gltf_check(koksma__gltf *g)
         KOKSMA__TRY(koksma__gltf_list(root, lists[i].key, &g->lists[i], &g->n[i]));
     }
     KOKSMA__TRY(check_required(g));
-    KOKSMA__TRY(check_indices(g, root, 0));
-    KOKSMA__TRY(each(g, KOKSMA__GLTF_BUFFERS, check_buffer));
-    KOKSMA__TRY(each(g, KOKSMA__GLTF_VIEWS, check_view));
-    KOKSMA__TRY(each(g, KOKSMA__GLTF_ACCESSORS, check_accessor));
-    unsigned char *has_parent = calloc(g->n[KOKSMA__GLTF_NODES] + 1, 1);
-    KOKSMA__REQUIRE_MEMORY(has_parent, g->n[KOKSMA__GLTF_NODES]);
-    const koksma_status status = check_tree(g, has_parent);
-    free(has_parent);
-    return status;
+    KOKSMA__TRY(walk(g, root, 0, false));
+    KOKSMA__TRY(make_arrays(g));
+    for (size_t i = 0; i < g->n[KOKSMA__GLTF_BUFFERS]; i++) {
+        const field f = koksma__gltf_item(g, KOKSMA__GLTF_BUFFERS, i);
+        long long length;
+        KOKSMA__TRY(bytes(&f, "byteLength", true, &length));
+    }
+    for (size_t i = 0; i < g->n[KOKSMA__GLTF_VIEWS]; i++) {
+        const field f = koksma__gltf_item(g, KOKSMA__GLTF_VIEWS, i);
+        KOKSMA__TRY(check_view(g, &f, &g->views[i]));
+    }
+    for (size_t i = 0; i < g->n[KOKSMA__GLTF_ACCESSORS]; i++) {
+        const field f = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, i);
+        KOKSMA__TRY(check_accessor(g, &f, &g->accessors[i]));
+    }
+    return check_tree(g);
 }

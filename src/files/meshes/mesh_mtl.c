@@ -110,12 +110,9 @@ static const char *keyword_at(const void *table, size_t i)
 static koksma_status name_word(const koksma__text *t, const char *given, const char *what, const char *closest,
                                koksma__mesh_file *f)
 {
-    char text[256];
-    snprintf(text, sizeof text, "'%s' is not %s of material files%s%s%s", given, what,
-             closest ? "; did you mean '" : "", closest ? closest : "", closest ? "'?" : "");
-    return koksma__unknown_count(f->unknown, f->n_unknown, text)
-               ? KOKSMA_OK
-               : koksma__unknown_add(&f->unknown, &f->n_unknown, t->path, (unsigned long)t->number, text);
+    char text[256], meant[KOKSMA__OR_MEANT];
+    snprintf(text, sizeof text, "'%s' is not %s of material files%s", given, what, koksma__or_meant(closest, meant));
+    return koksma__unknown_put(&f->unknown, &f->n_unknown, t->path, (unsigned long)t->number, text);
 }
 
 static koksma_status name_keyword(const koksma__text *t, const char *word, size_t length, koksma__mesh_file *f)

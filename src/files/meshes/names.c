@@ -97,3 +97,41 @@ koksma_status koksma__unknown_add(koksma__unknown **list, size_t *n, const char 
     snprintf(to->text, sizeof to->text, "%s", text);
     return KOKSMA_OK;
 }
+
+koksma_status koksma__unknown_put(koksma__unknown **list, size_t *n, const char *file, unsigned long line,
+                                  const char *text)
+{
+    return koksma__unknown_count(*list, *n, text) ? KOKSMA_OK : koksma__unknown_add(list, n, file, line, text);
+}
+
+void koksma__word_list_add(koksma__word_list *to, const char *list, size_t length, const char *separators,
+                           const char *ends)
+{
+    for (size_t from = 0; from < length && to->n < sizeof to->items / sizeof *to->items;) {
+        const size_t whole = strcspn(list + from, separators), word = strcspn(list + from, ends);
+        const size_t left = length - from, shortest = word < whole ? word : whole;
+        snprintf(to->items[to->n++], sizeof *to->items, "%.*s", (int)(shortest < left ? shortest : left),
+                 list + from);
+        from += whole + 1;
+    }
+}
+
+static const char *word_at(const void *from, size_t i)
+{
+    const koksma__word_list *w = from;
+    return i < w->n ? w->items[i] : NULL;
+}
+
+const char *koksma__word_list_closest(const koksma__word_list *words, const char *word)
+{
+    return koksma_closest_name(word, word_at, words);
+}
+
+const char *koksma__or_meant(const char *name, char text[KOKSMA__OR_MEANT])
+{
+    *text = '\0';
+    if (name) {
+        snprintf(text, KOKSMA__OR_MEANT, "; did you mean '%.50s'?", name);
+    }
+    return text;
+}

@@ -45,11 +45,34 @@ enum { KOKSMA__MOST_UNKNOWN = 256 };
    has room for it. */
 bool koksma__unknown_count(koksma__unknown *list, size_t n, const char *text);
 
+/* Counts an occurrence of a text, which is added if it is new. Error: MEMORY. */
+koksma_status koksma__unknown_put(koksma__unknown **list, size_t *n, const char *file, unsigned long line,
+                                  const char *text);
+
 /* Returns `status`; if it is MALFORMED, the last text of the list, which may be its cause, is put behind the error's. */
 koksma_status koksma__unknown_explain(koksma_status status, const koksma__unknown *list, size_t n);
 
 /* Adds a text that is new. Error: MEMORY. */
 koksma_status koksma__unknown_add(koksma__unknown **list, size_t *n, const char *file, unsigned long line,
                                   const char *text);
+
+/* ---- The name that a misspelt one may mean ---- */
+
+/* Words of lists, each cut after 39 bytes. */
+typedef struct koksma__word_list {
+    char items[96][40];
+    size_t n;
+} koksma__word_list;
+
+/* Adds the words of a list of `length` bytes, which end at a separator; of each word what is before one of `ends`. */
+void koksma__word_list_add(koksma__word_list *to, const char *list, size_t length, const char *separators,
+                           const char *ends);
+
+/* The nearest one, as koksma_closest_name(); NULL if none is near. */
+const char *koksma__word_list_closest(const koksma__word_list *words, const char *word);
+
+/* "; did you mean 'NAME'?" in `text`, or "" for NULL; returns text. */
+enum { KOKSMA__OR_MEANT = 80 };
+const char *koksma__or_meant(const char *name, char text[KOKSMA__OR_MEANT]);
 
 #endif

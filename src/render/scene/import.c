@@ -67,9 +67,7 @@ static koksma_status add_unknown(koksma__import *im, koksma__text_place place, c
     char text[256];
     koksma__vsnprintf(text, sizeof text, format, arguments);
     KOKSMA__TRY(koksma__import_spend(im, place, 16 + scene->n_unknown / 4));
-    return koksma__unknown_count(scene->unknown, scene->n_unknown, text)
-               ? KOKSMA_OK
-               : koksma__unknown_add(&scene->unknown, &scene->n_unknown, place.file, place.line, text);
+    return koksma__unknown_put(&scene->unknown, &scene->n_unknown, place.file, place.line, text);
 }
 
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)

@@ -562,7 +562,7 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
         koksma_status status = koksma__image_read(image, KOKSMA__FILE_TEXTURE, KOKSMA__BY_USER, &read);
         status = status ? status : koksma__image_check(&read, image);
         if (!status && *koksma_image_remark()) {
-            status = koksma__scene_image_remark(scene, image, koksma_image_remark());
+            status = koksma__unknown_put(&scene->unknown, &scene->n_unknown, image, 1, koksma_image_remark());
         }
         status = status ? status : koksma__scene_image_keep(scene, &read, &pixels);
         if (status) {

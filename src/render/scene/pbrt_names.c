@@ -187,54 +187,26 @@ static bool takes_type(const koksma__entry *e, const koksma__pbrt_parameter *p)
     return koksma__text_is(e->type, e->type_length, p->type);
 }
 
-/* The names or values among which the nearest to a misspelt one is searched. */
-typedef struct candidates {
-    char names[96][40];
-    size_t n;
-} candidates;
-
-static void add(candidates *to, const char *at, size_t length)
+static verdict judge_value(const koksma__entry *e, const koksma__pbrt_parameter *p, char meant[KOKSMA__OR_MEANT])
 {
-    if (to->n < sizeof to->names / sizeof *to->names) {
-        snprintf(to->names[to->n++], sizeof *to->names, "%.*s", (int)length, at);
-    }
-}
-
-static const char *candidate(const void *from, size_t i)
-{
-    const candidates *c = from;
-    return i < c->n ? c->names[i] : NULL;
-}
-
-static void find_nearest(const candidates *c, const char *name, char nearest[40])
-{
-    const char *found = koksma_closest_name(name, candidate, c);
-    snprintf(nearest, 40, "%s", found ? found : "");
-}
-
-static verdict judge_value(const koksma__entry *e, const koksma__pbrt_parameter *p, char nearest[40])
-{
-    candidates values = {.n = 0};
+    koksma__word_list values = {.n = 0};
     if (!e->values || koksma__lists(e->values, e->values_length, '|', p->text)) {
         return e->without_effect ? WITHOUT_EFFECT : KNOWN;
     }
-    for (size_t from = 0; from < e->values_length; from++) {
-        const size_t length = strcspn(e->values + from, "| ;");
-        add(&values, e->values + from, length);
-        from += length;
-    }
-    find_nearest(&values, p->text, nearest);
+    koksma__word_list_add(&values, e->values, e->values_length, "|", "|");
+    koksma__or_meant(koksma__word_list_closest(&values, p->text), meant);
     return NO_SUCH_VALUE;
 }
 
-/* Judges a parameter. For a name or value that does not exist, `nearest` is the one that may be meant, or empty; for a
-   type, the class of types that the parameter has. */
-static verdict judge(const char *directive, const char *kind, const koksma__pbrt_parameter *p, char nearest[40])
+/* Judges a parameter. For a name or value that does not exist, `meant` asks for the one that may be meant, or is empty; for
+   a type, it is the class of types that the parameter has. */
+static verdict judge(const char *directive, const char *kind, const koksma__pbrt_parameter *p,
+                     char meant[KOKSMA__OR_MEANT])
 {
     const bool all = !kind || !koksma__pbrt_is_kind(directive, kind);
     verdict best = NO_SUCH_NAME;
-    candidates names = {.n = 0};
-    *nearest = 0;
+    koksma__word_list names = {.n = 0};
+    *meant = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const char *text = rows[i].parameters;
         koksma__entry e = {.type = NULL};
@@ -242,19 +214,19 @@ static verdict judge(const char *directive, const char *kind, const koksma__pbrt
             continue;
         }
         while (koksma__entry_next(&text, &e)) {
-            add(&names, e.name, e.length);
+            koksma__word_list_add(&names, e.name, e.length, "", "");
             if (!koksma__text_is(e.name, e.length, p->name)) {
                 continue;
             }
             if (takes_type(&e, p)) {
-                return judge_value(&e, p, nearest);
+                return judge_value(&e, p, meant);
             }
             best = NO_SUCH_TYPE;
-            snprintf(nearest, 40, "%.*s", (int)e.type_length, e.type);
+            snprintf(meant, KOKSMA__OR_MEANT, "%.*s", (int)e.type_length, e.type);
         }
     }
     if (best == NO_SUCH_NAME) {
-        find_nearest(&names, p->name, nearest);
+        koksma__or_meant(koksma__word_list_closest(&names, p->name), meant);
     }
     return best;
 }
@@ -263,9 +235,9 @@ koksma_status koksma__pbrt_name_unused(koksma__import *im, const char *directive
                                        const koksma__pbrt_parameters *p)
 {
     for (size_t i = p->n_inherited; i < p->n; i++) {
-        char nearest[40];
-        KOKSMA__TRY(koksma__import_unknown_if(!p->used[i] && judge(directive, kind, &p->items[i], nearest) == KNOWN,
-                                              im, (koksma__text_place){p->place.file, p->items[i].line},
+        char meant[KOKSMA__OR_MEANT];
+        KOKSMA__TRY(koksma__import_unknown_if(!p->used[i] && judge(directive, kind, &p->items[i], meant) == KNOWN, im,
+                                              (koksma__text_place){p->place.file, p->items[i].line},
                                               "parameter '%s' of %s is ignored", p->items[i].name, directive));
     }
     return KOKSMA_OK;
@@ -277,27 +249,17 @@ koksma_status koksma__pbrt_name_parameters(koksma__import *im, const char *direc
     for (size_t i = p->n_inherited; i < p->n; i++) {
         const koksma__pbrt_parameter *at = &p->items[i];
         const koksma__text_place place = {p->place.file, at->line};
-        char nearest[40];
-        koksma_status status = KOKSMA_OK;
-        switch (judge(directive, kind, at, nearest)) {
-        case NO_SUCH_NAME:
-            status = koksma__import_unknown(im, place, "parameter '%s' of %s is unknown%s%s%s", at->name, directive,
-                                            *nearest ? "; did you mean '" : "", nearest, *nearest ? "'?" : "");
-            break;
-        case NO_SUCH_TYPE:
-            status = koksma__import_unknown(im, place, "parameter '%s' of %s has the type '%s'; pbrt reads it as %s",
-                                            at->name, directive, at->type, nearest);
-            break;
-        case NO_SUCH_VALUE:
-            status =
-                koksma__import_unknown(im, place, "%s of %s: the value '%.40s' is unknown%s%s%s", at->name, directive,
-                                       at->text, *nearest ? "; did you mean '" : "", nearest, *nearest ? "'?" : "");
-            break;
-        case KNOWN:
-        case WITHOUT_EFFECT:
-            break;
-        }
-        KOKSMA__TRY(status);
+        char meant[KOKSMA__OR_MEANT];
+        const verdict found = judge(directive, kind, at, meant);
+        KOKSMA__TRY(
+            found == NO_SUCH_NAME
+                ? koksma__import_unknown(im, place, "parameter '%s' of %s is unknown%s", at->name, directive, meant)
+            : found == NO_SUCH_TYPE
+                ? koksma__import_unknown(im, place, "parameter '%s' of %s has the type '%s'; pbrt reads it as %s",
+                                         at->name, directive, at->type, meant)
+            : found == NO_SUCH_VALUE ? koksma__import_unknown(im, place, "%s of %s: the value '%.40s' is unknown%s",
+                                                              at->name, directive, at->text, meant)
+                                     : KOKSMA_OK);
     }
     return KOKSMA_OK;
 }
