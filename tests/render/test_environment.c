@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "render/lights/lights.h"
+#include "light_sample.h"
 #include "rendering.h"
 
 enum { WIDTH = 8, HEIGHT = 4 };
@@ -29,7 +30,7 @@ static float pdf_of(const koksma__shading_light *e, const float w[3])
 static float sample_of(const koksma__shading_light *e, const float u[2], float w[3])
 {
     koksma__beam beam;
-    e->kind->sample(e, w, u, &beam);
+    light_sample(e, w, u, &beam);
     memcpy(w, beam.w, sizeof beam.w);
     return beam.pdf;
 }

@@ -8,6 +8,7 @@
 #include "render/lights/lights.h"
 #include "render/pipelines/batch.h"
 #include "render/pipelines/pipelines.h"
+#include "light_sample.h"
 #include "rendering.h"
 
 enum { POINTS = test_repeats(40, 8), GRID = test_repeats(4096, 1024) };
@@ -39,7 +40,7 @@ static void random_point(float p[3], float n[3])
 static double contribution(const koksma__shading_light *l, const float p[3], const float n[3], const float u[2])
 {
     koksma__beam beam;
-    const bool lit = l->kind->sample(l, p, u, &beam);
+    const bool lit = light_sample(l, p, u, &beam);
     const float cosine = lit ? beam.w[0] * n[0] + beam.w[1] * n[1] + beam.w[2] * n[2] : 0;
     return cosine > 0 ? (double)(cosine * beam.value[0]) : 0;
 }

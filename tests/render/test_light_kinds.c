@@ -11,6 +11,7 @@
  * ways of choosing among lights, and by path tracing (which also meets lights by reflected rays), have one mean.
  */
 #include "kinds.h"
+#include "light_sample.h"
 #include "render/accel/accel.h"
 #include "render/lights/lights.h"
 #include "render/vector3.h"
@@ -188,7 +189,7 @@ static void by_samples(const view *v, uint64_t stream, double sums[FUNCTIONS], d
         const float u[2] = {(float)draw(stream, 2 * i) * 0.9999999f, (float)draw(stream, 2 * i + 1) * 0.9999999f};
         koksma__beam beam;
         double g[FUNCTIONS];
-        if (!v->light->kind->sample(v->light, v->p, u, &beam)) {
+        if (!light_sample(v->light, v->p, u, &beam)) {
             continue;
         }
         check_beam(v, &beam);
@@ -292,7 +293,7 @@ static double power_of(const koksma__shading_light *l, double scale, uint64_t st
         for (int k = 0; k < 3; k++) {
             p[k] = l->centre[k] + (float)radius * out[k];
         }
-        if (!l->kind->sample(l, p, u, &beam)) {
+        if (!light_sample(l, p, u, &beam)) {
             continue;
         }
         const double value = (double)koksma__luminance3(beam.value), cosine = -(double)koksma__dot3(out, beam.w);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Blocks of vertices against the same ray by ray: what surfaces of all kinds of materials reflect, where they scatter,
- * and samples of all kinds of lights. koksma__bsdf and koksma__light_kind, whose densities and energies test_bsdfs and
- * test_light_kinds check, say what is right; all instruction sets give the same bits.
+ * Blocks of vertices against the same ray by ray: what surfaces of all kinds of materials reflect of the lights, whose
+ * samples test_light_kinds checks, and where they scatter. koksma__bsdf, whose densities and energies test_bsdfs checks,
+ * says what is right; all instruction sets give the same bits.
  */
 #include "render/render.h"
 #include "rendering.h"
@@ -86,42 +86,24 @@ static void assert_close(float a, float b, const char *what, const char *kind)
     }
 }
 
-static void check_beam(const koksma__shading_light *light, const results *r, int i, const float u[2],
-                       koksma__beam *beam, bool *lit)
-{
-    const koksma__hits *h = r->surfaces.hits;
-    const float p[3] = {h->px[i], h->py[i], h->pz[i]};
-    const char *kind = light->kind->kind.name;
-    *lit = light->kind->sample(light, p, u, beam);
-    assert_int_equal(r->beams.lit[i], *lit);
-    for (int k = 0; *lit && k < 3; k++) {
-        assert_close(r->beams.d[k][i], beam->d[k], "vector", kind);
-        assert_close(r->beams.w[k][i], beam->w[k], "direction", kind);
-        assert_close(r->beams.value[k][i], beam->value[k], "value", kind);
-    }
-    if (*lit) {
-        assert_close(r->beams.pdf[i], beam->pdf, "density", kind);
-    }
-}
-
 static void check_lane(const koksma__frame *f, const koksma__light_lanes *lights, const koksma__lanes u[5],
                        bool goes_on, const results *r, int i)
 {
     const koksma__shading_light *light = &f->lights.lights[lights->light[i]];
     const koksma__surface s = koksma__surface_at(&r->surfaces, i);
     const koksma__bsdf *bsdf = s.material->bsdf;
-    const float pair[2] = {u[0][i], u[1][i]}, direction[2] = {u[2][i], u[3][i]};
+    const float direction[2] = {u[2][i], u[3][i]};
     const float probability = lights->probability[i];
-    koksma__beam beam;
+    const koksma__beams *b = &r->beams;
+    const float w[3] = {b->w[0][i], b->w[1][i], b->w[2][i]};
     koksma__scatter to;
-    bool lit;
-    check_beam(light, r, i, pair, &beam, &lit);
+    const bool lit = b->lit[i];
     float value[3] = {0, 0, 0};
-    const float met = lit ? bsdf->value(&s, beam.w, bsdf->lobes, value) : 0, sampled = beam.pdf * probability;
+    const float met = lit ? bsdf->value(&s, w, bsdf->lobes, value) : 0, sampled = b->pdf[i] * probability;
     const float weight =
-        lit && goes_on && light->visible && beam.pdf > 0 ? sampled * sampled / (sampled * sampled + met * met) : 1;
+        lit && goes_on && light->visible && b->pdf[i] > 0 ? sampled * sampled / (sampled * sampled + met * met) : 1;
     for (int k = 0; lit && k < 3; k++) {
-        assert_close(r->reflected[k][i], value[k] * beam.value[k] * weight / probability, "reflected light",
+        assert_close(r->reflected[k][i], value[k] * b->value[k][i] * weight / probability, "reflected light",
                      bsdf->kind.name);
     }
     assert_int_equal(r->shadows.light[i] > 0, lit && (value[0] > 0 || value[1] > 0 || value[2] > 0));

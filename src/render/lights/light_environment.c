@@ -153,51 +153,6 @@ static float pdf(const koksma__shading_light *light, const float p[3], const flo
                      : 0.25f / KOKSMA__PI_F;
 }
 
-/* The index of the cell of a cumulative table that contains u; *within is u's position in the cell. */
-static size_t find(const float *cdf, size_t n, float u, float *within)
-{
-    size_t low = 0, high = n;
-    while (high - low > 1) {
-        const size_t middle = (low + high) / 2;
-        if (cdf[middle] <= u) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    const float size = cdf[low + 1] - cdf[low];
-    const float part = size > 0 ? (u - cdf[low]) / size : 0.5f;
-    *within = part < 1 ? part : 1 - 0x1p-24f;
-    return low;
-}
-
-static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
-{
-    const koksma__environment *e = light->data;
-    float x = u[0], y = u[1], sine;
-    if (!e->texels || y < KOKSMA__ENVIRONMENT_FLOOR) { /* uniform over the sphere */
-        const float up = 1 - 2 * (e->texels ? y / KOKSMA__ENVIRONMENT_FLOOR : y), rest = 1 - up * up;
-        sine = sqrtf(rest > 0 ? rest : 0);
-        y = 2 * koksma__arc_turns(sine, up);
-    } else {
-        const size_t width = (size_t)e->width;
-        float in_row, in_column;
-        const float v = (y - KOKSMA__ENVIRONMENT_FLOOR) / (1 - KOKSMA__ENVIRONMENT_FLOOR);
-        const size_t row = find(e->row_cdf, (size_t)e->height, v, &in_row);
-        const size_t column = find(e->column_cdf + row * e->stride, width, x, &in_column);
-        x = ((float)column + in_column) / (float)width;
-        y = ((float)row + in_row) / (float)e->height;
-    }
-    koksma__v3_to(koksma__environment_direction(e, x, y, &sine), out->w);
-    out->pdf = pdf(light, p, out->w, 0, p);
-    radiance(light, out->w, out->value);
-    for (int k = 0; k < 3; k++) {
-        out->d[k] = KOKSMA__AWAY * out->w[k];
-        out->value[k] /= out->pdf;
-    }
-    return koksma__max3(out->value) > 0;
-}
-
 /* ---- Fields ----------------------------------------------------------------------------------------------------- */
 
 static koksma_status parse(const char *name, const field *f, koksma_scene *scene, koksma__light *light)
@@ -238,7 +193,6 @@ const koksma__light_kind koksma__light_environment = {
     .parse = parse,
     .open = open_light,
     .close = close_light,
-    .sample = sample,
     .pdf = pdf,
     .radiance = radiance,
 };

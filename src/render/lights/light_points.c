@@ -95,7 +95,6 @@ const koksma__light_kind koksma__light_directional = {
     .distance = KOKSMA__LIGHT_PARALLEL,
     .form = KOKSMA__BEAMS_PARALLEL,
     .open = open_directional,
-    .sample = sample,
     .centre = directional_centre,
 };
 

@@ -121,38 +121,20 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
     return KOKSMA_OK;
 }
 
-/* A sample at the coordinates u, v of a flat light, with density 1 / area. */
-static bool sample_at(const koksma__shading_light *light, const float p[3], float u, float v, koksma__beam *out)
+static bool flat_centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
 {
-    koksma__v3 d, w;
+    koksma__v3 w;
     for (int k = 0; k < 3; k++) {
-        out->d[k] = light->centre[k] + u * light->axis_u[k] + v * light->axis_v[k] - p[k];
+        out->d[k] = light->centre[k] - p[k];
     }
-    d = koksma__v3_of(out->d);
-    out->pdf = koksma__flat_beam(d, koksma__v3_of(light->normal), light->area, &w);
-    if (!(out->pdf > 0)) {
+    const float pdf = koksma__flat_beam(koksma__v3_of(out->d), koksma__v3_of(light->normal), light->area, &w);
+    if (!(pdf > 0)) {
         return false;
     }
     koksma__v3_to(w, out->w);
-    koksma__set_value(light, 1 / out->pdf, out);
-    return true;
-}
-
-static bool flat_centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
-{
-    const bool lit = sample_at(light, p, 0, 0, out);
+    koksma__set_value(light, 1 / pdf, out);
     out->pdf = 0;
-    return lit;
-}
-
-static bool sample_flat(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
-{
-    float x = 2 * u[0] - 1, y = 2 * u[1] - 1;
-    const bool disk = light->kind == &koksma__light_disk;
-    if (disk) {
-        koksma__concentric(u[0], u[1], &x, &y);
-    }
-    return sample_at(light, p, x * light->half[0], y * light->half[disk ? 0 : 1], out);
+    return true;
 }
 
 static void lanes(const koksma__light *from, koksma__batch_light *out)
@@ -165,20 +147,6 @@ static void lanes(const koksma__light *from, koksma__batch_light *out)
         out->edge_y[k] = (float)(2 * v);
         out->normal[k] = (float)from->normal[k];
     }
-}
-
-static bool sample_sphere(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
-{
-    koksma__v3 d, w;
-    const koksma__v3 axis = koksma__v3_subtract(koksma__v3_of(light->centre), koksma__v3_of(p));
-    out->pdf = koksma__cone_beam(axis, light->half[0], u[0], u[1], &d, &w);
-    if (!(out->pdf > 0)) {
-        return false; /* inside */
-    }
-    koksma__v3_to(d, out->d);
-    koksma__v3_to(w, out->w);
-    koksma__set_value(light, 1 / out->pdf, out);
-    return true;
 }
 
 /* From far away the sphere looks like a disk of the same radius. */
@@ -227,7 +195,6 @@ const koksma__light_kind koksma__light_rectangle = {
     .form = KOKSMA__BEAMS_RECTANGLE,
     .parse = parse_flat,
     .open = open_light,
-    .sample = sample_flat,
     .centre = flat_centre,
     .pdf = koksma__area_pdf,
     .lanes = lanes,
@@ -244,7 +211,6 @@ const koksma__light_kind koksma__light_disk = {
     .form = KOKSMA__BEAMS_DISK,
     .parse = parse_flat,
     .open = open_light,
-    .sample = sample_flat,
     .centre = flat_centre,
     .pdf = koksma__area_pdf,
 };
@@ -257,7 +223,6 @@ const koksma__light_kind koksma__light_sphere = {
     .form = KOKSMA__BEAMS_CONE,
     .parse = parse_sphere,
     .open = open_light,
-    .sample = sample_sphere,
     .centre = sphere_centre,
     .pdf = sphere_pdf,
 };

@@ -72,7 +72,8 @@ typedef struct koksma__light_kind {
     /* Sets area, reach, power and data. Errors: MALFORMED (an image or a mesh can't be a light), MEMORY. */
     koksma_status (*open)(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light);
     void (*close)(void *data); /* NULL if data is not used */
-    /* Samples the light that arrives at p, by the random numbers u; returns false if no light arrives. */
+    /* Samples the light that arrives at p, by the random numbers u; returns false if no light arrives. NULL: the kind has
+       a form. */
     bool (*sample)(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out);
     /* Treats the light as a point at its centre (as in Whitted's integrator), with pdf 0. For a light without a
        centre the pointer is NULL, or the function returns false. */
