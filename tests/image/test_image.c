@@ -50,7 +50,7 @@ TEST_CASE(exr_keeps_noise_of_every_kind)
                 memcpy(&image.pixels[i], &word, sizeof word);
             }
             koksma__bytes bytes = written("exr", &image);
-            assert_ok(koksma__format_exr.read(bytes.data, bytes.size, &back));
+            assert_ok(koksma__format_exr.read(bytes.data, bytes.size, KOKSMA__IMAGE_COLOURS, &back));
             assert_memory_equal(back.pixels, image.pixels, count * sizeof(float));
             koksma_image_fini(&back);
             koksma_image_fini(&image);
@@ -71,7 +71,7 @@ TEST_CASE(png_levels_come_back)
     unsigned char *bytes;
     size_t size;
     assert_ok(koksma_image_png_bytes(&image, &bytes, &size));
-    assert_ok(koksma__format_png.read(bytes, size, &back));
+    assert_ok(koksma__format_png.read(bytes, size, KOKSMA__IMAGE_COLOURS, &back));
     assert_memory_equal(back.pixels, image.pixels, 256 * sizeof(float));
     koksma_image_fini(&back);
     free(bytes);
@@ -79,7 +79,7 @@ TEST_CASE(png_levels_come_back)
     image.pixels[1] = 7;
     image.pixels[2] = NAN;
     assert_ok(koksma_image_png_bytes(&image, &bytes, &size));
-    assert_ok(koksma__format_png.read(bytes, size, &back));
+    assert_ok(koksma__format_png.read(bytes, size, KOKSMA__IMAGE_COLOURS, &back));
     assert_true(back.pixels[0] == 0 && back.pixels[1] == 1 && back.pixels[2] == 0);
     koksma_image_fini(&back);
     free(bytes);
@@ -125,7 +125,8 @@ TEST_CASE(sizes_are_checked)
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) {
         koksma_image image = {0};
         const unsigned char *bytes = (const unsigned char *)headers[i];
-        assert_int_equal(koksma__format_pfm.read(bytes, strlen(headers[i]), &image), KOKSMA_MALFORMED);
+        assert_int_equal(koksma__format_pfm.read(bytes, strlen(headers[i]), KOKSMA__IMAGE_COLOURS, &image),
+                         KOKSMA_MALFORMED);
         koksma_image_fini(&image);
     }
     koksma_image image;

@@ -191,23 +191,13 @@ static koksma_status fail_compression(int compression)
                         compression, i < sizeof names / sizeof *names ? names[i] : "of an unknown kind");
 }
 
-static koksma_status read_as(const unsigned char *bytes, size_t size, bool converts, koksma_image *out)
+static koksma_status read(const unsigned char *bytes, size_t size, koksma__image_part part, koksma_image *out)
 {
     header h = {.compression = 0};
     KOKSMA__TRY(check_header(bytes, size, &h));
     KOKSMA__TRY(h.compression >= FIRST_REFUSED ? fail_compression(h.compression) : KOKSMA_OK);
     const koksma_status status = koksma__codec_read(&module, bytes, size, out);
-    return status || !converts || !h.chromaticities ? status : convert(h.chromaticities, out);
-}
-
-static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
-{
-    return read_as(bytes, size, true, out);
-}
-
-static koksma_status read_numbers(const unsigned char *bytes, size_t size, koksma_image *out)
-{
-    return read_as(bytes, size, false, out);
+    return status || part == KOKSMA__IMAGE_NUMBERS || !h.chromaticities ? status : convert(h.chromaticities, out);
 }
 
 static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
@@ -221,10 +211,5 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
     return koksma__codec_write(&module, layers, n, metadata, out);
 }
 
-const koksma__image_format koksma__format_exr = {.name = "exr",
-                                                 .recognises = recognises,
-                                                 .read = read,
-                                                 .read_numbers = read_numbers,
-                                                 .write = write,
-                                                 .has_layers = true,
-                                                 .module = &module};
+const koksma__image_format koksma__format_exr = {
+    .name = "exr", .recognises = recognises, .read = read, .write = write, .has_layers = true, .module = &module};

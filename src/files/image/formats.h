@@ -10,20 +10,24 @@
 #include "image/image.h"
 #include "modules/module.h"
 
+/* The part of an image file to read. COLOURS: in linear light. SRGB: in linear light, with levels read as sRGB
+   whatever transfer function the file states. NUMBERS: the numbers of the file, without a transfer function. ALPHA:
+   the transparency, which a file may lack. */
+typedef enum koksma__image_part {
+    KOKSMA__IMAGE_COLOURS,
+    KOKSMA__IMAGE_SRGB,
+    KOKSMA__IMAGE_NUMBERS,
+    KOKSMA__IMAGE_ALPHA
+} koksma__image_part;
+
 typedef struct koksma__image_format {
     const char *name;
     bool (*recognises)(const unsigned char *bytes, size_t size);
-    /* Reads an image. Errors do not name the file: the caller puts its name in front of the text. On failure the
-       caller releases *out. */
-    koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
-    /* NULL, or reads an image as `read` does, but always with sRGB's transfer function, whatever function the file
-       states. */
-    koksma_status (*read_srgb)(const unsigned char *bytes, size_t size, koksma_image *out);
-    /* NULL, or reads the numbers of the file, which `read` converts to other colours */
-    koksma_status (*read_numbers)(const unsigned char *bytes, size_t size, koksma_image *out);
-    /* NULL, or reads the transparency as an image of one channel, 1 where a pixel is opaque; the image is empty if
-       the file has no transparency. */
-    koksma_status (*read_alpha)(const unsigned char *bytes, size_t size, koksma_image *out);
+    /* Reads a part of an image; the transparency is an image of one channel, 1 where a pixel is opaque, which is empty if
+       the file has none. Errors do not name the file: the caller puts its name in front of the text. On failure the caller
+       releases *out. */
+    koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__image_part part, koksma_image *out);
+    bool has_alpha; /* whether a file can have a transparency */
     /* Writes the first of n layers, or all of them if has_layers is set. */
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
     bool has_layers; /* whether a file can hold several layers */
@@ -55,16 +59,8 @@ koksma_status koksma__png_levels(const koksma__levels *levels, koksma__bytes *ou
    another file named it (core/files.h). */
 koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out);
 
-/* The part of an image file to read. COLOURS: in linear light. SRGB: in linear light, with levels read as sRGB
-   whatever transfer function the file states. NUMBERS: the numbers of the file, without a transfer function. ALPHA:
-   the transparency, which a file may lack. After an error *out has no pixels, but the size of those that were allocated
-   and perhaps decoded before it. */
-typedef enum koksma__image_part {
-    KOKSMA__IMAGE_COLOURS,
-    KOKSMA__IMAGE_SRGB,
-    KOKSMA__IMAGE_NUMBERS,
-    KOKSMA__IMAGE_ALPHA
-} koksma__image_part;
+/* Reads a part of an image in memory. After an error *out has no pixels, but the size of those that were allocated and
+   perhaps decoded before it. */
 koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, koksma__image_part part,
                                       koksma_image *out);
 

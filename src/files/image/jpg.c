@@ -14,8 +14,9 @@ static bool recognises(const unsigned char *bytes, size_t size)
     return size >= 3 && !memcmp(bytes, magic, 3);
 }
 
-static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+static koksma_status read(const unsigned char *bytes, size_t size, koksma__image_part part, koksma_image *out)
 {
+    (void)part; /* levels are sRGB and numbers are linear, whatever is asked for */
     return koksma__codec_read(&module, bytes, size, out);
 }
 

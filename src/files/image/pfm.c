@@ -58,8 +58,9 @@ static bool take_side(const char *word, long long *out)
     return true;
 }
 
-static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+static koksma_status read(const unsigned char *bytes, size_t size, koksma__image_part part, koksma_image *out)
 {
+    (void)part;
     /* a word that fills its place may be the start of a longer one */
     char header[96] = "", width_text[24] = "", height_text[24] = "", scale_text[24] = "", *end;
     long long width, height;

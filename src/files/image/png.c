@@ -3,8 +3,8 @@
  * Reads and writes PNG files of 1 to 16 bits by libpng. Levels are read as sRGB, whose curve (image.h) is applied here in
  * double precision. A gAMA chunk with the value g replaces this curve by linear = s^(1/g), unless the file also has a
  * chunk sRGB or iCCP, which take precedence (PNG, 3rd edition, section 13.13). A g within 5 % of 1/2.2 is read as sRGB,
- * because writers of sRGB files often store such a g. read_srgb ignores gAMA. Transparency does not change the colours, so
- * that albedos and comparisons use each pixel's colour; read_alpha reads the transparency alone. Files are written as
+ * because writers of sRGB files often store such a g. Only colours as the file states them follow gAMA. Transparency does not change the colours, so
+ * that albedos and comparisons use each pixel's colour; it is read alone. Files are written as
  * sRGB with 8 bits; koksma__png_levels writes levels of 8 or 16 bits as they are.
  */
 #ifdef KOKSMA_PNG
@@ -88,12 +88,9 @@ static void get(png_structp png, png_bytep data, size_t size)
     s->left -= size;
 }
 
-/* What to read: colours; colours by sRGB's curve, whatever curve the file states; or only the transparency. */
-typedef enum part { COLOURS, AS_SRGB, ALPHA } part;
-
 typedef struct head {
     png_uint_32 width, height;
-    part what;
+    koksma__image_part what;
     int channels, level_bytes, passes;
     double power; /* exponent of the transfer function; 0: sRGB */
 } head;
@@ -119,14 +116,14 @@ static bool get_head(png_structp png, png_infop info, head *h)
         return false;
     }
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, wanted, h->what == ALPHA ? 4 : 3);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, wanted, h->what == KOKSMA__IMAGE_ALPHA ? 4 : 3);
     png_read_info(png, info);
     h->width = png_get_image_width(png, info);
     h->height = png_get_image_height(png, info);
-    h->power = h->what == AS_SRGB ? 0 : power_of(png, info);
+    h->power = h->what == KOKSMA__IMAGE_COLOURS ? power_of(png, info) : 0;
     png_set_palette_to_rgb(png);
     png_set_expand_gray_1_2_4_to_8(png);
-    if (h->what == ALPHA) {
+    if (h->what == KOKSMA__IMAGE_ALPHA) {
         png_set_tRNS_to_alpha(png);
     } else {
         png_set_strip_alpha(png);
@@ -184,9 +181,10 @@ static koksma_status fail(const stream *s)
                         *s->message ? s->message : "out of memory");
 }
 
-static koksma_status read_image(png_structp png, png_infop info, const stream *s, part what, koksma_image *out)
+static koksma_status read_image(png_structp png, png_infop info, const stream *s, koksma__image_part what,
+                                koksma_image *out)
 {
-    const bool alpha = what == ALPHA;
+    const bool alpha = what == KOKSMA__IMAGE_ALPHA;
     head h = {.what = what};
     const size_t size = s->left;
     if (!get_head(png, info, &h)) {
@@ -210,7 +208,7 @@ static koksma_status read_image(png_structp png, png_infop info, const stream *s
     return status;
 }
 
-static koksma_status read_part(const unsigned char *bytes, size_t size, part what, koksma_image *out)
+static koksma_status read(const unsigned char *bytes, size_t size, koksma__image_part what, koksma_image *out)
 {
     stream s = {.in = bytes, .left = size};
     KOKSMA__TRY(check_chunks(bytes, size));
@@ -227,21 +225,6 @@ static koksma_status read_part(const unsigned char *bytes, size_t size, part wha
     }
     png_destroy_read_struct(&png, &info, NULL);
     return status;
-}
-
-static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
-{
-    return read_part(bytes, size, COLOURS, out);
-}
-
-static koksma_status read_srgb(const unsigned char *bytes, size_t size, koksma_image *out)
-{
-    return read_part(bytes, size, AS_SRGB, out);
-}
-
-static koksma_status read_alpha(const unsigned char *bytes, size_t size, koksma_image *out)
-{
-    return read_part(bytes, size, ALPHA, out);
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------ */
@@ -270,47 +253,34 @@ static void put_metadata(png_structp png, png_infop info, const char *metadata)
     }
 }
 
-/* All calls that may longjmp; this function owns nothing that needs releasing. */
-static bool put_image(png_structp png, png_infop info, const koksma_image *image, const char *metadata,
-                      unsigned char *row)
-{
-    koksma__srgb_table levels;
-    koksma__srgb_table_make(&levels);
-    if (setjmp(png_jmpbuf(png))) {
-        return false;
-    }
-    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
-                 image->channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
-    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-    put_metadata(png, info, metadata);
-    png_write_info(png, info);
-    const size_t count = (size_t)image->width * (size_t)image->channels;
-    for (int y = 0; y < image->height; y++) {
-        for (size_t i = 0; i < count; i++) {
-            row[i] = koksma__srgb_table_byte(&levels, image->pixels[(size_t)y * count + i]);
-        }
-        png_write_row(png, row);
-    }
-    png_write_end(png, NULL);
-    return true;
-}
-
-/* Like put_image, for levels as they are, without a transfer function. */
-static bool put_levels(png_structp png, png_infop info, const koksma__levels *l, unsigned char *row)
+/* All calls that may longjmp; this function owns nothing that needs releasing. l: levels as they are, without a transfer
+   function, or NULL for those of the image. */
+static bool put_rows(png_structp png, png_infop info, const koksma_image *image, const char *metadata,
+                     const koksma__levels *l, unsigned char *row)
 {
     static const int types[] = {0, PNG_COLOR_TYPE_GRAY, 0, PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+    const int width = l ? l->width : image->width, height = l ? l->height : image->height, bits = l ? l->bits : 8;
+    const int channels = l ? l->channels : image->channels;
+    const size_t count = (size_t)width * (size_t)channels, bytes = (size_t)bits / 8;
+    koksma__srgb_table table;
+    koksma__srgb_table_make(&table);
     if (setjmp(png_jmpbuf(png))) {
         return false;
     }
-    png_set_IHDR(png, info, (png_uint_32)l->width, (png_uint_32)l->height, l->bits, types[l->channels],
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
+    png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, bits, types[channels], PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
+    if (!l) {
+        png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+        put_metadata(png, info, metadata);
+    }
     png_write_info(png, info);
-    const size_t count = (size_t)l->width * (size_t)l->channels, bytes = (size_t)l->bits / 8;
-    for (size_t y = 0; y < (size_t)l->height; y++) {
-        for (size_t i = 0; i < count; i++) {
+    for (size_t y = 0; y < (size_t)height; y++) {
+        for (size_t i = 0; !l && i < count; i++) {
+            row[i] = koksma__srgb_table_byte(&table, image->pixels[y * count + i]);
+        }
+        for (size_t i = 0; l && i < count; i++) {
             const unsigned level = l->levels[y * count + i];
-            row[i * bytes] = (unsigned char)(level >> (l->bits - 8));
+            row[i * bytes] = (unsigned char)(level >> (bits - 8));
             row[i * bytes + bytes - 1] = (unsigned char)level;
         }
         png_write_row(png, row);
@@ -333,7 +303,7 @@ static koksma_status write_with(const koksma_image *image, const char *metadata,
         status = koksma__fail_memory(count);
     } else {
         png_set_write_fn(png, &s, put, flush);
-        if (!(levels ? put_levels(png, info, levels, row) : put_image(png, info, image, metadata, row))) {
+        if (!put_rows(png, info, image, metadata, levels, row)) {
             status = koksma__fail(KOKSMA_MEMORY, "as a PNG: %s", s.message);
         }
     }
@@ -357,8 +327,7 @@ const koksma__image_format koksma__format_png = {
     .name = "png",
     .recognises = recognises,
     .read = read,
-    .read_srgb = read_srgb,
-    .read_alpha = read_alpha,
+    .has_alpha = true,
     .write = write,
     .error = 0.5 / 255 * 2.4 / 1.055, /* an error of half a level of 255 at the value 1, where the sRGB curve is
                                          steepest */

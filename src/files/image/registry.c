@@ -114,14 +114,8 @@ static koksma_status read_part(const unsigned char *bytes, size_t size, koksma__
     *remark = 0;
     KOKSMA__TRY(find_format(bytes, size, &format));
     koksma__image_limit(most);
-    koksma_status status = KOKSMA_OK;
-    if (part == KOKSMA__IMAGE_ALPHA) {
-        status = format->read_alpha ? format->read_alpha(bytes, size, out) : KOKSMA_OK;
-    } else {
-        const bool srgb = part != KOKSMA__IMAGE_COLOURS && format->read_srgb;
-        const bool plain = part == KOKSMA__IMAGE_NUMBERS && format->read_numbers;
-        status = (srgb ? format->read_srgb : plain ? format->read_numbers : format->read)(bytes, size, out);
-    }
+    const koksma_status status =
+        part == KOKSMA__IMAGE_ALPHA && !format->has_alpha ? KOKSMA_OK : format->read(bytes, size, part, out);
     if (status) {
         free(out->pixels);
         out->pixels = NULL;

@@ -170,19 +170,4 @@ koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma_
    zeroed except for its name. Errors: MISSING, MALFORMED, MEMORY. */
 koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__file_sizes *sizes, koksma__mesh *out);
 
-/* A .serialized file whose meshes are read one by one; zeroed at first. */
-typedef struct koksma__serialized {
-    unsigned char *bytes; /* NULL: it is closed */
-    size_t size;          /* length of the file, also after it is closed */
-    uint64_t read;        /* number of bytes to which the meshes that were read decompress */
-} koksma__serialized;
-
-/* Reads the file and checks its dictionary. Errors: MISSING, MALFORMED, MEMORY. */
-koksma_status koksma__serialized_open(const char *path, koksma__serialized *file);
-void koksma__serialized_close(koksma__serialized *file);
-
-/* Reads mesh number `part`, from 0, of an open file as a checked mesh. Of all meshes that are read of a file, the same
-   one again too, no more may be decompressed than a model may have. *out must be zeroed. Errors as above. */
-koksma_status koksma__serialized_mesh(koksma__serialized *file, const char *path, long part, koksma__mesh *out);
-
 #endif

@@ -153,7 +153,7 @@ static uint64_t start_of(const directory *d, uint64_t i)
     return i < d->n ? koksma__bits_at(d->entries + i * (uint64_t)d->each, d->each, false) : d->body;
 }
 
-/* Finds the dictionary at the end of the file. */
+/* Finds the dictionary at the end of the file, and checks it. */
 static koksma_status find_directory(const char *path, const unsigned char *bytes, size_t size, directory *d)
 {
     *d = (directory){.bytes = bytes,
@@ -164,11 +164,6 @@ static koksma_status find_directory(const char *path, const unsigned char *bytes
                     (unsigned long long)d->n, size);
     d->body = size - 4 - d->n * (uint64_t)d->each;
     d->entries = bytes + d->body;
-    return KOKSMA_OK;
-}
-
-static koksma_status check_directory(const char *path, const directory *d)
-{
     for (uint64_t i = 0; i < d->n; i++) {
         const uint64_t at = start_of(d, i), end = start_of(d, i + 1);
         KOKSMA__FAIL_IF(end > d->body || at > end || end - at <= HEADER, KOKSMA_MALFORMED,
@@ -200,7 +195,6 @@ koksma_status koksma__serialized_read(const unsigned char *bytes, size_t size, k
     uint64_t read = 0;
     koksma__file_material *grey;
     KOKSMA__TRY(find_directory(out->path, bytes, size, &d));
-    KOKSMA__TRY(check_directory(out->path, &d));
     for (uint64_t i = 0; i < d.n; i++) {
         koksma__mesh mesh = {0};
         bool coloured = false;
@@ -212,39 +206,4 @@ koksma_status koksma__serialized_read(const unsigned char *bytes, size_t size, k
         KOKSMA__TRY(koksma__file_add_placement(out, out->meshes.n - 1, NULL));
     }
     return koksma__file_add_material(out, 0.6f, &grey);
-}
-
-koksma_status koksma__serialized_open(const char *path, koksma__serialized *file)
-{
-    directory d;
-    unsigned char *bytes;
-    KOKSMA__TRY(
-        koksma__read_file(path, KOKSMA__FILE_MESH, KOKSMA__BY_FILE, koksma__serialized_start, &bytes, &file->size));
-    koksma_status status = find_directory(path, bytes, file->size, &d);
-    status = status ? status : check_directory(path, &d);
-    if (status) {
-        free(bytes);
-        return status;
-    }
-    file->bytes = bytes;
-    return KOKSMA_OK;
-}
-
-void koksma__serialized_close(koksma__serialized *file)
-{
-    free(file->bytes);
-    file->bytes = NULL;
-}
-
-koksma_status koksma__serialized_mesh(koksma__serialized *file, const char *path, long part, koksma__mesh *out)
-{
-    directory d;
-    bool coloured;
-    KOKSMA__TRY(find_directory(path, file->bytes, file->size, &d));
-    KOKSMA__FAIL_IF(part < 0 || (uint64_t)part >= d.n, KOKSMA_MALFORMED,
-                    "%s: there is no mesh %ld; the file has %llu, counted from 0", path, part,
-                    (unsigned long long)d.n);
-    KOKSMA__TRY(read_mesh(path, &d, (uint64_t)part, &file->read, out, &coloured));
-    const koksma_status status = koksma__mesh_check(out);
-    return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }

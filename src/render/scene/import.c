@@ -56,8 +56,8 @@ koksma_status koksma__import_spend(koksma__import *im, koksma__text_place place,
     return im->steps <= MOST_STEPS
                ? KOKSMA_OK
                : koksma__import_fail(place,
-                                     "reading the scene up to here takes more than %d steps: objects, instances or "
-                                     "textures repeat others, or parts are not read, too often",
+                                     "reading the scene up to here takes more than %d steps: objects, instances, "
+                                     "textures or texts repeat others, or parts are not read, too often",
                                      MOST_STEPS);
 }
 

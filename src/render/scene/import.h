@@ -63,21 +63,18 @@ typedef enum koksma__form {
 
 typedef struct koksma__import {
     koksma_scene *scene;
-    const char *path;                /* path of the scene's own file */
-    bool rows_down;                  /* images lie upside down: texture coordinate 0 is their upper edge */
-    size_t n_files;                  /* number of texts that were read */
-    struct koksma__text_file *texts; /* the different files among them */
-    size_t n_texts;
-    uint64_t surplus;                  /* bytes of text beyond those on the disk: koksma__import_surplus */
+    const char *path;                  /* path of the scene's own file */
+    bool rows_down;                    /* images lie upside down: texture coordinate 0 is their upper edge */
+    size_t n_files;                    /* number of texts that were read */
     uint64_t steps, held;              /* work so far, and bytes of memory: koksma__import_hold */
     char folders[8][KOKSMA__MAX_PATH]; /* folders to search for files that are not beside the scene */
     size_t n_folders;
     koksma__names files;              /* the meshes from files: 1 + the index of each; 0: it is left out */
     int forms[KOKSMA__N_BASIC_FORMS]; /* 1 + the index of the mesh of each basic shape; 0: it is not made yet */
     struct koksma__mesh_twins *twins; /* for each mesh: forms of the same mesh */
-    koksma__serialized *packed;       /* the .serialized files */
+    koksma__mesh_file *packed;        /* the .serialized files */
     koksma__names packed_names;
-    size_t n_twins, n_packed, packed_size; /* packed_size: length of those that are open */
+    size_t n_twins, n_packed, kept; /* kept: the vertices and triangles of `packed` together */
 } koksma__import;
 
 /* A colour, or an image over texture coordinates, or a checkerboard with two colours. */
@@ -310,16 +307,11 @@ koksma_status koksma__import_check_uv(koksma__text_place place, const double *va
 /* ---- Texts ----------------------------------------------------------------------------------------------------------- */
 
 /* Reads a file that the scene includes. The file must be below the scene's folder, and a scene can include at most
-   MOST_INCLUDES files. Small files cannot make a long text: what is read again, and what a packed file holds beyond
-   MOST_RATIO times its size, is at most MOST_SURPLUS bytes together. The caller passes *bytes to
-   koksma__import_text_close. */
+   MOST_INCLUDES files; their bytes count as work. The caller passes *bytes to koksma__import_text_close. */
+enum { KOKSMA__STEP_TEXT = 8 }; /* the bytes of a text that count as one step of koksma__import_spend */
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
                                   size_t *size);
 void koksma__import_text_close(koksma__import *im, char *bytes, size_t size);
-
-/* Counts text that no file holds, because it is read again or made from names. Error: MALFORMED (more than MOST_SURPLUS
-   bytes in the scene). */
-koksma_status koksma__import_surplus(koksma__import *im, koksma__text_place place, uint64_t bytes);
 
 /* ---- Shapes ---------------------------------------------------------------------------------------------------------- */
 

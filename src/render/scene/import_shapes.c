@@ -32,11 +32,11 @@ enum { SIDES = 64, RINGS = 32 };
 void koksma__import_shapes_fini(koksma__import *im)
 {
     for (size_t i = 0; i < im->n_packed; i++) {
-        koksma__serialized_close(&im->packed[i]);
+        koksma__mesh_file_fini(&im->packed[i]);
     }
     KOKSMA__FREE(im->twins, im->packed);
-    koksma__names_fini(&im->files);
     koksma__names_fini(&im->packed_names);
+    koksma__names_fini(&im->files);
 }
 
 /* ---- Meshes ------------------------------------------------------------------------------------------------ */
@@ -87,43 +87,44 @@ static void turn_rows(koksma__mesh *mesh)
     }
 }
 
-/* The .serialized file with this key; opened anew if it was closed meanwhile. Files stay open, because a scene names one
-   for each of its meshes, up to the length of one file together. */
-static koksma_status find_packed(koksma__import *im, koksma__text_place place, const char *path, const char *key,
-                                 koksma__serialized **out)
+/* Copies mesh number `part` of a .serialized file, of which `key` is that of koksma__file_key. Files are kept, because a
+   scene names one for each of its meshes; those that are together larger than a model may be are read again. */
+static koksma_status read_part(koksma__import *im, koksma__text_place place, const char *path, const char *key,
+                               long part, koksma__mesh *mesh)
 {
     size_t at;
     if (!koksma__names_find(&im->packed_names, key, strlen(key), &at)) {
-        koksma__serialized *new = koksma__add_one(&im->packed, &im->n_packed, sizeof *new);
-        KOKSMA__TRY(new ? KOKSMA_OK : KOKSMA_MEMORY);
-        at = im->n_packed - 1;
+        at = im->n_packed;
+        KOKSMA__TRY(koksma__add_one(&im->packed, &im->n_packed, sizeof *im->packed) ? KOKSMA_OK : KOKSMA_MEMORY);
         KOKSMA__TRY(koksma__names_put(&im->packed_names, key, strlen(key), at));
     }
-    koksma__serialized *s = *out = &im->packed[at];
-    if (s->bytes) {
-        return KOKSMA_OK;
-    }
-    KOKSMA__TRY(koksma__import_spend(im, place, s->size / 64)); /* 0 the first time */
-    KOKSMA__TRY(koksma__file_count(&im->scene->mesh_files, path));
-    KOKSMA__TRY(koksma__import_fail_at(place, koksma__serialized_open(path, s)));
-    im->packed_size += s->size;
-    if (im->packed_size > koksma__file_most(KOKSMA__FILE_MESH)) {
-        im->packed_size = s->size;
-        for (size_t i = 0; i < im->n_packed; i++) {
+    koksma__mesh_file *f = &im->packed[at];
+    if (!f->meshes.n) {
+        KOKSMA__TRY(koksma__file_count(&im->scene->mesh_files, path));
+        KOKSMA__TRY(koksma__mesh_file_read(path, KOKSMA__BY_FILE, f));
+        const size_t size = f->n_vertices + f->n_triangles;
+        KOKSMA__TRY(koksma__import_spend(im, place, size / 4));
+        im->kept += size;
+        for (size_t i = 0; im->kept > KOKSMA__MAX_VERTICES && i < im->n_packed; i++) {
             if (i != at) {
-                koksma__serialized_close(&im->packed[i]);
+                im->kept -= im->packed[i].n_vertices + im->packed[i].n_triangles;
+                koksma__mesh_file_fini(&im->packed[i]);
             }
         }
     }
-    return KOKSMA_OK;
+    KOKSMA__FAIL_IF(part < 0 || (size_t)part >= f->meshes.n, KOKSMA_MALFORMED,
+                    "%s: there is no mesh %ld; the file has %zu, counted from 0", path, part, f->meshes.n);
+    KOKSMA__TRY(koksma__mesh_copy(&koksma__file_mesh_at(f, (size_t)part)->mesh, mesh));
+    const koksma_status status = koksma__mesh_check(mesh);
+    return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }
 
 /* Reads the mesh and adapts it to the conventions of the other renderer. */
-static koksma_status read_mesh(koksma__import *im, const char *path, koksma__serialized *packed, long part,
-                               koksma__mesh_rules rules, koksma__mesh *mesh)
+static koksma_status read_mesh(koksma__import *im, koksma__text_place place, const char *path, const char *key,
+                               long part, koksma__mesh_rules rules, koksma__mesh *mesh)
 {
-    KOKSMA__TRY(packed ? koksma__serialized_mesh(packed, path, part, mesh)
-                       : koksma__mesh_read(path, KOKSMA__BY_FILE, &im->scene->mesh_files, mesh));
+    KOKSMA__TRY(part < 0 ? koksma__mesh_read(path, KOKSMA__BY_FILE, &im->scene->mesh_files, mesh)
+                         : read_part(im, place, path, key, part, mesh));
     KOKSMA__TRY(koksma__scene_limit_mesh(im->scene, mesh, path));
     if (rules.flips_v) {
         turn_rows(mesh);
@@ -144,7 +145,6 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
     char full[KOKSMA__MAX_PATH], file[KOKSMA__FILE_KEY], which[128];
     const char *ending = NULL;
     koksma__mesh mesh = {0};
-    koksma__serialized *packed = NULL;
     size_t known = 0;
     KOKSMA__TRY(koksma__import_path(im, place, name, full));
     *out = -1;
@@ -161,8 +161,7 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
         *out = (int)known - 1;
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(part < 0 ? KOKSMA_OK : find_packed(im, place, full, file, &packed));
-    const koksma_status status = read_mesh(im, full, packed, part, rules, &mesh);
+    const koksma_status status = read_mesh(im, place, full, file, part, rules, &mesh);
     if (status) {
         koksma__mesh_fini(&mesh);
         return koksma__import_fail_at(place, status);
@@ -194,11 +193,15 @@ koksma_status koksma__import_default_uv(koksma__mesh *mesh, bool quads, bool mit
     return status;
 }
 
-/* Adds a form of a mesh that is in the scene: turned inside out, or with default texture coordinates. */
-static koksma_status add_twin(koksma__import *im, koksma__text_place place, int mesh, bool inside_out, int *out)
+/* Finds a form of a mesh that is in the scene, or adds it: turned inside out, or with default texture coordinates. */
+static koksma_status find_twin(koksma__import *im, koksma__text_place place, int mesh, bool inside_out, int *out)
 {
     koksma__mesh twin = {0};
-    const bool of_file = im->twins[mesh].of_file; /* a file may be larger than what counts as held */
+    const struct koksma__mesh_twins known = im->twins[mesh];
+    *out = inside_out ? known.inside_out : known.with_uv;
+    if (*out >= 0) {
+        return KOKSMA_OK;
+    }
     koksma_status status = koksma__mesh_copy(&im->scene->meshes[mesh], &twin);
     if (!status && inside_out) {
         koksma__mesh_flip(&twin);
@@ -209,27 +212,14 @@ static koksma_status add_twin(koksma__import *im, koksma__text_place place, int 
         koksma__mesh_fini(&twin);
         return status;
     }
-    return of_file ? add_mesh(im, place, &twin, false, out) : koksma__import_mesh(im, place, &twin, out);
-}
-
-static koksma_status find_inside_out(koksma__import *im, koksma__text_place place, int mesh, int *out)
-{
-    if (im->twins[mesh].inside_out < 0) {
-        KOKSMA__TRY(add_twin(im, place, mesh, true, out));
+    /* a file may be larger than what counts as held */
+    KOKSMA__TRY(known.of_file ? add_mesh(im, place, &twin, false, out) : koksma__import_mesh(im, place, &twin, out));
+    if (inside_out) {
         im->twins[mesh].inside_out = *out;
         im->twins[*out].inside_out = mesh;
-    }
-    *out = im->twins[mesh].inside_out;
-    return KOKSMA_OK;
-}
-
-static koksma_status find_with_uv(koksma__import *im, koksma__text_place place, int mesh, int *out)
-{
-    if (im->twins[mesh].with_uv < 0) {
-        KOKSMA__TRY(add_twin(im, place, mesh, false, out));
+    } else {
         im->twins[mesh].with_uv = *out;
     }
-    *out = im->twins[mesh].with_uv;
     return KOKSMA_OK;
 }
 
@@ -374,10 +364,10 @@ static koksma_status put_mesh(koksma__import *im, const koksma__import_item *ite
     koksma__import_surface surface = item->surface;
     koksma__placement *p = NULL;
     if (surface.material >= 0 && !scene->meshes[mesh].uvs && is_textured(&scene->materials[surface.material])) {
-        KOKSMA__TRY(find_with_uv(im, item->place, mesh, &mesh));
+        KOKSMA__TRY(find_twin(im, item->place, mesh, false, &mesh));
     }
     if (koksma__matrix_mirrors(matrix) != surface.turned) {
-        KOKSMA__TRY(find_inside_out(im, item->place, mesh, &mesh));
+        KOKSMA__TRY(find_twin(im, item->place, mesh, true, &mesh));
     }
     KOKSMA__TRY(koksma__import_fail_at(item->place, koksma__scene_add_placement(scene, &p)));
     p->mesh = mesh;

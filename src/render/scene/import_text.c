@@ -11,9 +11,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <sys/stat.h>
-
-#include "core/capacity.h"
 #include "core/hash.h"
 #include "core/status.h"
 #include "meshes/readers.h"
@@ -50,12 +47,7 @@ koksma_status koksma__import_check_uv(koksma__text_place place, const double *va
     return KOKSMA_OK;
 }
 
-enum { MOST_INCLUDES = 4096, MOST_RATIO = 16, MOST_SURPLUS = 256 << 20 };
-
-struct koksma__text_file {
-    dev_t device;
-    ino_t number;
-};
+enum { MOST_INCLUDES = 4096 };
 
 /* Whether the file `full` is below the folder of the scene, after following symbolic links. A file that does not
    exist passes; opening it fails later. */
@@ -93,34 +85,6 @@ static koksma_status read_text(const char *path, unsigned char **bytes, size_t *
     return KOKSMA_OK;
 }
 
-koksma_status koksma__import_surplus(koksma__import *im, koksma__text_place place, uint64_t bytes)
-{
-    im->surplus += bytes;
-    return im->surplus <= MOST_SURPLUS
-               ? KOKSMA_OK
-               : koksma__import_fail(place,
-                                     "the texts that it includes again, those from files packed to less than 1/%d of "
-                                     "their length, and the values of $names are longer than %d MiB together",
-                                     MOST_RATIO, MOST_SURPLUS >> 20);
-}
-
-/* Counts a text that was read against what the files on the disk stand for. */
-static koksma_status count_text(koksma__import *im, koksma__text_place place, const char *path, size_t size)
-{
-    struct stat file;
-    bool again = stat(path, &file) != 0;
-    for (size_t i = 0; !again && i < im->n_texts; i++) {
-        again = im->texts[i].device == file.st_dev && im->texts[i].number == file.st_ino;
-    }
-    if (!again) {
-        struct koksma__text_file *to = koksma__add_one(&im->texts, &im->n_texts, sizeof *to);
-        KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-        *to = (struct koksma__text_file){file.st_dev, file.st_ino};
-    }
-    const uint64_t free_bytes = again ? 0 : MOST_RATIO * (uint64_t)file.st_size;
-    return koksma__import_surplus(im, place, size > free_bytes ? size - free_bytes : 0);
-}
-
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
                                   size_t *size)
 {
@@ -135,7 +99,7 @@ koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, 
     }
     KOKSMA__TRY(koksma__import_fail_at(place, read_text(full, &read, size)));
     koksma_status status = koksma__import_hold(im, place, *size);
-    status = status ? status : count_text(im, place, full, *size);
+    status = status ? status : koksma__import_spend(im, place, *size / KOKSMA__STEP_TEXT);
     if (status) {
         free(read);
         return status;

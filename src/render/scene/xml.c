@@ -172,7 +172,7 @@ static void add_text(reading *r, const char *value)
         used += length;
         value += taken;
     }
-    stop(r, koksma__import_surplus(r->im, here(r), surplus));
+    stop(r, koksma__import_spend(r->im, here(r), surplus / KOKSMA__STEP_TEXT));
     stop(r, koksma__reserve(&r->texts, &r->texts_capacity, r->n_texts + 1, 1));
     if (!r->status) {
         r->texts[r->n_texts++] = 0;
