@@ -3,8 +3,8 @@
 #include <float.h>
 #include <string.h>
 
-#include "render/lights/lights.h"
 #include "light_sample.h"
+#include "render/lights/lights.h"
 #include "rendering.h"
 
 enum { WIDTH = 8, HEIGHT = 4 };

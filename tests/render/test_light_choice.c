@@ -5,10 +5,10 @@
  * chosen, so that the mean of contribution / probability is the sum over all lights. `auto` is `one` for paths among
  * more than 8 lights, and `all` elsewhere; its mean is that of all lights.
  */
+#include "light_sample.h"
 #include "render/lights/lights.h"
 #include "render/pipelines/batch.h"
 #include "render/pipelines/pipelines.h"
-#include "light_sample.h"
 #include "rendering.h"
 
 enum { POINTS = test_repeats(40, 8), GRID = test_repeats(4096, 1024) };

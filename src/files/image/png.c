@@ -3,8 +3,8 @@
  * Reads and writes PNG files of 1 to 16 bits by libpng. Levels are read as sRGB, whose curve (image.h) is applied here in
  * double precision. A gAMA chunk with the value g replaces this curve by linear = s^(1/g), unless the file also has a
  * chunk sRGB or iCCP, which take precedence (PNG, 3rd edition, section 13.13). A g within 5 % of 1/2.2 is read as sRGB,
- * because writers of sRGB files often store such a g. Only colours as the file states them follow gAMA. Transparency does not change the colours, so
- * that albedos and comparisons use each pixel's colour; it is read alone. Files are written as
+ * because writers of sRGB files often store such a g. Only colours as the file states them follow gAMA. Transparency does
+ * not change the colours, so that albedos and comparisons use each pixel's colour; it is read alone. Files are written as
  * sRGB with 8 bits; koksma__png_levels writes levels of 8 or 16 bits as they are.
  */
 #ifdef KOKSMA_PNG

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reader of glTF 2.0 in three files: gltf.c opens a file and reads its buffers and accessors; gltf_schema.c checks that
-   the parts fit together; gltf_scene.c reads what the scene shows. This header declares what these files share. */
+/* The reader of glTF 2.0 in four files: gltf_read.c opens a file; gltf.c reads its buffers and accessors; gltf_schema.c
+   checks that the parts fit together; gltf_scene.c reads what the scene shows. This header declares what they share. */
 #ifndef KOKSMA_MESHES_GLTF_H
 #define KOKSMA_MESHES_GLTF_H
 
@@ -76,6 +76,9 @@ koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i);
 
 /* Follows a path of keys, "extensions/KHR_materials_ior", into nested objects. Returns false if a key is missing. */
 bool koksma__gltf_find(const koksma__json_node *from, const char *path, koksma__json_node *out);
+
+/* Loads all buffers whose data exist. Errors: MISSING, MALFORMED, MEMORY. */
+koksma_status koksma__gltf_load_buffers(koksma__gltf *g);
 
 /* Decodes a data URI in base64 into bytes that the koksma__mesh_file owns; errors name the field f. Errors:
    MALFORMED, MEMORY. */

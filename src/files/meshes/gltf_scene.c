@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads what the scene of a glTF file shows: where its nodes place meshes, lights (KHR_lights_punctual) and the camera,
- * then the meshes, then the materials that these use. Specification: Khronos, "glTF 2.0" (2021), and those of the extensions.
+ * then the meshes, then the materials that these use. Specification: Khronos, "glTF 2.0" (2021), and the extensions'.
+ * Long because these share what is marked as shown and used.
  *
  * A node's matrix is the product of the matrices from its root down to the node, in double precision. gltf_schema.c has
  * checked that nodes form trees.

@@ -211,38 +211,6 @@ static uint32_t *first_alike(const koksma__mesh *m, bool by_corner)
     return other;
 }
 
-koksma_status koksma__mesh_smooth(koksma__mesh *m)
-{
-    if (m->normals) {
-        return KOKSMA_OK;
-    }
-    double *sums = calloc(3 * m->n_vertices + 1, sizeof *sums);
-    uint32_t *first = first_alike(m, false);
-    m->normals = calloc(3 * m->n_vertices + 1, sizeof *m->normals);
-    if (!sums || !first || !m->normals) {
-        free(sums);
-        free(first);
-        return koksma__fail_memory(3 * m->n_vertices * sizeof *sums);
-    }
-    for (size_t t = 0; t < m->n_triangles; t++) {
-        double area[3];
-        twice_area(m, t, area);
-        for (size_t i = 0; i < 9; i++) {
-            sums[3 * first[m->indices[3 * t + i / 3]] + i % 3] += area[i % 3];
-        }
-    }
-    for (size_t i = 0; i < m->n_vertices; i++) {
-        const double *n = sums + 3 * first[i];
-        const double length = sqrt(koksma__dot(n, n));
-        for (size_t k = 0; k < 3; k++) {
-            m->normals[3 * i + k] = length > 0 ? (float)(n[k] / length) : 0;
-        }
-    }
-    free(sums);
-    free(first);
-    return KOKSMA_OK;
-}
-
 /* The angle of triangle t at corner c, and 0 for a triangle without area. */
 static double corner_angle(const koksma__mesh *m, size_t t, size_t c)
 {
@@ -257,36 +225,53 @@ static double corner_angle(const koksma__mesh *m, size_t t, size_t c)
     return koksma__atan2(sqrt(koksma__dot(across, across)), koksma__dot(sides[0], sides[1]));
 }
 
-koksma_status koksma__mesh_smooth_by_angles(koksma__mesh *m)
+/* Gives each vertex the sum of its triangles' normals, weighted by their areas or by their angles at the vertex: of all
+   triangles at its position, or by angles of those at its corner in the file. */
+static koksma_status smooth(koksma__mesh *m, bool by_angles)
 {
+    const bool joins = !by_angles || m->corners;
     double *sums = calloc(3 * m->n_vertices + 1, sizeof *sums);
-    uint32_t *first = m->corners ? first_alike(m, true) : NULL;
+    uint32_t *first = joins ? first_alike(m, by_angles) : NULL;
     m->normals = calloc(3 * m->n_vertices + 1, sizeof *m->normals);
-    if (!sums || !m->normals || (m->corners && !first)) {
+    if (!sums || !m->normals || (joins && !first)) {
         KOKSMA__FREE(sums, first);
         return koksma__fail_memory(3 * m->n_vertices * sizeof *sums);
     }
     for (size_t t = 0; t < m->n_triangles; t++) {
         double normal[3];
         twice_area(m, t, normal);
-        const bool has_area = koksma__normalise(normal);
-        for (size_t c = 0; has_area && c < 3; c++) {
-            const double angle = corner_angle(m, t, c);
+        const bool counts = !by_angles || koksma__normalise(normal);
+        for (size_t c = 0; counts && c < 3; c++) {
+            const double weight = by_angles ? corner_angle(m, t, c) : 1;
             const size_t vertex = m->indices[3 * t + c], at = first ? first[vertex] : vertex;
             for (size_t k = 0; k < 3; k++) {
-                sums[3 * at + k] += angle * normal[k];
+                sums[3 * at + k] += weight * normal[k];
             }
         }
     }
     for (size_t i = 0; i < m->n_vertices; i++) {
         const size_t at = first ? first[i] : i; /* at most i, so that those of `at` are made */
-        const bool has_direction = at == i && koksma__normalise(sums + 3 * i);
+        double *n = sums + 3 * i;
+        const double length = sqrt(koksma__dot(n, n));
+        const bool has_direction = at == i && (by_angles ? koksma__normalise(n) : length > 0);
         for (size_t k = 0; k < 3; k++) {
-            m->normals[3 * i + k] = at < i ? m->normals[3 * at + k] : has_direction ? (float)sums[3 * i + k] : 0;
+            m->normals[3 * i + k] = at < i           ? m->normals[3 * at + k]
+                                    : !has_direction ? 0
+                                                     : (float)(by_angles ? n[k] : n[k] / length);
         }
     }
     KOKSMA__FREE(sums, first);
     return KOKSMA_OK;
+}
+
+koksma_status koksma__mesh_smooth(koksma__mesh *m)
+{
+    return m->normals ? KOKSMA_OK : smooth(m, false);
+}
+
+koksma_status koksma__mesh_smooth_by_angles(koksma__mesh *m)
+{
+    return smooth(m, true);
 }
 
 bool koksma__mesh_is_curved(const koksma__mesh *m)

@@ -409,15 +409,21 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
 
 /* ---- Mixtures ---------------------------------------------------------------------------------------------- */
 
-void koksma__import_blend(koksma__import_colour *c, const double amount[3], const double *other)
+void koksma__import_affine(koksma__import_colour *c, const double scale[3], const double plus[3])
 {
     for (int k = 0; k < 3; k++) {
-        const double keep = 1 - amount[k], more = other ? amount[k] * other[k] : 0;
-        c->rgb[k] = keep * c->rgb[k] + more;
-        c->second[k] = keep * c->second[k] + more;
-        c->use.tint[k] *= keep;
-        c->use.plus[k] = keep * c->use.plus[k] + more;
+        c->rgb[k] = scale[k] * c->rgb[k] + plus[k];
+        c->second[k] = scale[k] * c->second[k] + plus[k];
+        c->use.tint[k] *= scale[k];
+        c->use.plus[k] = scale[k] * c->use.plus[k] + plus[k];
     }
+}
+
+void koksma__import_between(koksma__import_colour *c, const double first[3], const double second[3])
+{
+    double step[3];
+    koksma__subtract(second, first, step);
+    koksma__import_affine(c, step, first);
 }
 
 /* Blends material b into a; returns false if no single material scatters as both together do. A material's light is
@@ -447,17 +453,6 @@ static bool blend_materials(koksma__material *a, const koksma__material *b, doub
     a->period = b->checker ? b->period : a->period;
     a->checker |= b->checker;
     return true;
-}
-
-void koksma__import_between(koksma__import_colour *c, const double first[3], const double second[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const double from = first[k], step = second[k] - from;
-        c->rgb[k] = from + step * c->rgb[k];
-        c->second[k] = from + step * c->second[k];
-        c->use.tint[k] *= step;
-        c->use.plus[k] = from + step * c->use.plus[k];
-    }
 }
 
 /* Whether a material is Lambert's with one albedo, which light meets everywhere. */

@@ -227,9 +227,8 @@ static inline bool koksma__import_is_white(const koksma__import_colour *c)
 koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, const char *what,
                                   koksma__spectrum_use use, koksma__import_colour *c);
 
-/* Turns a colour, image or checkerboard c into (1 - amount) c + amount other, if `other` is one colour; without `other`
-   into (1 - amount) c. */
-void koksma__import_blend(koksma__import_colour *c, const double amount[3], const double *other);
+/* Turns a colour, image or checkerboard x into scale x + plus, channel by channel. */
+void koksma__import_affine(koksma__import_colour *c, const double scale[3], const double plus[3]);
 
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
                                           const koksma__import_material *from, int *out);

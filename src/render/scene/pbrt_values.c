@@ -305,7 +305,6 @@ static bool is_one_colour(const koksma__import_colour *c)
 static koksma_status blend(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, double amount,
                            koksma__import_colour *c, koksma__import_colour *other)
 {
-    const double share[3] = {amount, amount, amount}, rest[3] = {1 - amount, 1 - amount, 1 - amount};
     if (amount <= 0 || amount >= 1) {
         *c = amount <= 0 ? *c : *other;
         return KOKSMA_OK;
@@ -314,18 +313,21 @@ static koksma_status blend(koksma__pbrt_scene *scene, const koksma__pbrt_paramet
     if (!is_one_colour(c) && !is_one_colour(other) && !checkers) {
         KOKSMA__TRY(koksma__import_mean(scene->im, p->place, WITHIN, KOKSMA__REFLECTANCE, other));
     }
-    if (is_one_colour(other)) {
-        koksma__import_blend(c, share, other->rgb);
-    } else if (is_one_colour(c)) {
+    if (!is_one_colour(other) && is_one_colour(c)) { /* the same the other way round */
         const koksma__import_colour first = *c;
         *c = *other;
-        koksma__import_blend(c, rest, first.rgb);
-    } else {
-        koksma__import_blend(c, share, NULL);
-        for (int k = 0; k < 3; k++) {
-            c->rgb[k] += amount * other->rgb[k];
-            c->second[k] += amount * other->second[k];
-        }
+        *other = first;
+        amount = 1 - amount;
+    }
+    const double keep[3] = {1 - amount, 1 - amount, 1 - amount};
+    double more[3], second[3];
+    for (int k = 0; k < 3; k++) {
+        more[k] = amount * other->rgb[k];
+        second[k] = c->second[k];
+    }
+    koksma__import_affine(c, keep, more);
+    for (int k = 0; other->is_checker && k < 3; k++) {
+        c->second[k] = keep[k] * second[k] + amount * other->second[k];
     }
     return KOKSMA_OK;
 }
@@ -366,12 +368,7 @@ static koksma_status read_scaled(koksma__pbrt_scene *scene, const koksma__pbrt_p
         return koksma__import_unknown(scene->im, p->place,
                                       "an image times a negative colour is replaced by the image");
     }
-    for (int k = 0; k < 3; k++) {
-        c->rgb[k] *= by.rgb[k];
-        c->second[k] *= by.rgb[k];
-        c->use.tint[k] *= by.rgb[k];
-        c->use.plus[k] *= by.rgb[k];
-    }
+    koksma__import_affine(c, by.rgb, (const double[3]){0});
     return KOKSMA_OK;
 }
 
