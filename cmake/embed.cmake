@@ -20,6 +20,16 @@ function(koksma_embed_records file header)
   file(CONFIGURE OUTPUT ${header} CONTENT "/* Made from records.csv; do not edit. */\n#ifdef RECORD\n${rows}#else\nstatic const uint64_t points[] = {\n${points}};\n#endif\n" @ONLY)
 endfunction()
 
+# koksma_embed_numbers(FILE HEADER): each row NAME,NUMBERS of a file as an array of 32-bit numbers.
+function(koksma_embed_numbers file header)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text)
+  string(REGEX REPLACE "#[^\n]*\n" "" text "${text}")
+  string(REPLACE " " ",\n" text "${text}")
+  string(REGEX REPLACE "([a-z]+),([^a-z]+)\n" "static const uint32_t \\1[] = {\n\\2};\n" text "${text}")
+  file(CONFIGURE OUTPUT ${header} CONTENT "/* Made from rows of numbers; do not edit. */\n${text}" @ONLY)
+endfunction()
+
 # koksma_embed_folder(HEADER GLOB): a header with the table `embedded_texts[]` of {name, text, size}: every file that
 # matches GLOB, by its name without the ending, in alphabetical order.
 function(koksma_embed_folder header glob)

@@ -18,17 +18,9 @@
 #include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
 
-enum { LENGTH = 1024, DIGITS = 24 };
+#include "patterns/data/every_n.inc" /* plane, space and four, made from every_n.csv */
 
-static const uint32_t plane[] = {
-#include "patterns/data/every_n_2d.inc"
-};
-static const uint32_t space[] = {
-#include "patterns/data/every_n_3d.inc"
-};
-static const uint32_t four[] = {
-#include "patterns/data/every_n_4d.inc"
-};
+enum { LENGTH = 1024, DIGITS = 24 };
 
 /* The tables, and the powers of 1/g in units of 2^-64, by the number of dimensions less 2. */
 static const struct {
