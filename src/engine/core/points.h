@@ -15,10 +15,6 @@ KOKSMA__LAB koksma_status koksma__points_fit(size_t n, int dim);
    public function that takes points, unless it documents another rule, makes this check first. Errors: ARGUMENT, DIM. */
 KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);
 
-/* Computes the smallest distance between two of n >= 2 points in the unit square or on the torus, in O(n log n) for
-   any points. A distance below 1e-162 is returned as 0. Errors: MEMORY, INTERRUPTED. */
-koksma_status koksma__closest_pair(const koksma_points *points, bool torus, const koksma_run *run, double *distance);
-
 /* ---- Strata of the unit interval, and the quality parameter t of points as a net ---- */
 
 /* Returns the index of the stratum of x among m equal strata, whose bounds are the doubles nearest to j/m. x = 1 is

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The properties distinct, distance-square and distance-torus, and the public koksma_smallest_distance. In the plane,
- * divide and conquer finds the closest pair in O(n log n) (core/closest_pair.c). In other dimensions d a sweep over
- * the points sorted by their first coordinate compares only pairs whose first coordinates differ by less than the
- * smallest distance found so far: O(n^2 d) at worst, about n^(2 - 1/d) for evenly distributed points. Findings also
+ * The properties distinct, distance-square and distance-torus, and the public koksma_smallest_distance. Findings also
  * give the smallest distance divided by that of the densest packing of n points (patterns/spacing/spacing.h); the
  * latter is exact for up to 30 points in the square, and an upper bound otherwise.
  */
@@ -11,13 +8,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
+#include "measures/distances/distances.h"
 #include "patterns/spacing/spacing.h"
 #include "verify/verify.h"
-
-enum { PAIRS_AT_ONCE = 1 << 22 };
 
 typedef struct point {
     const double *xs;
@@ -42,42 +37,6 @@ static int compare(const void *a, const void *b)
     return order ? order : p->xs < q->xs ? -1 : p->xs > q->xs;
 }
 
-static double square_of(const point *p, const point *q, bool torus)
-{
-    double sum = 0;
-    for (int k = 0; k < p->dim; k++) {
-        const double t = torus ? koksma__torus_difference(p->xs[k], q->xs[k]) : p->xs[k] - q->xs[k];
-        sum += t * t;
-    }
-    return sum;
-}
-
-/* Finds the smallest distance of points sorted by their first coordinate: compares only pairs whose first coordinates
-   differ by less than the smallest distance so far. */
-static koksma_status sweep(const point *sorted, size_t n, bool torus, const koksma_run *run, double *distance)
-{
-    double best = INFINITY;
-    size_t pairs = 0;
-    for (size_t i = 0; i < n; i++) {
-        for (size_t step = 1; step < n; step++) {
-            const size_t j = i + step;
-            if (j >= n && !torus) {
-                break;
-            }
-            const double along = sorted[j % n].xs[0] - sorted[i].xs[0] + (j >= n);
-            if (along * along >= best || along > 0.5 + !torus) {
-                break;
-            }
-            best = fmin(best, square_of(&sorted[i], &sorted[j % n], torus));
-            if (++pairs % PAIRS_AT_ONCE == 0 && !koksma__keep_going(run, (double)i / (double)n)) {
-                return koksma__fail_interrupted();
-            }
-        }
-    }
-    *distance = sqrt(best);
-    return KOKSMA_OK;
-}
-
 static point *sort_points(const koksma_points *points)
 {
     point *sorted = malloc(points->n * sizeof *sorted);
@@ -98,15 +57,7 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
     KOKSMA__REQUIRE(points, distance);
     KOKSMA__REQUIRE_RUN(run);
     KOKSMA__TRY(koksma__points_check(points));
-    KOKSMA__FAIL_IF(points->n == 1, KOKSMA_N, "smallest distance: n = 1: it needs 2 points or more");
-    if (points->dim == 2) {
-        return koksma__closest_pair(points, torus, run, distance);
-    }
-    point *sorted = sort_points(points);
-    KOKSMA__TRY(sorted ? KOKSMA_OK : KOKSMA_MEMORY);
-    const koksma_status status = sweep(sorted, points->n, torus, run, distance);
-    free(sorted);
-    return status;
+    return koksma__min_distance("koksma_smallest_distance", points, torus, run, distance);
 }
 
 static koksma_status look_distance(koksma__verification *v)

@@ -20,21 +20,18 @@ koksma_status koksma__torus_cells_init(koksma__torus_cells *cells, const koksma_
                                        bool wrap);
 void koksma__torus_cells_fini(koksma__torus_cells *cells);
 
-/* ---- Closest space --------------------------------------------------------------------------------------- */
+/* ---- Closest pair ---------------------------------------------------------------------------------------- */
 
-enum { KOKSMA__CLOSEST_DIM = 16 };
-
-/* Computes the smallest distance between two of n >= 2 points of up to KOKSMA__CLOSEST_DIM dimensions, in the unit
-   cube or on the torus. Errors: MEMORY, INTERRUPTED. */
-koksma_status koksma__closest_in_space(const koksma_points *points, bool torus, const koksma_run *run,
-                                       double *distance);
+/* Computes the smallest distance between two of n >= 2 points, in the unit cube or on the torus. A distance below 1e-162
+   is returned as 0. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__closest_pair(const koksma_points *points, bool torus, const koksma_run *run, double *distance);
 
 /* ---- Neighbours ------------------------------------------------------------------------------------------ */
 
 /* The smallest distance between points. */
 
-/* Computes the smallest distance between two points in up to KOKSMA__CLOSEST_DIM dimensions. In the plane it takes
-   O(n) for evenly spread points and O(n log n) for others; in more dimensions it uses a k-d tree. name: the name of
+/* Computes the smallest distance between two points. In the plane it takes O(n) for evenly spread points; otherwise it is
+   koksma__closest_pair. name: the name of
    the measure, for the error message for a single point. Errors: N, MEMORY, INTERRUPTED. */
 koksma_status koksma__min_distance(const char *name, const koksma_points *points, bool torus, const koksma_run *run,
                                    double *distance);

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Visits all pairs of points with a distance below r. In a grid of cells at least r wide, the partners of a point are
    in its own cell and in the eight cells around it. This takes O(n + pairs) for evenly spread points. If many points
-   share few cells, the smallest distance is found by divide and conquer (core/closest_pair.c) in O(n log n). Both
-   methods square the same differences, so that they give the same bits. closest_space.c handles points that are not
-   in the plane. */
+   share few cells or are not in the plane, closest_pair.c finds the smallest distance. Both methods square the same
+   differences, so that they give the same bits. */
 #include "measures/distances/distances.h"
 
 #include <math.h>
@@ -138,8 +137,7 @@ static bool is_spread(const koksma__torus_cells *g, size_t n)
     return pairs <= CROWD * (double)n;
 }
 
-/* Computes the smallest distance with cells of width r or, for crowded points, by divide and conquer. Both methods
-   square the same differences, so that they give equal bits. */
+/* Computes the smallest distance with cells of width r or, for crowded points, by the k-d tree. */
 static koksma_status least_of_many(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                    double *distance)
 {
@@ -164,7 +162,7 @@ koksma_status koksma__min_distance(const char *name, const koksma_points *points
         return koksma__fail_interrupted();
     }
     if (points->dim != 2) {
-        return koksma__closest_in_space(points, torus, run, distance);
+        return koksma__closest_pair(points, torus, run, distance);
     }
     double least = HUGE_VAL,
            r = fmin(1.1 / sqrt((double)points->n), 0.5); /* upper bound of the smallest distance of n points */

@@ -17,13 +17,13 @@
 #include "core/status.h"
 #include "core/vector.h"
 
-enum { LEAF = 8, PAIRS_AT_ONCE = 1 << 16, MOST = KOKSMA__CLOSEST_DIM };
+enum { LEAF = 8, PAIRS_AT_ONCE = 1 << 16 };
 
 /* A node has points first .. end - 1 of `order`. The children of node i are nodes 2 i + 1 and 2 i + 2; a leaf has no
    children. */
 typedef struct node {
     size_t first, end;
-    double low[MOST], high[MOST];
+    double *low, *high; /* its box */
 } node;
 
 typedef struct search {
@@ -34,6 +34,7 @@ typedef struct search {
     double best; /* the least squared distance so far */
     uint32_t *order;
     node *nodes;
+    double *boxes;
 } search;
 
 static bool is_leaf(const node *a)
@@ -52,6 +53,8 @@ static void build(search *s, size_t at, size_t first, size_t end)
     size_t longest = 0;
     a->first = first;
     a->end = end;
+    a->low = s->boxes + 2 * s->dim * at;
+    a->high = a->low + s->dim;
     for (size_t k = 0; k < s->dim; k++) {
         a->low[k] = a->high[k] = coordinate(s, first, k);
         for (size_t i = first + 1; i < end; i++) {
@@ -128,8 +131,7 @@ static void search_pairs(search *s, size_t at, size_t with)
     }
 }
 
-koksma_status koksma__closest_in_space(const koksma_points *points, bool torus, const koksma_run *run,
-                                       double *distance)
+koksma_status koksma__closest_pair(const koksma_points *points, bool torus, const koksma_run *run, double *distance)
 {
     search s = {
         .xs = points->xs, .run = run, .n = points->n, .dim = (size_t)points->dim, .torus = torus, .best = INFINITY};
@@ -140,7 +142,8 @@ koksma_status koksma__closest_in_space(const koksma_points *points, bool torus, 
     }
     s.order = malloc(s.n * sizeof *s.order);
     s.nodes = malloc(nodes * sizeof *s.nodes);
-    const bool allocated = s.order && s.nodes;
+    s.boxes = malloc(2 * s.dim * nodes * sizeof *s.boxes);
+    const bool allocated = s.order && s.nodes && s.boxes;
     for (size_t i = 0; i < s.n && allocated; i++) {
         s.order[i] = (uint32_t)i;
     }
@@ -151,7 +154,9 @@ koksma_status koksma__closest_in_space(const koksma_points *points, bool torus, 
     }
     free(s.order);
     free(s.nodes);
-    KOKSMA__REQUIRE_MEMORY(allocated, s.n * sizeof *s.order + nodes * sizeof *s.nodes);
+    free(s.boxes);
+    KOKSMA__REQUIRE_MEMORY(allocated,
+                           s.n * sizeof *s.order + nodes * (sizeof *s.nodes + 2 * s.dim * sizeof *s.boxes));
     *distance = sqrt(s.best);
     return s.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
