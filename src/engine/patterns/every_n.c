@@ -10,7 +10,7 @@
  * of all prefixes, relative to those before the moves. In the plane the first 128 points minimise the mean of D*(n) /
  * record(n) over n = 8 .. 128 instead, where record(n) is the star discrepancy of the best known set of n points.
  *
- * Source: this project's search, tools/make_every_n.c. Kritzinger (2022) adds points greedily by the L2 star discrepancy
+ * Source: this project's search (docs/findings/any-n.md). Kritzinger (2022) adds points greedily by the L2 star discrepancy
  * in one dimension.
  * Known: the modifier shift makes it unbiased, and so do owen and digital-shift (each point is uniform); none of them
  * keeps the star discrepancy (docs/findings/any-n.md).
