@@ -70,8 +70,7 @@ const cli_command cli_command_curve = {
     .name = "curve",
     .summary = "print measures whose values are functions, such as power spectra",
     .synopsis = "{curve} FILE|-|SPEC@N... [-p PATTERN,..|all -n N,..] [--trials T] [--json]",
-    .details = "{curve-meanings}"
-               "`koksma plot --curve` draws them.",
+    .details = "{curve-meanings}`koksma plot --curve` draws them.",
     .examples = "koksma curve rings pattern:poisson-disk-maximal@1024\n"
                 "koksma curve screen ranking-keys@4@2 --trials 8\n"
                 "koksma curve pairs points.txt\n",

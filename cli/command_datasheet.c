@@ -205,9 +205,8 @@ static const cli_option options[] = {
 const cli_command cli_command_datasheet = {
     .name = "datasheet",
     .summary = "describe one sampler on one page, compared with others",
-    .synopsis = "SPEC|FILE|'my_{n}_{seed}.npy' -o FILE [--beside PATTERN,..|none] [--scenes SCENE,..|none] [--metric "
-                "METRIC] [--quick] "
-                "[--json]",
+    .synopsis = "SPEC|FILE|'my_{n}_{seed}.npy' -o FILE [--beside PATTERN,..|none] [--scenes SCENE,..|none] "
+                "[--metric METRIC] [--quick] [--json]",
     .details =
         "Writes a page about the sampler: a verdict (where it is the best, where others are better, and how certain "
         "that is), its points, its errors and their coherence in scenes, all measures against n with slopes, errors "

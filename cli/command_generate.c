@@ -241,9 +241,8 @@ static const cli_option options[] = {
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "warp", "WARP", "map the points to a disk, triangle, hemisphere or sphere; see 'koksma list warps'"},
     {0, "density", "FILE.png|.exr|.pfm",
-     "the points' density follows the luminance of this image, with distances of its shape; x and y are in units of "
-     "its "
-     "width and height"},
+     "the points' density follows the luminance of this image, with distances of its shape; x and y are in units "
+     "of its width and height"},
     {0, "domain", "W:H", "points in a rectangle, 0 <= x < W, 0 <= y < H; with --density, the image fills it"},
     {0, "on", "FILE.obj|.ply|.ply.gz|.off|.gltf|.glb|.serialized",
      "points on this model: x y z; -d 6 adds the normal, -d 7 also the number of the triangle, from 0"},
@@ -265,17 +264,16 @@ const cli_command cli_command_generate = {
         "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N. All other "
         "patterns are generated in memory, with at most 2^28 coordinates.\n"
         "\n"
-        "With --density, --domain and --on the pattern is random, sample-elimination, progressive-elimination,\n"
+        "With --density, --domain and --on the pattern is random, sample-elimination, progressive-elimination, "
         "poisson-disk, dart-throwing, best-candidate, poisson-disk-maximal or gaussian-blue-noise; the last two "
-        "also\n"
-        "with order=progressive. poisson-disk-maximal:d=D needs no -n there: D decides how many points there are. D\n"
-        "is in units of --domain or of the model; with --density alone in units of the picture's height, and where\n"
-        "the density equals its mean. Distances on a picture or rectangle wrap around its edges (those of\n"
-        "poisson-disk with torus=1 only); on a model they are straight-line distances in space, not along the\n"
+        "also with order=progressive. poisson-disk-maximal:d=D needs no -n there: D decides how many points there "
+        "are. D is in units of --domain or of the model; with --density alone in units of the picture's height, "
+        "and where the density equals its mean. Distances on a picture or rectangle wrap around its edges (those "
+        "of poisson-disk with torus=1 only); on a model they are straight-line distances in space, not along the "
         "surface.\n"
         "\n"
-        "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each\n"
-        "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
+        "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each "
+        "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time, "
         "uniform-jittered and most of orthogonal-array.\n",
     .examples = "koksma generate sobol:scramble=owen -n 64 --seed 1 -o points.csv\n"
                 "koksma generate n-rooks -n 16\n"

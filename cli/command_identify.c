@@ -85,26 +85,23 @@ const cli_command cli_command_identify = {
     .summary = "say which known points a set is",
     .synopsis = "FILE|-|SPEC@N[@DIM]... [--json]",
     .details =
-        "Compares points with the sequences, lattices and patterns that are known here, and says how the "
-        "points arise from them. Sequences are those of Sobol' (direction numbers of Joe & Kuo, Bratley & Fox "
-        "and ours), Niederreiter in base 2, Halton and Faure, from any first point, in natural order and that "
-        "of Gray's code; then rank-1 lattices and lattice sequences, additive recurrences, Hammersley points, "
-        "grids, and every pattern of 'koksma list patterns' with seeds from 0 on. Coordinates may be permuted, "
-        "points in another order or left out, numbers rounded to float, to few digits, or scaled to [-1,1] or "
-        "a box.\n"
-        "relation: equal, reordered, part: the points are those, another order or some of what the row names; "
-        "spec makes them, 'first' is the index of the first. shifted: one vector was added modulo 1. "
-        "digital-shift, digit-permutation, linear-scramble, nested-scramble: what happened to the digits; "
-        "nested-scramble is Owen's or one of its hashes. lattice, recurrence, grid: 'detail' has the numbers. "
-        "Where no table here has the source: digital, a digital sequence in base 2 of other matrices; sequence, "
-        "one in base 2 that was scrambled and perhaps shuffled; stratified, a Latin hypercube or jittered points. "
-        "scaled, rounded: how the numbers were read. property: a net, a Latin hypercube, distances. Each "
-        "statement was tested for every point; a linear scramble may miss one point of 64, and its detail says "
-        "how many.\n"
+        "Compares points with the sequences, lattices and patterns that are known here, and says how the points "
+        "arise from them. Sequences are those of Sobol' (direction numbers of Joe & Kuo, Bratley & Fox and ours), "
+        "Niederreiter in base 2, Halton and Faure, from any first point, in natural order and that of Gray's code; "
+        "then rank-1 lattices and lattice sequences, additive recurrences, Hammersley points, grids, and every "
+        "pattern of 'koksma list patterns' with seeds from 0 on. Coordinates may be permuted, points in another "
+        "order or left out, numbers rounded to float, to few digits, or scaled to [-1,1] or a box.\n"
+        "relation: equal, reordered, part: the points are those, another order or some of what the row names; spec "
+        "makes them, 'first' is the index of the first. shifted: one vector was added modulo 1. digital-shift, "
+        "digit-permutation, linear-scramble, nested-scramble: what happened to the digits; nested-scramble is "
+        "Owen's or one of its hashes. lattice, recurrence, grid: 'detail' has the numbers. Where no table here has "
+        "the source: digital, a digital sequence in base 2 of other matrices; sequence, one in base 2 that was "
+        "scrambled and perhaps shuffled; stratified, a Latin hypercube or jittered points. scaled, rounded: how "
+        "the numbers were read. property: a net, a Latin hypercube, distances. Each statement was tested for every "
+        "point; a linear scramble may miss one point of 64, and its detail says how many.\n"
         "unknown: nothing that is known here makes these points. That is an answer, too; the docs page "
-        "conventions-of-others.md has the conventions of other libraries.\n"
-        "Exit codes: 0 when all sets are named; 1 when one is unknown; 2 for a wrong command line; 3 for "
-        "points that are missing or malformed.",
+        "conventions-of-others.md has the conventions of other libraries. Exit codes: 0 when all sets are named; 1 "
+        "when one is unknown; 2 for a wrong command line; 3 for points that are missing or malformed.",
     .examples = "koksma identify points.txt\n"
                 "koksma identify sobol:scramble=owen@256@4 --seed 5\n",
     .options = options,

@@ -493,8 +493,7 @@ static const cli_option options[] = {
      "correlations and dithering"},
     {'f', "filter", "FILTER",
      "the filter that will be applied: box:size=K, binomial:size=K, gaussian:sigma=S, one of 'koksma list "
-     "filters', or file:PATH, rows of numbers (default: gaussian:sigma=1); check: a list (default: six common "
-     "ones)"},
+     "filters', or file:PATH, rows of numbers (default: gaussian:sigma=1); check: a list (default: six common ones)"},
     {0, "size", "WxH", "size in pixels, 4 to 1024 a side (default: 128x128)"},
     {0, "space", "scalar|tent|gaussian|vector2|vector3|vector4|disk|circle|sphere|hemisphere",
      "the numbers of a pixel (default: scalar; check and --from: by the file's channels)"},
@@ -525,22 +524,20 @@ const cli_command cli_command_mask = {
                 "check FILE... [--filter FILTER,..] [--space SPACE] [--tests N]\n"
                 "check FILE... --rings N|--histogram N|--correlation R|-o PAGE.html",
     .details =
-        "A mask has a number, a vector or a direction for each pixel of a tile. Noise that is made with it, "
-        "such as one random number a pixel, nearly vanishes under the filter. The search swaps pixels by "
-        "simulated annealing, and minimises the variance of the filtered image of (value < t) over all "
-        "thresholds t, of vectors over all half-spaces, exactly and without sampling.\n"
-        "error: the root of this variance, for 256 thresholds or 400 fixed half-spaces. white: the same for "
-        "values in random order. ratio: error / white. inside and seam (check): the error of pixels whose "
-        "filter lies within the mask, and of those whose filter spans two opposite sides; a tile repeats "
-        "without a visible seam if they are equal. levels, least_often and most_often: the histogram of a mask "
-        "of one number. --rings: the mean power at each frequency, 1 for white noise, and its anisotropy. "
-        "--correlation: of all numbers of pixels p of the first mask and p + (dx, dy) of the second, on the torus; "
-        "two "
-        "masks that should be independent have about 0 everywhere. -o PAGE.html has all of this for up to eight "
-        "masks, "
-        "with pictures, and a ramp and a scene dithered by the masks of scalars.\n"
-        "Equal options give equal bits on every machine and with any number of threads (the search uses one). "
-        "A mask with borders (--open) has the error that the filter leaves if all beyond is exact.\n",
+        "A mask has a number, a vector or a direction for each pixel of a tile. Noise that is made with it, such "
+        "as one random number a pixel, nearly vanishes under the filter. The search swaps pixels by simulated "
+        "annealing, and minimises the variance of the filtered image of (value < t) over all thresholds t, of "
+        "vectors over all half-spaces, exactly and without sampling.\n"
+        "error: the root of this variance, for 256 thresholds or 400 fixed half-spaces. white: the same for values "
+        "in random order. ratio: error / white. inside and seam (check): the error of pixels whose filter lies "
+        "within the mask, and of those whose filter spans two opposite sides; a tile repeats without a visible "
+        "seam if they are equal. levels, least_often and most_often: the histogram of a mask of one number. "
+        "--rings: the mean power at each frequency, 1 for white noise, and its anisotropy. --correlation: of all "
+        "numbers of pixels p of the first mask and p + (dx, dy) of the second, on the torus; two masks that should "
+        "be independent have about 0 everywhere. -o PAGE.html has all of this for up to eight masks, with "
+        "pictures, and a ramp and a scene dithered by the masks of scalars. Equal options give equal bits on every "
+        "machine and with any number of threads (the search uses one). A mask with borders (--open) has the error "
+        "that the filter leaves if all beyond is exact.\n",
     .examples = "koksma mask -o m.png --filter gaussian:sigma=1 --size 64x64\n"
                 "koksma mask -o v.npy -f box:size=3 --size 32x48 --space vector2\n"
                 "koksma mask check m.png\n"

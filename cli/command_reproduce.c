@@ -181,14 +181,13 @@ const cli_command cli_command_reproduce = {
     .summary = "reproduce the tables and figures of papers",
     .synopsis = "PAPER... -o DIR [--quick] [--papers-only] [--trials T] [--table ID] [--json]",
     .details =
-        "PAPER is shirley1991 or mitchell1992, or your own plan (./my.json; studies/README.md lists the fields).\n"
+        "PAPER is shirley1991 or mitchell1992, or your own plan (./my.json; studies/README.md lists the fields). "
         "If both papers are given, the plan open-questions is added; it answers questions that the papers leave "
-        "open.\n"
-        "Results go to DIR/results.sqlite as they are computed. An interrupted run continues when it is started\n"
-        "again, and ends with the same report. The verdict compares our mean with the published one: agrees, fitted\n"
-        "(within 25 % in a scene that was fitted to the published numbers), explained (differs for a known reason),\n"
-        "unexplained, untested (a note says why the printed number is no test), new (the paper has no number) or\n"
-        "waiting (too few trials).\n",
+        "open. Results go to DIR/results.sqlite as they are computed. An interrupted run continues when it is "
+        "started again, and ends with the same report. The verdict compares our mean with the published one: "
+        "agrees, fitted (within 25 % in a scene that was fitted to the published numbers), explained (differs for "
+        "a known reason), unexplained, untested (a note says why the printed number is no test), new (the paper "
+        "has no number) or waiting (too few trials).\n",
     .examples = "koksma reproduce shirley1991 -o thesis --quick\n"
                 "koksma reproduce shirley1991 mitchell1992 -o both\n",
     .options = option_table,

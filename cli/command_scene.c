@@ -86,14 +86,12 @@ const cli_command cli_command_scene = {
     .name = "scene",
     .summary = "check a scene file",
     .synopsis = "check SCENE",
-    .details = "SCENE is a name, a JSON file (docs/scenes.md), a mesh file, or a scene of pbrt-v4 (.pbrt) or Mitsuba "
-               "(.xml). An error names file, line, field and reason\n"
-               "(exit code 3). A warning reports something odd that can still be rendered (exit code 1). stdout "
-               "lists what the\n"
-               "scene contains: the bounding box of each part, and the largest region of the image that the part can "
-               "cover,\n"
-               "both while the shutter is open: with every motion, and through the whole lens. Text has the first 40 "
-               "parts, with --long all.\n",
+    .details = "SCENE is a name, a JSON file (docs/scenes.md), a mesh file, or a scene of pbrt-v4 (.pbrt) or "
+               "Mitsuba (.xml). An error names file, line, field and reason (exit code 3). A warning reports "
+               "something odd that can still be rendered (exit code 1). stdout lists what the scene contains: the "
+               "bounding box of each part, and the largest region of the image that the part can cover, both while "
+               "the shutter is open: with every motion, and through the whole lens. Text has the first 40 parts, "
+               "with --long all.\n",
     .examples = "koksma scene check ball\n",
     .options = options,
     .run = run,

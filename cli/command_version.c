@@ -68,10 +68,9 @@ const cli_command cli_command_version = {
     .summary = "print the version, the kernels and the optional parts",
     .synopsis = "[--json]",
     .details =
-        "kernels: the instruction set of the inner loops, the first of avx512, avx2 and baseline that the processor\n"
-        "has. The environment variable KOKSMA_KERNELS selects another instruction set, or ref (plain C, for "
-        "tests).\n"
-        "koksma --version and koksma -V print the same.\n",
+        "kernels: the instruction set of the inner loops, the first of avx512, avx2 and baseline that the "
+        "processor has. The environment variable KOKSMA_KERNELS selects another instruction set, or ref (plain C, "
+        "for tests). koksma --version and koksma -V print the same.\n",
     .examples = "koksma version --json\n",
     .options = options,
     .run = run,

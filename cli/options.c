@@ -393,8 +393,7 @@ bool cli_seeds_fit(const cli_arguments *arguments, uint64_t seed, uint64_t trial
     if (more > UINT64_MAX - seed) {
         cli_usage_error(
             arguments,
-            "--seed %llu: %llu trials end at this seed + %llu, but seeds end at %llu; --seed %llu or less "
-            "would do",
+            "--seed %llu: %llu trials end at this seed + %llu, but seeds end at %llu; --seed %llu or less would do",
             (unsigned long long)seed, (unsigned long long)trials, (unsigned long long)more,
             (unsigned long long)UINT64_MAX, (unsigned long long)(UINT64_MAX - more));
         return false;

@@ -91,9 +91,7 @@ static int fail_miscounted(const cli_arguments *arguments, const char *text)
 {
     return cli_usage_error(
         arguments,
-        "'%s' is not of the form SPEC@N or SPEC@N@DIM; N and DIM are whole numbers from 1 on, as in "
-        "sobol@16",
-        text);
+        "'%s' is not of the form SPEC@N or SPEC@N@DIM; N and DIM are whole numbers from 1 on, as in sobol@16", text);
 }
 
 int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_source *source)

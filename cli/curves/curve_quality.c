@@ -38,11 +38,10 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
 
 const cli_curve cli_curve_quality = {
     .name = "quality",
-    .meaning = "the effective Nyquist frequency, also divided by sqrt(n)/2 (a whole multiple of 1/sqrt(n)), and the "
-               "oscillation (Heck, Schlomer, Deussen 2013). The oscillation needs frequencies up to about 6.5 "
+    .meaning = "the effective Nyquist frequency, also divided by sqrt(n)/2 (a whole multiple of 1/sqrt(n)), and "
+               "the oscillation (Heck, Schlomer, Deussen 2013). The oscillation needs frequencies up to about 6.5 "
                "sqrt(n); above 85,000 points set --half for this, up to 4096. Memory grows as the square of H: 1 "
-               "GB at "
-               "2047, 4 GB at 4096",
+               "GB at 2047, 4 GB at 4096",
     .cite = "heck2013",
     .compute = compute,
     .columns = {"effective_nyquist", "relative_nyquist", "oscillation"},
