@@ -115,6 +115,11 @@ bool cli_sizes(const cli_arguments *arguments, const char *name, const char *lis
                size_t sizes[KOKSMA_MAX_SIZES], size_t *n);
 /* Reads --size WxH; without this option *width and *height do not change. Returns false after an error. */
 bool cli_size(const cli_arguments *arguments, int *width, int *height);
+/* Reads an option whose argument lists its choices, "all|one|power"; *choice is the index of the one that is given, and
+   does not change if none is. Returns false after an error. */
+bool cli_choice(const cli_arguments *arguments, const char *name, int *choice);
+/* Returns false, after an error "--NAME WHY", if one of the options `names`, which blanks separate, is given. */
+bool cli_refuse(const cli_arguments *arguments, const char *names, const char *why, ...) KOKSMA_PRINTF(3, 4);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
 
 /* Writes "did you mean 'NAME'? " to `text` and returns it. NAME is the name in a table that is closest to `word`

@@ -59,18 +59,6 @@ static bool recipe_of(const cli_arguments *arguments, const char *path, char rec
     return length < PATH;
 }
 
-/* Returns false, after an error, if an option is given that the other one decides. */
-static bool check_alone(const cli_arguments *arguments, const char *decides, const char *const *names)
-{
-    for (; cli_text(arguments, decides, NULL) && *names; names++) {
-        if (cli_text(arguments, *names, NULL)) {
-            cli_usage_error(arguments, "--%s has no effect with --%s", *names, decides);
-            return false;
-        }
-    }
-    return true;
-}
-
 /* Reads the options of a new mask. Returns the exit code. */
 static int parse_new(job *j)
 {
@@ -167,9 +155,6 @@ static int make(job *j)
 
 static int run_make(const cli_arguments *arguments)
 {
-    static const char *const decided[] = {"filter", "size",  "space", "open", "levels",
-                                          "swaps",  "until", "seed",  "from", NULL};
-    static const char *const of_check[] = {"tests", "rings", "histogram", "correlation"};
     job j = {.arguments = arguments,
              .output = cli_text(arguments, "output", cli_text(arguments, "resume", NULL)),
              .filter = cli_text(arguments, "filter", "gaussian:sigma=1"),
@@ -177,20 +162,20 @@ static int run_make(const cli_arguments *arguments)
     if (arguments->n_operands) {
         return cli_usage_error(arguments, "%s: it takes 'check' and files, or options alone", arguments->operands[0]);
     }
-    for (size_t i = 0; i < sizeof of_check / sizeof *of_check; i++) {
-        if (cli_text(arguments, of_check[i], NULL)) {
-            return cli_usage_error(arguments, "--%s is of 'koksma mask check'", of_check[i]);
-        }
+    if (!cli_refuse(arguments, "tests rings histogram correlation", "is of 'koksma mask check'")) {
+        return CLI_USAGE;
     }
     if (!j.output) {
         return cli_usage_error(arguments, "-o FILE, the file for the mask, is missing");
     }
-    if (!check_alone(arguments, "resume", decided) || !recipe_of(arguments, j.output, j.recipe) ||
-        !cli_whole(arguments, "bits", 0, 8, 32, &j.bits) || !cli_work_begin(arguments, "arranging", &j.work) ||
+    const bool resumed = cli_text(arguments, "resume", NULL) != NULL;
+    if ((resumed && !cli_refuse(arguments, "filter size space open levels swaps until seed from",
+                                "has no effect with --resume")) ||
+        !recipe_of(arguments, j.output, j.recipe) || !cli_whole(arguments, "bits", 0, 8, 32, &j.bits) ||
+        !cli_work_begin(arguments, "arranging", &j.work) ||
         !cli_real(arguments, "time-limit", 0, 0, 1e9, &j.work.run.time_limit_s)) {
         return CLI_USAGE;
     }
-    const bool resumed = cli_text(arguments, "resume", NULL) != NULL;
     j.filter = resumed ? "-" : j.filter;
     int code = resumed ? parse_resumed(&j) : parse_new(&j);
     j.options.space = j.options.space ? j.options.space : koksma_mask_space_at(0);
@@ -449,15 +434,12 @@ static int check_together(const cli_arguments *arguments, const tables *t, const
 
 static int run_check(const cli_arguments *arguments)
 {
-    static const char *const of_make[] = {"size", "open",   "levels", "swaps",      "until", "seed",
-                                          "from", "resume", "bits",   "time-limit", NULL};
     const koksma_mask_space *space;
     cli_work work;
     tables t = {0};
-    for (const char *const *name = of_make; *name; name++) {
-        if (cli_text(arguments, *name, NULL)) {
-            return cli_usage_error(arguments, "--%s has no effect on 'check'", *name);
-        }
+    if (!cli_refuse(arguments, "size open levels swaps until seed from resume bits time-limit",
+                    "has no effect on 'check'")) {
+        return CLI_USAGE;
     }
     if (arguments->n_operands < 2) {
         return cli_usage_error(arguments, "check: it takes one mask or more");

@@ -250,20 +250,9 @@ static bool parse_projections(job *j)
 static bool parse(job *j)
 {
     const cli_arguments *arguments = j->arguments;
-    static const char *const kept[] = {"none", "latin", "net", "sequence"};
-    const char *keep = cli_text(arguments, "keep", "none");
     uint64_t n, dim;
-    int k = 0;
-    while (k < 4 && strcmp(keep, kept[k]) != 0) {
-        k++;
-    }
-    if (k == 4) {
-        char meant[96];
-        cli_usage_error(arguments, "--keep %s: %sit takes none, latin, net or sequence", keep,
-                        cli_meant_of(keep, "none, latin, net or sequence", meant));
-        return false;
-    }
-    if (!cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
+    int keep = KOKSMA_KEEP_NONE; /* the option's argument lists them in the order of koksma_keep */
+    if (!cli_choice(arguments, "keep", &keep) || !cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
         !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
         !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j->options.seed) ||
         !cli_whole(arguments, "steps", 0, 0, UINT64_MAX, &j->options.steps) ||
@@ -272,7 +261,7 @@ static bool parse(job *j)
     }
     j->options.n = n;
     j->options.dim = (int)dim;
-    j->options.keep = (koksma_keep)k;
+    j->options.keep = (koksma_keep)keep;
     return cli_real(arguments, "time-limit", cli_text(arguments, "steps", NULL) ? 0 : 60, 0, 1e9,
                     &j->work.run.time_limit_s);
 }
@@ -316,14 +305,10 @@ static bool check_format(const cli_arguments *arguments, const char *output)
 /* Checks what the command line of a search without --scene has. Returns false after an error. */
 static bool check_arguments(const cli_arguments *arguments)
 {
-    static const char *const of_scenes[] = {"against", "held-out",   "candidates", "phases",
-                                            "size",    "max-trials", "unknown"};
     const char *power = cli_text(arguments, "power", NULL), *output = cli_text(arguments, "output", NULL);
-    for (size_t i = 0; i < sizeof of_scenes / sizeof *of_scenes; i++) {
-        if (cli_text(arguments, of_scenes[i], NULL)) {
-            cli_usage_error(arguments, "--%s has an effect only with --scene", of_scenes[i]);
-            return false;
-        }
+    if (!cli_refuse(arguments, "against held-out candidates phases size max-trials unknown",
+                    "has an effect only with --scene")) {
+        return false;
     }
     if (arguments->n_operands != !power) {
         cli_usage_error(arguments, power ? "it takes a measure or --power, not both"

@@ -23,8 +23,8 @@ static uint64_t trials_of_all(const cli_curves *c)
 /* Reads --size W[xH] and --theme. Returns false after an error. */
 static bool choose_looks(const cli_arguments *arguments, cli_curves *c)
 {
-    const char *size = cli_text(arguments, "size", NULL), *theme = cli_text(arguments, "theme", "light");
-    int width = 0, height = 0, used = 0;
+    const char *size = cli_text(arguments, "size", NULL);
+    int width = 0, height = 0, used = 0, dark = 0;
     const int n = size ? sscanf(size, "%5d%nx%5d%n", &width, &used, &height, &used) : 0;
     if (size && (n < 1 || size[used] || width < 16 || width > 8192 || (n > 1 && (height < 16 || height > 8192)))) {
         cli_usage_error(arguments, "--size %s: it takes W, or WxH, of 16 to 8192", size);
@@ -32,14 +32,9 @@ static bool choose_looks(const cli_arguments *arguments, cli_curves *c)
     }
     c->width = width;
     c->height = height;
-    c->dark = !strcmp(theme, "dark");
-    if (!c->dark && strcmp(theme, "light") != 0) {
-        char meant[96];
-        cli_usage_error(arguments, "--theme %s: %sit takes light or dark", theme,
-                        cli_meant_of(theme, "light or dark", meant));
-        return false;
-    }
-    return true;
+    const bool known = cli_choice(arguments, "theme", &dark);
+    c->dark = dark;
+    return known;
 }
 
 static int run(const cli_arguments *arguments)

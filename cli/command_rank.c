@@ -303,17 +303,11 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
 /* Returns false, after an error, if an option is given that has no effect with, or without, --with. */
 static bool options_fit(const cli_arguments *arguments)
 {
-    static const char *const own[] = {"integrator", "filter",   "depth",   "lights",
-                                      "scope",      "adaptive", "unknown", "allow-exec"};
     const bool with = cli_text(arguments, "with", NULL);
-    for (size_t i = 0; with && i < sizeof own / sizeof *own; i++) {
-        if (cli_flag(arguments, own[i])) {
-            cli_usage_error(arguments,
-                            "--%s has no effect with --with, because RENDERER reads the scene and makes the points "
-                            "and images",
-                            own[i]);
-            return false;
-        }
+    if (with && !cli_refuse(arguments, "integrator filter depth lights scope adaptive unknown allow-exec",
+                            "has no effect with --with, because RENDERER reads the scene and makes the points and "
+                            "images")) {
+        return false;
     }
     const char *adaptive = cli_text(arguments, "adaptive", NULL);
     if (!method_uses_patterns(adaptive) && cli_text(arguments, "patterns", NULL)) {

@@ -224,19 +224,15 @@ static bool announce_size(const cli_arguments *arguments, const koksma_scene *sc
    --error-map. */
 static bool parse_error_map(const cli_arguments *arguments, uint64_t *replicates)
 {
-    static const char *const without[] = {"adaptive", "aov"};
     const char *path = cli_text(arguments, "error-map", NULL);
     *replicates = 0;
     if (!path && cli_text(arguments, "replicates", NULL)) {
         cli_usage_error(arguments, "--replicates has an effect only with --error-map");
         return false;
     }
-    for (size_t i = 0; path && i < sizeof without / sizeof *without; i++) {
-        if (cli_text(arguments, without[i], NULL)) {
-            cli_usage_error(arguments, "--error-map excludes --%s: it is for images with equal samples in all pixels",
-                            without[i]);
-            return false;
-        }
+    if (path && !cli_refuse(arguments, "adaptive aov",
+                            "excludes --error-map, which is for images with equal samples in all pixels")) {
+        return false;
     }
     if (path && koksma_image_check_path(path)) {
         cli_fail(arguments, KOKSMA_ARGUMENT);

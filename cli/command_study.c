@@ -269,22 +269,21 @@ static int export_rows(const cli_arguments *arguments)
 {
     static const char *const formats[] = {"csv", "json", "npy", "sha256", NULL};
     const char *path = cli_text(arguments, "output", "-");
-    const char *given = cli_text(arguments, "format", NULL), *name = given ? given : ending_of(path);
+    const bool given = cli_text(arguments, "format", NULL) != NULL;
+    const char *name = given ? "" : ending_of(path);
     int format = 0;
     if (arguments->n_operands != 2) {
         return cli_usage_error(arguments, "export takes a study's folder, as in export DIR --format csv");
     }
-    while (formats[format] && strcmp(formats[format], name) != 0) {
+    while (*name && formats[format] && strcmp(formats[format], name) != 0) {
         format++;
     }
-    if (!formats[format] && *name) {
-        char meant[96];
-        return given ? cli_usage_error(arguments, "--format %s: %sit takes csv, json, npy or sha256", given,
-                                       cli_meant_of(given, "csv, json, npy or sha256", meant))
-                     : cli_usage_error(arguments,
-                                       "%s: the name of an export must end in .csv, .json, .npy or .sha256", path);
+    if (!formats[format]) {
+        return cli_usage_error(arguments, "%s: the name of an export must end in .csv, .json, .npy or .sha256", path);
     }
-    format = formats[format] ? format : 0;
+    if (!cli_choice(arguments, "format", &format)) {
+        return CLI_USAGE;
+    }
     koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);
     char *left_out = NULL;
     if (!status && !cli_flag(arguments, "quiet")) { /* report what the export lacks */

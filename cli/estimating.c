@@ -74,17 +74,11 @@ static bool read_options(estimating *e)
     e->command = (koksma_values_command){.command = cli_text(arguments, "with", NULL), .run = &e->work.run};
     o->estimate.estimator = cli_text(arguments, "estimator", NULL);
     o->estimate.interval = cli_text(arguments, "interval", NULL);
-    if ((cli_flag(arguments, "relative") || cli_text(arguments, "max-points", NULL)) && !e->to_tolerance) {
-        cli_usage_error(arguments, "--%s has an effect only with --tolerance",
-                        cli_flag(arguments, "relative") ? "relative" : "max-points");
+    if (!e->to_tolerance && !cli_refuse(arguments, "relative max-points", "has an effect only with --tolerance")) {
         return false;
     }
-    if (cli_text(arguments, "trials", NULL) || cli_flag(arguments, "anova")) {
-        cli_usage_error(arguments, "--%s has no effect on estimates; their number of sets is --replicates",
-                        cli_flag(arguments, "anova") ? "anova" : "trials");
-        return false;
-    }
-    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &o->seed) ||
+    if (!cli_refuse(arguments, "anova trials", "has no effect on estimates; their number of sets is --replicates") ||
+        !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &o->seed) ||
         !cli_real(arguments, "tolerance", 0, 1e-300, 1e300, &tolerance) ||
         !cli_real(arguments, "confidence", 0.95, 1e-9, 1 - 1e-12, &o->estimate.confidence) ||
         !cli_real(arguments, "exec-seconds", 60, 1e-3, 86400, &e->command.seconds) ||

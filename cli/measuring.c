@@ -405,21 +405,14 @@ static int parse_corner(const cli_arguments *arguments, const char *list, double
 
 int measure_local(const cli_arguments *arguments)
 {
-    static const char *const unused[] = {"measures", "trials", "prefixes", "sizes", "warp", "paired", "time-limit"};
     double corner[MAX_CORNER], value;
     const char *list = cli_text(arguments, "at", "");
     const int dim = parse_corner(arguments, list, corner);
     uint64_t seed;
     cli_work work;
-    for (size_t i = 0; i < sizeof unused / sizeof *unused; i++) {
-        if (cli_text(arguments, unused[i], NULL)) {
-            return cli_usage_error(arguments,
-                                   "--%s has no effect with --at, which prints only the local discrepancy "
-                                   "of the points as they are",
-                                   unused[i]);
-        }
-    }
-    if (!dim || !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) ||
+    if (!cli_refuse(arguments, "measures trials prefixes sizes warp paired time-limit",
+                    "has no effect with --at, which prints only the local discrepancy of the points as they are") ||
+        !dim || !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) ||
         !cli_work_begin(arguments, "measuring", &work)) {
         return CLI_USAGE;
     }

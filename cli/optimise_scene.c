@@ -165,16 +165,12 @@ static void say_warnings(const scene_job *j, const char *name)
 
 static bool parse(scene_job *j)
 {
-    static const char *const unused[] = {"dim",  "from",    "keep",  "projections", "power",
-                                         "band", "weights", "steps", "time-limit"};
     const cli_arguments *arguments = j->arguments;
     koksma_scene_search *o = &j->options;
     uint64_t spp, candidates, phases, max_trials;
-    for (size_t i = 0; i < sizeof unused / sizeof *unused; i++) {
-        if (cli_text(arguments, unused[i], NULL)) {
-            cli_usage_error(arguments, "--%s has no effect with --scene", unused[i]);
-            return false;
-        }
+    if (!cli_refuse(arguments, "dim from keep projections power band weights steps time-limit",
+                    "has no effect with --scene")) {
+        return false;
     }
     if (arguments->n_operands) {
         cli_usage_error(arguments, "'%s': with --scene it takes no measure", arguments->operands[0]);

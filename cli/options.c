@@ -106,13 +106,13 @@ static const char *option_name(const void *options, size_t i)
     return i ? ((const cli_option *)options)[i - 1].name : "help";
 }
 
-static bool has_option(const cli_command *command, const char *name)
+static const cli_option *option_of(const cli_command *command, const char *name)
 {
     const cli_option *o = command->options;
     while (o->name && strcmp(o->name, name) != 0) {
         o++;
     }
-    return o->name != NULL;
+    return o->name ? o : NULL;
 }
 
 /* Reports an option that does not exist or takes no argument. word: --NAME or --NAME=VALUE. */
@@ -120,7 +120,7 @@ static int unknown_option(const cli_arguments *arguments, const char *word)
 {
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    if (!strcmp(name, "help") || has_option(arguments->command, name)) {
+    if (!strcmp(name, "help") || option_of(arguments->command, name)) {
         return cli_usage_error(arguments, "option --%s takes no argument", name);
     }
     const char *closest = koksma_closest_name(name, option_name, arguments->command->options);
@@ -252,25 +252,18 @@ static bool is_empty_name(const cli_arguments *arguments, const cli_option *o, c
 /* Takes --format where it says how rows are printed: in `study export` it is the format of a file. */
 static bool take_format(const cli_arguments *arguments)
 {
-    static const char *const formats[] = {[CLI_TEXT] = "text", [CLI_CSV] = "csv", [CLI_LATEX] = "latex"};
-    const cli_option *option = arguments->command->options;
-    while (option->name && (!option->argument || strcmp(option->argument, "text|csv|latex") != 0)) {
-        option++;
+    const cli_option *option = option_of(arguments->command, "format");
+    int format = CLI_TEXT;
+    if (option && !strcmp(option->argument, "text|csv|latex")) {
+        if (!cli_choice(arguments, "format", &format)) {
+            return false;
+        }
+        if (format != CLI_TEXT && cli_flag(arguments, "json")) {
+            cli_usage_error(arguments, "--format %s excludes --json", cli_text(arguments, "format", NULL));
+            return false;
+        }
     }
-    const char *wanted = option->name ? cli_text(arguments, "format", NULL) : NULL;
-    int format = CLI_LATEX;
-    while (wanted && format >= CLI_TEXT && strcmp(wanted, formats[format]) != 0) {
-        format--;
-    }
-    if (wanted && format < CLI_TEXT) {
-        cli_usage_error(arguments, "--format %s: it takes text, csv or latex", wanted);
-        return false;
-    }
-    if (wanted && format != CLI_TEXT && cli_flag(arguments, "json")) {
-        cli_usage_error(arguments, "--format %s excludes --json", wanted);
-        return false;
-    }
-    cli_set_format(wanted ? format : CLI_TEXT);
+    cli_set_format(format);
     return true;
 }
 
@@ -287,7 +280,7 @@ static int read_shared_options(cli_arguments *arguments)
             return CLI_USAGE;
         }
     }
-    if (has_option(arguments->command, "digits")) {
+    if (option_of(arguments->command, "digits")) {
         if (!cli_whole(arguments, "digits", CLI_DIGITS, 1, 17, &digits)) {
             return CLI_USAGE;
         }
@@ -296,7 +289,7 @@ static int read_shared_options(cli_arguments *arguments)
             return CLI_USAGE;
         }
     }
-    if (has_option(arguments->command, "allow-exec")) {
+    if (option_of(arguments->command, "allow-exec")) {
         double seconds;
         const bool allowed = cli_flag(arguments, "allow-exec");
         if (!cli_real(arguments, "exec-seconds", 60, 1e-3, 86400, &seconds)) {
@@ -309,16 +302,14 @@ static int read_shared_options(cli_arguments *arguments)
         }
         koksma_allow_exec(allowed ? seconds : 0);
     }
-    if (has_option(arguments->command, "unknown")) {
-        const char *unknown = cli_text(arguments, "unknown", "approximate");
-        if (strcmp(unknown, "approximate") != 0 && strcmp(unknown, "refuse") != 0) {
-            char meant[96];
-            return cli_usage_error(arguments, "--unknown %s: %sit takes one of approximate, refuse", unknown,
-                                   cli_meant_of(unknown, "approximate, refuse", meant));
+    if (option_of(arguments->command, "unknown")) {
+        int refuse = 0;
+        if (!cli_choice(arguments, "unknown", &refuse)) {
+            return CLI_USAGE;
         }
-        koksma_scene_refuse_unknown(!strcmp(unknown, "refuse"));
+        koksma_scene_refuse_unknown(refuse);
     }
-    return has_option(arguments->command, "patterns") && has_option(arguments->command, "n")
+    return option_of(arguments->command, "patterns") && option_of(arguments->command, "n")
                ? cli_sources_expand(arguments)
                : CLI_YES;
 }
@@ -342,17 +333,53 @@ int cli_run(const cli_command *command, int argc, char **argv)
 
 const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback)
 {
-    for (int i = 0; arguments->command->options[i].name; i++) {
-        if (!strcmp(arguments->command->options[i].name, name)) {
-            return arguments->values[i] ? arguments->values[i] : fallback;
-        }
+    const cli_option *option = option_of(arguments->command, name);
+    if (!option) {
+        abort(); /* a bug: the option table lacks this name */
     }
-    abort(); /* a bug: the option table lacks this name */
+    const char *value = arguments->values[option - arguments->command->options];
+    return value ? value : fallback;
 }
 
 bool cli_flag(const cli_arguments *arguments, const char *name)
 {
     return cli_text(arguments, name, NULL) != NULL;
+}
+
+bool cli_choice(const cli_arguments *arguments, const char *name, int *choice)
+{
+    const char *text = cli_text(arguments, name, NULL), *at = option_of(arguments->command, name)->argument;
+    char all[256] = "", meant[96];
+    for (int i = 0; text && *at; i++) {
+        const size_t used = strlen(all), length = strcspn(at, "|");
+        if (strlen(text) == length && !strncmp(text, at, length)) {
+            *choice = i;
+            return true;
+        }
+        snprintf(all + used, sizeof all - used, "%s%.*s", !used ? "" : at[length] ? ", " : " or ", (int)length, at);
+        at += length + (at[length] == '|');
+    }
+    if (text) {
+        cli_usage_error(arguments, "--%s %s: %sit takes %s", name, text, cli_meant_of(text, all, meant), all);
+    }
+    return !text;
+}
+
+bool cli_refuse(const cli_arguments *arguments, const char *names, const char *why, ...)
+{
+    char name[32], text[256];
+    va_list list;
+    for (const char *at = names; *at; at += strcspn(at, " "), at += *at == ' ') {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, " "), at);
+        if (cli_flag(arguments, name)) {
+            va_start(list, why);
+            vsnprintf(text, sizeof text, why, list);
+            va_end(list);
+            cli_usage_error(arguments, "--%s %s", name, text);
+            return false;
+        }
+    }
+    return true;
 }
 
 bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *text, uint64_t min, uint64_t max,

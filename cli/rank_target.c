@@ -67,12 +67,8 @@ static void advise(const koksma_rank_options *options, double target, const koks
 /* Returns false, after an error, if an option says what --target-error chooses. */
 static bool options_fit(const cli_arguments *arguments, uint64_t spp)
 {
-    static const char *const unused[] = {"spp", "max-trials", "one-size"};
-    for (size_t i = 0; i < sizeof unused / sizeof *unused; i++) {
-        if (cli_flag(arguments, unused[i])) {
-            cli_usage_error(arguments, "--%s has no effect with --target-error", unused[i]);
-            return false;
-        }
+    if (!cli_refuse(arguments, "spp max-trials one-size", "has no effect with --target-error")) {
+        return false;
     }
     if (spp) {
         cli_usage_error(arguments, "-p has @%llu, but --target-error chooses the number of samples",

@@ -10,43 +10,6 @@
 
 #include "source.h"
 
-/* Reads an option that is one of several names. *out: the index of the name. Returns false after an error that lists
-   all names. */
-static bool parse_choice(const cli_arguments *arguments, const char *option, const char *(*name_of)(int), int *out)
-{
-    const char *text = cli_text(arguments, option, NULL);
-    char all[128] = "";
-    for (int i = 0; text && name_of(i); i++) {
-        const size_t used = strlen(all);
-        if (!strcmp(name_of(i), text)) {
-            *out = i;
-            return true;
-        }
-        snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", name_of(i));
-    }
-    if (text) {
-        char meant[96];
-        cli_usage_error(arguments, "--%s %s: %sit takes one of %s", option, text, cli_meant_of(text, all, meant),
-                        all);
-    }
-    return !text;
-}
-
-static const char *pairing_name(int i)
-{
-    return koksma_pairing_name((koksma_pairing)i);
-}
-
-static const char *scope_name(int i)
-{
-    return koksma_scope_name((koksma_scope)i);
-}
-
-static const char *lights_name(int i)
-{
-    return koksma_light_selection_name((koksma_light_selection)i);
-}
-
 const char *cli_integrator_name(const void *table, size_t i)
 {
     (void)table;
@@ -81,10 +44,8 @@ bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options 
 {
     int pairing = options->pairing, scope = options->scope, lights = options->lights;
     uint64_t depth = 0;
-    if (!parse_choice(arguments, "pairing", pairing_name, &pairing) ||
-        !parse_choice(arguments, "scope", scope_name, &scope) ||
-        !parse_choice(arguments, "lights", lights_name, &lights) ||
-        !cli_whole(arguments, "depth", 0, 0, KOKSMA_MAX_DEPTH, &depth)) {
+    if (!cli_choice(arguments, "pairing", &pairing) || !cli_choice(arguments, "scope", &scope) ||
+        !cli_choice(arguments, "lights", &lights) || !cli_whole(arguments, "depth", 0, 0, KOKSMA_MAX_DEPTH, &depth)) {
         return false;
     }
     options->pairing = (koksma_pairing)pairing;
@@ -189,21 +150,6 @@ size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, cons
  * and --strata, a drawing of one pixel's strata.
  */
 
-/* Returns false, after a usage error, if an option is given that has no effect with a method that places its own
-   samples. */
-static bool check_unused(const cli_arguments *arguments, const koksma_adaptive *method)
-{
-    static const char *const unused[] = {"pattern", "pairing"};
-    for (size_t i = 0; i < sizeof unused / sizeof *unused; i++) {
-        if (method->own_samples && cli_flag(arguments, unused[i])) {
-            cli_usage_error(arguments, "--%s has no effect: the adaptive method %s places its own samples", unused[i],
-                            method->name);
-            return false;
-        }
-    }
-    return true;
-}
-
 /* Reads --strata X,Y:FILE. Returns false after a usage error. */
 static bool parse_strata(const cli_arguments *arguments, cli_adaptive *adaptive)
 {
@@ -223,7 +169,6 @@ static bool parse_strata(const cli_arguments *arguments, cli_adaptive *adaptive)
 
 bool cli_adaptive_options(const cli_arguments *arguments, cli_adaptive *adaptive, int *code)
 {
-    static const char *const needy[] = {"budget", "probe", "strata"};
     const char *text = cli_text(arguments, "adaptive", NULL), *counts = cli_text(arguments, "counts", NULL);
     double budget = 0;
     uint64_t probes = 0;
@@ -239,14 +184,12 @@ bool cli_adaptive_options(const cli_arguments *arguments, cli_adaptive *adaptive
         return false;
     }
     *code = CLI_USAGE;
-    for (size_t i = 0; i < sizeof needy / sizeof *needy; i++) {
-        if (!text && cli_flag(arguments, needy[i])) {
-            cli_usage_error(arguments, "--%s needs --adaptive METHOD", needy[i]);
-            return false;
-        }
-    }
-    if ((text && !check_unused(arguments, adaptive->options.method)) || !parse_strata(arguments, adaptive) ||
-        !cli_real(arguments, "budget", 0, 1, KOKSMA_MAX_SPP, &budget) ||
+    const koksma_adaptive *method = adaptive->options.method;
+    if ((!text && !cli_refuse(arguments, "budget probe strata", "needs --adaptive METHOD")) ||
+        (text && method->own_samples &&
+         !cli_refuse(arguments, "pattern pairing", "has no effect: the adaptive method %s places its own samples",
+                     method->name)) ||
+        !parse_strata(arguments, adaptive) || !cli_real(arguments, "budget", 0, 1, KOKSMA_MAX_SPP, &budget) ||
         !cli_whole(arguments, "probe", 0, 0, KOKSMA_MAX_PROBES, &probes)) {
         return false;
     }

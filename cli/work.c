@@ -171,18 +171,13 @@ static bool keep_going_silently(void *context, double fraction)
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work)
 {
     uint64_t threads;
-    const char *when = cli_text(arguments, "progress", "auto");
-    if (!cli_whole(arguments, "threads", 0, 1, 256, &threads)) {
+    enum { AUTOMATIC, ALWAYS };
+    int when = AUTOMATIC;
+    if (!cli_whole(arguments, "threads", 0, 1, 256, &threads) || !cli_choice(arguments, "progress", &when)) {
         return false;
     }
-    const bool always = !strcmp(when, "always"), automatic = !strcmp(when, "auto");
-    if (!always && !automatic && strcmp(when, "never") != 0) {
-        char meant[96];
-        cli_usage_error(arguments, "--progress %s: %sit takes auto, always or never", when,
-                        cli_meant_of(when, "auto, always or never", meant));
-        return false;
-    }
-    const bool visible = !cli_flag(arguments, "quiet") && (always || (automatic && isatty(STDERR_FILENO)));
+    const bool visible =
+        !cli_flag(arguments, "quiet") && (when == ALWAYS || (when == AUTOMATIC && isatty(STDERR_FILENO)));
     *work = (cli_work){.what = what, .share = 1, .started_s = cli_seconds()};
     work->part_s = work->started_s;
     work->run = (koksma_run){
