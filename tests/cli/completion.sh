@@ -136,7 +136,7 @@ for shell in bash zsh fish; do
 done
 # The words of choices are the program's own.
 for option in pairing scope lights; do
-  said=$(koksma render ball --$option x -o x.pfm 2>&1 | sed 's/.* one of //; s/,//g')
+  said=$(koksma render ball --$option x -o x.pfm 2>&1 | sed 's/.* it takes //; s/,//g; s/ or / /')
   grep -qxF "render ball --$option ^ $said" "$work/cases" || complain "--$option takes $said"
 done
 for command in "" $(koksma --help | sed -n 's/^  \([a-z]*\)   *[a-z].*/\1/p'); do
