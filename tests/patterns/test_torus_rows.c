@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Points of the torus in sorted cells: what is said to be near, against all points; the forces of gaussian-blue-noise
    from there, against the sum over all pairs by libm. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/torus_rows.h"
+#include "core/vector.h"
 #include "kernels/kernels.h"
-#include "patterns/spacing/spacing.h"
 #include "test.h"
 
 static const size_t counts[] = {1, 2, 3, 5, 16, 37, 100, 257};
@@ -44,8 +46,8 @@ TEST_CASE(all_within_the_radius)
     for (size_t c = 0; c < N_COUNTS; c++) {
         koksma_points points = test_points("random", counts[c], 2, c), places = test_points("random", 50, 2, 100 + c);
         koksma__torus_rows rows;
-        assert_ok(koksma__torus_rows_init(&rows, counts[c]));
-        koksma__torus_rows_sort(&rows, counts[c], points.xs);
+        assert_ok(koksma__torus_rows_init(&rows, counts[c], (size_t)ceil(sqrt((double)counts[c]))));
+        koksma__torus_rows_sort(&rows, counts[c], points.xs, true);
         for (size_t r = 0; r < N_RADII; r++) {
             for (size_t i = 0; i < 50; i++) {
                 const double *x = places.xs + 2 * i;
@@ -65,8 +67,8 @@ TEST_CASE(force_of_all_pairs)
     koksma_points points = test_points("random", 300, 2, 5);
     koksma__torus_rows rows;
     koksma__run_of_points runs[128];
-    assert_ok(koksma__torus_rows_init(&rows, points.n));
-    koksma__torus_rows_sort(&rows, points.n, points.xs);
+    assert_ok(koksma__torus_rows_init(&rows, points.n, (size_t)ceil(sqrt((double)points.n))));
+    koksma__torus_rows_sort(&rows, points.n, points.xs, true);
     assert_true(koksma__torus_rows_most(&rows, radius) <= 128);
     for (size_t i = 0; i < points.n; i++) {
         const double x = points.xs[2 * i], y = points.xs[2 * i + 1];

@@ -34,6 +34,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/sum.h"
+#include "core/torus_rows.h"
 #include "kernels/kernels.h"
 #include "measures/disk/disk.h"
 #include "measures/distances/distances.h"
@@ -42,8 +43,8 @@
 enum { BLOCK = 64, MIN_COLUMNS = 4 };
 
 typedef struct pairs {
-    koksma__torus_cells cells; /* the points in 2D */
-    const double *points;      /* the points in 3D; NULL in 2D */
+    koksma__torus_rows cells; /* the points in 2D */
+    const double *points;     /* the points in 3D; NULL in 2D */
     size_t n;
     int law;
     double r;
@@ -84,7 +85,8 @@ static double balls_before(const pairs *p, size_t i)
    and those in three cells of the next row. Thus each pair is counted once. */
 static void add_near(const pairs *p, size_t i, size_t cell, koksma__sum *sum)
 {
-    const size_t *start = p->cells.start, columns = p->cells.columns;
+    const uint32_t *start = p->cells.start;
+    const size_t columns = p->cells.cells;
     const size_t column = cell % columns, row = cell / columns, above = (row + 1) % columns * columns;
     const size_t right = (column + 1) % columns, left = (column + columns - 1) % columns;
     koksma__sum_add(sum, span(p, i, start[cell], i));
@@ -110,7 +112,7 @@ static koksma_status block(void *context, size_t index)
             koksma__sum_add(&sum, balls_before(p, i));
             continue;
         }
-        if (p->cells.columns < MIN_COLUMNS) {
+        if (p->cells.cells < MIN_COLUMNS) {
             koksma__sum_add(&sum, span(p, i, 0, i));
             continue;
         }
@@ -135,7 +137,10 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     } else {
         /* The cells are no narrower than a disk and have one point or more on average. */
         const double columns = fmin(floor(1 / (2 * p.r)), floor(sqrt((double)points->n)));
-        status = koksma__torus_cells_init(&p.cells, points, columns, true);
+        status = koksma__torus_rows_init(&p.cells, points->n, columns > 1 ? (size_t)columns : 1);
+        if (!status) {
+            koksma__torus_rows_sort(&p.cells, points->n, points->xs, true);
+        }
     }
     p.blocks = calloc(n_blocks, sizeof *p.blocks);
     if (!status && !p.blocks) {
@@ -156,7 +161,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
         out->value = sqrt(out->square);
     }
     free(p.blocks);
-    koksma__torus_cells_fini(&p.cells);
+    koksma__torus_rows_fini(&p.cells);
     return status;
 }
 

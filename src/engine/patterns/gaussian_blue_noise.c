@@ -44,6 +44,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "core/torus_rows.h"
 #include "kernels/kernels.h"
 #include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
@@ -166,7 +167,7 @@ static koksma_status descend(descent *d, int steps, const koksma_run *run)
         d->momentum = t < STIFF_STEPS ? 0.9 : 0.98;
         if (plane) {
             lay_out(d);
-            koksma__torus_rows_sort(&d->rows, d->copies, d->places);
+            koksma__torus_rows_sort(&d->rows, d->copies, d->places, true);
         } else {
             koksma__space_forces_sort(&d->forces, d->xs);
         }
@@ -226,7 +227,7 @@ static koksma_status generate_in_plane(uint64_t seed, const koksma_args *args, k
     d.least = INFINITY;
     d.squares = steps ? NULL : d.moves + 2 * n;
     d.places = d.tiles > 1 ? d.moves + 3 * n : d.xs;
-    koksma_status status = koksma__torus_rows_init(&d.rows, d.copies);
+    koksma_status status = koksma__torus_rows_init(&d.rows, d.copies, (size_t)ceil(sqrt((double)d.copies)));
     status = status ? status : koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 2 * n, out->xs);
     status = status ? status : descend(&d, steps ? steps : MOST_STEPS, args->run);
     koksma__torus_rows_fini(&d.rows);

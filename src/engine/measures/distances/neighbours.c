@@ -14,14 +14,17 @@
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
+#include "core/torus_rows.h"
 #include "kernels/kernels.h"
 
 /* Makes cells at least r wide with about one point or more on average. With 1 or 2 columns every cell is a neighbour
    of every other. */
-static koksma_status open_grid(const koksma_points *p, double r, koksma__torus_cells *g)
+static koksma_status open_grid(const koksma_points *p, double r, koksma__torus_rows *g)
 {
     const size_t most = (size_t)sqrt((double)p->n) + 1, wanted = r > 0 ? (size_t)fmin(1 / r, 1e6) : most;
-    return koksma__torus_cells_init(g, p, (double)(wanted < most ? wanted : most), false);
+    KOKSMA__TRY(koksma__torus_rows_init(g, p->n, wanted > most ? most : wanted ? wanted : 1));
+    koksma__torus_rows_sort(g, p->n, p->xs, false);
+    return KOKSMA_OK;
 }
 
 static double distance2(double dx, double dy, bool torus)
@@ -38,7 +41,7 @@ static double distance2(double dx, double dy, bool torus)
 enum { PAIRS_PER_QUESTION = 1 << 16 };
 
 typedef struct visit {
-    const koksma__torus_cells *g;
+    const koksma__torus_rows *g;
     double r2;
     bool torus;
     const koksma_run *run;
@@ -53,7 +56,7 @@ typedef struct visit {
 /* Visits the pairs of point i with points first .. end - 1. */
 static void pairs_of_point(visit *v, size_t i, size_t first, size_t end)
 {
-    const koksma__torus_cells *g = v->g;
+    const koksma__torus_rows *g = v->g;
     if (v->counts && first < end) {
         koksma__kernels()->pair_counts(end - first, g->xs + first, g->ys + first, g->xs[i], g->ys[i], v->r2, v->scale,
                                        v->bins, v->counts);
@@ -68,7 +71,7 @@ static void pairs_of_point(visit *v, size_t i, size_t first, size_t end)
 /* Visits the pairs of a point of cell c and a later point of cells d .. last. Returns false to end the search. */
 static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
 {
-    const koksma__torus_cells *g = v->g;
+    const koksma__torus_rows *g = v->g;
     for (size_t i = g->start[c]; i < g->start[c + 1]; i++) {
         pairs_of_point(v, i, d == c ? i + 1 : g->start[d], g->start[last + 1]);
         if (!v->counts && v->least == 0) { /* stop: no distance can be smaller */
@@ -77,7 +80,7 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
         v->unasked += 1 + g->start[last + 1] - g->start[d];
         if (v->unasked > PAIRS_PER_QUESTION) {
             v->unasked = 0;
-            v->stopped = !koksma__keep_going(v->run, (double)c / (double)(g->columns * g->columns));
+            v->stopped = !koksma__keep_going(v->run, (double)c / (double)g->cells / (double)g->cells);
             if (v->stopped) {
                 return false;
             }
@@ -90,7 +93,7 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
    Adjacent neighbour cells are visited together, because their points are contiguous in memory. */
 static bool pairs_of_cell(visit *v, size_t c)
 {
-    const size_t m = v->g->columns;
+    const size_t m = v->g->cells;
     size_t cells[10], n = 0;
     for (int k = 0; k < 9; k++) {
         const size_t x = (c % m + m + (size_t)(k % 3) - 1) % m, y = (c / m + m + (size_t)(k / 3) - 1) % m;
@@ -118,7 +121,7 @@ static bool pairs_of_cell(visit *v, size_t c)
 
 static koksma_status visit_pairs(visit *v)
 {
-    for (size_t c = 0; c < v->g->columns * v->g->columns && pairs_of_cell(v, c); c++) {
+    for (size_t c = 0; c < (size_t)v->g->cells * v->g->cells && pairs_of_cell(v, c); c++) {
     }
     return v->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
@@ -127,10 +130,10 @@ enum { CROWD = 64 };
 
 /* Returns whether there are few pairs within cells. The pairs of points in neighbouring cells are then at most nine
    times as many. */
-static bool is_spread(const koksma__torus_cells *g, size_t n)
+static bool is_spread(const koksma__torus_rows *g, size_t n)
 {
     double pairs = 0;
-    for (size_t c = 0; c < g->columns * g->columns; c++) {
+    for (size_t c = 0; c < (size_t)g->cells * g->cells; c++) {
         const double count = (double)(g->start[c + 1] - g->start[c]);
         pairs += count * count;
     }
@@ -141,7 +144,7 @@ static bool is_spread(const koksma__torus_cells *g, size_t n)
 static koksma_status least_of_many(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                    double *distance)
 {
-    koksma__torus_cells g;
+    koksma__torus_rows g;
     KOKSMA__TRY(open_grid(points, r, &g));
     koksma_status status = KOKSMA_OK;
     const bool spread = is_spread(&g, points->n);
@@ -150,7 +153,7 @@ static koksma_status least_of_many(const koksma_points *points, double r, bool t
         status = visit_pairs(&v);
         *distance = sqrt(v.least);
     }
-    koksma__torus_cells_fini(&g);
+    koksma__torus_rows_fini(&g);
     return spread ? status : koksma__closest_pair(points, torus, run, distance);
 }
 
@@ -196,7 +199,7 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     if (checked) {
         return checked;
     }
-    koksma__torus_cells g;
+    koksma__torus_rows g;
     KOKSMA__TRY(open_grid(points, r_max, &g));
     visit v = {.g = &g,
                .r2 = r_max * r_max,
@@ -205,7 +208,7 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
                .bins = bins,
                .counts = calloc(bins + 8, sizeof *v.counts)};
     const koksma_status status = v.counts ? visit_pairs(&v) : koksma__fail_memory((bins + 8) * sizeof *v.counts);
-    koksma__torus_cells_fini(&g);
+    koksma__torus_rows_fini(&g);
     const double pairs = (double)points->n * ((double)points->n - 1) / 2, width = r_max / (double)bins;
     for (size_t b = 0; b < bins && !status; b++) {
         const double share = M_PI * width * width * (2 * (double)b + 1);

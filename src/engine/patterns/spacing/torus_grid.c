@@ -3,7 +3,7 @@
  * A grid of square cells over the torus, each with a linked list of its points, so that adding a point takes O(1).
  * The search for the nearest point visits rings of cells from the inside outwards until no further ring can contain a
  * nearer point: O(1) if points are evenly distributed. If all points are known in advance,
- * measures/distances/torus_cells.c or patterns/spacing/torus_rows.c sort them into cells at once.
+ * core/torus_rows.c sorts them into cells at once.
  */
 #include "patterns/spacing/spacing.h"
 

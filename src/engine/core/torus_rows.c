@@ -4,7 +4,7 @@
  * memory. In each row of cells the points near a position are one run of consecutive points, or two runs if the row
  * wraps around the torus. Kernels sum over these runs and need not know the cells.
  */
-#include "patterns/spacing/spacing.h"
+#include "core/torus_rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,15 +15,19 @@
 
 enum { SPARE = 8 };
 
-static size_t place_of(const koksma__torus_rows *r, const double *point)
+/* Copies a point and returns the index of its cell. */
+static size_t place_of(const koksma__torus_rows *r, const double *point, bool wrap, double at[2])
 {
-    return (size_t)koksma__cell_along(point[1], r->cells) * r->cells + koksma__cell_along(point[0], r->cells);
+    for (int k = 0; k < 2; k++) {
+        at[k] = wrap && !(point[k] < 1) ? 0 : point[k];
+    }
+    return (size_t)koksma__cell_along(at[1], r->cells) * r->cells + koksma__cell_along(at[0], r->cells);
 }
 
-koksma_status koksma__torus_rows_init(koksma__torus_rows *r, size_t n)
+koksma_status koksma__torus_rows_init(koksma__torus_rows *r, size_t n, size_t cells)
 {
-    *r = (koksma__torus_rows){.cells = (uint32_t)ceil(sqrt((double)n))};
-    const size_t starts = (size_t)r->cells * r->cells + 1;
+    *r = (koksma__torus_rows){.cells = (uint32_t)cells};
+    const size_t starts = cells * cells + 1;
     const size_t bytes = (starts + n) * sizeof *r->start + 2 * (n + SPARE) * sizeof *r->xs;
     r->xs = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(r->xs, bytes);
@@ -43,21 +47,22 @@ void koksma__torus_rows_fini(koksma__torus_rows *r)
 }
 
 /* Counting sort: first counts the points of each cell, then stores them; within a cell they keep their order. */
-void koksma__torus_rows_sort(koksma__torus_rows *r, size_t n, const double *points)
+void koksma__torus_rows_sort(koksma__torus_rows *r, size_t n, const double *points, bool wrap)
 {
+    double point[2];
     const size_t cells = (size_t)r->cells * r->cells;
     memset(r->start, 0, (cells + 1) * sizeof *r->start);
     for (size_t i = 0; i < n; i++) {
-        r->start[place_of(r, points + 2 * i) + 1]++;
+        r->start[place_of(r, points + 2 * i, wrap, point) + 1]++;
     }
     for (size_t c = 0; c < cells; c++) {
         r->start[c + 1] += r->start[c];
     }
     for (size_t i = n; i-- > 0;) {
-        const uint32_t at = --r->start[place_of(r, points + 2 * i) + 1];
+        const uint32_t at = --r->start[place_of(r, points + 2 * i, wrap, point) + 1];
         r->order[at] = (uint32_t)i;
-        r->xs[at] = points[2 * i];
-        r->ys[at] = points[2 * i + 1];
+        r->xs[at] = point[0];
+        r->ys[at] = point[1];
     }
     memmove(r->start, r->start + 1, cells * sizeof *r->start);
     r->start[cells] = (uint32_t)n;
