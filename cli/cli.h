@@ -191,15 +191,6 @@ bool cli_interrupted(void);
 double cli_seconds(void);                                        /* the monotonic clock's time, as in started_s */
 const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* writes "1 min 15 s" or so to `text`; returns it */
 
-/* Prints that the interrupted study in `folder` can continue. folder is NULL in the MPI ranks above 0, which print
-   nothing. Returns the exit code. */
-int cli_study_interrupted(const cli_arguments *arguments, const char *folder);
-
-/* cli_study_left_out prints the combinations without results of an open study (koksma_study_left_out_at), only in MPI
-   rank 0 and not with --quiet. cli_say_left_out prints one line of such a list. */
-void cli_study_left_out(const cli_arguments *arguments, const koksma_study *study);
-void cli_say_left_out(const char *line, size_t length);
-
 /* ---- Rows: aligned text, or one JSON object per line --------------------------------------------------- */
 
 typedef struct cli_rows cli_rows;

@@ -12,6 +12,7 @@
 #include <koksma/study.h>
 
 #include "cli.h"
+#include "studying.h"
 
 enum { MAX_PLANS = 16 };
 
@@ -63,35 +64,20 @@ static int check_table(const cli_arguments *arguments, const koksma_study_option
     return code;
 }
 
-static koksma_status reproduce(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work,
-                               cli_rows *rows, koksma_study_summary *summary, int *refused)
+/* Prints the tables that --table wants. */
+static koksma_status put_tables(const cli_arguments *arguments, koksma_study *study, void *rows)
 {
-    koksma_study *study;
-    koksma_status status = koksma_study_open(options, &study);
-    if (status) {
-        return status;
-    }
     const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
-    const bool wanted = options->folder && table && strcmp(table, "none") != 0;
-    work->share = options->folder ? 0.95 : 1; /* fraction of the progress bar for the run; the rest is for the report
-                                                 */
-    status = koksma_study_run(study, &work->run, summary);
-    *refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
-    status = *refused ? KOKSMA_OK : status;
-    cli_study_left_out(arguments, study);
-    if (!status && options->folder) {
-        cli_work_rest(work, work->share);
-        status = koksma_study_report(study, &work->run);
+    koksma_status status = KOKSMA_OK;
+    if (!table || !strcmp(table, "none")) {
+        return KOKSMA_OK;
     }
-    const bool all = wanted && !strcmp(table, "all");
-    for (size_t i = 0; !status && all && koksma_study_table_at(study, i); i++) {
+    if (strcmp(table, "all") != 0) {
+        return put_table(study, table, rows);
+    }
+    for (size_t i = 0; !status && koksma_study_table_at(study, i); i++) {
         status = put_table(study, koksma_study_table_at(study, i), rows);
     }
-    if (!status && wanted && !all) {
-        status = put_table(study, table, rows);
-    }
-    const koksma_status closed = koksma_study_close(study);
-    status = status ? status : closed;
     return status;
 }
 
@@ -133,7 +119,6 @@ static int run(const cli_arguments *arguments)
         !cli_work_begin(arguments, "reproducing", &work)) {
         return CLI_USAGE;
     }
-    koksma_study_summary summary;
     folder = koksma_study_mpi_rank() > 0 ? NULL : folder; /* under MPI only rank 0 keeps the results */
     const koksma_study_options options = {.plans = plans,
                                           .n_plans = n_plans,
@@ -144,22 +129,9 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    int refused = 0;
-    const koksma_status status = reproduce(arguments, &options, &work, rows, &summary, &refused);
-    cli_work_end();
-    const int failed = status && status != KOKSMA_INTERRUPTED ? cli_fail(arguments, status) : refused;
-    const int code = cli_rows_close(rows);
-    if (status == KOKSMA_INTERRUPTED) {
-        return cli_study_interrupted(arguments, folder);
-    }
-    if (failed) {
-        return failed;
-    }
-    if (folder && !cli_flag(arguments, "quiet")) {
-        fprintf(stderr, "%zu jobs, %zu of them done before; report: %s/report.html\n", summary.jobs,
-                summary.done_before, cli_one_line(folder));
-    }
-    return code;
+    const int code = cli_study_run(arguments, &options, NULL, &work, put_tables, rows);
+    const int rows_code = cli_rows_close(rows);
+    return code ? code : rows_code;
 }
 
 static const cli_option option_table[] = {

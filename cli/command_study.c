@@ -97,10 +97,13 @@ static double percent(double part, double of)
 
 static const double RUN_SHARE = 0.95; /* fraction of the progress bar for the run; the rest is for the report */
 
-/* Opens a study, runs it, reports and closes it. The plan `made`, or NULL, is removed if the study can't be opened.
-   Returns the exit code. */
-static int run_study(const cli_arguments *arguments, const koksma_study_options *options, const cli_quick_plan *made,
-                     cli_work *work)
+static void say_left_out(const char *line, size_t length)
+{
+    fprintf(stderr, "left out: %.*s\n", (int)length, line);
+}
+
+int cli_study_run(const cli_arguments *arguments, const koksma_study_options *options, const cli_quick_plan *made,
+                  cli_work *work, cli_of_study *then, void *context)
 {
     koksma_study *study;
     koksma_study_summary summary = {0};
@@ -118,11 +121,22 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
         cli_work_rest(work, RUN_SHARE);
         status = koksma_study_report(study, &work->run);
     }
-    cli_study_left_out(arguments, study);
+    status = status || !then || !options->folder ? status : then(arguments, study, context);
+    const char *line;
+    const bool speaks = !cli_flag(arguments, "quiet") && koksma_study_mpi_rank() == 0;
+    cli_work_end();
+    for (size_t i = 0; speaks && (line = koksma_study_left_out_at(study, i));
+         i++) { /* combinations without results */
+        say_left_out(line, strlen(line));
+    }
     const koksma_status closed = koksma_study_close(study);
     status = status ? status : closed;
     if (status == KOKSMA_INTERRUPTED) {
-        return cli_study_interrupted(arguments, options->folder);
+        if (options->folder) {
+            cli_say(arguments->command->name,
+                    "interrupted; finished work is kept in %s, and the same command continues it", options->folder);
+        }
+        return koksma_status_exit_code(KOKSMA_INTERRUPTED);
     }
     if (status) {
         return cli_fail(arguments, status);
@@ -173,7 +187,7 @@ static int run_plans(const cli_arguments *arguments)
     if (koksma_study_mpi_rank() > 0) {
         options.folder = NULL;
     }
-    const int code = run_study(arguments, &options, NULL, &work);
+    const int code = cli_study_run(arguments, &options, NULL, &work, NULL, NULL);
     cli_work_end();
     return code;
 }
@@ -199,7 +213,7 @@ static int run_quick(const cli_arguments *arguments)
     options.plans = &plan;
     options.n_plans = 1;
     options.folder = koksma_study_mpi_rank() > 0 ? NULL : folder;
-    code = run_study(arguments, &options, &made, &work);
+    code = cli_study_run(arguments, &options, &made, &work, NULL, NULL);
     free(made.text);
     cli_work_end();
     return code;
@@ -290,7 +304,7 @@ static int export_rows(const cli_arguments *arguments)
         status = koksma_study_left_out(arguments->operands[1], &left_out);
     }
     for (const char *line = left_out; line && *line; line += strcspn(line, "\n") + 1) {
-        cli_say_left_out(line, strcspn(line, "\n"));
+        say_left_out(line, strcspn(line, "\n"));
     }
     free(left_out);
     return status ? cli_fail(arguments, status) : CLI_YES;

@@ -53,6 +53,17 @@ const char *cli_quick_measures(const cli_arguments *arguments, const char *list,
                                char names[CLI_QUICK_LIST]);
 const char *cli_quick_integrands(const char *list, char names[CLI_QUICK_LIST]);
 
+/* ---- The run of `koksma study` and `koksma reproduce` --------------------------------------------------- */
+
+/* Prints something of a study that has run. */
+typedef koksma_status cli_of_study(const cli_arguments *arguments, koksma_study *study, void *context);
+
+/* Opens a study, runs it, writes its report, calls `then` unless it is NULL, and closes it; says what was done. The plan
+   `made`, or NULL, is removed if the study can't be opened. In MPI ranks above 0, whose options have no folder, nothing is
+   written, and `then` is not called. Returns the exit code. */
+int cli_study_run(const cli_arguments *arguments, const koksma_study_options *options, const cli_quick_plan *made,
+                  cli_work *work, cli_of_study *then, void *context);
+
 /* ---- `koksma study audit` ----------------------------------------------------------------------------- */
 
 /* Audits a study's folder and prints the result. Returns the exit code: CLI_NO if anything differs. */

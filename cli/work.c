@@ -6,7 +6,6 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
-#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -54,32 +53,6 @@ bool cli_interrupted(void)
 {
     asked = interrupted;
     return interrupted != 0;
-}
-
-int cli_study_interrupted(const cli_arguments *arguments, const char *folder)
-{
-    if (folder) {
-        cli_say(arguments->command->name,
-                "interrupted; finished work is kept in %s, and the same command continues it", folder);
-    }
-    return koksma_status_exit_code(KOKSMA_INTERRUPTED);
-}
-
-void cli_say_left_out(const char *line, size_t length)
-{
-    fprintf(stderr, "left out: %.*s\n", (int)length, line);
-}
-
-void cli_study_left_out(const cli_arguments *arguments, const koksma_study *study)
-{
-    const char *line;
-    if (cli_flag(arguments, "quiet") || koksma_study_mpi_rank() > 0) {
-        return;
-    }
-    cli_work_end();
-    for (size_t i = 0; (line = koksma_study_left_out_at(study, i)); i++) {
-        cli_say_left_out(line, strlen(line));
-    }
 }
 
 double cli_seconds(void)
