@@ -170,34 +170,6 @@ static int check_items(const cli_arguments *arguments, const char *option, const
     return code;
 }
 
-/* Reads a list of numbers from 1 to `most`. Returns the exit code; the caller frees *numbers. */
-static int check_numbers(const cli_arguments *arguments, const char *option, const char *list, uint64_t most,
-                         uint64_t **numbers, size_t *n)
-{
-    char item[PATH_MAX];
-    *n = 0;
-    *numbers = malloc(MOST_ITEMS * sizeof **numbers);
-    if (!*numbers) {
-        return cli_no_memory();
-    }
-    for (; cli_list_item(list, *n, item, sizeof item); ++*n) {
-        uint64_t value;
-        if (*n == MOST_ITEMS) {
-            return cli_usage_error(arguments, "--%s: at most %d items", option, MOST_ITEMS);
-        }
-        if (!cli_is_whole(arguments, option, item, 1, most, &value)) {
-            return CLI_USAGE;
-        }
-        for (size_t i = 0; i < *n; i++) {
-            if ((*numbers)[i] == value) {
-                return cli_usage_error(arguments, "--%s: %llu is listed twice", option, (unsigned long long)value);
-            }
-        }
-        (*numbers)[*n] = value;
-    }
-    return *n ? CLI_YES : cli_usage_error(arguments, "--%s: an empty list", option);
-}
-
 /* Generates one set of a pattern that runs code of others, which koksma_plan_try does not. Returns the exit code, which is
    not CLI_YES if such code may not run or the program or library fails; it may have no set of n points. */
 static int try_code(const cli_arguments *arguments, const char *item, size_t n)
@@ -222,9 +194,8 @@ static int try_code(const cli_arguments *arguments, const char *item, size_t n)
 /* The numbers of points of an option. */
 typedef struct sizes {
     const char *option, *list;
-    size_t n;
-    uint64_t *at;
-    bool *has_set; /* whether some pattern has such a set, as far as it was tried */
+    size_t n, at[KOKSMA_MAX_SIZES];
+    bool has_set[KOKSMA_MAX_SIZES]; /* whether some pattern has such a set, as far as it was tried */
 } sizes;
 
 /* Tries all patterns with all sizes. Returns the exit code, which is CLI_YES if one has a set, or if one is too large to
@@ -235,8 +206,7 @@ static int try_sets(const cli_arguments *arguments, const char *patterns, sizes 
     bool any = false;
     for (size_t i = 0; cli_pattern_item(patterns, i, item); i++) {
         for (size_t k = 0; k < of->n; k++) {
-            const koksma_status tried =
-                of->at[k] > MOST_TRIED ? KOKSMA_OK : koksma_plan_try(item, (size_t)of->at[k], 2);
+            const koksma_status tried = of->at[k] > MOST_TRIED ? KOKSMA_OK : koksma_plan_try(item, of->at[k], 2);
             of->has_set[k] |= !tried;
             any |= !tried;
             if (koksma_status_exit_code(tried) > CLI_USAGE) { /* it concerns a file, not this number of points */
@@ -275,7 +245,7 @@ static int try_measures(const cli_arguments *arguments, const char *measures, co
     for (size_t i = 0; !code && cli_list_item(measures, i, item, sizeof item); i++) {
         bool any = false;
         for (size_t k = 0; !any && k < of->n; k++) {
-            any = of->has_set[k] && koksma_plan_try_measure(item, (size_t)of->at[k], 2) != KOKSMA_N;
+            any = of->has_set[k] && koksma_plan_try_measure(item, of->at[k], 2) != KOKSMA_N;
         }
         code = any ? CLI_YES : cli_usage_error(arguments, "--measures %s: %s", item, koksma_error_text());
     }
@@ -286,14 +256,12 @@ static int try_measures(const cli_arguments *arguments, const char *measures, co
 static int check_sizes(const cli_arguments *arguments, const cli_quick *quick, const char *option, const char *list,
                        uint64_t most, bool measured)
 {
-    sizes of = {option, list, 0, NULL, NULL};
-    int code = check_numbers(arguments, option, list, most, &of.at, &of.n);
-    of.has_set = calloc(MOST_ITEMS, sizeof *of.has_set);
-    code = code ? code : of.has_set ? try_sets(arguments, quick->patterns, &of) : cli_no_memory();
-    code = code || !measured ? code : try_measures(arguments, quick->measures, &of);
-    free(of.has_set);
-    free(of.at);
-    return code;
+    sizes of = {.option = option, .list = list};
+    if (!cli_sizes(arguments, option, list, "", most, of.at, &of.n)) {
+        return CLI_USAGE;
+    }
+    const int code = try_sets(arguments, quick->patterns, &of);
+    return code || !measured ? code : try_measures(arguments, quick->measures, &of);
 }
 
 /* Whether the pattern of `joined`, in which a relative path at `at` has become absolute, has that path. The name of a
