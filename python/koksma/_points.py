@@ -473,7 +473,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     """
     if d is not None or rng is not None:
         dim, seed = one_of("dim", dim, None, "d", d), one_of("seed", seed, 0, "rng", rng)
-    if type(seed) is not int:
+    if type(seed) is not int or not 0 <= seed <= s.MAX_SEED:  # a short call does without a function
         seed = seed_of(seed)
     if sets is not None:
         if first or warp is not None or density is not None or on is not None or domain is not None:
@@ -484,7 +484,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         shape = out.shape if (out.shape[0] if n is None else n, out.shape[1] if dim is None else dim) == out.shape else None
     elif out is not None:
         shape = None
-    if (type(seed) is int and type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
+    if (type(threads) is int and 0 <= threads <= s.MAX_INT and type(pattern) is str
             and type(allow_exec) is bool and density is on is warp is None and domain is None and type(first) is int and first == 0
             and set(map(type, shape or ())) == {int} and (pattern, shape) in quick):
         quickly = _quick_points(pattern, shape, seed, threads, out)
@@ -504,7 +504,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         if first or out is not None or (on is not None and not density is domain is None):
             raise ArgumentError("density, domain and on exclude first and out, and on the other two")
         return _generate_in(pattern, n, dim, seed, density, on, domain, threads)
-    parsed, seed = spec("pattern", pattern), seed_of(seed)
+    parsed = spec("pattern", pattern)
     first = whole("first", first, 0, s.MAX_INDEX)
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)
@@ -549,7 +549,7 @@ def _generate_sets(pattern: str, n: Optional[SupportsIndex], dim: Optional[Suppo
         core().koksma_allow_exec(before := core().koksma_allow_exec(0))
         with allowing_exec(before if before > 0 else 60):
             return _generate_sets(pattern, n, dim, seed, sets, threads, out, False)
-    parsed, seed = spec("pattern", pattern), seed_of(seed)
+    parsed = spec("pattern", pattern)
     if out is None:
         if n is None:
             raise ArgumentError("sets needs n, the number of points of each set")
@@ -578,7 +578,7 @@ def _generate_in(pattern: str, n: Optional[SupportsIndex], dim: Optional[Support
     from ._compare import as_image, view_image
     from ._render import read_image
 
-    parsed, seed = spec("pattern", pattern), seed_of(seed)
+    parsed = spec("pattern", pattern)
     axes = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
     out: Optional[PointArray] = None if n is None else np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
     points = s.Points(0, axes) if out is None else view(out)
