@@ -93,6 +93,9 @@ KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool k
    is replaced. */
 void koksma__atomic_keep_old(koksma__atomic_file *file, bool *made);
 
+/* Returns FOLDER/PATH, or a copy of the path if folder is NULL, to be freed; NULL without memory. */
+char *koksma__path_below(const char *folder, const char *path);
+
 /* Opens a file, writes the bytes and closes it. */
 KOKSMA__LAB koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size);
 

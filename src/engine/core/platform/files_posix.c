@@ -259,25 +259,15 @@ static void end(output *o)
     KOKSMA__FREE(o->name, o->path, o);
 }
 
-/* "%s/%s", or a copy. */
-static char *whole_path(const char *folder, const char *path)
-{
-    const size_t size = strlen(path) + (folder ? strlen(folder) : 0) + 2;
-    char *whole = malloc(size);
-    if (whole) {
-        snprintf(whole, size, "%s%s%s", folder ? folder : "", folder ? "/" : "", path);
-    }
-    return whole;
-}
-
 koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__atomic_file *file)
 {
     *file = (koksma__atomic_file){0};
     KOKSMA__FAIL_IF(!folder && !*path, KOKSMA_IO, "the path of the file to write is empty");
     output *o = malloc(sizeof *o);
     if (o) {
-        *o = (output){
-            .path = whole_path(folder, strcmp(path, "-") ? path : "standard output"), .folder = -1, .descriptor = -1};
+        *o = (output){.path = koksma__path_below(folder, strcmp(path, "-") ? path : "standard output"),
+                      .folder = -1,
+                      .descriptor = -1};
     }
     if (!o || !o->path) {
         free(o);

@@ -25,16 +25,6 @@ typedef struct koksma__output {
     bool *made; /* NULL: a file of that name is replaced; else it stays, and this receives whether there was none */
 } output;
 
-static char *join(const char *folder, const char *path)
-{
-    const size_t size = strlen(path) + (folder ? strlen(folder) : 0) + 2;
-    char *whole = malloc(size);
-    if (whole) {
-        snprintf(whole, size, "%s%s%s", folder ? folder : "", folder ? "/" : "", path);
-    }
-    return whole;
-}
-
 /* The path that a link at `path` leads to, as far as it exists. */
 char *koksma__atomic_target(const char *path)
 {
@@ -64,7 +54,7 @@ static bool leads_away(const char *folder, const char *path)
     struct stat info;
     bool is_link = false;
     for (const char *slash = strchr(path, '/'); folder && slash && !is_link; slash = strchr(slash + 1, '/')) {
-        char *part = strndup(path, (size_t)(slash - path)), *whole = part ? join(folder, part) : NULL;
+        char *part = strndup(path, (size_t)(slash - path)), *whole = part ? koksma__path_below(folder, part) : NULL;
         is_link = !whole || (!lstat(whole, &info) && S_ISLNK(info.st_mode));
         free(part);
         free(whole);
@@ -101,7 +91,7 @@ koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__
     KOKSMA__FAIL_IF(!folder && !*path, KOKSMA_IO, "the path of the file to write is empty");
     output *o = calloc(1, sizeof *o);
     KOKSMA__REQUIRE_MEMORY(o, sizeof *o);
-    char *whole = join(folder, path);
+    char *whole = koksma__path_below(folder, path);
     o->path = whole && !folder && strcmp(path, "-") != 0 ? koksma__atomic_target(whole) : whole;
     if (o->path != whole) {
         free(whole);
