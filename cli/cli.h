@@ -214,9 +214,9 @@ void cli_row_flag(cli_rows *rows, const char *key, bool value);
 /* json: a complete JSON value */
 void cli_row_json(cli_rows *rows, const char *key, const char *json, const char *text);
 void cli_row_end(cli_rows *rows);
-/* Prints the remaining rows and frees them. Returns the exit code: 0, or 4 after a message on stderr when memory for
-   the rows ran out. */
-int cli_rows_close(cli_rows *rows);
+/* Prints the remaining rows and frees them. Returns the exit code: `code`, or 4 after a message on stderr when memory for
+   the rows ran out and `code` is 0 or 1. */
+int cli_rows_close(cli_rows *rows, int code);
 
 /* Returns the width of the terminal that the file descriptor `stream` is connected to, in columns (the environment
    variable COLUMNS overrides it), or 0 if the descriptor is no terminal. */

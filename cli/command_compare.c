@@ -236,10 +236,10 @@ static int compare_all(const cli_arguments *arguments, comparison *c, const char
     if (!status) {
         put_row(c, &c->all, c->n > 1 ? "mean" : arguments->operands[0]);
     }
-    const int code = status ? fail(arguments, c, status) : CLI_YES, rows_code = cli_rows_close(c->rows);
+    const int code = cli_rows_close(c->rows, status ? fail(arguments, c, status) : CLI_YES);
     koksma_coherence_fini(&c->all.coherence);
     koksma_image_fini(&c->reference);
-    return code ? code : rows_code;
+    return code;
 }
 
 static int run(const cli_arguments *arguments)

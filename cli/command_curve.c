@@ -50,8 +50,7 @@ static int run(const cli_arguments *arguments)
         sink.source = arguments->operands[i];
         code = curve->compute(&c, sink.source, &sink.sink);
     }
-    const int rows_code = cli_rows_close(sink.rows);
-    return code ? code : rows_code;
+    return cli_rows_close(sink.rows, code);
 }
 
 static const cli_option options[] = {

@@ -72,8 +72,7 @@ static int run(const cli_arguments *arguments)
         koksma_identities_fini(&identities);
         koksma_points_fini(&points);
     }
-    const int rows_code = cli_rows_close(rows);
-    return code ? code : rows_code ? rows_code : named ? CLI_YES : CLI_NO;
+    return cli_rows_close(rows, code ? code : named ? CLI_YES : CLI_NO);
 }
 
 static const cli_option options[] = {

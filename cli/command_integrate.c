@@ -399,13 +399,13 @@ static int run_all(job *j)
         }
     }
     cli_work_end();
-    const int rows_code = j->rows ? cli_rows_close(j->rows) : CLI_YES;
+    const int end = j->rows ? cli_rows_close(j->rows, code) : code;
     if (!code && j->n_deterministic && !cli_flag(arguments, "quiet")) {
         cli_say(arguments->command->name,
                 "%s%s is deterministic, so its error is that of a single set; add :shift=1 for random sets",
                 j->deterministic, j->n_deterministic > 1 ? ", as others," : "");
     }
-    return code ? code : rows_code;
+    return end;
 }
 
 static int run(const cli_arguments *arguments)

@@ -348,7 +348,7 @@ static int run(const cli_arguments *arguments)
             lists[i].list(rows);
         }
     }
-    return cli_rows_close(rows);
+    return cli_rows_close(rows, CLI_YES);
 }
 
 static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};

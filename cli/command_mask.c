@@ -123,7 +123,7 @@ static int report(const job *j, const koksma_mask_quality *q)
     cli_row_whole(rows, "swaps", j->result.done);
     cli_row_flag(rows, "finished", j->result.finished);
     cli_row_end(rows);
-    return cli_rows_close(rows);
+    return cli_rows_close(rows, CLI_YES);
 }
 
 static int tests_of(const koksma_mask_space *space)
@@ -459,8 +459,7 @@ static int run_check(const cli_arguments *arguments)
         koksma_mask_fini(&mask);
     }
     cli_work_end();
-    const int rows_code = cli_rows_close(rows);
-    return code ? code : rows_code;
+    return cli_rows_close(rows, code);
 }
 
 static int run(const cli_arguments *arguments)

@@ -360,10 +360,10 @@ static int run(const cli_arguments *arguments)
             code = measure_source(&j, arguments->operands[i]);
         }
     }
-    const int rows_code = cli_rows_close(j.rows);
+    code = cli_rows_close(j.rows, code);
     tell_cuts(&j);
     measuring_close(&j);
-    return code ? code : rows_code;
+    return code;
 }
 
 static const cli_option options[] = {

@@ -85,7 +85,7 @@ static int report(job *j, const koksma_optimum *best)
     cli_row_whole(rows, "last_gain", best->last_gain);
     cli_row_text(rows, "version", koksma_version());
     cli_row_end(rows);
-    return cli_rows_close(rows);
+    return cli_rows_close(rows, CLI_YES);
 }
 
 /* Whether a file has generator matrices, as --keep sequence writes them: it then is a pattern. `source` has the number

@@ -481,8 +481,7 @@ static int rank_all(const cli_arguments *arguments, request *r, const size_t *sp
     }
     cli_work_end();
     const int code = status ? cli_fail(arguments, status) : all_settled ? CLI_YES : CLI_NO;
-    const int rows_code = cli_rows_close(rows);
-    return code > CLI_NO || !rows_code ? code : rows_code;
+    return cli_rows_close(rows, code);
 }
 
 static int run(const cli_arguments *arguments)

@@ -41,7 +41,7 @@ static int put_row(const cli_arguments *arguments, const koksma_render_options *
     cli_row_whole(rows, "rays", rays);
     cli_row_number(rows, "seconds", seconds);
     cli_row_end(rows);
-    return cli_rows_close(rows);
+    return cli_rows_close(rows, CLI_YES);
 }
 
 /* Writes the metadata of the image file into `text`: version, scene, patterns and options. */

@@ -130,8 +130,7 @@ static int run(const cli_arguments *arguments)
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     const int code = cli_study_run(arguments, &options, NULL, &work, put_tables, rows);
-    const int rows_code = cli_rows_close(rows);
-    return code ? code : rows_code;
+    return cli_rows_close(rows, code);
 }
 
 static const cli_option option_table[] = {

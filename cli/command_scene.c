@@ -76,8 +76,7 @@ static int run(const cli_arguments *arguments)
     cli_row_end(rows);
     put_parts(arguments, rows, scene);
     koksma_scene_close(scene);
-    const int code = cli_rows_close(rows);
-    return code ? code : odd ? CLI_NO : CLI_YES;
+    return cli_rows_close(rows, odd ? CLI_NO : CLI_YES);
 }
 
 static const cli_option options[] = {CLI_UNKNOWN_OPTION, CLI_ROW_OPTIONS, {0}};

@@ -274,7 +274,7 @@ static int estimate(const cli_arguments *arguments)
     cli_row_number(rows, "reference_seconds", cost.reference_seconds);
     cli_row_number(rows, "megabytes", cost.bytes * 1e-6);
     cli_row_end(rows);
-    return cli_rows_close(rows);
+    return cli_rows_close(rows, CLI_YES);
 }
 
 /* ---- export and report --------------------------------------------------------------------------------- */
@@ -421,7 +421,7 @@ static int images(const cli_arguments *arguments)
     cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
     put_image_rows(out, metric.specs, rows, n);
     free(rows);
-    return cli_rows_close(out);
+    return cli_rows_close(out, CLI_YES);
 }
 
 /* ---- The command --------------------------------------------------------------------------------------- */

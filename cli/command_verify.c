@@ -290,8 +290,7 @@ static int run(const cli_arguments *arguments)
         missed = missed || one;
         koksma_points_fini(&points);
     }
-    const int rows_code = cli_rows_close(rows);
-    return code ? code : rows_code ? rows_code : missed ? CLI_NO : CLI_YES;
+    return cli_rows_close(rows, code ? code : missed ? CLI_NO : CLI_YES);
 }
 
 static const cli_option options[] = {

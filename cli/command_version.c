@@ -35,7 +35,7 @@ static int put_json(void)
     put_part(rows, "mpi", koksma_study_mpi());
     put_part(rows, "meshes", koksma_mesh_tracer());
     cli_row_end(rows);
-    return cli_rows_close(rows);
+    return cli_rows_close(rows, CLI_YES);
 }
 
 static int run(const cli_arguments *arguments)

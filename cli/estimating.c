@@ -253,6 +253,5 @@ int cli_run_estimates(const cli_arguments *arguments)
     }
     cli_work_end();
     cli_integrands_close(&integrands);
-    const int rows_code = cli_rows_close(e.rows);
-    return code ? code : rows_code ? rows_code : e.missed ? CLI_NO : CLI_YES;
+    return cli_rows_close(e.rows, code ? code : e.missed ? CLI_NO : CLI_YES);
 }

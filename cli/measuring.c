@@ -438,8 +438,7 @@ int measure_local(const cli_arguments *arguments)
         koksma_points_fini(&points);
     }
     cli_work_end();
-    const int rows_code = cli_rows_close(rows);
-    return code ? code : rows_code;
+    return cli_rows_close(rows, code);
 }
 
 /* Reports values that are only bounds because the search for the exact value was cut short. */

@@ -218,8 +218,7 @@ static int report(const scene_job *j)
                     100 * fabs(home - best->gain), home < best->gain ? "more" : "less");
         }
     }
-    const int code = cli_rows_close(rows);
-    return code ? code : (held_out ? best->gain : best->gains[0].gain) > 0 ? CLI_YES : CLI_NO;
+    return cli_rows_close(rows, (held_out ? best->gain : best->gains[0].gain) > 0 ? CLI_YES : CLI_NO);
 }
 
 int cli_optimise_scene(const cli_arguments *arguments)

@@ -104,6 +104,5 @@ int cli_rank_to_error(const cli_arguments *arguments, const koksma_rank_options 
     }
     free(table);
     const int code = status ? cli_fail(arguments, status) : all ? CLI_YES : CLI_NO;
-    const int rows_code = cli_rows_close(rows);
-    return code > CLI_NO || !rows_code ? code : rows_code;
+    return cli_rows_close(rows, code);
 }

@@ -527,7 +527,7 @@ void cli_row_end(cli_rows *rows)
     }
 }
 
-int cli_rows_close(cli_rows *rows)
+int cli_rows_close(cli_rows *rows, int code)
 {
     if (!rows->failed && !rows->json) {
         cli_work_end();
@@ -542,5 +542,5 @@ int cli_rows_close(cli_rows *rows)
     if (rows != &no_rows) {
         free(rows);
     }
-    return failed ? cli_no_memory() : CLI_YES;
+    return failed && code <= CLI_NO ? cli_no_memory() : code;
 }

@@ -137,8 +137,7 @@ int cli_study_audit(const cli_arguments *arguments)
     }
     if (json) {
         put_audit_row(to.rows, &found, seed);
-        const int written = cli_rows_close(to.rows);
-        return written ? written : found.differences ? CLI_NO : CLI_YES;
+        return cli_rows_close(to.rows, found.differences ? CLI_NO : CLI_YES);
     }
     print_audit(&found, seed);
     return found.differences ? CLI_NO : CLI_YES;
