@@ -6,11 +6,10 @@ The rows of a study are kept under the hash of their scene: if two scenes had on
 in which a file of a scene names another (CASES), one pixel, byte or number of the named file is changed, then all of it. Both
 must give another hash; the picture of the second must differ too, which shows that the scene uses the file. A way that
 file_inputs.py knows, a kind of file (src/engine/core/file_kinds.def) and a kind of mesh (src/files/meshes/mesh_read.c) without a case
-are failures. Then the files of scenes that name several are exchanged, or change together.
+are failures.
 """
 import base64
 import gzip
-import itertools
 import json
 import os
 import re
@@ -20,6 +19,7 @@ import tempfile
 import zlib
 
 import file_inputs
+import file_pictures
 import files
 from file_serialized import serialized
 
@@ -39,20 +39,15 @@ POINT = '<emitter type="point"><point name="position" x="1" y="1" z="3"/><rgb na
 # ---- Files that are named ------------------------------------------------------------------------------------------
 
 
-def chunk(kind, data):
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-
 def png(levels, channels=3):
     """The levels of SIDE x SIDE pixels, row by row."""
     row = SIDE * channels
     lines = b"".join(b"\0" + bytes(levels[i:i + row]) for i in range(0, len(levels), row))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", SIDE, SIDE, 8, {3: 2, 4: 6}[channels], 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+    return file_pictures.png(SIDE, SIDE, zlib.compress(lines), 8, {3: 2, 4: 6}[channels])
 
 
-def pfm(levels, width=SIDE, height=SIDE):
-    return f"PF\n{width} {height}\n-1\n".encode() + struct.pack(f"<{len(levels)}f", *(level / 100 for level in levels))
+def pfm(levels):
+    return f"PF\n{SIDE} {SIDE}\n-1\n".encode() + struct.pack(f"<{len(levels)}f", *(level / 100 for level in levels))
 
 
 def versions(write, **how):
@@ -159,8 +154,8 @@ def mitsuba(text, name="s.xml"):
     return name, (OPEN + text + "</scene>").encode()
 
 
-def bitmap(name, **how):
-    return f'<texture name="{how.get("to", "reflectance")}" type="bitmap"><string name="filename" value="{name}"/></texture>'
+def bitmap(name):
+    return f'<texture name="reflectance" type="bitmap"><string name="filename" value="{name}"/></texture>'
 
 
 MESHES = {".obj": sizes(obj), ".ply": sizes(ply), ".ply.gz": sizes(lambda size: gz(ply(size))), ".off": sizes(off),
@@ -234,75 +229,6 @@ def cases():
            "t.pfm", versions(pfm), {})
 
 
-# ---- Several files ---------------------------------------------------------------------------------------------------
-
-
-def beside(name, x):
-    """A square with a texture, at x."""
-    return f'AttributeBegin Translate {x} 0 0\n' + (MAP + SHOWN).replace('"t.png"', f'"{name}"') + "AttributeEnd\n"
-
-
-def two_images(first, second):
-    made = file_inputs.scene()
-    made["materials"] = [{"name": name, "kind": "lambert", "albedo": {"image": name}} for name in ("t.png", "u.png")]
-    made["materials"][0]["albedo"]["image"], made["materials"][1]["albedo"]["image"] = first, second
-    made["shapes"] = [dict(made["shapes"][0], material=name, centre=[x, 0, 0]) for name, x in (("t.png", -1), ("u.png", 1))]
-    return json.dumps(made).encode()
-
-
-def two_meshes(first, second):
-    made = json.loads(mesh_scene(first))
-    made["shapes"] = [{"kind": "mesh", "file": name, "material": "m", "translate": [x, 0, 0]} for name, x in ((first, -1), (second, 1))]
-    return json.dumps(made).encode()
-
-
-def two_primitives(names, images=False):
-    """Two squares of a glTF: each from a buffer of its own, or both from one and with an image each."""
-    made = json.loads(gltf())
-    made["nodes"] = [{"mesh": i, "translation": [2 * i, 0, 0]} for i in range(2)]
-    made["scenes"][0]["nodes"] = [0, 1]
-    made["meshes"].append(json.loads(json.dumps(made["meshes"][0])))
-    if images:
-        made["images"] = [{"uri": name} for name in names]
-        made["textures"] = [{"source": i} for i in range(2)]
-        made["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": i}}} for i in range(2)]
-        made["meshes"][1]["primitives"][0]["material"] = 1
-    else:
-        made["buffers"] = [{"byteLength": 92, "uri": name} for name in names]
-        made["accessors"].append(dict(made["accessors"][0], bufferView=3))
-        made["bufferViews"].append({"buffer": 1, "byteLength": 48})
-        made["meshes"][1]["primitives"][0]["attributes"]["POSITION"] = 3
-    return json.dumps(made).encode()
-
-
-def several():
-    """(what, scene's name, what makes it of two names, the two names, versions of the files, other files)."""
-    images = [png([(i * 37 + k * 41) % 256 for i in range(SIDE * SIDE * 3)]) for k in range(4)]
-    meshes = [ply(0.5 + k / 16) for k in range(4)]
-    yield "albedos", "s.json", two_images, ("t.png", "u.png"), images, {}
-    yield "meshes", "s.json", two_meshes, ("m.ply", "n.ply"), meshes, {}
-    yield ("textures of pbrt", "s.pbrt", lambda a, b: pbrt(LAMP + beside(a, -1) + beside(b, 1))[1], ("t.png", "u.png"), images, {})
-    yield ("meshes of pbrt", "s.pbrt", lambda a, b: pbrt(LAMP + "".join(
-        f'Translate {x} 0 0 Shape "plymesh" "string filename" "{name}"\n' for name, x in ((a, -1), (b, 2))))[1],
-           ("m.ply", "n.ply"), meshes, {})
-    yield ("texts of pbrt", "s.pbrt", lambda a, b: pbrt(f'{LAMP}Include "{a}"\nInclude "{b}"\n{QUAD}')[1], ("i.pbrt", "j.pbrt"),
-           [f'Material "diffuse" "rgb reflectance" [.{k} .5 .5]\nTranslate .{k} 0 0\n'.encode() for k in range(1, 5)], {})
-    square = '<shape type="rectangle">%s<bsdf type="diffuse">%s</bsdf></shape>'
-    move = '<transform name="to_world"><translate x="%s"/></transform>'
-    yield ("textures of Mitsuba", "s.xml", lambda a, b: mitsuba(POINT + "".join(
-        square % (move % x, bitmap(name)) for name, x in ((a, -1), (b, 1))))[1], ("t.png", "u.png"), images, {})
-    yield ("meshes of Mitsuba", "s.xml", lambda a, b: mitsuba(POINT + "".join(
-        f'<shape type="ply"><string name="filename" value="{name}"/>{move % x}</shape>' for name, x in ((a, -1), (b, 1))))[1],
-           ("m.ply", "n.ply"), meshes, {})
-    yield "buffers", "s.gltf", lambda *names: two_primitives(names), ("a.bin", "b.bin"), [buffer(0.5 + k / 16) for k in range(4)], {}
-    yield ("images of glTF", "s.gltf", lambda *names: two_primitives(names, True), ("t.png", "u.png"), images, SQUARE)
-    faces = obj(1, "mtllib m.mtl\n", "usemtl t\n").decode() + "v 3 -1 0\nv 3 1 0\nusemtl u\nf 2/1 5/2 6/3 3/4\n"
-    yield ("textures of OBJ", "s.obj", lambda a, b: faces.encode(), ("t.png", "u.png"), images,
-           {"m.mtl": b"newmtl t\nKd 1 1 1\nmap_Kd t.png\nnewmtl u\nKd 1 1 1\nmap_Kd u.png\n"})
-    yield ("materials of OBJ", "s.obj", lambda a, b: obj(1, f"mtllib {a}\nmtllib {b}\n", "usemtl m\n"), ("m.mtl", "n.mtl"),
-           [f"newmtl m\nKd .{k} .5 .5\n".encode() for k in range(1, 5)], {})
-
-
 # ---- Checks ----------------------------------------------------------------------------------------------------------
 
 
@@ -351,39 +277,10 @@ def check_ways(checks, bench):
     checks.check(readers and readers <= endings, f"no case for meshes {readers - endings}")
 
 
-def check_several(checks, bench):
-    """Each pair of versions of two files is another scene, as is each version of one file that is named twice."""
-    for what, name, write, named, made, others in several():
-        some = range(3 if files.SANITIZED else len(made))
-        seen = {(i, k): bench.render(what, name, {**others, named[0]: made[i], named[1]: made[k], name: write(*named)})
-                for i, k in itertools.product(some, some)}
-        if all(seen.values()):
-            hashes = {one[0] for one in seen.values()}
-            checks.check(len(hashes) == len(seen), f"{what}: {len(seen)} scenes of two files have {len(hashes)} hashes")
-            checks.check(seen[0, 1][1] != seen[1, 0][1], f"{what}: the picture does not show which file is which")
-        if write(*named) == write(named[0], named[0]):
-            continue  # other files name them
-        seen = [bench.render(what, name, {**others, named[0]: made[i], name: write(named[0], named[0])}) for i in some]
-        checks.check(None in seen or len({one[0] for one in seen}) == len(seen), f"{what}: a file named twice changes, the hash does not")
-
-
-def check_shapes(checks, bench):
-    """The same levels in lines of another length are another image."""
-    levels = [100 + i * 37 % 50 for i in range(3 * SIDE * SIDE)]
-    sky = scene(light={"kind": "environment", "image": "t.pfm"})
-    seen = [bench.render("a sky of another shape", "s.json", {"s.json": sky, "t.pfm": pfm(levels, *shape)})
-            for shape in ((SIDE, SIDE), (2 * SIDE, SIDE // 2))]
-    if all(seen):
-        checks.check(seen[0][0] != seen[1][0], "an image changes its shape, the hash does not")
-        checks.check(seen[0][1] != seen[1][1], "the picture does not show the shape of its image")
-
-
 def main():
     checks = files.Checks()
     bench = Bench(sys.argv[1], checks)
     check_ways(checks, bench)
-    check_several(checks, bench)
-    check_shapes(checks, bench)
     checks.end()
 
 

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""file_outputs.py PROGRAM FAULTS: output files in folders that others may write to, and on disks that are full.
+"""file_outputs.py PROGRAM: output files in folders that others may write to, and streams and stores that are full.
 
-Links are planted under the names that the program chooses, two processes have equal numbers (as in containers), runs are
-killed, and disks are full. A file is the old or the new one, whole, and no file but the one that was asked for changes.
-FAULTS is the program with faults (tests/faults). With sanitizers there are fewer pairs of processes, of fewer points.
+Links are planted under the names that the program chooses. A file is the old or the new one, whole, and no file but the one
+that was asked for changes. tests/faults has runs that end in the middle, and disks that are full.
 """
 import glob
 import json
@@ -20,7 +19,6 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 PLAN = os.path.join(os.path.dirname(HERE), "faults", "inputs", "plan.json")
 VICTIM = b"what somebody keeps here\n"
 POINTS = ["generate", "random", "-q"]
-MANY = "20000" if files.SANITIZED else "100000"
 
 
 def write(path, data=VICTIM):
@@ -32,10 +30,6 @@ def write(path, data=VICTIM):
 def read(path):
     with open(path, "rb") as stream:
         return stream.read()
-
-
-def leftovers(folder):
-    return glob.glob(os.path.join(folder, "**", ".koksma-*"), recursive=True)
 
 
 def good(checks, what, done):
@@ -156,89 +150,7 @@ def check_user_names(checks, program, folder):
     checks.refused("a folder", files.run(program, *POINTS, "-n", "4", "-o", ".", cwd=folder), 4, "it is a directory")
 
 
-# ---- Equal process numbers ---------------------------------------------------------------------------------------
-
-def check_equal_numbers(checks, program, folder):
-    """Two first processes of two containers write one file: it is the one's or the other's."""
-    container = ["unshare", "--pid", "--fork"]
-    if subprocess.run([*container, "true"], capture_output=True, check=False).returncode:
-        container = ["unshare", "--user", "--map-root-user", "--pid", "--fork"]
-        if subprocess.run([*container, "true"], capture_output=True, check=False).returncode:
-            print("no process namespaces here: two processes have different numbers")
-            container = []
-    whole = []
-    for seed in "12":
-        good(checks, "one alone", files.run(program, *POINTS, "-n", MANY, "-s", seed, "-o", "one.txt", cwd=folder))
-        whole.append(read(os.path.join(folder, "one.txt")))
-    for _ in range(2 if files.SANITIZED else 12):
-        both = [subprocess.Popen([*container, program, *POINTS, "-n", MANY, "-s", seed, "-o", "o.txt"], cwd=folder,
-                                 stderr=subprocess.PIPE) for seed in "12"]
-        for process in both:
-            _, err = process.communicate(timeout=files.SECONDS)
-            checks.check(process.returncode == 0, f"equal numbers: {process.returncode}, {err}")
-        checks.check(read(os.path.join(folder, "o.txt")) in whole, "equal numbers: the file is neither's")
-    checks.check(not leftovers(folder), "equal numbers: leftovers")
-
-
-# ---- Killed runs -------------------------------------------------------------------------------------------------
-
-def check_killed(checks, program, faults, folder):
-    """A run that ends in the middle leaves the old file whole, and its temporary file, which no later run touches."""
-    for i, kind in enumerate(("write", "sync", "rename")):
-        env = {"KOKSMA_FAULT": kind, "KOKSMA_FAULT_AT": "1", "KOKSMA_FAULT_MODE": "end"}
-        old = write(os.path.join(folder, "out.txt"))
-        files.run(faults, *POINTS, "-n", "400", "-o", "out.txt", cwd=folder, env=env)
-        checks.check(read(old) == VICTIM, f"an end at {kind} changed the old file")
-        good(checks, "the next run", files.run(program, *POINTS, "-n", "4", "-o", "other.txt", cwd=folder))
-        checks.check(len(leftovers(folder)) == i + 1, f"{leftovers(folder)} after an end at {kind}")
-
-
 # ---- Full disks --------------------------------------------------------------------------------------------------
-
-OUTPUTS = [
-    (["generate", "random", "-n", "30000", "-q"], ["o.txt", "o.csv", "o.npy"]),
-    (["render", "ball", "--size", "400x400", "-n", "1", "-q"], ["o.exr", "o.png", "o.pfm"]),
-    (["plot", "pattern:random@20000"], ["o.svg", "o.pdf", "o.png"]),
-    (["curve", "power", "pattern:random@64", "--half", "200", "--trials", "1"], ["o.npy", "o.exr"]),
-    (["study", "export", "done"], ["o.csv", "o.json", "o.npy"]),
-]
-
-
-def check_full(checks, program, faults, folder):
-    """FAULTS fails the first write, or all, with ENOSPC; where a small file system can be mounted, a full one too."""
-    disk = os.path.join(folder, "disk")
-    os.mkdir(disk)
-    mounted = os.geteuid() == 0 and subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k", "none", disk],
-                                                   capture_output=True, check=False).returncode == 0
-    if not mounted:
-        print("no file system can be mounted here: full disks are faults only")
-    good(checks, "study", files.run(program, "study", "run", PLAN, "-q", "--trials", "300", "-o", "done", cwd=folder))
-    try:
-        for arguments, names in OUTPUTS:
-            for name in names:
-                for mode in ("once", "on"):
-                    write(os.path.join(folder, name))
-                    env = {"KOKSMA_FAULT": "write", "KOKSMA_FAULT_AT": "1", "KOKSMA_FAULT_MODE": mode}
-                    done = files.run(faults, *arguments, "-o", name, cwd=folder, env=env)
-                    checks.refused(f"{name}, a failing write {mode}", done, 4, name, "No space left on device")
-                    checks.check(read(os.path.join(folder, name)) == VICTIM, f"{name}: the old file is gone")
-                if mounted:
-                    path = write(os.path.join(disk, name))
-                    done = files.run(program, *arguments, "-o", path, cwd=folder)
-                    if checks.refused(f"{name} on a full disk", done, 4, name, "No space left on device"):
-                        checks.check(read(path) == VICTIM and os.listdir(disk) == [name], f"{name}: {os.listdir(disk)}")
-                    os.remove(path)
-    finally:
-        if mounted:
-            subprocess.run(["umount", disk], check=True)
-    checks.check(not leftovers(folder), "leftovers after failing writes")
-    for name in ("-", "/dev/stdout", "/dev/full"):
-        with open("/dev/full", "wb") as full:
-            done = subprocess.run([program, *POINTS, "-n", "3000", "-o", name], cwd=folder, stdout=full,
-                                  stderr=subprocess.PIPE, check=False)
-        checks.refused(f"{name} that is full", files.Done(done.returncode, b"", done.stderr, 0), 4,
-                       "No space left on device")
-
 
 def check_stores(checks, program, folder):
     """A store that can't be made or written is called by its path, with the system's reason; stores are not half made."""
@@ -248,46 +160,18 @@ def check_stores(checks, program, folder):
         done = files.run("/bin/sh", "-c", limit + '; exec "$@"', "sh", *plan, "study", cwd=folder)
         checks.refused(what, done, 4, "study: study/results.sqlite: ", reason)
         checks.check(not os.listdir(os.path.join(folder, "study")), f"{what}: something is left")
-    disk = os.path.join(folder, "disk")
-    os.mkdir(disk)
-    for size_kib in range(40, 240, 40 if files.SANITIZED else 10):
-        if os.geteuid() or subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size_kib}k", "none", disk],
-                                          capture_output=True, check=False).returncode:
-            break
-        try:
-            done = files.run(*plan, "disk/study", cwd=folder)
-            if done.code:
-                checks.refused(f"a disk of {size_kib} KiB", done, 4, "study: disk/study/", ": No space left on device")
-        finally:
-            subprocess.run(["umount", disk], check=True)
-
-
-def check_long_names(checks, program, folder):
-    """Layers beside an image whose path is nearly the longest that there is: all are written, or none and nothing else."""
-    deep = os.path.realpath(folder)
-    while len(deep) + 202 < 3850:
-        deep = os.path.join(deep, "d" * 200)
-    deep = os.path.join(deep, "d" * (4079 - len(deep)))
-    os.makedirs(deep)
-    within = os.open(deep, os.O_DIRECTORY)
-    for name in ("a", "n" * 20, "n" * 247, "n" * 300):
-        path = os.path.join(deep, name + ".png")
-        done = files.run(program, "render", "ball", "-n", "1", "--size", "4x4", "-q", "--aov", "direct,indirect", "-o", path, cwd=folder)
-        names = {f"{name}.png", f"{name}.direct.png", f"{name}.indirect.png"}
-        found = set(os.listdir(deep))
-        if len(name) > 200:
-            checks.refused(f"a name of {len(name)}", done, 4, "File name too long")
-            names = set()
-        checks.check(found == names, f"a name of {len(name)}: {[len(f) for f in found]}")
-        for made in found:
-            os.remove(made, dir_fd=within)
-    os.close(within)
 
 
 def check_streams(checks, program, folder):
     """Standard output that is full or closed, for rows of all kinds, short and long."""
     good(checks, "points", files.run(program, *POINTS, "-n", "4", "-o", "r.txt", cwd=folder))
     good(checks, "study", files.run(program, "study", "run", PLAN, "-q", "-o", "study", cwd=folder))
+    for name in ("-", "/dev/stdout", "/dev/full"):
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([program, *POINTS, "-n", "3000", "-o", name], cwd=folder, stdout=full,
+                                  stderr=subprocess.PIPE, check=False)
+        checks.refused(f"{name} that is full", files.Done(done.returncode, b"", done.stderr, 0), 4,
+                       "No space left on device")
     for arguments in (["study", "audit", "study", "--json"], ["measure", "r.txt", "--json"], ["measure", "r.txt"],
                       ["list", "patterns", "--json"], ["list", "patterns"], ["help", "study"], ["manual"], ["version"],
                       ["verify", "r.txt", "--json"], ["completion", "bash"]):
@@ -297,16 +181,10 @@ def check_streams(checks, program, folder):
 
 
 def main():
-    program, faults = map(os.path.abspath, sys.argv[1:3])
-    checks = files.Checks()
-    cases = [(check_planted_links, [program]), (check_own_names, [program]), (check_quick, [program]),
-             (check_quick_at_once, [program]), (check_user_names, [program]),
-             (check_equal_numbers, [program]), (check_killed, [program, faults]),
-             (check_full, [program, faults]), (check_stores, [program]), (check_long_names, [program]),
-             (check_streams, [program])]
-    for case, programs in cases:
+    program, checks = os.path.abspath(sys.argv[1]), files.Checks()
+    for case in (check_planted_links, check_own_names, check_quick, check_quick_at_once, check_user_names, check_stores, check_streams):
         with tempfile.TemporaryDirectory() as folder:
-            case(checks, *programs, folder)
+            case(checks, program, folder)
     checks.end()
 
 

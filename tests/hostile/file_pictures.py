@@ -30,9 +30,9 @@ def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def png(width, height, data=None):
-    """Of 16 bits and three colours."""
-    head = struct.pack(">IIBBBBB", width, height, 16, 2, 0, 0, 0)
+def png(width, height, data=None, bits=16, colours=2):
+    """Of three colours, or another type of them."""
+    head = struct.pack(">IIBBBBB", width, height, bits, colours, 0, 0, 0)
     data = packed(height * (1 + 6 * width)) if data is None else data
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", data) + chunk(b"IEND", b"")
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """file_programs.py PROGRAM FAULTS: patterns that run code, exec:PROGRAM and plugin:LIBRARY.
 
-Without --allow-exec no command runs them, whatever a spec, plan or stored study says: a marker file shows who ran. With it
+Without --allow-exec no command runs them or opens a library, whatever a spec, plan or stored study says, but `koksma integrate
+./LIBRARY.so`: a marker file shows who ran. With it
 the examples take part as other patterns do, with the same results on any threads and ranks. Programs that hang, fork, print
 rubbish or too much, die or change their minds give one line and exit code 3; a mark in the environment, which every process
 below inherits, shows in /proc that none of the group is left. With sanitizers each place of a spec has one of the specs in turn.
@@ -20,6 +21,7 @@ import tempfile
 import time
 import uuid
 
+import file_inputs
 import files
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../study"))
@@ -61,10 +63,15 @@ FORKS = {
     "holds": POINTS + "; (sleep 1000) &",
     "bomb": "for i in 1 2 3 4 5 6 7 8; do (sleep 1000 & sh -c 'sleep 1000; sleep 1000' &); done; " + POINTS,
 }
-PLUGIN = """#include <koksma/plugin.h>
+PLUGIN = """#include <koksma/integrate.h>
+#include <koksma/plugin.h>
 #include <stdio.h>
+__attribute__((constructor)) static void opened(void) { fclose(fopen("ran", "w")); }
+static double at(const double *x, int dim, void *context) { return x[0]; }
+static const koksma_function f = {"f", 1, 9, at, 0, .5};
+const koksma_function *koksma_function_at(size_t i) { return i < 1 ? &f : NULL; }
 static int good(uint64_t seed, size_t n, int dim, double *xs, char *reason)
-{ FILE *f = fopen("ran", "w"); fclose(f); for (size_t i = 0; i < n * (size_t)dim; i++) xs[i] = 0.25; return 0; }
+{ for (size_t i = 0; i < n * (size_t)dim; i++) xs[i] = 0.25; return 0; }
 static int outside(uint64_t seed, size_t n, int dim, double *xs, char *reason) { for (size_t i = 0; i < n * (size_t)dim; i++) xs[i] = 1; return 0; }
 static int unwritten(uint64_t seed, size_t n, int dim, double *xs, char *reason) { xs[0] = 0.5; return 0; }
 static int fails(uint64_t seed, size_t n, int dim, double *xs, char *reason) { snprintf(reason, KOKSMA_PLUGIN_REASON, "only\\nprimes"); return 1; }
@@ -130,6 +137,8 @@ def check_permission(checks, program):
     checks.check(not os.path.exists("ran"), "a program or library ran without --allow-exec")
 
 
+# Specs that name a library, and may not open it.
+LIBRARIES = "./p.so", "./p.so:f", "error of ./p.so:f", "file:./p.so", "net-file:./p.so", "lattice-file:./p.so"
 # Of each command where a spec could stand: "{}" is the spec. A command without a row fails the test.
 PLACES = {
     "list": [["{}"], ["patterns", "{}"]],
@@ -141,6 +150,8 @@ PLACES = {
     "optimise": [["star", "--from", "{}", "-o", "o.txt"], ["{}", "-n", "4", "-o", "o.txt"], ["star", "-n", "2", "-p", "{}", "-o", "o.txt"]],
     "curve": [["power", "{}@2"], ["{}", "random@4"]],
     "verify": [["{}@2"], ["{}"]],
+    "identify": [["{}@2"], ["{}"]],
+    "mask": [["check", "{}"], ["-o", "m.png", "--size", "8x8", "--swaps", "1", "--from", "{}"], ["-o", "m.png", "--filter", "{}"]],
     "plot": [["{}@2", "-o", "o.svg"], ["random@2", "{}@2", "-o", "o.svg"]],
     "render": [["ball", "-p", "{}", "-n", "2", "--size", "8x6", "-o", "o.pfm"], ["{}", "-n", "2", "-o", "o.pfm"],
                ["ball", "-p", "random;lens={}", "-n", "2", "--size", "8x6", "-o", "o.pfm"],
@@ -193,7 +204,15 @@ def check_every_command(checks, program):
         file.write(b"Pf\n1 1\n-1.0\n\0\0\x80?")
     with open("t.obj", "w", encoding="utf-8") as file:
         file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    specs = "exec:./mark", "plugin:./p.so", "plugin:./p.so:good", f"exec:{os.getcwd()}/mark"
+    for spec in "./p.so", "./p.so:f":
+        done = files.run(program, "integrate", spec, "random@4")  # an integrand of the command line alone opens a library
+        checks.check(done.code == 0 and os.path.exists("ran"), f"integrate {spec} opens it: {done.err}")
+        os.remove("ran")
+    for _, ending, what, arguments in file_inputs.named_by_files(os.getcwd()) + file_inputs.named_by_user():
+        shutil.copy("p.so", "named" + ending)
+        done = files.run(program, *arguments("named" + ending))
+        checks.check(not os.path.exists("ran") and done.code in (1, 2, 3) and done.err, f"{what}: {done.code}, opened")
+    specs = ("exec:./mark", "plugin:./p.so", "plugin:./p.so:good", f"exec:{os.getcwd()}/mark", *LIBRARIES)
     for (command, row), spec in files.each([(command, row) for command, rows in PLACES.items() for row in rows], specs):
         with open("a.json", "w", encoding="utf-8") as file:
             file.write(plan(spec))
@@ -216,7 +235,7 @@ def check_rows(checks, program):
         file.write(plan("jittered:columns=1"))
     checks.check(files.run(program, "study", "run", "a.json", "-o", "kept", "-q").code == 0, "a study")
     verbs = ["export"], ["report"], ["audit", "--rows", "all"], ["run", "a.json", "-q", "-o"]
-    for (verb, column), spec in files.each(itertools.product(verbs, ("what", "pattern", "made_by", "measured_by")), ("exec:./mark", "plugin:./p.so", "plugin:./p.so:good")):
+    for (verb, column), spec in files.each(itertools.product(verbs, ("what", "pattern", "made_by", "measured_by")), ("exec:./mark", "plugin:./p.so:good", *LIBRARIES)):
         shutil.rmtree("stored", ignore_errors=True)
         shutil.copytree("kept", "stored")
         database = sqlite3.connect("stored/results.sqlite")

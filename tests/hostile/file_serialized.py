@@ -73,20 +73,7 @@ SCENE = """<scene version="3.0.0"><sensor type="perspective"><float name="fov" v
 <bsdf type="diffuse"><texture type="checkerboard" name="reflectance"/></bsdf></shape></scene>"""
 
 
-class Bench:
-    """A folder with files, and the program."""
-
-    def __init__(self, program, folder):
-        self.program, self.folder, self.checks = program, folder, files.Checks()
-
-    def put(self, name, data):
-        with open(os.path.join(self.folder, name), "wb") as stream:
-            stream.write(data if isinstance(data, bytes) else data.encode())
-        return name
-
-    def run(self, *arguments):
-        return files.run(self.program, *arguments, cwd=self.folder)
-
+class Bench(files.Bench):
     def points(self, name):
         """Points on a model: place, normal and triangle."""
         done = self.run("generate", "random", "-n", "40", "-d", "7", "--on", name)

@@ -21,7 +21,9 @@ import sys
 import tempfile
 import zlib
 
+import file_pictures
 import files
+from file_serialized import serialized
 
 PROCESSOR = 600 if files.SANITIZED else 60  # seconds; without a limit the scenes below take from minutes to years
 LARGE = 4 if files.SANITIZED else 1  # what large scenes are divided by
@@ -52,20 +54,7 @@ def checkers(levels):
                    "</texture>" for i in range(levels)) + f'<texture type="checkerboard" id="c{levels}"/>'
 
 
-class Bench:
-    """A folder with files, and the program."""
-
-    def __init__(self, program, folder):
-        self.program, self.folder, self.checks = program, folder, files.Checks()
-
-    def put(self, name, data):
-        with open(os.path.join(self.folder, name), "wb") as stream:
-            stream.write(data if isinstance(data, bytes) else data.encode())
-        return name
-
-    def run(self, *arguments):
-        return files.run(self.program, *arguments, cwd=self.folder, env=SANITIZER, processor=PROCESSOR)
-
+class Bench(files.Bench):
     def refused(self, what, name, text, *words, place=None, most=files.OTHER):
         """place: the file that the message names, if that is another; most: MiB that the run may take."""
         self.put(name, text)
@@ -246,14 +235,9 @@ def materials(bench):
 
 
 def packed(n):
-    """A .serialized file of n triangles; the format is in file_serialized.py."""
-    data, at = b"", []
-    for i in range(n):
-        at.append(len(data))
-        body = (struct.pack("<I", 0x1000) + b"\0" + struct.pack("<QQ", 3, 1)
-                + struct.pack("<9f", 0, 0, i / 1024, 1, 0, 0, 0, 1, 0) + struct.pack("<3I", 0, 1, 2))
-        data += struct.pack("<HH", 0x041C, 4) + zlib.compress(body)
-    return data + struct.pack(f"<{n}Q", *at) + struct.pack("<I", n)
+    """A .serialized file of n triangles."""
+    return serialized([struct.pack("<I", 0x1000) + b"\0" + struct.pack("<QQ", 3, 1)
+                       + struct.pack("<9f", 0, 0, i / 1024, 1, 0, 0, 0, 1, 0) + struct.pack("<3I", 0, 1, 2) for i in range(n)])
 
 
 def meshes(bench):
@@ -312,12 +296,8 @@ def indices(bench):
 
 def png(side, last=b"\0"):
     """A black PNG of 1 bit a pixel. last: the filter of its last row; there is none of number 7."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     row = bytes(side // 8)
-    rows = (b"\0" + row) * (side - 1) + last + row
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 1, 0, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+    return file_pictures.png(side, side, zlib.compress((b"\0" + row) * (side - 1) + last + row, 9), 1, 0)
 
 
 SIDE = 8192 // LARGE
@@ -398,7 +378,7 @@ def environments(bench):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        bench = Bench(os.path.abspath(sys.argv[1]), folder)
+        bench = Bench(os.path.abspath(sys.argv[1]), folder, env=SANITIZER, processor=PROCESSOR)
         bench.put("a.serialized", packed(1))
         bench.put("s.xml", mitsuba('<shape type="serialized"><string name="filename" value="a.serialized"/></shape>'))
         done = bench.run("scene", "check", "s.xml")

@@ -79,3 +79,18 @@ def run(program, *arguments, cwd=None, stdin=subprocess.DEVNULL, env=None, proce
         out.seek(0)
         err.seek(0)
         return Done(process.returncode, out.read(), err.read(), usage.ru_maxrss / 1024)
+
+
+class Bench:
+    """A folder with files, the program, and checks; `how` is for each run."""
+
+    def __init__(self, program, folder, **how):
+        self.program, self.folder, self.how, self.checks = program, folder, how, Checks()
+
+    def put(self, name, data):
+        with open(os.path.join(self.folder, name), "wb") as stream:
+            stream.write(data if isinstance(data, bytes) else data.encode())
+        return name
+
+    def run(self, *arguments):
+        return run(self.program, *arguments, cwd=self.folder, **self.how)

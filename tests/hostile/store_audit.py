@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
 """store_audit.py KOKSMA: what `koksma study audit` says of folders that a stranger made. All reference images are
-rendered again, whichever rows are drawn, and those that cannot be are counted. Nobody can know before which rows are
-drawn. No text of a plan or store reaches the terminal with control characters, and --json is JSON. A store of very many
-series takes time in proportion to their number."""
+rendered again, whichever rows are drawn, and those that cannot be are counted. No text of a plan or store reaches the
+terminal with control characters, and --json is JSON."""
 import json
 import os
 import re
-import resource
 import shutil
 import sqlite3
 import subprocess
@@ -119,28 +117,6 @@ def reasons():
     shutil.copy(HERE + "/../../scenes/checker.json", "mine.json")
 
 
-def families():
-    """Rows of a family of files are of all its files: one more file makes all of them anew."""
-    for i in range(1, 6):
-        with open(f"q_16_{i}.txt", "w") as file:
-            file.writelines(f"{k / 16} {((2 * i + 1) * k + i) % 16 / 16}\n" for k in range(16))
-    os.rename("q_16_5.txt", "fifth.txt")
-    with open("family.json", "w") as file:
-        json.dump({"name": "f", "title": "f", "discrepancies": [{"patterns": ["file:q_{n}_{seed}.txt"], "measures": ["star"], "n": [16], "trials": 4}]}, file)
-    run = "study", "run", "./family.json", "-o", "family", "-q"
-    check(koksma(*run).returncode == 0, "a study of a family")
-    says(audit("family"), 0, "4 rows drawn, of which 4 agree: these are all")
-    os.rename("fifth.txt", "q_16_5.txt")
-    check(koksma(*run, "--trials", "5").returncode == 0, "a study of a larger family")
-    changed = r"differs: discrepancy file:q_\{n\}_\{seed\}.txt, .* again: a file of its points has changed since, or their family has other files"
-    says(audit("family"), 1, changed, "9 rows drawn, of which 5 agree: these are all")
-    os.remove("q_16_5.txt")
-    says(audit("family"), 1, changed, "9 rows drawn, of which 4 agree: these are all")
-    for i in range(1, 5):
-        os.remove(f"q_16_{i}.txt")
-    says(audit("family"), 1, r"differs: .* again: a file that its pattern names: file:q_\{n\}_\{seed\}\.txt: there is no file q_\*_\*\.txt .*")
-
-
 def values():
     """Standard errors that are missing or infinite, and times of runs that are."""
     of_checker = r"reference r:jittered@4x2 of checker"
@@ -190,61 +166,6 @@ def trials():
     says(audit("n", "--rows", "all"), 1, "differs: discrepancy random, n = 4, dim 2, star, trial 1000: the stored seed .*",
          "4024 rows drawn, of which 4020 agree: these are all", "2 reference images rendered again, of which 2 agree")
     says(audit("n", "--rows", "4023"), 1)
-
-
-def long_names():
-    """The name of a folder has at most 1000 bytes, for every verb."""
-    for length in 1000, 1001, 1004, 1200, 4000:
-        for end in "sound", "nothing/r":
-            name = "./" * ((length - len(end)) // 2) + "/" * ((length - len(end)) % 2) + end
-            for verb in ("audit",), ("export", "-o", "long.csv"), ("report",), ("run", "./plan.json", "-q", "-o"), ("quick", "-p", "sobol", "-o"):
-                if verb[0] in ("run", "quick") and length == 1000:
-                    continue
-                told = koksma("study", verb[0], *([name, *verb[1:]] if verb[0] not in ("run", "quick") else [*verb[1:], name]))
-                if length == 1000:
-                    check(told.returncode == (0 if end == "sound" else 3), f"{length}: {verb}: {told}")
-                else:
-                    check(told.returncode == 2 and told.stderr.startswith("koksma study: the name of a study's folder is longer than 1000 bytes: ./"),
-                          f"{length}: {verb}: {told}")
-    with open("plain", "w"):
-        pass
-    for folder, code in ("plain", 3), ("nosuch", 3), ("a" * 1100, 2):
-        for verb in "audit", "export":
-            told = koksma("study", verb, folder)
-            check(told.returncode == code and "references" not in told.stderr, f"{verb} {folder}: {told}")
-
-
-def operands():
-    """An operand that is no path has the hash 0 in the keys, as in all stores that have such rows."""
-    with open("vector.json", "w") as file:
-        json.dump({"name": "v", "title": "v", "discrepancies": [{"patterns": ["lattice-vector:1:5"], "measures": ["star"], "n": [8], "trials": 1}],
-                   "images": [{"scenes": ["ball"], "patterns": ["n-rooks;lens=lattice-vector:1:5"], "spp": [8], "size": [8, 6], "trials": 1,
-                               "references": [{"name": "r", "pattern": "jittered", "spp": 4, "replicates": 2}]}]}, file)
-    check(koksma("study", "run", "./vector.json", "-o", "vector", "-q").returncode == 0, "a study of a vector")
-    database = sqlite3.connect("vector/results.sqlite")
-    hashes = dict(database.execute("SELECT kind, scene_hash FROM series"))
-    (scene,) = database.execute("SELECT scene_hash FROM reference").fetchone()
-    database.close()
-    check(hashes["discrepancy"] == 16 * "0" and hashes["image"] == scene + "+" + 16 * "0", f"keys: {hashes}, {scene}")
-    says(audit("vector", "--rows", "all"), 0, "1 reference images rendered again, of which 1 agree")
-
-
-def impossible():
-    """A reference that can't be rendered makes only the rows wrong that need it."""
-    made_by = "replace({}, 'jittered 0', 'poisson-disk 0')"
-    text = "r:poisson-disk:d=0.9@64x1"
-    of_text = r"differs: reference r:poisson-disk:d=0\.9@64x1 of checker: poisson-disk: no 64 points .*"
-    copy("i")
-    change("i", f"INSERT INTO reference SELECT scene, scene_hash, options, width, height, '{text}', {made_by.format('made_by')}, standard_error, "
-                "pixels FROM reference WHERE scene = 'checker'")
-    says(audit("i", "--rows", "all"), 1, of_text, "4024 rows drawn, of which 4024 agree: these are all",
-         "2 reference images rendered again, of which 2 agree; 1 can't be rendered again")
-    change("i", f"UPDATE series SET what = '{text}', measured_by = {made_by.format('measured_by')} WHERE scene = 'checker'")
-    for more in ("--threads", "1"), ("--threads", "4"):
-        told = audit("i", "--rows", "all", *more)
-        says(told, 1, of_text, ".* rows can't be computed again, such as .*its reference can't be rendered",
-             "4024 rows drawn, of which 4012 agree: these are all", "2 reference images rendered again, of which 2 agree; 1 can't be rendered again")
-        check(told.stdout.count("poisson-disk: no 64 points") == 1, f"named once: {told}")
 
 
 # ---- Keys -----------------------------------------------------------------------------------------------------
@@ -373,98 +294,6 @@ def gaps():
         says(audit("g", "--rows", "all"), 1, "differs: g/results.sqlite: 1 values are of no series")
 
 
-def decoys():
-    """Copies of series under keys that no run writes do not take the place of the real rows."""
-    with open("decoy.json", "w") as file:
-        json.dump({"name": "my", "title": "T", "images": [{"scenes": ["ball"], "patterns": ["random", "n-rooks"], "spp": [16], "size": [16, 12], "trials": 3,
-                                                          "references": [{"name": "c", "pattern": "jittered", "spp": 64, "replicates": 2}]}]}, file)
-    check(koksma("study", "run", "./decoy.json", "-o", "real", "-q").returncode == 0, "a study")
-    for kind in "image", "coherence", "metric":
-        of = f"kind = '{kind}' AND pattern = 'n-rooks' AND dim = 0 AND metric IN ('', 'relmse')"
-        real = f"(SELECT id FROM series WHERE {of})"
-        copy("r", "real")
-        change("r", "INSERT INTO series SELECT 404, kind, scene, scene_hash, options, pattern, n, 1, width, height, what, metric, made_by, measured_by "
-                    f"FROM series WHERE {of}",
-               f"INSERT INTO result SELECT (id >> 32 << 32) + 404, seed, v0, v1, v2, v3 FROM result WHERE id & 4294967295 = {real}",
-               f"UPDATE result SET v0 = v0 / 10 WHERE id & 4294967295 = {real}")
-        told = audit("r", "--rows", "all")
-        says(told, 1, f"differs: {kind} ball, n-rooks, .*: no run writes such a key: dim = 1, where runs write 0",
-             "39 rows drawn, of which 33 agree: these are all")
-        check(told.stdout.count("the stored value is") == 3, f"the real rows: {told}")
-        copy("r", "real")
-        twin("r", f"INSERT INTO series SELECT 404, kind, scene, scene_hash, options, pattern, n, dim, width, height, what, metric, made_by, measured_by "
-                  f"FROM series WHERE {of}")
-        change("r", f"INSERT INTO result SELECT (id >> 32 << 32) + 404, seed, v0, v1, v2, v3 FROM result WHERE id & 4294967295 = (SELECT min(id) {real[10:]}",
-               f"UPDATE result SET v0 = v0 / 10 WHERE id & 4294967295 = (SELECT min(id) {real[10:]}")
-        told = audit("r", "--rows", "all")
-        says(told, 1, "39 rows drawn, of which 36 agree: these are all")
-        check(told.stdout.count("the stored value is") == 3, f"the real rows, with a twin: {told}")
-    # The same row twice, with another value, which a scan would find and a search by the id not: the ids of a table ascend.
-    copy("r", "real")
-    change("r", "INSERT INTO result SELECT id + 4, seed, v0 / 10, v1, v2, v3 FROM result ORDER BY id DESC LIMIT 1", sealed=False)
-    database = sqlite3.connect("r/results.sqlite")
-    (last,) = database.execute("SELECT max(id) FROM result").fetchone()
-    database.close()
-    with open("r/results.sqlite", "rb+") as file:
-        whole = file.read()
-        check(whole.count(varint(last)) == 1, "the row's id in the file")
-        file.seek(0)
-        file.write(whole.replace(varint(last), varint(last - 4)))
-    reseal("r")
-    told = audit("r", "--rows", "all")
-    check(told.returncode == 3 and "database disk image is malformed" in told.stderr, f"one id twice: {told}")
-
-
-def varint(number):
-    """A number of more than 7 bits as SQLite's file format has it."""
-    digits = [number & 127]
-    while number := number >> 7:
-        digits.insert(0, 128 | number & 127)
-    return bytes(digits)
-
-
-def twin(folder, statement):
-    """Executes a statement while the table `series` is not UNIQUE, as a forged file may have it."""
-    path = folder + "/results.sqlite"
-    database = sqlite3.connect(path)
-    database.execute("PRAGMA writable_schema = ON")
-    ((sql,),) = database.execute("SELECT sql FROM sqlite_master WHERE name = 'series'").fetchall()
-    (index,) = database.execute("SELECT * FROM sqlite_master WHERE type = 'index' AND tbl_name = 'series'").fetchall()
-    columns = re.search(r"UNIQUE (\([^)]*\))", sql)[1]
-    database.execute("UPDATE sqlite_master SET name = 'twins', sql = 'CREATE INDEX twins ON series " + columns + "' WHERE name = ?", (index[1],))
-    database.execute("UPDATE sqlite_master SET sql = ? WHERE name = 'series'", (re.sub(r"UNIQUE \([^)]*\)", "CHECK (1)", sql),))
-    database.commit()
-    database.close()
-    change(folder, statement, sealed=False)
-    database = sqlite3.connect(path)
-    database.execute("PRAGMA writable_schema = ON")
-    database.execute("UPDATE sqlite_master SET sql = ? WHERE name = 'series'", (sql,))
-    database.execute("UPDATE sqlite_master SET name = ?, sql = NULL WHERE name = 'twins'", (index[1],))
-    database.commit()
-    database.close()
-
-
-# ---- The draw -------------------------------------------------------------------------------------------------
-
-
-def draw():
-    """Half of the rows are wrong. Each audit has a random seed, which is printed and repeats its draw."""
-    copy("d")
-    change("d", "UPDATE result SET v0 = v0 / 2, v1 = v1 / 2 WHERE id IN (SELECT id FROM result ORDER BY id LIMIT 1000)")
-    seeds = []
-    for _ in range(12):
-        told = audit("d", "--rows", "1")
-        seed = re.search(r"^1 rows drawn with seed (\d+), of which ([01]) agree: ", told.stdout, re.MULTILINE)
-        check(seed, f"a seed is printed: {told}")
-        if seed:
-            seeds.append(int(seed[1]))
-            again = audit("d", "--rows", "1", "-s", seed[1])
-            check((again.stdout, again.returncode) == (told.stdout, told.returncode), f"seed {seed[1]}: {again} {told}")
-    check(len(set(seeds)) == 12 and max(seeds, default=0) > 1 << 32, f"seeds of the operating system: {seeds}")
-    row = json.loads(audit("sound", "--rows", "5", "--json").stdout)
-    check(json.loads(audit("sound", "--rows", "5", "--json", "--seed", str(row["seed"])).stdout) == row, f"seed in JSON: {row}")
-
-
 # ---- Texts ----------------------------------------------------------------------------------------------------
 
 
@@ -514,27 +343,6 @@ def texts():
     check(b'"source":"\xef\xbf\xbd\\u0085\xc3\xa9.txt"' in told.stdout, f"a name that is no UTF-8: {told}")
 
 
-def many():
-    """Each series names another file. Compared with each other, the names would take minutes; the limit is on processor time."""
-    series, limit = (50000, 120) if os.environ.get("KOKSMA_SANITIZED") == "1" else (200000, 30)
-    copy("r")
-    database = sqlite3.connect("r/results.sqlite")
-    database.execute("DELETE FROM series")
-    database.execute("DELETE FROM result")
-    names = [row[1] for row in database.execute("PRAGMA table_info(series)")]
-    key = {name: "" for name in names} | {"kind": "discrepancy", "n": 4, "dim": 2, "width": 0, "height": 0, "what": "star",
-                                          "made_by": "file 0", "measured_by": "star 0"}
-    database.executemany(f"INSERT INTO series VALUES ({','.join(':' + name for name in names)})",
-                         (key | {"id": 4 * i, "pattern": f"file:none{i}"} for i in range(1, series + 1)))
-    database.executemany("INSERT INTO result VALUES (?, 1, 0.5, NULL, NULL, NULL)", ((4 * i,) for i in range(1, series + 1)))
-    database.commit()
-    database.close()
-    told = subprocess.run([KOKSMA, "study", "audit", "r", "--rows", "1"], capture_output=True, text=True,
-                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
-    check(told.returncode == 1 and re.search("^1 rows drawn .* of which 0 agree", told.stdout, re.MULTILINE),
-          f"an audit of {series} series: exit code {told.returncode}: {told.stdout[-300:]}{told.stderr}")
-
-
 def plain(text):
     """Whether no line has a control character, which also U+0080 to U+009F are."""
     return not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", text)
@@ -548,6 +356,6 @@ with own_folder():
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, reasons, families, operands, values, trials, impossible, long_names, keys, revisions, gaps, decoys, draw, texts, many:
+    for part in references, reasons, values, trials, keys, revisions, gaps, texts:
         part()
 end()

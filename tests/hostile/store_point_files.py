@@ -14,7 +14,7 @@ import os
 import shutil
 import subprocess
 
-from stores import KOKSMA, check, end, koksma, own_folder
+from stores import check, end, koksma, own_folder
 
 INCLUDE = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../include"))
 PLUGIN = """#include <koksma/plugin.h>
@@ -144,74 +144,7 @@ def rename_of_a_family():
     check(told.returncode == 0 and "2 rows drawn, of which 2 agree" in told.stdout, f"a study begun anew: {told}")
 
 
-def plans_elsewhere():
-    """A plan's paths start at its folder. In the text of a set of points one begins, in that of an image one a use."""
-    os.makedirs("cw", exist_ok=True)
-    for i, name in enumerate(("a;lens=file:b.txt", "a=file:b.txt", "exec:x;pixel=net-file:y", "a;b=c.txt", "lens=exec:d")):
-        points("cw/" + name, 3)
-        text = plan("cw/plan.json", ["file:" + name])
-        with open(text) as file:
-            whole = json.load(file)
-        whole["tables"] = [{"id": "t", "title": "t", "measure": "l2-star", "n": N, "rows": [{"pattern": "file:" + name, "label": "l", "published": [1]}],
-                            "notes": [{"pattern": "file:" + name, "n": N, "statistic": "mean", "reason": "of a test"}]}]
-        with open(text, "w") as file:
-            json.dump(whole, file)
-        check([row["pattern"] for row in rows(f"elsewhere{i}", text)] == ["file:cw/" + name], f"a plan in a folder: {name}")
-        os.makedirs("here", exist_ok=True)
-        ran = subprocess.run([KOKSMA, "study", "quick", "-p", "file:" + name, "-m", "l2-star", "-n", str(N), "-q", "-o", f"../here/{i}"],
-                             cwd="cw", capture_output=True, text=True, timeout=1800)
-        check(ran.returncode == 0, f"a quick study: {ran}")
-    points("cw/b.txt", 3)
-    for use in "n-rooks;pixel=file:{}b.txt;lens=file:{}b.txt", "file:{}b.txt;lens+time=random;light=file:{}b.txt", "file:{}a=file:b.txt;lens=file:{}b.txt":
-        text = plan("cw/images.json", [use.format("", "")], "images")
-        found = {row["pattern"] for row in rows("uses", text) if row["kind"] == "image"}
-        check(use.format("cw/", "cw/") in found, f"{use}: {found}")
-
-
-def folders():
-    """The name of a plan's folder, or of the current one, may turn a path below it into something else: such a one is named.
-    From the folder itself, and where it means what it says, the same plan runs."""
-    text = json.dumps({"name": "p", "title": "p", "discrepancies": [{"patterns": ["file:one.txt"], "measures": ["star"], "n": [N], "trials": 1}]})
-    image = json.dumps({"name": "p", "title": "p", "images": [{"scenes": ["checker"], "patterns": ["file:one.txt"], "spp": [N], "size": [8, 6],
-                        "trials": 1, "references": [{"name": "r", "pattern": "jittered", "spp": 4}]}]})
-    code = text.replace("file:one.txt", "exec:one.sh")
-    for i, (folder, whole, fits) in enumerate((
-            ("of{n}", text, False), ("of_{seed}", image, False), ("of{n}", code, True), ("x;lens=y", text, True), ("x;lens=y", image, False),
-            ("x;lens=file:y", image, False), ("x;y", image, True), ("a:shift=1", text, True), ("{m}", text, True))):
-        points(folder + "/one.txt", 3)
-        program(folder + "/one.sh", 3)
-        with open(folder + "/p.json", "w") as file:
-            file.write(whole)
-        told = koksma("study", "run", folder + "/p.json", "-o", f"folder{i}", "-q", "--allow-exec")
-        named = f"the plan's folder '{folder}/'" in told.stderr and told.stderr.count("\n") == 1 and not os.path.exists(f"folder{i}")
-        check(told.returncode == 0 if fits else told.returncode == 3 and named, f"{folder}: {told}")
-        for more, quick_fits in ((), fits or "lens" in folder), (("--scene", "ball", "--spp", str(N)), fits and "lens" not in folder):
-            if whole is code and more:
-                continue  # a program is run for each pixel
-            arguments = ["-p", "exec:./one.sh" if whole is code else "file:one.txt", "-m", "star", "-n", str(N), "--trials", "1", "-q", "--allow-exec", *more]
-            told = subprocess.run([KOKSMA, "study", "quick", *arguments, "-o", f"quick{i}{len(more)}"], cwd=folder, capture_output=True, text=True,
-                                  timeout=1800)
-            named = f"the current folder '{os.path.abspath(folder)}'" in told.stderr and not os.path.exists(f"{folder}/quick{i}{len(more)}")
-            check(told.returncode == 0 if quick_fits else told.returncode == 2 and named, f"quick in {folder}: {told}")
-        told = subprocess.run([KOKSMA, "study", "run", "./p.json", "-o", f"here{i}", "-q", "--allow-exec"], cwd=folder, capture_output=True, text=True,
-                              timeout=1800)
-        check(told.returncode == 0, f"in {folder}: {told}")
-
-
-def sheets():
-    """A datasheet takes {n} for a placeholder only in a file of points, and an ending for one only without a pattern."""
-    sheets_of = set()
-    for name in "v", "v{n}.npy":
-        with open(name, "w") as file:
-            file.write("1 1\n2 182667\n")
-        told = koksma("datasheet", "lattice-file:" + name, "--beside", "none", "--scenes", "none", "--quick", "--json")
-        check(told.returncode == 0 and told.stdout, f"a datasheet of {name}: {told.stderr}")
-        text = told.stdout.replace("'", "").replace("lattice-file:" + name, "SPEC")  # commands quote braces
-        sheets_of.add(text[:text.rfind('"seconds"')])
-    check(len(sheets_of) == 1, "the same vector has the same sheet under each name")
-
-
 with own_folder():
-    for part in change_each, change_one_use, rename_of_a_family, plans_elsewhere, folders, sheets:
+    for part in change_each, change_one_use, rename_of_a_family:
         part()
 end()
