@@ -59,8 +59,9 @@ if(PNG_IN)
   target_compile_definitions(koksma-pictures INTERFACE KOKSMA_PNG)
   target_link_libraries(koksma-pictures INTERFACE PkgConfig::PNG)
 endif()
-# Of OpenEXR its C library.
+# Of OpenEXR its C library, and for the compressions that this lacks the C++ one through its C face.
 if(EXR_IN)
+  find_library(OPENEXR_LIBRARY NAMES OpenEXR-3_1 OpenEXR REQUIRED)
   find_library(OPENEXR_CORE_LIBRARY NAMES OpenEXRCore-3_1 OpenEXRCore REQUIRED)
 endif()
 

@@ -41,12 +41,12 @@ def attribute(name, kind, value):
     return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(value)) + value
 
 
-def exr(width, height, tile, channels):
-    """Tiled, floats; zeros in ZIP (3), which its predictor makes bytes of 128."""
+def exr(width, height, tile, channels, compression=3):
+    """Tiled, floats; zeros in ZIP (3), which its predictor makes bytes of 128. In DWAB (9) no pixels: only its head is right."""
     names = sorted(["R", "G", "B"] + [f"x{i:05}" for i in range(channels - 3)])
     entries = b"".join(name.encode() + b"\0" + struct.pack("<IBxxxII", 2, 0, 1, 1) for name in names) + b"\0"
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    head = (b"\x76\x2f\x31\x01\x02\x02\0\0" + attribute("channels", "chlist", entries) + attribute("compression", "compression", b"\3")
+    head = (b"\x76\x2f\x31\x01\x02\x02\0\0" + attribute("channels", "chlist", entries) + attribute("compression", "compression", bytes([compression]))
             + attribute("dataWindow", "box2i", window) + attribute("displayWindow", "box2i", window)
             + attribute("lineOrder", "lineOrder", b"\0") + attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
             + attribute("screenWindowCenter", "v2f", bytes(8)) + attribute("screenWindowWidth", "float", struct.pack("<f", 1))
@@ -123,6 +123,7 @@ def main():
         check("EXR of more", "h.exr", exr(2 * side, side, side, 3)[:4096], 1 << 20, 0, "h.exr")
         check("EXR with tiles of 40 channels", "i.exr", exr(256, 256, 256, 40), 0, 16)
         check("EXR with tiles of 400 channels", "j.exr", exr(1024, 1024, 1024, 400), 0, 0, "j.exr", "256 MiB")
+        check("DWAB with tiles of 400 channels", "k.exr", exr(1024, 1024, 1024, 400, 9), 0, 0, "k.exr", "256 MiB")
         check("EXR of 100,000 channels", "r.exr", exr(16, 16, 16, 100000), 0, 64, "r.exr", "more than 4096")
         many = exr(16, 16, 16, 3)
         at = many.index(b"compression\0")

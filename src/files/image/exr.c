@@ -4,10 +4,9 @@
  * file is read or written, does the reading and writing.
  *
  * OpenEXR takes time quadratic in the numbers of attributes and channels: 100,000 channels, in 2.4 MB, take a minute. So
- * both are counted, over all parts of a file, before OpenEXR sees the file. Films have some hundreds of channels.
- *
- * OpenEXRCore 3.1.5 lacks DWAA and DWAB, and decodes B44 and B44A wrongly without an error: those four, and compressions
- * of later versions, are refused by name.
+ * both are counted, over all parts of a file, before OpenEXR sees the file. Films have some hundreds of channels. Its C++
+ * library, which reads some files, allocates as much memory as the attributes claim, and ignores the stated size of some
+ * types: both are checked here.
  *
  * The attribute `chromaticities` says which colours red, green, blue and white are; without it they are those of Rec. 709,
  * as everywhere here. Colours of others are converted: to CIE XYZ, and from there, without adaptation to another white.
@@ -29,7 +28,7 @@ static bool recognises(const unsigned char *bytes, size_t size)
     return size >= 4 && !memcmp(bytes, magic, 4);
 }
 
-enum { MOST_ATTRIBUTES = 4096, MOST_CHANNELS = 4096, FIRST_REFUSED = 6 };
+enum { MOST_ATTRIBUTES = 4096, MOST_CHANNELS = 4096 };
 
 static uint32_t word_at(const unsigned char *b)
 {
@@ -43,14 +42,56 @@ static size_t skip_text(const unsigned char *bytes, size_t size, size_t at)
     return end ? (size_t)(end - bytes) + 1 : size;
 }
 
-/* A channel is its name with a zero byte and 16 more bytes; an empty name ends the list. */
-static size_t count_channels(const unsigned char *value, size_t size)
+/* A channel is its name with a zero byte and 16 more bytes; an empty name ends the list. *whole: whether the list has
+   exactly `size` bytes. */
+static size_t count_channels(const unsigned char *value, size_t size, bool *whole)
 {
-    size_t n = 0;
-    for (size_t at = 0; at < size && value[at]; n++) {
+    size_t n = 0, at = 0;
+    for (; at < size && value[at]; n++) {
         at = skip_text(value, size, at) + 16;
     }
+    *whole = at + 1 == size;
     return n;
+}
+
+/* Whether a value's stated size is that of its type, for the types in the table below. For these the C++ library
+   ignores the stated size: if it differed from the type's, the library would find the next attribute at another
+   position than readers that use the stated size. For all other types the C++ library uses the stated size. */
+static bool value_fits(const char *type, size_t size)
+{
+    static const struct {
+        const char *type;
+        size_t size;
+    } known[] = {{"box2i", 16},
+                 {"box2f", 16},
+                 {"chromaticities", 32},
+                 {"compression", 1},
+                 {"deepImageState", 1},
+                 {"double", 8},
+                 {"envmap", 1},
+                 {"float", 4},
+                 {"int", 4},
+                 {"keycode", 28},
+                 {"lineOrder", 1},
+                 {"m33f", 36},
+                 {"m33d", 72},
+                 {"m44f", 64},
+                 {"m44d", 128},
+                 {"rational", 8},
+                 {"tiledesc", 9},
+                 {"timecode", 8},
+                 {"v2i", 8},
+                 {"v2f", 8},
+                 {"v2d", 16},
+                 {"v3i", 12},
+                 {"v3f", 12},
+                 {"v3d", 24}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (!strcmp(known[i].type, type)) {
+            return size == known[i].size;
+        }
+    }
+    return true;
 }
 
 /* What the header of the first part says: the place of its chromaticities, or NULL, and its compression. */
@@ -80,10 +121,10 @@ static koksma_status check_header(const unsigned char *bytes, size_t size, heade
         const size_t left = size - length < 4 ? 0 : size - length - 4;
         const size_t value = left ? word_at(bytes + length) : SIZE_MAX;
         const unsigned char *from = bytes + length + 4;
-        fits = value <= left;
+        fits = value <= left && value_fits((const char *)bytes + type, value);
         if (fits) {
             attributes++;
-            channels += strcmp((const char *)bytes + type, "chlist") ? 0 : count_channels(from, value);
+            channels += strcmp((const char *)bytes + type, "chlist") ? 0 : count_channels(from, value, &fits);
             if (first) {
                 note_attribute((const char *)bytes + at, from, value, out);
             }
@@ -181,22 +222,29 @@ static koksma_status convert(const unsigned char *chromaticities, koksma_image *
 
 /* ---- Reading and writing -------------------------------------------------------------------------------- */
 
-/* Names a compression that is not read. */
+/* Names a compression that is newer than OpenEXR 3.3, of which the library here does not know the number. */
 static koksma_status fail_compression(int compression)
 {
-    static const char *const names[] = {"B44", "B44A", "DWAA", "DWAB", "HTJ2K256", "HTJ2K32"};
-    const size_t i = (size_t)(compression - FIRST_REFUSED);
-    return koksma__fail(KOKSMA_MALFORMED,
-                        "as an EXR: its compression, number %d, is %s, which is not read; write it with ZIP",
-                        compression, i < sizeof names / sizeof *names ? names[i] : "of an unknown kind");
+    static const char *const names[] = {"HTJ2K256", "HTJ2K32"}; /* 10 and 11, of OpenEXR 3.4 */
+    char name[40] = "of an unknown kind";
+    if (compression < 12) {
+        snprintf(name, sizeof name, "%s", names[compression - 10]);
+    }
+    return koksma__fail(
+        KOKSMA_MALFORMED,
+        "as an EXR: its compression, number %d, is %s, which the OpenEXR library of this build does not "
+        "read; write it with ZIP",
+        compression, name);
 }
 
 static koksma_status read(const unsigned char *bytes, size_t size, koksma__image_part part, koksma_image *out)
 {
     header h = {.compression = 0};
     KOKSMA__TRY(check_header(bytes, size, &h));
-    KOKSMA__TRY(h.compression >= FIRST_REFUSED ? fail_compression(h.compression) : KOKSMA_OK);
     const koksma_status status = koksma__codec_read(&module, bytes, size, out);
+    if (status == KOKSMA_MALFORMED && h.compression >= 10) {
+        return fail_compression(h.compression);
+    }
     return status || part == KOKSMA__IMAGE_NUMBERS || !h.chromaticities ? status : convert(h.chromaticities, out);
 }
 

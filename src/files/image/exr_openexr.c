@@ -3,15 +3,26 @@
  * The module koksma-exr.so reads and writes EXR files by the C library OpenEXRCore. It reads a file's first part, in
  * scan lines or tiles, with channels R G B or Y (or a single channel of any name); it writes floats, ZIP-compressed.
  *
+ * OpenEXRCore 3.1.5 lacks DWAA and DWAB, and decodes B44 and B44A wrongly without an error: those four are read by the C
+ * interface of OpenEXR's C++ library. That interface opens files only by name, so the bytes are copied to a file in
+ * memory (memfd). It returns half floats. It keeps its last error in a variable that all threads share: the text of
+ * an error may be that of another thread, but the status is right.
+ *
  * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
  * reader takes such a stream for uncompressed pixels. So a file with a chunk of that length is read back after writing;
  * if a bit differs, the file is written again without compression.
  */
+#define _GNU_SOURCE /* memfd_create */
+#include <errno.h>
 #include <math.h>
 #include <openexr.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <OpenEXR/ImfCRgbaFile.h>
 
 #include "image/codec.h"
 #include "modules/module_side.h"
@@ -100,6 +111,96 @@ static int count_channels(const exr_attr_chlist_t *list)
     return rgb == 3 ? 3 : y || list->num_channels == 1 ? 1 : 0;
 }
 
+/* ---- B44 and DWA ------------------------------------------------------------------------------------- */
+
+/* Fails with the library's message, without the name of the file in memory, which it has in quotes. */
+static koksma_status fail_rgba(const char *path)
+{
+    char name[72];
+    const char *text = ImfErrorMessage();
+    const int length = snprintf(name, sizeof name, " \"%s\"", path);
+    const char *at = strstr(text, name);
+    return koksma__fail(KOKSMA_MALFORMED, "as an EXR: %.*s%s", at ? (int)(at - text) : (int)strlen(text), text,
+                        at ? at + length : "");
+}
+
+static koksma_status read_rgba_pixels(ImfInputFile *file, const char *path, size_t size, int channels, bool wide,
+                                      koksma_image *out)
+{
+    int low_x, low_y, high_x, high_y;
+    ImfHeaderDataWindow(ImfInputHeader(file), &low_x, &low_y, &high_x, &high_y);
+    KOKSMA__TRY(KOKSMA__CODEC_HOST->image_claim((long long)high_x - low_x + 1, (long long)high_y - low_y + 1,
+                                                channels, size, 4096, out));
+    const size_t width = (size_t)out->width;
+    ImfRgba *row = malloc(width * sizeof *row);
+    KOKSMA__REQUIRE_MEMORY(row, width * sizeof *row);
+    bool whole = true, fits = true;
+    for (int y = low_y; whole && y <= high_y; y++) {
+        /* the library expects the address that pixel (0, 0) would have */
+        ImfRgba *base = (ImfRgba *)((uintptr_t)row - (uintptr_t)((ptrdiff_t)low_x * (ptrdiff_t)sizeof *row));
+        whole = ImfInputSetFrameBuffer(file, base, 1, 0) && ImfInputReadPixels(file, y, y);
+        for (size_t x = 0; whole && x < width; x++) {
+            const float colour[3] = {ImfHalfToFloat(row[x].r), ImfHalfToFloat(row[x].g), ImfHalfToFloat(row[x].b)};
+            const size_t at = width * (size_t)(y - low_y) + x;
+            for (size_t k = 0; k < (size_t)channels; k++) {
+                out->pixels[at * (size_t)channels + k] = colour[k];
+                fits &= !wide || isfinite(colour[k]);
+            }
+        }
+    }
+    free(row);
+    if (!whole) {
+        return fail_rgba(path);
+    }
+    return fits ? KOKSMA_OK
+                : koksma__fail(KOKSMA_MALFORMED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
+}
+
+/* wide: whether the file's numbers are not halves; one that is too large for a half is then an error. */
+static koksma_status read_halves(const unsigned char *bytes, size_t size, int channels, bool wide, koksma_image *out)
+{
+    char path[64];
+    const int descriptor = memfd_create("koksma", MFD_CLOEXEC);
+    ssize_t n = descriptor < 0 ? -1 : 0;
+    for (size_t done = 0; n >= 0 && done < size; done += (size_t)(n > 0 ? n : 0)) {
+        n = write(descriptor, bytes + done, size - done);
+    }
+    koksma_status status = KOKSMA_OK;
+    if (n < 0) {
+        status = koksma__fail(KOKSMA_SYSTEM, "as an EXR: can't make a file in memory: %s", strerror(errno));
+    } else {
+        snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
+        ImfInputFile *file = ImfOpenInputFile(path);
+        status = file ? read_rgba_pixels(file, path, size, channels, wide, out) : fail_rgba(path);
+        if (file) {
+            ImfCloseInputFile(file);
+        }
+    }
+    if (descriptor >= 0) {
+        close(descriptor);
+    }
+    return status;
+}
+
+/* Reads such a file. Y is accepted only as the single channel, because OpenEXR's library turns Y beside
+   other channels into colours. */
+static koksma_status read_rgba(const source *s, const exr_attr_chlist_t *list, int channels, koksma_image *out)
+{
+    bool y = false, others = false, wide = false;
+    for (int i = 0; i < list->num_channels; i++) {
+        const char *name = list->entries[i].name.str;
+        y |= !strcmp(name, "Y");
+        others |= !strcmp(name, "RY") || !strcmp(name, "BY") || (channels == 1 && colour(name, 3) >= 0);
+        wide |= list->entries[i].pixel_type != EXR_PIXEL_HALF;
+    }
+    return others || y != (channels == 1)
+               ? koksma__fail(KOKSMA_MALFORMED,
+                              "as an EXR: of B44 and DWA files only those with R, G, B or with Y alone are read")
+               : read_halves(s->bytes, s->size, channels, wide, out);
+}
+
+/* ---- All others --------------------------------------------------------------------------------------- */
+
 /* Points the decoder's channels at the pixels of the chunk whose first pixel is (x, y). */
 static void aim(exr_decode_pipeline_t *decoder, koksma_image *image, int x, int y)
 {
@@ -186,8 +287,20 @@ static exr_result_t read_tiles(exr_const_context_t file, exr_decode_pipeline_t *
     return r;
 }
 
+/* Whether a tile is at most as large as the image, or at most 2048 x 2048 pixels: OpenEXR's C++ library allocates
+   memory for whole tiles. */
+static bool tiles_fit(exr_const_context_t file, const exr_attr_box2i_t *window)
+{
+    uint32_t width, height;
+    exr_tile_level_mode_t levels;
+    exr_tile_round_mode_t rounding;
+    const double image = ((double)window->max.x - window->min.x + 1) * ((double)window->max.y - window->min.y + 1);
+    return !exr_get_tile_descriptor(file, 0, &width, &height, &levels, &rounding) &&
+           (double)width * height <= fmax(image, 2048.0 * 2048.0);
+}
+
 /* Whether a chunk, which is a tile or some lines, has at most 256 MiB, or at most 16 bytes for each pixel of the
-   image: the library allocates memory for all its channels, also for those that are not read. */
+   image: the libraries allocate memory for all its channels, also for those that are not read. */
 static bool chunks_fit(exr_const_context_t file, bool tiled, const exr_attr_box2i_t *window,
                        const exr_attr_chlist_t *list)
 {
@@ -210,8 +323,10 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
 {
     exr_storage_t storage;
     exr_attr_box2i_t window;
+    exr_compression_t compression;
     const exr_attr_chlist_t *list;
     exr_result_t r = exr_get_storage(file, 0, &storage);
+    r = r ? r : exr_get_compression(file, 0, &compression);
     r = r ? r : exr_get_data_window(file, 0, &window);
     r = r ? r : exr_get_channels(file, 0, &list);
     if (r) {
@@ -225,8 +340,13 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
         KOKSMA__FAIL_IF(list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1, KOKSMA_MALFORMED,
                         "as an EXR: subsampled channels are not read");
     }
+    KOKSMA__FAIL_IF(storage == EXR_STORAGE_TILED && !tiles_fit(file, &window), KOKSMA_MALFORMED,
+                    "as an EXR: its tiles are larger than the image");
     KOKSMA__FAIL_IF(!chunks_fit(file, storage == EXR_STORAGE_TILED, &window, list), KOKSMA_MALFORMED,
                     "as an EXR: its chunks have more than 256 MiB");
+    if (compression >= EXR_COMPRESSION_B44) { /* the last four: B44, B44A, DWAA, DWAB */
+        return read_rgba(s, list, channels, out);
+    }
     const koksma_status status =
         KOKSMA__CODEC_HOST->image_claim((long long)window.max.x - window.min.x + 1,
                                         (long long)window.max.y - window.min.y + 1, channels, s->size, 1032, out);
