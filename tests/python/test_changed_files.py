@@ -91,14 +91,6 @@ class Libraries(Folder):
                 with self.assertRaisesRegex(koksma.MalformedError, "the file has changed since"):
                     value()
 
-    def test_equal_names_in_two_folders_are_two_libraries(self):
-        for folder, x in (("a", 0.5), ("b", 0.25)):
-            self.build(f"{folder}/s.so", x)
-            os.chdir(folder)
-            with koksma.allow_exec():
-                self.assertEqual(koksma.measure(koksma.generate("plugin:./s.so", 1), "star").value, star(x))
-            os.chdir("..")
-
 
 class Files(Folder):
     """Each run of an open study looks at its files anew, as a study that is opened then does."""
@@ -120,48 +112,6 @@ class Files(Folder):
                 self.write("one.txt", x)
                 self.assertEqual(study.run().done_now, 0)
             self.assertEqual(sorted(value[3] for value in self.values(study)), sorted(map(star, (0.5, 0.25, 0.75))))
-
-    def test_a_file_more(self):
-        """The rows are those of a study opened before it and of one opened after it."""
-        expected, plan = [], self.plan("file:p_{n}_{seed}.txt")
-        for seed in (1, 2):
-            self.write(f"p_1_{seed}.txt", seed / 8)
-        with koksma.Study(plan, "open") as study:
-            for new in ("before", "after"):
-                study.run()
-                with koksma.Study(plan, new) as other:
-                    other.run()
-                    expected += self.values(other)
-                self.write("p_1_3.txt", 3 / 8)
-            self.assertEqual(self.values(study), sorted(expected))
-        self.assertEqual(sorted(value[2:] for value in expected), sorted((seed, star(seed / 8)) for seed in (1, 2, 1, 2, 3)))
-
-    def test_images(self):
-        """The same of images and their references, of which one file is for both."""
-        block = {"scenes": ["checker"], "patterns": ["file:one.txt", "random"], "spp": [1], "size": [8, 6], "trials": 2,
-                 "references": [{"name": "r", "pattern": "file:one.txt", "spp": 1}]}
-        plan, expected = {"name": "m", "title": "M", "images": [block]}, []
-        self.write("one.txt", 0.5)
-        with koksma.Study(plan, "open") as study:
-            for x in (0.5, 0.25):
-                self.write("one.txt", x)
-                self.assertEqual(study.run().done_now, 4)
-                with koksma.Study(plan, f"new{x}") as new:
-                    new.run()
-                    expected += self.values(new, "image")
-            self.assertEqual(self.values(study, "image"), sorted(expected))
-
-    def test_a_report(self):
-        """It has the rows of the files as they are, and so none after a change."""
-        self.write("one.txt", 0.5)
-        with koksma.Study(self.plan("file:one.txt"), "out") as study:
-            study.run()
-            for x, has in ((0.5, True), (0.25, False), (0.5, True)):
-                self.write("one.txt", x)
-                self.assertEqual(study.undone(), 0 if has else 1)
-                report = study.report().with_suffix(".json").read_text()
-                self.assertEqual(" jobs have no rows" in report, not has)
-                self.assertEqual(str([star(0.5)] * 3).replace(" ", "") in report.replace(" ", ""), has, x)
 
 
 if __name__ == "__main__":

@@ -19,19 +19,6 @@ SETS = ["n-rooks", "latin-hypercube"]
 WITHOUT_SCIPY = sys.modules.get("scipy", sys) is None  # the second run, which WithoutScipy starts
 
 
-def usable(specs):
-    names = {p.name for p in koksma.patterns()}
-    good = []
-    for spec in specs:
-        if spec.split(":")[0] in names:
-            try:
-                koksma.canonical(spec)
-                good.append(spec)
-            except ValueError:
-                pass
-    return good
-
-
 class OnUse(unittest.TestCase):
     """scipy takes most of a second to import: koksma imports it when Engine is used first."""
 
@@ -59,18 +46,15 @@ class OnUse(unittest.TestCase):
 
 
 class Engines(unittest.TestCase):
-    def test_some_of_each_kind(self):
-        self.assertGreaterEqual(len(usable(SEQUENCES)), 3)
-        self.assertGreaterEqual(len(usable(SETS)), 1)
 
     def each(self, specs):
-        for spec in usable(specs):
+        for spec in specs:
             for seed in (12, np.random.default_rng(5), np.random.RandomState(5), None):
                 with self.subTest(spec=spec, seed=seed):
                     yield spec, Engine(spec, 2, seed=seed)
 
     def test_sample(self):
-        for spec in usable(SEQUENCES + SETS):
+        for spec in SEQUENCES + SETS:
             with self.subTest(spec=spec):
                 engine = Engine(spec, 2, seed=12)
                 sample = engine.random(8)
@@ -149,12 +133,8 @@ class Engines(unittest.TestCase):
                     else:
                         np.testing.assert_array_equal(engine.random()[0], whole[i])
 
-    def test_sets_differ(self):
-        for _spec, engine in self.each(SETS):
-            self.assertFalse(np.array_equal(engine.random(8), engine.random(8)))
-
     def test_generator_decides(self):
-        for spec in usable(["random", "n-rooks"]):
+        for spec in ["random", "n-rooks"]:
             a = Engine(spec, 2, seed=np.random.default_rng(3)).random(8)
             b = Engine(spec, 2, seed=np.random.default_rng(3)).random(8)
             np.testing.assert_array_equal(a, b)
@@ -181,7 +161,7 @@ class Engines(unittest.TestCase):
             Engine("no-such")
 
     def test_distribution(self):
-        for spec in usable(["sobol:scramble=owen", "halton:scramble=owen", "n-rooks", "random"]):
+        for spec in ["sobol:scramble=owen", "halton:scramble=owen", "n-rooks", "random"]:
             for dim in (1, 2, 5):
                 with self.subTest(spec=spec, dim=dim):
                     sample = Engine(spec, dim, seed=3).random(1024)
@@ -196,14 +176,6 @@ class Engines(unittest.TestCase):
         for bad in (-1, 2.5, "3"):
             with self.assertRaises((ValueError, TypeError)):
                 Engine("halton", 2).random(bad)
-
-    def test_small_types_of_numbers(self):  # with NumPy 2, uint8 + 3 is a uint8
-        for spec in ("sobol", "n-rooks"):
-            engine = Engine(spec, np.uint8(2), seed=1)
-            shapes = [engine.random(np.uint8(n)).shape for n in (3, 200, 200)]
-            self.assertEqual(shapes, [(3, 2), (200, 2), (200, 2)])
-            self.assertEqual(engine.fast_forward(np.uint8(200)).fast_forward(np.uint8(100)).num_generated, 703)
-            self.assertIs(type(engine.num_generated), int)
 
     def test_numbers_out_of_range(self):
         for spec in ("sobol", "n-rooks"):
@@ -250,54 +222,6 @@ class Engines(unittest.TestCase):
         with self.assertRaises(TypeError):
             Engine("random", seed=3, rng=3)
 
-    def test_balance(self):
-        for m in range(1, 9):  # as scipy's Sobol.random_base2: each half, quarter, .. has its share
-            sample = Engine("sobol:scramble=owen", 4, seed=m).random(1 << m)
-            counts = np.array([np.bincount((column * (1 << m)).astype(int), minlength=1 << m) for column in sample.T])
-            np.testing.assert_array_equal(counts, 1)
-
-    def test_fast_forward_far(self):
-        for spec in usable(["sobol", "halton", "r-sequence", "random"]):
-            np.testing.assert_array_equal(Engine(spec, 2, seed=1).fast_forward(1000).random(24),
-                                          koksma.generate(spec, 1024, 2, 1)[1000:])
-
-    def test_own_generator_is_left_alone(self):
-        np.random.seed(5)
-        before = np.random.get_state()[1].copy()
-        Engine("random", 2, seed=4).random(16)
-        np.testing.assert_array_equal(np.random.get_state()[1], before)
-
-    def test_discrepancies_are_scipys(self):
-        try:
-            from scipy.stats import qmc
-        except ImportError:
-            self.skipTest("scipy is not installed")
-        for seed in range(3):
-            sample = Engine("random", 3, seed=seed).random(50)
-            for measure, method, power in (("l2-centered", "CD", 2), ("l2-wraparound", "WD", 2), ("l2-mixture", "MD", 2),
-                                           ("l2-star", "L2-star", 1)):
-                self.assertAlmostEqual(float(koksma.measure(sample, measure))**power, qmc.discrepancy(sample, method=method),
-                                       places=12)
-
-    def test_optimizer_of_scipys(self):
-        try:
-            from scipy.stats import qmc
-        except ImportError:
-            self.skipTest("scipy is not installed")
-        with self.assertRaises(ValueError):
-            Engine("random", 2, optimization="toto")
-        engine = Engine("n-rooks", 2, seed=8, optimization="random-cd")
-        for _ in range(2):
-            sample = engine.random(8)
-            np.testing.assert_array_equal(np.sort((sample * 8).astype(int), axis=0), np.arange(8)[:, None] * [1, 1])
-        scaled = qmc.scale(sample, [-1, 2], [1, 5])
-        self.assertTrue(((scaled >= [-1, 2]) & (scaled <= [1, 5])).all())
-
-    def test_another_of_its_kind(self):  # as scipy makes them
-        engine = Engine("halton", 3, seed=1)
-        other = type(engine)(seed=2, **engine._init_quad)
-        np.testing.assert_array_equal(other.random(8), koksma.generate("halton", 8, 3, 2))
-
     def test_quadrature_of_scipys(self):
         try:
             from scipy.integrate import qmc_quad
@@ -326,18 +250,6 @@ class Engines(unittest.TestCase):
             found = sobol_indices(func=values, n=4096)
             np.testing.assert_allclose(found.first_order, [0.3139, 0.4424, 0], atol=0.02)
             np.testing.assert_allclose(found.total_order, [0.5576, 0.4424, 0.2437], atol=0.02)
-
-    def test_is_scipys(self):
-        try:
-            from scipy.stats import qmc
-        except ImportError:
-            self.skipTest("scipy is not installed")
-        engine = Engine("sobol", 2)
-        self.assertIsInstance(engine, qmc.QMCEngine)
-        sample = Engine("random", 2, seed=1, optimization="random-cd").random(8)
-        self.assertLess(qmc.discrepancy(sample), qmc.discrepancy(Engine("random", 2, seed=1).random(8)))
-        law = qmc.MultivariateNormalQMC(mean=[0, 0], engine=Engine("sobol", 2, seed=2).fast_forward(1))
-        self.assertEqual(law.random(8).shape, (8, 2))
 
     def test_distributions_of_scipys(self):
         """What draws from an engine of the caller's: means, covariances and counts are those of the distributions."""

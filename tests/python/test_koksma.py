@@ -3,29 +3,21 @@
 """The Python package against the program KOKSMA (in the environment) and against numpy."""
 import builtins
 import copy
-import ctypes
-import dataclasses
 import gc
-import inspect
 import json
 import os
 import pathlib
-import pickle
-import signal
 import subprocess
 import sys
 import tempfile
 import threading
-import time
-import typing
 import unittest
 from unittest import mock
 
 import numpy as np
 
 import koksma
-from koksma._signals import Signals
-from koksma import _library, _points, _render, _structs
+from koksma import _library, _points
 
 PROGRAM = os.environ["KOKSMA"]
 
@@ -136,12 +128,6 @@ class Points(unittest.TestCase):
         expected = 3.0**-d - np.prod((1 - x**2) / 2, axis=1).sum() * 2 / n + pairs
         self.assertAlmostEqual(koksma.measure(x, "l2-star").value**2, expected, places=14)
 
-    def test_warps(self):
-        points = koksma.generate("jittered", 64)
-        self.assertGreater(float(koksma.measure(points, "edge", warp="polar-disk")), 0)
-        with self.assertRaisesRegex(koksma.ArgumentError, "no warp 'nowhere'"):
-            koksma.measure(points, "edge", warp="nowhere")
-
     def test_verify(self):
         found = {(f.property, f.subject): f for f in koksma.verify(koksma.generate("sobol", 64))}
         self.assertTrue(found["net-base-2", "0,1"].holds)
@@ -202,21 +188,6 @@ class Errors(unittest.TestCase):
             file.flush()
             with self.assertRaisesRegex(koksma.MalformedError, "line 2"):
                 koksma.read(file.name)
-
-    def test_control_c(self):
-        self.addCleanup(signal.signal, signal.SIGINT, signal.getsignal(signal.SIGINT))
-        signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background may be started with it ignored
-
-        def press():  # when the library has the handlers
-            while not isinstance(signal.getsignal(signal.SIGINT), Signals):
-                time.sleep(0.001)
-            os.kill(os.getpid(), signal.SIGINT)
-
-        points, thread = koksma.generate("random", 1000, 6), threading.Thread(target=press)
-        with self.assertRaises(KeyboardInterrupt):
-            thread.start()
-            koksma.measure(points, "star")
-        thread.join()
 
     def test_time_limit_gives_bounds(self):
         value = koksma.measure(koksma.generate("random", 500, 6), "star", time_limit=0.2)
@@ -308,35 +279,11 @@ class Rankings(unittest.TestCase):
         self.assertTrue(0 < twice.first.behind_interval[0] < twice.first.behind < twice.first.behind_interval[1])
         self.assertIsNone(ranking.needed_trials)
 
-    def test_bands_are_not_advised(self):
-        ranking = koksma.rank("checker-45", ["zaremba", "jittered"], 4, size=(48, 36), time_limit=None, one_size=True)
-        first, second = ranking.rows
-        self.assertEqual((ranking.best, ranking.advised), ("zaremba", "jittered"))
-        self.assertEqual((first.coherent, second.coherent), (True, False))
-        self.assertGreater(first.coherence, first.coherence_noise)
-        self.assertLess(first.coherence_p, 0.005)
-        self.assertLess(second.coherence_interval[0], second.coherence)
-        only = koksma.rank("checker-45", ["zaremba"], 4, size=(48, 36), time_limit=None, one_size=True)
-        self.assertEqual((only.best, only.advised), ("zaremba", None))
-
-    def test_undecided(self):
-        ranking = koksma.rank("checker", ["n-rooks", "multi-jittered", "jittered"], 7, size=(8, 6), max_trials=8,
-                              one_size=True, time_limit=None)
-        self.assertEqual(ranking.rows[-1].state, "refused")
-        self.assertIn("jittered", ranking.rows[-1].reason)
-        self.assertIsNone(ranking.rows[-1].position)
-
     def test_a_short_time_is_no_error(self):
         ranking = koksma.rank("balls", ["n-rooks", "random"], 65536, size=(640, 480), time_limit=1e-3)
         self.assertEqual((ranking.best, ranking.cut_short), (None, True))
         self.assertEqual({row.state for row in ranking.rows}, {"too-slow"})
         self.assertTrue(ranking.needed_seconds is None or ranking.needed_seconds > 0)  # None: before the first ray
-
-    def test_arguments(self):
-        for wrong in ({"patterns": []}, {"patterns": ["random", "random"]}, {"time_limit": 0}, {"max_trials": 7},
-                      {"integrator": "none"}, {"size": (0, 1)}):
-            with self.assertRaises(koksma.ArgumentError):
-                koksma.rank("checker", **wrong)
 
 
 class OddArrays(unittest.TestCase):
@@ -363,11 +310,6 @@ class OddArrays(unittest.TestCase):
             for function in (koksma.measure, koksma.verify):
                 with self.subTest(bad=bad, function=function.__name__), self.assertRaises(ValueError):
                     function(bad)
-
-    def test_points_of_no_size(self):
-        for shape in ((0, 2), (3, 0), (4,)):
-            with self.subTest(shape), self.assertRaisesRegex(koksma.ArgumentError, r"n and dim of at least 1, not \(" + str(shape[0])):
-                koksma.measure(np.zeros(shape), "star")
 
     def test_what_is_no_number(self):
         for arguments in ({"n": 1.5}, {"n": "4"}, {"n": 4, "dim": 2.5}, {"n": 4, "seed": 1.5}, {"n": 4, "seed": "1"}):
@@ -531,85 +473,8 @@ class Again(unittest.TestCase):
                 with self.assertRaises(TypeError):
                     koksma.generate(pattern, **wrong)
 
-    def test_members_are_read_when_asked_for(self):
-        points, fields = koksma.generate("random", 16), MEMBERS
-        whole = members(koksma.measure(points))
-        for name in fields:  # whichever is first
-            value = koksma.measure(points)
-            self.assertEqual(repr(getattr(value, name)), repr(getattr(koksma.measure(points), name)))
-            self.assertEqual(members(value), whole)
-        for same in (pickle.loads(pickle.dumps(koksma.measure(points))), copy.deepcopy(koksma.measure(points))):
-            self.assertEqual(members(same), whole)
-        self.assertFalse(hasattr(koksma.measure(points), "valu"))
-        with self.assertRaises(AttributeError):
-            koksma.measure(points).value = 1
-
-
-class Speed(unittest.TestCase):
-    def test_bulk_rate_is_that_of_c(self):
-        n, run = 1 << 20, _structs.Run(1, 0.0, _structs.KeepGoing(0), None)
-        out = np.zeros((n, 2))
-        parsed, points = _library.spec("pattern", "sobol"), _points.view(out)
-
-        def best(function):
-            times = []
-            for _ in range(9):  # processor time of this thread: what others do does not count
-                start = time.thread_time()
-                function()
-                times.append(time.thread_time() - start)
-            return min(times)
-
-        for _ in range(3):
-            c = best(lambda: _library.core().koksma_generate(ctypes.byref(parsed), 7, ctypes.byref(run), ctypes.byref(points)))
-            python = best(lambda: koksma.generate("sobol", n, seed=7, threads=1, out=out))
-            if c > 0.8 * python:
-                break
-        self.assertGreater(c, 0.8 * python)
-
 
 class Memory(unittest.TestCase):
-    def test_what_a_late_signal_leaves_is_freed(self):
-        def late(*arguments, **options):
-            _library.call(*arguments, **options)
-            raise KeyboardInterrupt
-
-        for library, fini, member, function in (
-                (_library.core(), "koksma_points_fini", "xs", lambda: koksma.generate("poisson-disk-maximal:d=0.1")),
-                (_library.lab(), "koksma_image_fini", "pixels", lambda: koksma.render("ball", spp=1, size=(8, 8)))):
-            freed, really = [], getattr(library, fini)
-
-            def noting(reference):
-                freed.append(bool(getattr(reference._obj, member)))
-                really(reference)
-
-            with mock.patch.object(_points, "call", late), mock.patch.object(_render, "call", late), \
-                    mock.patch.object(library, fini, noting), self.assertRaises(KeyboardInterrupt):
-                function()
-            self.assertEqual(freed, [True])
-
-
-    def test_shapes_leave_nothing(self):
-        """ctypes keeps what types it makes of arrays."""
-        def types():
-            gc.collect()
-            return sum(isinstance(thing, type) for thing in gc.get_objects())
-
-        def shapes(first):
-            for n in range(first, first + 1000):
-                points = koksma.generate("file:" + path, dim=n)
-                self.assertEqual((points.shape, points[0, -1]), ((1, n), (n - 1) / 4096))
-            for n in range(first // 50, first // 50 + 20):
-                self.assertEqual(koksma.render("balls", spp=1, size=(n + 1, 2)).shape, (2, n + 1, 3))
-                self.assertEqual(koksma.spectrum(points[:, :2], n + 1).power.shape, (2 * n + 3, 2 * n + 3))
-
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "p.npy")
-            np.save(path, np.arange(4096)[None, :] / 4096)
-            shapes(1)
-            before = types()
-            shapes(1001)
-            shapes(2001)
-            self.assertLess(types() - before, 50)
 
     def test_memory_goes_with_the_last_view(self):
         freed, really = [], _library.core().koksma_points_fini
@@ -622,42 +487,12 @@ class Memory(unittest.TestCase):
             self.assertEqual(freed, [1])
 
 
-class Library(unittest.TestCase):
-    def test_the_folder_where_one_is(self):
-        package = os.path.dirname(os.path.dirname(os.path.abspath(koksma.__file__)))
-        environment = {**os.environ, "KOKSMA_LIBRARY_DIR": ".", "PYTHONPATH": package}
-        environment.pop("LD_LIBRARY_PATH", None)
-        run = subprocess.run([sys.executable, "-c", "import koksma; print(koksma.version())"], env=environment,
-                             cwd=os.environ["KOKSMA_LIBRARY_DIR"], capture_output=True, text=True)
-        self.assertEqual((run.stdout, run.stderr), (koksma.version() + "\n", ""))
-
-
 class Texts(unittest.TestCase):
     def test_no_builtin_name_is_replaced(self):
         names = {}
         exec("from koksma import *", names)
         self.assertEqual({name for name in set(names) & set(dir(builtins)) if not name.startswith("__")}, set())
         self.assertTrue(issubclass(koksma.SystemError, koksma.Error))
-
-    def test_every_public_name_has_hints_and_words(self):
-        for name in [*koksma.__all__, "SystemError"]:
-            thing = getattr(koksma, name)
-            self.assertTrue(inspect.getdoc(thing), name)
-            members = [thing] if inspect.isfunction(thing) else [
-                m for key, m in vars(thing).items() if inspect.isfunction(m) and (not key.startswith("_") or key == "__init__")
-                and m.__module__.startswith("koksma")]  # not what a dataclass writes
-            for function in members:
-                if getattr(function, "__qualname__", "").endswith("__init__") and dataclasses.is_dataclass(thing):
-                    continue
-                with self.subTest(function.__qualname__):
-                    if not function.__name__.startswith("_"):
-                        self.assertTrue(inspect.getdoc(function))
-                    signature = inspect.signature(function)
-                    for parameter in list(signature.parameters.values())[inspect.isclass(thing):]:
-                        self.assertIsNot(parameter.annotation, inspect.Parameter.empty, parameter.name)
-                    if function.__name__ != "__init__":
-                        self.assertIsNot(signature.return_annotation, inspect.Signature.empty)
-                    typing.get_type_hints(function)  # every name in them is there
 
 
 class Spectra(unittest.TestCase):
@@ -725,16 +560,6 @@ class Rendering(unittest.TestCase):
         with self.assertRaisesRegex(koksma.MissingError, "ball: can't be read"):
             koksma.render(pathlib.Path("ball"))
 
-    def test_errors(self):
-        with self.assertRaisesRegex(koksma.ArgumentError, "no-such"):
-            koksma.render("no-such")
-        with self.assertRaisesRegex(koksma.ArgumentError, "pairing must be one of shuffled, .*, not 'odd'"):
-            koksma.render("ball", pairing="odd")
-        with self.assertRaises(koksma.ArgumentError):
-            koksma.render("ball", size=(0, 4))
-        with self.assertRaises(koksma.MissingError):
-            koksma.render("/no/such.json")
-
 
 class Unknown(unittest.TestCase):
     def test_parts_of_scenes(self):
@@ -752,32 +577,6 @@ class Unknown(unittest.TestCase):
                         call()
                 koksma.render("ball", spp=1, size=(4, 3))
             np.testing.assert_array_equal(before, koksma.render(path, spp=1))
-
-
-class Families(unittest.TestCase):
-    """Families of files, file:my_{n}_{seed}.npy, in studies."""
-
-    def test_files_that_are_gone(self):
-        """Each run counts the files anew, of a plan with a relative path from the present directory. None is an error, as on the command line, and not fewer jobs."""
-        before = os.getcwd()
-        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere:
-            try:
-                os.chdir(folder)
-                for n, seed in ((4, 1), (4, 2), (4, 5), (9, 1), (9, 2), (9, 5)):
-                    koksma.write(f"p_{n}_{seed}.txt", koksma.generate("jittered", n, seed=seed))
-                block = {"patterns": ["random", "file:p_{n}_{seed}.txt"], "measures": ["star"], "n": [4, 9], "trials": 8}
-                pathlib.Path("plan.json").write_text(json.dumps({"name": "m", "title": "M", "discrepancies": [block]}))
-                with koksma.Study("plan.json", os.path.join(folder, "out")) as study:
-                    self.assertEqual(study.run().jobs, 2 * 8 + 2 * 3)
-                    os.chdir(elsewhere)
-                    for call in (study.run, study.estimate):
-                        with self.assertRaisesRegex(koksma.MissingError, r"^file:p_\{n\}_\{seed\}.txt: there is no file p_\*_\*.txt with "):
-                            call()
-                    os.chdir(folder)
-                    again = study.run()
-                    self.assertEqual((again.jobs, again.done_now, again.complete), (2 * 8 + 2 * 3, 0, True))
-            finally:
-                os.chdir(before)
 
 
 class Code(unittest.TestCase):

@@ -8,12 +8,10 @@ with absorption a, scattering b and the phase function p of Henyey & Greenstein:
 
   - half-spaces of isotropic scatterers under parallel light and under an even sky, by the H functions of Chandrasekhar (Radiative
     Transfer, 1960): all orders of scattering
-  - light of a point that is scattered once in an endless medium, by quadrature, in colours whose coefficients differ
-  - the part of a hemisphere that is scattered into a ray, by the integral of p: its normalisation and its mean cosine
-  - white furnaces: what absorbs nothing is as bright as the sky, with surfaces inside
   - a room with a ball, by a path tracer of 40 lines that shares nothing with ours: collisions are drawn one by one
 
-Pixels of a picture estimate one number, or a block of them does; no mean may be 5 standard errors off."""
+tests/render/test_medium.c has single scattering, the phase function and furnaces. Pixels of a picture estimate one number, or a
+block of them does; no mean may be 5 standard errors off."""
 import json
 import os
 import subprocess
@@ -62,13 +60,12 @@ class Medium(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def render(self, scene, spp, depth, size=(16, 12), integrator="path", bounce=None, seed=1):
+    def render(self, scene, spp, depth, size=(16, 12), seed=1):
         with open(self.path("scene.json"), "w", encoding="utf-8") as file:
             json.dump(scene, file)
         subprocess.run([PROGRAM, "render", self.path("scene.json"), "-p", "random", "-n", str(spp), "--size", f"{size[0]}x{size[1]}", "-s", str(seed),
-                        "--depth", str(depth), "--integrator", integrator, "-q", "-o", self.path("o.pfm"),
-                        *(() if bounce is None else ("--aov", f"bounce:{bounce}"))], check=True, stdout=subprocess.DEVNULL)
-        image = koksma.read_image(self.path("o.pfm" if bounce is None else f"o.bounce-{bounce}.pfm")).astype(float)
+                        "--depth", str(depth), "--integrator", "path", "-q", "-o", self.path("o.pfm")], check=True, stdout=subprocess.DEVNULL)
+        image = koksma.read_image(self.path("o.pfm")).astype(float)
         return np.broadcast_to(image, image.shape[:2] + (3,)).reshape(-1, 3)
 
     def agree(self, pixels, wanted, floor=1e-4):
@@ -88,44 +85,6 @@ class Medium(unittest.TestCase):
                                   ({"kind": "environment", "radiance": 1}, 1 - h(out) * np.sqrt(1 - albedo))):
                 with self.subTest(albedo=albedo, out=out, light=light["kind"]):
                     self.agree(self.render({**scene, "lights": [light]}, 600, 64), wanted)
-
-    def test_point_light(self):
-        """Seen past at distance h; t = 3 + h tan(angle) makes the integrand smooth."""
-        absorbed, scattered = np.array([.05, .1, .3]), np.array([.4, .2, .1])
-        for g, h in ((-.9, 2), (.5, .3), (.95, 2)):
-            angle, w = quadrature(np.arctan(-3 / h), np.arctan(200 / h), 1000)
-            t, r = 3 + h * np.tan(angle), h / np.cos(angle)
-            wanted = [(w / h * b * 5 * phase((3 - t) / r, g) * np.exp(-(a + b) * (t + r))).sum() for a, b in zip(absorbed, scattered)]
-            scene = {"camera": narrow((0, 0, 0), (0, 0, -1)), "materials": MATTE, "shapes": [AWAY],
-                     "medium": {"sigma_a": absorbed.tolist(), "sigma_s": scattered.tolist(), "g": g},
-                     "lights": [{"kind": "point", "centre": [0, h, -3], "intensity": 5}]}
-            with self.subTest(g=g):
-                self.agree(self.render(scene, 3000, 0, bounce=1), wanted)
-
-    def test_phase_function(self):
-        """A layer of thickness 2 below a white sky over a black ground, seen from below along the normal."""
-        sky = np.zeros((64, 128, 3), np.float32)
-        sky[:32] = 1
-        koksma.write_image(self.path("sky.pfm"), sky)
-        for g in (-.5, .3, .9):
-            c, w = quadrature(0, 1, 300)
-            t, v = quadrature(0, 2, 40)
-            wanted = (v * .05 * np.exp(-.05 * t) * (w * 2 * np.pi * phase(c, g) * np.exp(-.05 * (2 - t[:, None]) / c)).sum(1)).sum()
-            scene = {"camera": narrow((0, -5, 0), (0, 0, 0), (0, 0, 1)), "materials": MATTE, "shapes": [AWAY],
-                     "medium": {"sigma_s": .05, "g": g, "low": [-9e4, -1, -9e4], "high": [9e4, 1, 9e4]},
-                     "lights": [{"kind": "environment", "image": "sky.pfm"}]}
-            for integrator in ("path", "path-bsdf"):
-                with self.subTest(g=g, integrator=integrator):
-                    self.agree(self.render(scene, 4000, 1, integrator=integrator, bounce=1), wanted)
-
-    def test_furnaces(self):
-        for material in ({"kind": "lambert", "albedo": 1}, {"kind": "mirror", "reflectance": 1}, {"kind": "dielectric", "ior": 1.5}):
-            scene = {"camera": {"eye": [0, .1, 10], "target": [0, 0, 0], "fov_deg": 14}, "materials": [{**material, "name": "m"}],
-                     "shapes": [AWAY, {"kind": "sphere", "centre": [0, 0, 0], "radius": .7, "material": "m"}],
-                     "medium": {"sigma_s": [.7, 1, .3], "g": .4, "low": [-1, -1, -1], "high": [1, 1, 1]}, "lights": [{"kind": "environment", "radiance": 1}]}
-            for integrator in ("path", "path-light"):
-                with self.subTest(material=material["kind"], integrator=integrator):
-                    self.agree(self.render(scene, 60, 64, (24, 18), integrator), 1, floor=5e-4)
 
     # A matte ball (0, 1, 0) of radius 1 on a matte floor y = 0, in a box of haze, under a point light above it.
     BOX, LIGHT, INTENSITY, ALBEDO = np.array([[-3, 0, -3], [3, 4, 3]], float), np.array([1.5, 4.8, 1]), 20, .6

@@ -30,30 +30,6 @@ class Warps(unittest.TestCase):
                 np.testing.assert_array_equal(ours, np.load(path), warp.name)
                 np.testing.assert_array_equal(ours, koksma.warp_points(koksma.generate("sobol:scramble=owen", 100, seed=3), warp.name))
 
-    def test_domains(self):
-        """Shirley & Chiu 1997: the disk's centre and rim; directions are of unit length, those of hemispheres upwards; means are
-        those of the densities: 1/3 for each coordinate of a triangle, 1/2 and 2/3 for z with uniform and with cosine density, 0 on
-        the sphere. Visible normals face the view."""
-        np.testing.assert_allclose(koksma.warp_points([[1, 1], [0.5, 0.5], [0, 0.5]], "concentric-disk"),
-                                   [[0.5**0.5, 0.5**0.5], [0, 0], [-1, 0]], atol=1e-15)
-        means = {"hemisphere": 1 / 2, "concentric-hemisphere": 1 / 2, "cosine-hemisphere": 2 / 3, "sphere": 0}
-        for warp in koksma.warps():
-            points = koksma.generate("sobol:scramble=owen", 4096, warp=warp.name)
-            if points.shape[1] == 3:
-                np.testing.assert_allclose((points**2).sum(axis=1), 1, rtol=1e-12)
-                self.assertTrue((points[:, 2] >= (-1 if warp.name == "sphere" else 0)).all())
-                if warp.name == "ggx-visible-normals":
-                    self.assertTrue((points @ [0.75**0.5, 0, 0.5] >= -1e-12).all())
-                else:
-                    self.assertAlmostEqual(points[:, 2].mean(), means[warp.name], 3)
-            elif "triangle" in warp.name:
-                self.assertTrue((points >= 0).all() and (points.sum(axis=1) <= 1 + 1e-12).all())
-                np.testing.assert_allclose(points.mean(axis=0), 1 / 3, atol=1e-3)
-            else:
-                squares = (points**2).sum(axis=1)
-                self.assertTrue((squares <= 1 + 1e-12).all())
-                self.assertAlmostEqual(squares.mean(), 0.5, 3)
-
     def test_ranges_and_files(self):
         far = koksma.generate("sobol", 8, first=1 << 33, warp="polar-disk")
         np.testing.assert_array_equal(far, koksma.warp_points(koksma.generate("sobol", 8, first=1 << 33), "polar-disk"))
@@ -257,21 +233,6 @@ class Images(unittest.TestCase):
                                      (lambda: koksma.study_images(3, reference), TypeError, "places must be a str")):
                 with self.subTest(said=said), self.assertRaisesRegex(kind, said):
                     call()
-
-
-class Drawings(unittest.TestCase):
-    def test_warp(self):
-        points = koksma.generate("jittered", 16)
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "p.svg")
-            program("plot", "pattern:jittered@16", "--warp", "polar-disk", "--grid", "4", "-o", path)
-            with open(path, encoding="utf-8") as file:
-                theirs = file.read()
-        ours = koksma.plot(points, warp="polar-disk", columns=4, rows=4).svg
-        self.assertEqual(ours.count("<circle"), theirs.count("<circle"))
-        self.assertNotEqual(ours, koksma.plot(points, columns=4, rows=4).svg)
-        with self.assertRaisesRegex(koksma.ArgumentError, r"koksma\.warps\(\)"):
-            koksma.plot(points, warp="disc")
 
 
 if __name__ == "__main__":

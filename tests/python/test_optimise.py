@@ -39,32 +39,6 @@ class Optimise(unittest.TestCase):
         self.assertLessEqual(again.value, best.value)
         self.assertEqual(again.value, float(koksma.measure(again.points, "star")))
 
-    def test_latin_stays_latin(self):
-        start = koksma.generate("latin-hypercube", 12, 3)
-        kept = koksma.optimise("l2-centered", start=start, keep="latin", steps=1).points
-        np.testing.assert_array_equal(np.sort(kept, axis=0), np.sort(start, axis=0))
-
-    def test_sequences_and_projections(self):
-        best = koksma.optimise("star", 16, keep="sequence", steps=1)
-        values = [float(koksma.measure(best.points[:n], "star")) for n in (2, 4, 8, 16)]
-        self.assertAlmostEqual(best.value, float(np.prod(values)) ** 0.25, 12)
-        best = koksma.optimise("l2-star", 8, projections=[(0,), (1,), (0, 1)], weights=[1, 2, 5], steps=1)
-        squares = [float(koksma.measure(best.points[:, u], "l2-star")) ** 2 for u in ([0], [1], [0, 1])]
-        self.assertAlmostEqual(best.value, float(np.dot([1, 2, 5], squares) / 8) ** 0.5, 12)
-
-    def test_target_power(self):
-        target = [0.0] * 3 + [1.0] * 5
-        best = koksma.optimise(None, 16, power=target, steps=1)
-        k = np.arange(-8, 9)
-        waves = np.exp(-2j * np.pi * (best.points @ np.stack([g.ravel() for g in np.meshgrid(k, k)])))
-        power = abs(waves.sum(axis=0)) ** 2 / 16
-        ring = np.floor(np.hypot(*[g.ravel() for g in np.meshgrid(k, k)]) + 0.5)
-        means = np.array([power[ring == r].mean() for r in range(1, 9)])
-        weights = np.arange(1, 9)
-        self.assertAlmostEqual(best.value, float((weights * (means - target) ** 2).sum() / 36) ** 0.5, 9)
-        with self.assertRaises(koksma.ArgumentError):
-            koksma.optimise("star", 16, power=target, steps=1)
-
     def test_named_targets(self):
         for target in ("step", "gaussian", "latin-hypercube"):
             with self.subTest(target=target), tempfile.TemporaryDirectory() as folder:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the program has, the package has: every table that `koksma list` prints, every option of `koksma render` that changes
 pixels, differences of pairs; the same names, numbers and bits."""
+import inspect
 import json
 import os
 import re
@@ -26,6 +27,11 @@ def program(*arguments):
 
 def listed(kind):
     return [json.loads(line) for line in program("list", kind, "--json").splitlines()]
+
+
+def options_of(command):
+    """The part of a command's help that lists options: from the first one on to the line after the last."""
+    return re.search(r"^(?:  -|      --).*?(?=\n\n)", program(command, "--help"), re.M | re.S)[0]
 
 
 class Tables(unittest.TestCase):
@@ -56,6 +62,19 @@ class Tables(unittest.TestCase):
             with self.subTest(function=function), self.assertRaisesRegex(koksma.Error, rf"koksma\.{function}\(\) names them"):
                 call()
             self.assertTrue(getattr(koksma, function)())
+
+    def test_same_defaults(self):
+        """What the help gives as a default is the default here, but for a time limit, without which optimise may not begin."""
+        for command, function, renamed in (("generate", koksma.generate, {}), ("render", koksma.render, {}), ("rank", koksma.rank, {}),
+                                           ("optimise", koksma.optimise_scene, {}), ("integrate", koksma.integrate, {})):
+            text = re.sub(r"\n {8,}", " ", options_of(command))
+            for option, default in re.findall(r"--([a-z-]+) [^\n]*\(default: ([a-z0-9-]+)\)", text):
+                parameter = inspect.signature(function).parameters.get(renamed.get(option, option.replace("-", "_")))
+                if option == "threads" or parameter is None or parameter.default is inspect.Parameter.empty or parameter.default is None or isinstance(
+                        parameter.default, tuple):  # names of several, as of the patterns of rank
+                    continue
+                with self.subTest(command=command, option=option):
+                    self.assertEqual(str(parameter.default), default)
 
 
 class Rendering(unittest.TestCase):

@@ -43,17 +43,6 @@ class Renderers(unittest.TestCase):
         ranking = koksma.rank("any", ["coarse", "fine"], 4, renderer=renderer, size=(48, 32), reference="fine")
         self.assertEqual([(c.size, c.state) for c in ranking.checks], [((24, 16), "confirmed"), ((96, 64), "confirmed")])
 
-    def test_left_out(self):
-        def two_at_least(asked):
-            if asked.spp < 2 or asked.pattern == "never":
-                raise ValueError("2 samples at least")
-            return renderer(asked)
-        ranking = koksma.rank("any", ["never", "coarse", "fine"], 4, renderer=two_at_least, reference="fine")
-        self.assertEqual({row.pattern: row.reason for row in ranking.rows}, {"never": "2 samples at least", "coarse": "", "fine": ""})
-        ranking = koksma.rank("any", ["coarse", "fine", "square"], 5, renderer=renderer)
-        self.assertEqual((ranking.rows[2].pattern, ranking.rows[2].state), ("square", "refused"))
-        self.assertEqual(ranking.rows[2].reason, "square: spp 5 is no square number")
-
     def test_exceptions(self):
         def raises(asked):
             if asked.pattern == "fine" and asked.spp == 4:
@@ -85,16 +74,6 @@ class Renderers(unittest.TestCase):
         self.assertEqual((ranking.size, math.isnan(ranking.reference_error)), ((8, 6), True))
         self.assertAlmostEqual(ranking.rows[0].error, .15, 6)
 
-    def test_settings(self):
-        """Each setting makes other images, and its default the same."""
-        def error(**more):
-            return koksma.rank("cornell", ["random"], 4, size=(8, 6), max_trials=8, one_size=True, integrator="path", **more).rows[0].error
-        errors = [error(), error(seed=1), error(depth=1), error(scope="image")]
-        self.assertEqual(len(set(errors)), 4)
-        self.assertEqual(error(seed=0, scope="pixel", lights="all"), errors[0])
-        with self.assertRaisesRegex(ValueError, "depth has no effect with renderer"):
-            koksma.rank("any", ["fine"], 4, renderer=renderer, depth=1)
-
     def test_processed(self):
         """The images of the patterns are processed and the reference is not: a copy changes nothing, a constant makes its error."""
         more = {"size": (8, 6), "max_trials": 8, "one_size": True}
@@ -108,15 +87,6 @@ class Renderers(unittest.TestCase):
             koksma.rank("ball", ["random"], 4, process=lambda image: 1 / 0, **more)
         with self.assertRaisesRegex(ValueError, "4 x 4 pixels instead of 8 x 6"):
             koksma.rank("ball", ["random"], 4, process=lambda image: np.ones((4, 4)), **more)
-
-    def test_the_default_and_what_it_saves(self):
-        ranking = koksma.rank("ball", size=(24, 18), max_trials=8, one_size=True)
-        self.assertEqual({r.pattern for r in ranking.rows}, {"sobol:scramble=owen", "pmj02", "correlated-multi-jittered", "multi-jittered",
-                                                             "n-rooks", "jittered", "random"})
-        error = {r.pattern: r.error for r in ranking.rows}
-        self.assertAlmostEqual(ranking.random_spp, 16 * (error["random"] / error[ranking.use])**2, 6)
-        self.assertIn("are as good as", repr(ranking))
-        self.assertEqual(len(koksma.rank("ball", "thesis", 4, size=(8, 6), max_trials=8, one_size=True).rows), 7)
 
 
 if __name__ == "__main__":

@@ -77,14 +77,6 @@ class Raised(Case):
             self.assertIs(signal.getsignal(signal.SIGALRM), handler)
             self.assertIs(signal.getsignal(signal.SIGINT), self.before[signal.SIGINT])
 
-    def test_control_c_of_ones_own(self):
-        handler = self.on(signal.SIGINT, raising(Timeout("mine")))
-        with self.assertRaisesRegex(Timeout, "mine"):
-            thread = send_in_call(signal.SIGINT)
-            long_call()
-        thread.join()
-        self.assertIs(signal.getsignal(signal.SIGINT), handler)
-
     def test_any_signal(self):
         for number in (signal.SIGTERM, signal.SIGUSR1, signal.SIGCHLD, signal.SIGRTMAX):
             self.on(number, raising(Timeout("any")))
@@ -166,22 +158,6 @@ class NotRaised(Case):
             long_call()
         self.assertEqual(values, 3 * [koksma.measure(PLANE, "star").value])
         self.assertIs(signal.getsignal(signal.SIGALRM), handler)
-
-    def test_a_handler_may_put_another_in_its_place(self):
-        previous = []
-
-        def once(_number, _frame):  # "again, and it ends at once"
-            previous.append(signal.signal(signal.SIGALRM, signal.SIG_DFL))
-            raise Timeout
-
-        self.on(signal.SIGALRM, once)
-        with self.assertRaises(Timeout):
-            signal.setitimer(signal.ITIMER_REAL, 0.05)
-            long_call()
-        self.assertIs(signal.getsignal(signal.SIGALRM), signal.SIG_DFL)
-        signal.signal(signal.SIGALRM, previous[0])  # what it was given during the call serves on
-        with self.assertRaises(Timeout):
-            signal.raise_signal(signal.SIGALRM)
 
     def test_errors_come_out_as_ever(self):
         handler = self.on(signal.SIGUSR1, raising(Timeout))
@@ -270,54 +246,6 @@ class OfTheHost(Case):
         os.kill(os.getpid(), signal.SIGUSR1)
         self.assertEqual(LIBC.signal(signal.SIGUSR1, NOTHING), NOTHING)
 
-    def test_a_handler_in_c_that_comes_during_the_call_stays(self):
-        self.on(signal.SIGUSR1, raising(Timeout("the host's handler was not called")))
-
-        def body(_run):
-            self.pythons = LIBC.signal(signal.SIGUSR1, NOTHING)
-            return 0
-
-        _library.call(body, run_at=0)
-        os.kill(os.getpid(), signal.SIGUSR1)
-        self.assertEqual(LIBC.signal(signal.SIGUSR1, NOTHING), NOTHING)
-
-    def interrupted(self):
-        """Whether a signal ends a read of the system's that waits. It comes until the read has ended, or twenty times while
-        this thread sleeps; then there is something to read."""
-        source, target = os.pipe()
-        ended, reader = threading.Event(), threading.main_thread()
-
-        def poke():
-            sent = 0
-            while not ended.is_set() and sent < 20:
-                with open(f"/proc/self/task/{reader.native_id}/stat", encoding="ascii") as stat:
-                    if stat.read().rpartition(")")[2].split()[0] == "S":
-                        signal.pthread_kill(reader.ident, signal.SIGALRM)
-                        sent += 1
-                time.sleep(0.005)
-            os.write(target, b"x")
-
-        thread = threading.Thread(target=poke)
-        thread.start()
-        read = LIBC.read(source, ctypes.create_string_buffer(1), 1)
-        ended.set()
-        thread.join()
-        os.close(source)
-        os.close(target)
-        return read < 0
-
-    def test_system_calls_go_on_as_before(self):
-        handler = self.on(signal.SIGALRM, lambda _number, _frame: None)
-        for ends in (True, False):
-            signal.siginterrupt(signal.SIGALRM, ends)
-            self.assertEqual(self.interrupted(), ends)
-            koksma.generate("random", 4)
-            self.assertEqual(self.interrupted(), ends)
-            during = []
-            _library.call(lambda _run: during.append(self.interrupted()) or 0, run_at=0)
-            self.assertEqual(during, [ends])
-            self.assertIs(signal.getsignal(signal.SIGALRM), handler)
-
     def test_signals_without_handlers_are_left_alone(self):
         code = ("import ctypes, signal, koksma\n"
                 "of = ctypes.pythonapi.PyOS_getsig\n"
@@ -327,31 +255,6 @@ class OfTheHost(Case):
                 "print(before == [(of(n), signal.getsignal(n)) for n in sorted(signal.valid_signals())])\n")
         run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
         self.assertEqual((run.stdout, run.stderr), ("True\n", ""))
-
-
-class PuttingBack(Case):
-    def test_may_be_interrupted(self):
-        """By handlers that are back in their places; all are put back all the same."""
-        class Interrupted(dict):
-            def items(self):
-                for number, handler in super().items():
-                    yield number, handler
-                    if handler in waiting:
-                        waiting.remove(handler)
-                        signal.raise_signal(number)
-
-        numbers = (signal.SIGHUP, signal.SIGALRM, signal.SIGTERM)
-        handlers = [self.on(number, raising(Timeout(number.name))) for number in numbers]
-        waiting, signals = handlers[:2], Signals()
-        signals.take()
-        self.assertEqual({signal.getsignal(number) for number in numbers}, {signals})
-        signals._theirs = Interrupted(signals._theirs)
-        with self.assertRaises(Timeout):
-            signals.give_back()
-        self.assertEqual([signal.getsignal(number) for number in numbers], handlers)
-        self.assertEqual((waiting, signals.raised), ([], []))
-        with self.assertRaisesRegex(Timeout, "SIGTERM"):  # by what somebody has taken for the handler
-            signals(signal.SIGTERM, None)
 
 
 if __name__ == "__main__":
