@@ -8,9 +8,8 @@ enum { SETS = 700, N = 16, DIM = 2, COUNT = SETS * N * DIM };
 
 static double many[COUNT], one[N * DIM], values[SETS];
 
-static void sets_are_those_of_single_calls(void **state)
+TEST_CASE(sets_are_those_of_single_calls)
 {
-    (void)state;
     static const char *const measures[] = {"l2-star", "star", "min-distance"};
     const koksma_run run = {.threads = 3};
     size_t tried = 0;
@@ -51,9 +50,8 @@ static bool no(void *context, double fraction_done)
     return false;
 }
 
-static void bad_sets_are_refused(void **state)
+TEST_CASE(bad_sets_are_refused)
 {
-    (void)state;
     koksma_points all = {SETS * N, DIM, many};
     koksma_spec spec, measure;
     const koksma_run stopped = {.threads = 2, .keep_going = no};
@@ -69,13 +67,4 @@ static void bad_sets_are_refused(void **state)
     assert_ok(koksma_pattern_spec("jittered", &spec));
     all.n = 3 * 15;
     assert_int_equal(koksma_generate_sets(&spec, 0, 3, NULL, &all), KOKSMA_N);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sets_are_those_of_single_calls),
-        cmocka_unit_test(bad_sets_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -503,24 +503,4 @@ TEST_CASE(prefixes_cover_models)
     }
 }
 
-static bool stop(void *context, double fraction)
-{
-    (void)context;
-    (void)fraction;
-    return false;
-}
-
-TEST_CASE(calls_can_be_stopped)
-{
-    static const char *const specs[] = {"gaussian-blue-noise", "poisson-disk-maximal"};
-    koksma_points p;
-    assert_ok(koksma_points_init(&p, 500, 3));
-    for (size_t s = 0; s < 2; s++) {
-        const koksma_spec spec = spec_of(specs[s]);
-        assert_int_equal(koksma_generate_on(&spec, 0, model, &(koksma_run){.keep_going = stop}, &p),
-                         KOKSMA_INTERRUPTED);
-    }
-    koksma_points_fini(&p);
-}
-
 TEST_GROUP(write_model, remove_model)

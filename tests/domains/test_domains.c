@@ -389,30 +389,6 @@ TEST_CASE(wrong_inputs_are_refused)
     }
 }
 
-static bool stop(void *context, double fraction)
-{
-    (void)context;
-    (void)fraction;
-    return false;
-}
-
-TEST_CASE(calls_can_be_stopped)
-{
-    const float values[4] = {1, 2, 3, 4};
-    koksma_image map = quarters(values);
-    koksma_points p;
-    assert_ok(koksma_points_init(&p, 30000, 2));
-    for (size_t f = 1; f < FORMS; f++) {
-        const koksma_spec spec = spec_of(f == 2   ? "progressive-elimination:length=30000"
-                                         : f == 3 ? "poisson-disk:d=0.001"
-                                                  : forms[f]);
-        assert_int_equal(koksma_generate_density(&spec, 0, &map, &(koksma_run){.keep_going = stop}, &p),
-                         KOKSMA_INTERRUPTED);
-    }
-    koksma_points_fini(&p);
-    koksma_image_fini(&map);
-}
-
 static bool count(void *context, double fraction)
 {
     assert_true(fraction >= 0 && fraction <= 1);

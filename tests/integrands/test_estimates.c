@@ -16,9 +16,8 @@ static koksma_integral_estimate estimate(const char *estimator, const char *inte
     return e;
 }
 
-static void estimators_are_their_formulas(void **state)
+TEST_CASE(estimators_are_their_formulas)
 {
-    (void)state;
     const double six[] = {5, 1, 9, 3, 7, 2}, nine[] = {0, 10, 2, 1, 20, 4, 2, 60, 100};
     const struct {
         const char *name;
@@ -41,9 +40,8 @@ static void estimators_are_their_formulas(void **state)
 
 /* Student: t of 4 degrees is 2.776445. Order statistics: 2 P(B <= 3) = .0352 for B of Binomial(15, 1/2), and 2 P(B <= 4)
    = .118, so that y_(4) and y_(12) are the interval of 15 values; of 6 values it has all, of 5 there is none. */
-static void intervals_are_their_formulas(void **state)
+TEST_CASE(intervals_are_their_formulas)
 {
-    (void)state;
     const double five[] = {3, 1, 5, 2, 4};
     koksma_integral_estimate e = estimate("mean", NULL, 0, 0, 0, five, 5);
     assert_near(e.value, 3, 1e-15);
@@ -69,9 +67,8 @@ static void intervals_are_their_formulas(void **state)
 
 /* Most values near 3 and two far off: the median, if they differ by less than .7 of a point's share; else, and for values
    spread evenly, the mean. */
-static void auto_takes_the_median_of_heavy_tails(void **state)
+TEST_CASE(auto_takes_the_median_of_heavy_tails)
 {
-    (void)state;
     double tails[15], even[15];
     for (size_t i = 0; i < 15; i++) {
         tails[i] = 3 + 1e-4 * (double)i + (i == 4 ? 50 : i == 9 ? -20 : 0);
@@ -95,9 +92,8 @@ static void auto_takes_the_median_of_heavy_tails(void **state)
 }
 
 /* The formulas of Waudby-Smith & Ramdas once more, term by term, for values of a range from 10 to 30. */
-static void bounded_intervals_are_their_formulas(void **state)
+TEST_CASE(bounded_intervals_are_their_formulas)
 {
-    (void)state;
     const double x[] = {0.2, 0.9, 0.4, 0.35, 0.5, 0.1, 0.6, 0.45, 0.3, 0.7};
     enum { N = sizeof x / sizeof *x };
     double y[N], stake[N], before[N];
@@ -141,9 +137,8 @@ static void bounded_intervals_are_their_formulas(void **state)
 
 /* Independent values of a law with mean 1/3 on [0,1], which is 1 in one of three. Those that are proved hold in 95 % or
    more of the runs; the others come near for 60 values; none is so wide that it says nothing. */
-static void intervals_cover(void **state)
+TEST_CASE(intervals_cover)
 {
-    (void)state;
     enum { N = 60 };
     const size_t runs = test_repeats(400, 10);
     koksma_points u = test_points("random", runs * N, 1, 5);
@@ -221,9 +216,8 @@ static koksma_status integrate(call *c, const char *pattern, const koksma_tolera
     return koksma_integrate_to(values_of, c, 2, &spec, o, run, t);
 }
 
-static void errors_are_within_the_tolerance(void **state)
+TEST_CASE(errors_are_within_the_tolerance)
 {
-    (void)state;
     const double truth = pow(exp(1) - 1, 2);
     const struct {
         const char *pattern, *estimator;
@@ -263,9 +257,8 @@ static double step_at_a_third(const double *x, int dim)
 /* Independent points: the error falls as n^-1/2, the slowest of unbiased sets, and a step after the other may end the
    search too early. Of 2,000 searches of 95 % at most 100 may err, and so may 20 of 99 %, plus three standard deviations;
    tolerances are spread over a factor of 2, so that none is the best for the steps. */
-static void searches_hold_whenever_they_end(void **state)
+TEST_CASE(searches_hold_whenever_they_end)
 {
-    (void)state;
     const int runs = test_repeats(2000, 20);
     const size_t replicates[] = {6, 15, 40};
     for (size_t k = 0; k < 3; k++) {
@@ -294,9 +287,8 @@ static void searches_hold_whenever_they_end(void **state)
 
 /* Without a tolerance all steps are done; the rate of the mean over Owen's scrambling
    of a function with a kink in a coordinate is near -3/2, and the prediction of what a smaller error needs follows it. */
-static void a_limit_ends_the_search(void **state)
+TEST_CASE(a_limit_ends_the_search)
 {
-    (void)state;
     call c = {.at = kink};
     koksma_tolerance t;
     koksma_tolerance_options o = {
@@ -331,9 +323,8 @@ static double step(const double *x, int dim)
 }
 
 /* Of 256 points of each set none or one is below .001: sets may all have the same, but the error is not 0. */
-static void equal_estimates_have_an_error(void **state)
+TEST_CASE(equal_estimates_have_an_error)
 {
-    (void)state;
     for (uint64_t seed = 0; seed < 40; seed++) {
         koksma_tolerance t;
         const koksma_tolerance_options o = {.replicates = 8, .most_points = 8 * 256, .seed = seed, .absolute = 1e-4};
@@ -344,9 +335,8 @@ static void equal_estimates_have_an_error(void **state)
 }
 
 /* All values 0 at first: the interval [0,0] is no answer. */
-static void equal_values_end_no_search_at_once(void **state)
+TEST_CASE(equal_values_end_no_search_at_once)
 {
-    (void)state;
     call c = {.at = needle};
     koksma_tolerance t;
     const koksma_tolerance_options o = {.absolute = 1e-3, .first_n = 16};
@@ -354,9 +344,8 @@ static void equal_values_end_no_search_at_once(void **state)
     assert_true(t.reached && c.points >= 1 << 16 && c.points < 1 << 18);
 }
 
-static void mistakes_are_named(void **state)
+TEST_CASE(mistakes_are_named)
 {
-    (void)state;
     koksma_tolerance t;
     const koksma_tolerance_options plain = {.absolute = 1e-3};
     const struct {
@@ -386,22 +375,4 @@ static void mistakes_are_named(void **state)
             fail_msg("case %zu: status %d, '%s'", i, status, koksma_error_text());
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(estimators_are_their_formulas),
-        cmocka_unit_test(intervals_are_their_formulas),
-        cmocka_unit_test(auto_takes_the_median_of_heavy_tails),
-        cmocka_unit_test(bounded_intervals_are_their_formulas),
-        cmocka_unit_test(intervals_cover),
-        cmocka_unit_test(errors_are_within_the_tolerance),
-        cmocka_unit_test(searches_hold_whenever_they_end),
-        cmocka_unit_test(a_limit_ends_the_search),
-        cmocka_unit_test(equal_estimates_have_an_error),
-        cmocka_unit_test(equal_values_end_no_search_at_once),
-        cmocka_unit_test(mistakes_are_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

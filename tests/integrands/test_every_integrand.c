@@ -226,16 +226,14 @@ static void look_at_values(const char *spec, koksma_integral *f)
     koksma_points_fini(&dirty);
 }
 
-static void values_are_those_of_the_definitions(void **state)
+TEST_CASE(values_are_those_of_the_definitions)
 {
-    (void)state;
     walk(look_at_values);
 }
 
 /* Parameters of Genz's families: a of the given sum, all in range, others with another seed. */
-static void genz_parameters_are_scaled(void **state)
+TEST_CASE(genz_parameters_are_scaled)
 {
-    (void)state;
     koksma_integral *f, *g;
     assert_ok(koksma_integral_open("genz-gaussian:difficulty=3", 7, &f));
     assert_ok(koksma_integral_open("genz-gaussian:difficulty=3,seed=1", 7, &g));
@@ -309,9 +307,8 @@ static void look_at_sums(const char *spec, koksma_integral *f)
     }
 }
 
-static void integrals_variances_and_shares_hold(void **state)
+TEST_CASE(integrals_variances_and_shares_hold)
 {
-    (void)state;
     walk(look_at_sums);
 }
 
@@ -342,9 +339,8 @@ static void look_at_components(const char *spec, koksma_integral *f)
     assert_near(sum, 1, 1e-9);
 }
 
-static void components_add_up(void **state)
+TEST_CASE(components_add_up)
 {
-    (void)state;
     walk(look_at_components);
 }
 
@@ -388,9 +384,8 @@ static void look_at_component_values(const char *spec, koksma_integral *f)
     koksma_points_fini((koksma_points *)&points);
 }
 
-static void components_of_products_add_up(void **state)
+TEST_CASE(components_of_products_add_up)
 {
-    (void)state;
     walk(look_at_component_values);
 }
 
@@ -416,9 +411,8 @@ static void look_at_estimates(const char *spec, koksma_integral *f)
     }
 }
 
-static void estimated_shares_hold_the_exact_ones(void **state)
+TEST_CASE(estimated_shares_hold_the_exact_ones)
 {
-    (void)state;
     walk(look_at_estimates);
     assert_true(n_shares >= 100);
     if (n_missed > n_shares / 8) {
@@ -428,9 +422,8 @@ static void estimated_shares_hold_the_exact_ones(void **state)
 
 /* ---- Numbers that others have published ------------------------------------------------------------------------ */
 
-static void known_numbers(void **state)
+TEST_CASE(known_numbers)
 {
-    (void)state;
     const struct {
         const char *spec;
         int dim;
@@ -467,9 +460,8 @@ static void look_in_high_dimensions(const char *spec, int dim)
     koksma_integral_close(f);
 }
 
-static void many_dimensions_hold(void **state)
+TEST_CASE(many_dimensions_hold)
 {
-    (void)state;
     static const char *const specs[] = {"genz-corner-peak:difficulty=0.5",
                                         "genz-oscillatory:difficulty=3",
                                         "genz-gaussian:difficulty=3",
@@ -485,9 +477,8 @@ static void many_dimensions_hold(void **state)
 }
 
 /* The bridge's path and that by steps have one distribution. */
-static void paths_of_asian_options_agree(void **state)
+TEST_CASE(paths_of_asian_options_agree)
 {
-    (void)state;
     for (int dim = 1; dim <= 4096; dim = dim * 2 + dim % 7) {
         koksma_integral *steps, *bridge;
         assert_ok(koksma_integral_open("asian", dim, &steps));
@@ -497,20 +488,4 @@ static void paths_of_asian_options_agree(void **state)
         koksma_integral_close(steps);
         koksma_integral_close(bridge);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_are_those_of_the_definitions),
-        cmocka_unit_test(genz_parameters_are_scaled),
-        cmocka_unit_test(integrals_variances_and_shares_hold),
-        cmocka_unit_test(components_add_up),
-        cmocka_unit_test(components_of_products_add_up),
-        cmocka_unit_test(estimated_shares_hold_the_exact_ones),
-        cmocka_unit_test(known_numbers),
-        cmocka_unit_test(many_dimensions_hold),
-        cmocka_unit_test(paths_of_asian_options_agree),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -284,9 +284,8 @@ static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
 }
 
 #define TEST(name, most)                                                                                             \
-    static void name##_equals_reference(void **state)                                                                \
+    TEST_CASE(name##_equals_reference)                                                                               \
     {                                                                                                                \
-        (void)state;                                                                                                 \
         assert_equal_to_reference(name, most);                                                                       \
     }
 
@@ -313,20 +312,4 @@ TEST(gauss_force, MAX)
 TEST(source_force, MAX)
 TEST(rows_of_columns, 150)
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quotients_equals_reference),       cmocka_unit_test(steps_equals_reference),
-        cmocka_unit_test(fractions_equals_reference),       cmocka_unit_test(fraction_rows_equals_reference),
-        cmocka_unit_test(digital_equals_reference),         cmocka_unit_test(digital_rows_equals_reference),
-        cmocka_unit_test(digital_at_equals_reference),      cmocka_unit_test(owen_hash_equals_reference),
-        cmocka_unit_test(pascal_equals_reference),          cmocka_unit_test(grow_equals_reference),
-        cmocka_unit_test(covers_equals_reference),          cmocka_unit_test(dart_cells_equals_reference),
-        cmocka_unit_test(nearest_offset_equals_reference),  cmocka_unit_test(pair_counts_equals_reference),
-        cmocka_unit_test(nested_digits_equals_reference),   cmocka_unit_test(rooks_2d_equals_reference),
-        cmocka_unit_test(rows_of_columns_equals_reference), cmocka_unit_test(gauss_force_equals_reference),
-        cmocka_unit_test(permute_equals_reference),         cmocka_unit_test(source_force_equals_reference),
-        cmocka_unit_test(mask_growth_equals_reference),     cmocka_unit_test(truncated_normals_equals_reference),
-    };
-    return cmocka_run_group_tests(tests, setup, NULL);
-}
+TEST_GROUP(setup, NULL)

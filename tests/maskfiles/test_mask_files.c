@@ -46,9 +46,8 @@ static bool has(const char *ending)
     return true;
 }
 
-static void floats_read_back_exactly(void **state)
+TEST_CASE(floats_read_back_exactly)
 {
-    (void)state;
     float values[4 * N];
     for (size_t s = 0; koksma_mask_space_at(s); s++) {
         const koksma_mask mask = mask_of(koksma_mask_space_at(s)->name, values);
@@ -68,9 +67,8 @@ static void floats_read_back_exactly(void **state)
     }
 }
 
-static void levels_read_back_in_the_middle(void **state)
+TEST_CASE(levels_read_back_in_the_middle)
 {
-    (void)state;
     float values[4 * N];
     for (size_t s = 0; koksma_mask_space_at(s) && has("a.png"); s++) {
         const koksma_mask mask = mask_of(koksma_mask_space_at(s)->name, values);
@@ -89,9 +87,8 @@ static void levels_read_back_in_the_middle(void **state)
 }
 
 /* The order of scalars survives 16 bits, so a mask of up to 65,536 pixels is the same one. */
-static void the_space_follows_from_the_channels(void **state)
+TEST_CASE(the_space_follows_from_the_channels)
 {
-    (void)state;
     static const char *const names[] = {"scalar", "vector2", "vector3", "vector4"};
     float values[4 * N];
     for (size_t s = 0; s < 4 && has("a.png"); s++) {
@@ -104,9 +101,8 @@ static void the_space_follows_from_the_channels(void **state)
     }
 }
 
-static void raw_files_have_the_levels_alone(void **state)
+TEST_CASE(raw_files_have_the_levels_alone)
 {
-    (void)state;
     float values[2 * N];
     unsigned char bytes[4 * N + 1];
     const koksma_mask mask = mask_of("scalar", values);
@@ -124,9 +120,8 @@ static void raw_files_have_the_levels_alone(void **state)
     }
 }
 
-static void recipes_make_the_mask_again(void **state)
+TEST_CASE(recipes_make_the_mask_again)
 {
-    (void)state;
     float first[2 * N], second[2 * N];
     koksma_mask_options o = {.width = W,
                              .height = H,
@@ -159,9 +154,8 @@ static void assert_weights(const char *text, int width, int height, const double
     }
 }
 
-static void filters_have_their_weights(void **state)
+TEST_CASE(filters_have_their_weights)
 {
-    (void)state;
     koksma_mask_filter f;
     const double binomial[] = {1 / 16., 2 / 16., 1 / 16., 2 / 16., 4 / 16., 2 / 16., 1 / 16., 2 / 16., 1 / 16.};
     const double box[] = {0.25, 0.25, 0.25, 0.25};
@@ -181,9 +175,8 @@ static void filters_have_their_weights(void **state)
     assert_true(f.weights[0] > 0 && f.weights[f.width / 2] < 0);
 }
 
-static void bad_filters_are_refused(void **state)
+TEST_CASE(bad_filters_are_refused)
 {
-    (void)state;
     koksma_mask_filter f;
     static const char *const files[][2] = {{"1 2\n3\n", "line 2: 1 numbers, and 2"},
                                            {"1 x\n", "line 1: not up to 65"},
@@ -203,9 +196,8 @@ static void bad_filters_are_refused(void **state)
     assert_error(koksma_mask_filter_parse("tent:size=3", &f), KOKSMA_ARGUMENT, "size");
 }
 
-static void bad_files_are_refused(void **state)
+TEST_CASE(bad_files_are_refused)
 {
-    (void)state;
     float values[4 * N];
     koksma_mask out;
     const koksma_mask mask = mask_of("vector4", values);
@@ -223,9 +215,8 @@ static void bad_files_are_refused(void **state)
 }
 
 /* Power, correlation and histogram by the sums of their definitions. */
-static void relations_are_those_of_direct_sums(void **state)
+TEST_CASE(relations_are_those_of_direct_sums)
 {
-    (void)state;
     float values[2][2 * N];
     koksma_mask a = mask_of("vector2", values[0]), b = a;
     double power[N], correlation[N], mean[2][2] = {{0}}, squares[2] = {0}, all = 0, direct[N];
@@ -279,9 +270,8 @@ static void relations_are_those_of_direct_sums(void **state)
     assert_error(koksma_mask_rings(&a, 3, power, NULL), KOKSMA_ARGUMENT, "equal");
 }
 
-static void rings_are_those_of_a_direct_sum(void **state)
+TEST_CASE(rings_are_those_of_a_direct_sum)
 {
-    (void)state;
     enum { RINGS = 5 };
     float values[2 * N];
     double power[RINGS], sums[RINGS + 1] = {0}, counts[RINGS + 1] = {0}, all = 0;
@@ -308,21 +298,4 @@ static void rings_are_those_of_a_direct_sum(void **state)
     for (int r = 0; r < RINGS; r++) {
         assert_near(power[r], sums[r] / counts[r] / all, 1e-9);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(floats_read_back_exactly),
-        cmocka_unit_test(levels_read_back_in_the_middle),
-        cmocka_unit_test(the_space_follows_from_the_channels),
-        cmocka_unit_test(raw_files_have_the_levels_alone),
-        cmocka_unit_test(recipes_make_the_mask_again),
-        cmocka_unit_test(filters_have_their_weights),
-        cmocka_unit_test(bad_filters_are_refused),
-        cmocka_unit_test(bad_files_are_refused),
-        cmocka_unit_test(relations_are_those_of_direct_sums),
-        cmocka_unit_test(rings_are_those_of_a_direct_sum),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

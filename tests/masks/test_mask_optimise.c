@@ -59,9 +59,8 @@ static double filtered(const koksma_mask_options *o, const float *v, double t, i
     return sum / weights;
 }
 
-static void error_is_that_of_the_definition(void **state)
+TEST_CASE(error_is_that_of_the_definition)
 {
-    (void)state;
     enum { W = 13, H = 10, TESTS = 17 };
     float v[W * H];
     koksma_mask_options o = options_of(W, H, "scalar");
@@ -93,9 +92,8 @@ static void error_is_that_of_the_definition(void **state)
 
 /* The error that the search minimises is the mean over all thresholds; of an open mask the pixels beyond have no error, and
    the filter is applied wherever it meets the mask. */
-static void energy_is_that_of_the_definition(void **state)
+TEST_CASE(energy_is_that_of_the_definition)
 {
-    (void)state;
     enum { TESTS = 2000 };
     float v[16 * 12];
     for (int open = 0; open < 2; open++) {
@@ -116,9 +114,8 @@ static void energy_is_that_of_the_definition(void **state)
     }
 }
 
-static void errors_never_rise(void **state)
+TEST_CASE(errors_never_rise)
 {
-    (void)state;
     static const char *const names[] = {"scalar", "vector2", "sphere"};
     static float v[MOST], next[MOST];
     for (size_t s = 0; s < 3; s++) {
@@ -147,9 +144,8 @@ static int ascending(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-static void each_value_occurs_once_or_equally_often(void **state)
+TEST_CASE(each_value_occurs_once_or_equally_often)
 {
-    (void)state;
     float v[24 * 10], mask[24 * 10];
     koksma_mask_options o = options_of(24, 10, "scalar");
     for (int levels = 0; levels <= 8; levels += 8) {
@@ -169,9 +165,8 @@ static void each_value_occurs_once_or_equally_often(void **state)
     assert_memory_equal(again, v, sizeof v);
 }
 
-static void a_search_continues_where_it_ended(void **state)
+TEST_CASE(a_search_continues_where_it_ended)
 {
-    (void)state;
     static const char *const names[] = {"scalar", "tent", "vector3", "circle"};
     static float whole[MOST], part[MOST], rest[MOST];
     for (size_t s = 0; s < 4; s++) {
@@ -191,9 +186,8 @@ static void a_search_continues_where_it_ended(void **state)
     }
 }
 
-static void target_ends_the_search(void **state)
+TEST_CASE(target_ends_the_search)
 {
-    (void)state;
     float v[32 * 32];
     koksma_mask_options o = options_of(32, 32, "scalar");
     koksma_mask_result all, some;
@@ -204,9 +198,8 @@ static void target_ends_the_search(void **state)
 }
 
 /* The moments of each space: the mean, and the mean of the square of each number. */
-static void values_have_the_distribution_of_their_space(void **state)
+TEST_CASE(values_have_the_distribution_of_their_space)
 {
-    (void)state;
     static const struct {
         const char *name;
         double mean[4], square[4];
@@ -242,9 +235,8 @@ static void values_have_the_distribution_of_their_space(void **state)
 }
 
 /* Under a Gaussian of sigma = 1, the filter for which void-and-cluster is best, and also beside its ranks. */
-static void masks_are_better_than_void_and_cluster(void **state)
+TEST_CASE(masks_are_better_than_void_and_cluster)
 {
-    (void)state;
     enum { SIZE = test_repeats(48, 16), N = SIZE * SIZE };
     static float v[N], ulichney[N];
     static uint32_t ranks[N];
@@ -266,9 +258,8 @@ static void masks_are_better_than_void_and_cluster(void **state)
 }
 
 /* A random arrangement has the error `white`. */
-static void white_is_the_error_of_random_arrangements(void **state)
+TEST_CASE(white_is_the_error_of_random_arrangements)
 {
-    (void)state;
     float v[32 * 32 * 2];
     static const char *const names[] = {"scalar", "vector2"};
     for (size_t s = 0; s < 2; s++) {
@@ -287,9 +278,8 @@ static void white_is_the_error_of_random_arrangements(void **state)
     }
 }
 
-static void bad_options_are_refused(void **state)
+TEST_CASE(bad_options_are_refused)
 {
-    (void)state;
     float v[16 * 16] = {0};
     koksma_mask_options good = options_of(16, 16, "scalar"), o = good;
     o.width = 3;
@@ -319,21 +309,4 @@ static void bad_options_are_refused(void **state)
     assert_error(koksma_mask_optimise(&o, NULL, out, NULL), KOKSMA_ARGUMENT, "(1, 1)");
     v[17] = NAN;
     assert_error(koksma_mask_optimise(&o, NULL, out, NULL), KOKSMA_ARGUMENT, "(1, 1)");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(error_is_that_of_the_definition),
-        cmocka_unit_test(energy_is_that_of_the_definition),
-        cmocka_unit_test(errors_never_rise),
-        cmocka_unit_test(each_value_occurs_once_or_equally_often),
-        cmocka_unit_test(a_search_continues_where_it_ended),
-        cmocka_unit_test(target_ends_the_search),
-        cmocka_unit_test(values_have_the_distribution_of_their_space),
-        cmocka_unit_test(masks_are_better_than_void_and_cluster),
-        cmocka_unit_test(white_is_the_error_of_random_arrangements),
-        cmocka_unit_test(bad_options_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,21 +38,6 @@ TEST_CASE(spectra_equal_the_definition)
     }
 }
 
-TEST_CASE(threads_change_no_bit)
-{
-    koksma_points p = test_points("random", 300, 2, 1);
-    for (int method = 0; method < 2; method++) {
-        koksma_spectrum one = spectrum_of(&p, 50, (koksma_spectrum_method)method, 1);
-        for (int threads = 2; threads <= 8; threads += 3) {
-            koksma_spectrum other = spectrum_of(&p, 50, (koksma_spectrum_method)method, threads);
-            assert_memory_equal(one.power, other.power, 51 * 101 * sizeof(double));
-            koksma_spectrum_fini(&other);
-        }
-        koksma_spectrum_fini(&one);
-    }
-    koksma_points_fini(&p);
-}
-
 /* Random points have power 1 at every frequency; a jittered set of m x m cells 1 - sinc^2 sinc^2. */
 TEST_CASE(radial_means_have_known_values)
 {
@@ -183,39 +168,6 @@ TEST_CASE(nyquist_is_that_of_large_spectra)
         }
         koksma_points_fini(&p);
     }
-}
-
-/* The size of a spectrum that is large enough changes no quality; smaller ones give none. Random points have no
-   oscillation but noise, which more sets make smaller. */
-TEST_CASE(quality_does_not_depend_on_half)
-{
-    static const int halves[] = {60, 112, 150, 260};
-    static const char *const patterns[] = {"random", "jittered", "poisson-disk-maximal"};
-    double oscillations[3] = {0};
-    for (int i = 0; i < 3; i++) {
-        koksma_spectrum_quality_values first = {0};
-        for (int h = 0; h < 4; h++) {
-            koksma_spectrum_quality_values quality;
-            koksma_spectrum s;
-            assert_ok(koksma_spectrum_init(&s, halves[h]));
-            for (uint64_t seed = 0; seed < 6; seed++) {
-                koksma_points p = test_points(patterns[i], 256, 2, seed);
-                assert_ok(koksma_spectrum_add(&s, &p, KOKSMA_SPECTRUM_EXACT, NULL));
-                koksma_points_fini(&p);
-            }
-            koksma_spectrum_quality(&s, &quality);
-            koksma_spectrum_fini(&s);
-            if (h == 0) {
-                assert_true(isnan(quality.oscillation));
-            } else {
-                first = h == 1 ? quality : first;
-                assert_near(quality.oscillation, first.oscillation, 1e-10);
-                assert_near(quality.effective_nyquist, first.effective_nyquist, 0);
-            }
-        }
-        oscillations[i] = first.oscillation;
-    }
-    assert_true(oscillations[0] < 0.8 && oscillations[1] < 0.8 && oscillations[2] > 1.2);
 }
 
 static double distance_on_torus(const double *a, const double *b, bool torus)

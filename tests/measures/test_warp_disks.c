@@ -210,30 +210,6 @@ TEST_CASE(concentric_beats_polar)
     }
 }
 
-/* phi - sin phi cos phi without cancelling. */
-static double segment(double one_less_cosine)
-{
-    const double phi = 2 * asin(sqrt(one_less_cosine / 2)), x = 2 * phi;
-    double term = x * x * x / 6, sum = 0;
-    for (int k = 4; fabs(term) > 1e-20 * sum; k += 2) {
-        sum += term;
-        term *= -x * x / (k * (k + 1));
-    }
-    return sum / 2;
-}
-
-/* Disks of radius 1 and r a distance 1 + r - e apart share two segments. Small and large e, down to rounding. */
-TEST_CASE(disks_that_touch)
-{
-    for (int i = 0; i < 200; i++) {
-        const double r = i % 4 == 0 ? 1 : 0.25 * (i % 4), distance = (1 + r) - 0.4 * r * pow(10, -0.08 * i);
-        const double e = (1 + r) - distance; /* exact */
-        const double one = segment(e * (2 * r - e) / (2 * distance)),
-                     other = segment(e * (2 - e) / (2 * distance * r));
-        assert_near(koksma__disks_share(r, distance), one + r * r * other, 3e-16);
-    }
-}
-
 /* Planes through the centre separate two points with the chance of their angle over pi: also of opposite ones. */
 TEST_CASE(points_that_are_opposite)
 {

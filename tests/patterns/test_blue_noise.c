@@ -2,7 +2,6 @@
 /* Blue-noise patterns against their papers: docs/findings/blue-noise.md has the numbers that are held here. */
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "patterns/spacing/spacing.h"
 #include "sets.h"
@@ -292,50 +291,4 @@ TEST_CASE(gaussian_blue_noise_has_converged)
     }
     koksma_points_fini(&done);
     koksma_points_fini(&early);
-}
-
-static bool stop_at_once(void *context, double fraction)
-{
-    assert_true(fraction >= 0 && fraction <= 1);
-    ++*(int *)context;
-    return false;
-}
-
-/* What would take minutes or longer asks whether to go on. */
-TEST_CASE(long_searches_ask)
-{
-    static const struct {
-        const char *spec;
-        size_t n;
-        int dim;
-    } rows[] = {
-        {"poisson-disk:d=0.1", 65536, 5},
-        {"poisson-disk:d=0.0007,torus=1", 1 << 20, 2},
-        {"dart-throwing:f=0.39", 1 << 19, 2},
-        {"best-candidate:candidates=100,most=1048576", 2048, 2},
-        {"best-candidate:candidates=100,most=1048576", 4096, 5},
-        {"best-candidate", 1 << 23, 2},
-        {"scan-time:candidates=1000", 4096, 3},
-        {"sample-elimination:factor=20", 8192, 2},
-        {"sample-elimination", 2048, 8},
-        {"progressive-elimination:length=65536", 10, 2},
-        {"gaussian-blue-noise", 64, 2},
-        {"pmj02bn:levels=10", 10, 2},
-    };
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        koksma_spec spec;
-        koksma_points points;
-        int asked = 0;
-        const koksma_run run = {.threads = 1, .keep_going = stop_at_once, .context = &asked};
-        assert_ok(koksma_pattern_spec(rows[r].spec, &spec));
-        assert_ok(koksma_points_init(&points, rows[r].n, rows[r].dim));
-        const clock_t start = clock();
-        const koksma_status status = koksma_generate(&spec, 1, &run, &points);
-        const double took_s = (double)(clock() - start) / CLOCKS_PER_SEC;
-        if (status != KOKSMA_INTERRUPTED || asked != 1 || took_s > 15) {
-            fail_msg("%s, n = %zu, dim = %d: status %d, asked %d times, %g s of processor time", rows[r].spec,
-                     rows[r].n, rows[r].dim, (int)status, asked, took_s);
-        }
-        koksma_points_fini(&points);
-    }
 }

@@ -379,28 +379,3 @@ TEST_CASE(plane)
         before = own;
     }
 }
-
-static bool count_down(void *context, double done)
-{
-    (void)done;
-    int *left = context;
-    return (*left)-- > 0;
-}
-
-/* The search is asked again and again whether to go on, and ends at any of these. */
-TEST_CASE(search_is_interrupted)
-{
-    koksma_spec spec;
-    koksma_points points;
-    int asked = 0;
-    assert_ok(koksma_pattern_spec("lattice-rank1", &spec));
-    assert_ok(koksma_points_init(&points, 30030, 4));
-    for (koksma_status status = KOKSMA_INTERRUPTED; status; asked += asked < 40 ? 1 : 25) {
-        int left = asked;
-        const koksma_run run = {.threads = 1, .keep_going = count_down, .context = &left};
-        status = koksma_generate(&spec, 0, &run, &points);
-        assert_true(status == KOKSMA_OK || status == KOKSMA_INTERRUPTED);
-    }
-    assert_true(asked > 100);
-    koksma_points_fini(&points);
-}

@@ -39,9 +39,8 @@ static void energies_of(const uint32_t *ranks, int size, uint32_t below, double 
 }
 
 /* Ulichney's three rules, to 1e-9, at every size that a window of 19 pixels treats in its own way. */
-static void masks_are_ulichneys(void **state)
+TEST_CASE(masks_are_ulichneys)
 {
-    (void)state;
     static const int sizes[] = {4, 5, 6, 7, 8, 10, 12, 16, 17, 18, 19, 20, 23};
     for (size_t t = 0; t < sizeof sizes / sizeof *sizes; t++) {
         const int size = sizes[t], n = size * size;
@@ -82,9 +81,8 @@ static void masks_are_ulichneys(void **state)
 }
 
 /* The bits that scanning all pixels for each extreme gave. */
-static void masks_keep_their_bits(void **state)
+TEST_CASE(masks_keep_their_bits)
 {
-    (void)state;
     static const struct {
         int size;
         uint64_t hash;
@@ -125,9 +123,8 @@ static double energy_of_voxel(const uint32_t *ranks, const int *sides, int at, u
     return energy;
 }
 
-static void masks_in_time_are_ulichneys(void **state)
+TEST_CASE(masks_in_time_are_ulichneys)
 {
-    (void)state;
     static const int all[][3] = {{4, 4, 4}, {5, 5, 8}, {8, 8, 5}, {9, 9, 10}};
     for (size_t t = 0; t < sizeof all / sizeof *all; t++) {
         const int *sides = all[t], n = sides[0] * sides[1] * sides[2];
@@ -175,9 +172,8 @@ static koksma_points tile_of(uint32_t *const ranks[3], size_t pixels, size_t spp
     return tile;
 }
 
-static void the_header_has_the_patterns_points(void **state)
+TEST_CASE(the_header_has_the_patterns_points)
 {
-    (void)state;
     static const struct {
         int width;
         size_t spp;
@@ -207,9 +203,8 @@ static void the_header_has_the_patterns_points(void **state)
     assert_int_equal(koksma_mask_value(5, 16, 0), 0x50000000u);
 }
 
-static void a_pixel_can_have_its_vector(void **state)
+TEST_CASE(a_pixel_can_have_its_vector)
 {
-    (void)state;
     double values[2 * 25];
     assert_ok(koksma_mask_vectors(5, 2, 8, NULL, values));
     koksma_points points = test_points("mask-offset:width=5,masks=vectors", 25, 2, 8);
@@ -224,9 +219,8 @@ static void a_pixel_can_have_its_vector(void **state)
     koksma_points_fini(&points);
 }
 
-static void pixels_have_nets(void **state)
+TEST_CASE(pixels_have_nets)
 {
-    (void)state;
     for (size_t spp = 1; spp <= 256; spp *= 2) {
         koksma_points tile = test_points("mask-offset:width=6", 36 * spp, 2, spp);
         for (size_t pixel = 0; pixel < 36; pixel++) {
@@ -278,9 +272,8 @@ static void errors_of(const koksma_points *tile, size_t pixels, double *errors)
 /* Over many tiles the mean square error in a pixel is that of independently scrambled pixels, within 3 standard
    errors of the mean over tiles, and the mean error is 0. A toroidal shift has 5 times as much for x with 4 samples.
  */
-static void pixels_err_like_independent_ones(void **state)
+TEST_CASE(pixels_err_like_independent_ones)
 {
-    (void)state;
     enum { WIDTH = 8, PIXELS = WIDTH * WIDTH, TILES = 200 };
     static const size_t spps[] = {1, 3, 4, 6, 16, 64};
     for (size_t t = 0; t < sizeof spps / sizeof *spps; t++) {
@@ -325,9 +318,8 @@ static void pixels_err_like_independent_ones(void **state)
 }
 
 /* The variance of means over 8 x 8 pixels, times 64, in that of pixels: 1 for white noise. */
-static void neighbours_errors_cancel(void **state)
+TEST_CASE(neighbours_errors_cancel)
 {
-    (void)state;
     enum { WIDTH = 64, BLOCK = 8, PIXELS = WIDTH * WIDTH, TILES = 6, N_SPP = 8 };
     static const struct {
         size_t spp;
@@ -374,9 +366,8 @@ static void neighbours_errors_cancel(void **state)
 
 /* The pattern mask-file. A mask of one number gives the same points for any map that keeps the order of its numbers; each
    pixel's points are a net; other seeds give other points, and a mask of two numbers is shifted alone. */
-static void masks_in_files_vary_the_pixels(void **state)
+TEST_CASE(masks_in_files_vary_the_pixels)
 {
-    (void)state;
     enum { W = 6, H = 4, N = W * H, SPP = 16 };
     koksma_points numbers = {N, 1, (double[N]){0}}, squares = {N, 1, (double[N]){0}};
     for (int p = 0; p < N; p++) {
@@ -412,9 +403,8 @@ static void masks_in_files_vary_the_pixels(void **state)
     koksma_points_fini(&c);
 }
 
-static void vectors_in_files_are_the_samples(void **state)
+TEST_CASE(vectors_in_files_are_the_samples)
 {
-    (void)state;
     enum { W = 5, H = 4, N = W * H };
     float v[2 * N];
     FILE *file = fopen("vectors.npy", "wb");
@@ -450,9 +440,8 @@ static void vectors_in_files_are_the_samples(void **state)
 
 /* Masks of directions and of points of the disk give the points that the warp maps to their values, each once, in one
    shift of the tile. */
-static void directions_in_files_are_the_samples(void **state)
+TEST_CASE(directions_in_files_are_the_samples)
 {
-    (void)state;
     enum { W = 9, H = 4, N = W * H };
     static const char *const spaces[] = {"hemisphere", "disk"}, *const warps[] = {"cosine-hemisphere",
                                                                                   "concentric-disk"};
@@ -485,22 +474,4 @@ static void directions_in_files_are_the_samples(void **state)
         koksma_points_fini(&points);
         koksma_points_fini(&mapped);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(directions_in_files_are_the_samples),
-        cmocka_unit_test(masks_in_files_vary_the_pixels),
-        cmocka_unit_test(vectors_in_files_are_the_samples),
-        cmocka_unit_test(masks_are_ulichneys),
-        cmocka_unit_test(masks_keep_their_bits),
-        cmocka_unit_test(the_header_has_the_patterns_points),
-        cmocka_unit_test(a_pixel_can_have_its_vector),
-        cmocka_unit_test(pixels_have_nets),
-        cmocka_unit_test(pixels_err_like_independent_ones),
-        cmocka_unit_test(neighbours_errors_cancel),
-        cmocka_unit_test(masks_in_time_are_ulichneys),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Maximal Poisson disk sets: exactly n points, for many n and seeds, and by distance; files and specs as patterns. */
+/* Maximal Poisson disk sets: exactly n points, for many n and seeds, and by distance. */
 #include <koksma/verify.h>
 
 #include <math.h>
-#include <string.h>
 
 #include "patterns/spacing/spacing.h"
 #include "test.h"
@@ -136,20 +135,6 @@ TEST_CASE(tiles_end_at_n)
     }
 }
 
-/* More points than 256 are thrown by another method; the first 256 are the same darts. */
-TEST_CASE(grids_change_no_points)
-{
-    static const char *const specs[] = {"poisson-disk:d=0.045", "poisson-disk:d=0.044,torus=1", "poisson-disk:d=0"};
-    for (size_t i = 0; i < sizeof specs / sizeof *specs; i++) {
-        for (uint64_t seed = 0; seed < 4; seed++) {
-            koksma_points few = test_points(specs[i], 256, 2, seed), more = test_points(specs[i], 270, 2, seed);
-            assert_memory_equal(few.xs, more.xs, 2 * 256 * sizeof *few.xs);
-            koksma_points_fini(&few);
-            koksma_points_fini(&more);
-        }
-    }
-}
-
 TEST_CASE(fractions_of_the_densest)
 {
     static const double fractions[] = {0.01, 0.1, 0.39, 0.4, 0.7};
@@ -167,55 +152,4 @@ TEST_CASE(fractions_of_the_densest)
             koksma_points_fini(&p);
         }
     }
-}
-
-TEST_CASE(files_are_patterns)
-{
-    static const char *const endings[] = {"txt", "csv", "npy"};
-    koksma_points p = test_points("random", 20, 3, 1);
-    for (int e = 0; e < 3; e++) {
-        char path[64], spec_text[80], back[KOKSMA_MAX_SPEC];
-        koksma_spec spec;
-        snprintf(path, sizeof path, "test_disks_points.%s", endings[e]);
-        snprintf(spec_text, sizeof spec_text, "file:%s", path);
-        assert_ok(koksma_points_write(path, &p, NULL, NULL));
-        koksma_points some = test_points(spec_text, 12, 3, 7), all;
-        assert_memory_equal(some.xs, p.xs, 12 * 3 * sizeof *p.xs);
-        koksma_points_fini(&some);
-        assert_ok(koksma_pattern_spec(spec_text, &spec));
-        koksma_spec_text(&spec, back);
-        assert_string_equal(back, spec_text);
-        assert_ok(koksma_generate_whole(&spec, 0, NULL, 0, &all));
-        assert_int_equal(all.n, 20);
-        assert_int_equal(all.dim, 3);
-        koksma_points_fini(&all);
-        assert_ok(koksma_points_init(&some, 21, 3));
-        assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_N);
-        assert_non_null(strstr(koksma_error_text(), "20 points"));
-        koksma_points_fini(&some);
-        some = test_points(spec_text, 5, 2, 0); /* the first of the file's dimensions */
-        assert_true(some.xs[2] == p.xs[3] && some.xs[9] == p.xs[13]);
-        koksma_points_fini(&some);
-        assert_ok(koksma_points_init(&some, 5, 4));
-        assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_DIM);
-        koksma_points_fini(&some);
-        snprintf(spec_text, sizeof spec_text, "file:%s,shift=1", path);
-        some = test_points(spec_text, 12, 3, 7);
-        assert_true(some.xs[0] != p.xs[0]);
-        koksma_points_fini(&some);
-        remove(path);
-        assert_ok(koksma_points_init(&some, 5, 3));
-        assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_MISSING);
-        koksma_points_fini(&some);
-    }
-    p.xs[4] = 1;
-    assert_ok(koksma_points_write("test_disks_points.txt", &p, NULL, NULL));
-    koksma_spec spec;
-    koksma_points some;
-    assert_ok(koksma_pattern_spec("file:test_disks_points.txt", &spec));
-    assert_ok(koksma_points_init(&some, 5, 3));
-    assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_MALFORMED);
-    koksma_points_fini(&some);
-    remove("test_disks_points.txt");
-    koksma_points_fini(&p);
 }

@@ -86,47 +86,6 @@ TEST_CASE(sets_by_distance_are_ordered)
     }
 }
 
-TEST_CASE(seeds_and_threads)
-{
-    for (size_t p = 0; p < PATTERNS; p++) {
-        for (int dim = 2; dim <= 4; dim += 2) {
-            koksma_spec spec;
-            koksma_points one = in_order(patterns[p], "progressive", 100, dim, 5), many;
-            koksma_points other = in_order(patterns[p], "progressive", 100, dim, 6);
-            const size_t bytes = 100 * (size_t)dim * sizeof *one.xs;
-            char text[64];
-            snprintf(text, sizeof text, "%sorder=progressive", patterns[p]);
-            assert_ok(koksma_pattern_spec(text, &spec));
-            assert_ok(koksma_points_init(&many, 100, dim));
-            for (int threads = 1; threads <= 4; threads += 3) {
-                assert_ok(koksma_generate(&spec, 5, &(koksma_run){.threads = threads}, &many));
-                assert_memory_equal(many.xs, one.xs, bytes);
-            }
-            assert_memory_not_equal(other.xs, one.xs, bytes);
-            koksma_points_fini(&one);
-            koksma_points_fini(&other);
-            koksma_points_fini(&many);
-        }
-    }
-}
-
-static bool call_off(void *context, double done)
-{
-    (void)context;
-    (void)done;
-    return false;
-}
-
-TEST_CASE(a_long_order_is_interrupted)
-{
-    koksma_spec spec;
-    koksma_points points;
-    assert_ok(koksma_pattern_spec("poisson-disk-maximal:order=progressive", &spec));
-    assert_ok(koksma_points_init(&points, 1000, 2));
-    assert_int_equal(koksma_generate(&spec, 0, &(koksma_run){.keep_going = call_off}, &points), KOKSMA_INTERRUPTED);
-    koksma_points_fini(&points);
-}
-
 /* ---- Prefixes --------------------------------------------------------------------------------------------- */
 
 static double relative_radius(const koksma_points *p)

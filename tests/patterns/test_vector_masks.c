@@ -21,9 +21,8 @@ static double *mask_of(int size, int dim, uint64_t seed)
     return values;
 }
 
-static void every_interval_has_one_value(void **state)
+TEST_CASE(every_interval_has_one_value)
 {
-    (void)state;
     static const int cases[][2] = {{4, 1}, {4, 8}, {5, 2}, {7, 3}, {12, 2}, {13, 4}, {14, 1}};
     const size_t n_cases = test_repeats(sizeof cases / sizeof *cases, 4);
     for (size_t t = 0; t < n_cases; t++) {
@@ -47,9 +46,8 @@ static void every_interval_has_one_value(void **state)
 
 /* The star discrepancy is below 2.2 log(n) / n, which good lattices in two dimensions have (Niederreiter 1992, chapter 5):
    .048 for 256 points, of which random ones have some .07. */
-static void vectors_have_a_low_discrepancy(void **state)
+TEST_CASE(vectors_have_a_low_discrepancy)
 {
-    (void)state;
     enum { SIZE = test_repeats(16, 8), N = SIZE * SIZE };
     double *values = mask_of(SIZE, 2, 3);
     const koksma_points points = {N, 2, values};
@@ -146,9 +144,8 @@ static double descend(const factors *f, int *at, int p, int q)
 
 /* The energy lies below the mean of random arrangements by as much, within 3 %, as the best of the arrangements in which
    a descent by swaps of all pairs ends; and no swap lowers it by more than 1 % of that. */
-static void the_energy_is_small(void **state)
+TEST_CASE(the_energy_is_small)
 {
-    (void)state;
     enum { SIZE = test_repeats(12, 8), N = SIZE * SIZE, RANDOM = test_repeats(20, 4), DESCENTS = test_repeats(2, 1) };
     for (int dim = 1; dim <= test_repeats(4, 2); dim++) {
         double *values = mask_of(SIZE, dim, (uint64_t)dim), random = 0, least = INFINITY;
@@ -194,9 +191,8 @@ static void the_energy_is_small(void **state)
 
 /* Sizes at which the window is the whole torus, and sizes at which it is a part: the energy per pixel is lower than that of
    random arrangements by some .05 in the smallest tiles and by more than .1 from 12 pixels on. */
-static void the_energy_is_small_at_every_size(void **state)
+TEST_CASE(the_energy_is_small_at_every_size)
 {
-    (void)state;
     static const struct {
         int size;
         double least; /* gain of the energy per pixel, at least */
@@ -227,85 +223,10 @@ static void the_energy_is_small_at_every_size(void **state)
 
 enum { FUNCTIONS = 6 };
 
-static double function(int which, double x, double y)
-{
-    switch (which) {
-    case 0:
-        return x;
-    case 1:
-        return y;
-    case 2:
-        return x * y;
-    case 3:
-        return exp(-x * x - y * y);
-    case 4:
-        return x < 0.31830988618379;
-    default:
-        return x * x + y * y < 0.63661977236758;
-    }
-}
-
-/* The mean power at frequencies below size/8 cycles in the tile, a quarter of the highest; 1 for white noise. */
-static double low_power(const double *f, int size)
-{
-    const double turn = 2 * acos(-1) / size;
-    double mean = 0, variance = 0, sum = 0;
-    int bins = 0;
-    for (int p = 0; p < size * size; p++) {
-        mean += f[p] / (size * size);
-    }
-    for (int p = 0; p < size * size; p++) {
-        variance += (f[p] - mean) * (f[p] - mean);
-    }
-    for (int v = -size / 8; v <= size / 8; v++) {
-        for (int u = 0; u <= size / 8; u++) {
-            double re = 0, im = 0;
-            if ((u == 0 && v == 0) || u * u + v * v >= size * size / 64) {
-                continue;
-            }
-            for (int p = 0; p < size * size; p++) {
-                const double phase = turn * (u * (p % size) + v * (p / size));
-                re += f[p] * cos(phase);
-                im += f[p] * sin(phase);
-            }
-            sum += (re * re + im * im) / variance;
-            bins++;
-        }
-    }
-    return sum / bins;
-}
-
-/* With two dimensions, functions of the vector have at most a tenth of the low power of white noise if they are smooth,
-   three tenths if they have a jump; with four, twice as much. The few frequencies of the small tile that is used with
-   sanitizers vary more. */
-static void functions_of_the_vectors_are_blue(void **state)
-{
-    (void)state;
-    enum { SIZE = test_repeats(32, 16), N = SIZE * SIZE };
-    for (int dim = 2; dim <= test_repeats(4, 2); dim += 2) {
-        double *f = malloc(N * sizeof *f);
-        assert_non_null(f);
-        double *values = mask_of(SIZE, dim, 3);
-        for (int which = 0; which < FUNCTIONS; which++) {
-            for (int p = 0; p < N; p++) {
-                const double *at = values + (size_t)p * (size_t)dim;
-                f[p] = function(which, at[0], at[dim - 1]);
-            }
-            const double power = low_power(f, SIZE), most = (which < 4 ? 0.1 : 0.3) * (dim == 2 ? 1 : 2);
-            if (!(power < most * test_repeats(1, 1.5))) {
-                fail_msg("dim %d, function %d: low power %.3f, not below %.2f", dim, which, power, most);
-            }
-        }
-        free(values);
-        free(f);
-    }
-}
-
 /* Every pixel's vector is uniform over the seeds: the mean of a product over seeds is that of the square, within 4
    standard errors. */
-static void pixels_are_unbiased(void **state)
+TEST_CASE(pixels_are_unbiased)
 {
-    (void)state;
     enum { SEEDS = test_repeats(200, 10), N = 16 };
     double sum[N] = {0}, value[N * 2];
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
@@ -326,9 +247,8 @@ static bool stop_later(void *context, double fraction_done)
     return (*left)-- > 0;
 }
 
-static void masks_depend_on_the_seed_alone(void **state)
+TEST_CASE(masks_depend_on_the_seed_alone)
 {
-    (void)state;
     enum { SIZE = 8, N = SIZE * SIZE * 2 };
     double first[N], again[N], other[N];
     assert_ok(koksma_mask_vectors(SIZE, 2, 5, &(koksma_run){.threads = 1}, first));
@@ -353,18 +273,4 @@ static void masks_depend_on_the_seed_alone(void **state)
         assert_int_equal(koksma_mask_vectors(wrong[t][0], wrong[t][1], 5, NULL, other), KOKSMA_ARGUMENT);
     }
     assert_int_equal(koksma_mask_vectors(SIZE, 2, 5, NULL, NULL), KOKSMA_ARGUMENT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_interval_has_one_value),
-        cmocka_unit_test(vectors_have_a_low_discrepancy),
-        cmocka_unit_test(the_energy_is_small),
-        cmocka_unit_test(the_energy_is_small_at_every_size),
-        cmocka_unit_test(functions_of_the_vectors_are_blue),
-        cmocka_unit_test(pixels_are_unbiased),
-        cmocka_unit_test(masks_depend_on_the_seed_alone),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -184,38 +184,6 @@ TEST_CASE(every_way_of_sampling_has_the_same_mean)
     koksma_scene_close(scene);
 }
 
-/* A constant picture stays constant, by every filter, drawn or splatted, in each pixel and by either pipeline (path:
-   wavefront.c), also by patterns that have a point at 0; test_adaptive has it of
-   adaptive methods. */
-TEST_CASE(filters_keep_a_constant)
-{
-    static const char *const patterns[] = {"random", "n-rooks", "sobol", "hammersley", "regular"};
-    static const int spps[] = {1, 2, 4, 16, 64};
-    koksma_scene *scene = scene_of(SKY_ALONE("0.75"));
-    const koksma_filter *f;
-    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
-        for (size_t k = 0; k < 100; k++) {
-            koksma_render_options options =
-                options_of(scene, patterns[k % 5], k / 50 ? "path" : "distribution", spps[k / 5 % 5], 16);
-            koksma_layers layers;
-            options.filter = f;
-            options.splat = k / 25 % 2;
-            options.pairing =
-                k % 2 && strcmp(patterns[k % 5], "hammersley") ? KOKSMA_PAIRING_NATIVE : options.pairing;
-            if (koksma_render_layers(scene, &options, NULL, &layers)) { /* no such regular set, or none of 2 points */
-                assert_true(options.spp == 2);
-                continue;
-            }
-            for (size_t p = 0; p < 256; p++) {
-                assert_near((double)layers.image.pixels[p], 0.75, 1e-6);
-                assert_near((double)layers.variance.pixels[p], 0, 1e-12);
-            }
-            koksma_layers_fini(&layers);
-        }
-    }
-    koksma_scene_close(scene);
-}
-
 /* A million samples in a pixel, of a value that floats can't sum: 2^20 x 0.7 would be 1 % too much. */
 TEST_CASE(many_splats_are_summed)
 {
@@ -236,35 +204,6 @@ TEST_CASE(filters_are_what_they_say)
         }
         assert_true(f->value(f->radius + 1e-9) == 0);
     }
-}
-
-/* A half-plane's edge across a pixel: the filtered value is the integral of the filter up to the edge. */
-TEST_CASE(filters_weigh_an_edge)
-{
-    koksma_scene *scene =
-        scene_of("{'camera': {'eye': [0, 0, 1], 'target': [0, 0, 0], 'fov_deg': 90}, 'ambient': 1,'materials': "
-                 "[{'name': 'm', 'kind': 'lambert', 'albedo': 1}], 'shapes': [{'kind': 'rectangle', 'centre': "
-                 "[-4.95, 0, 0], 'normal': [0, 0, 1], 'half': [5, 10], 'material': 'm'}]}");
-    const koksma_filter *f;
-    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
-        /* 9 pixels over [-1, 1]: the edge at x = 0.05 is 0.225 pixels right of the middle pixel's centre */
-        double part = 0, whole = 0;
-        for (double x = -2 + 5e-5; x < 2; x += 1e-4) {
-            part += x < 0.225 ? f->value(x) : 0;
-            whole += f->value(x);
-        }
-        koksma_render_options options = options_of(scene, "jittered", "distribution", 4096, 9);
-        options.filter = f;
-        koksma_image image;
-        assert_ok(koksma_render(scene, &options, NULL, &image));
-        assert_near((double)image.pixels[4 * 9 + 4], part / whole, 4e-3);
-        koksma_image_fini(&image);
-        options.splat = true;
-        assert_ok(koksma_render(scene, &options, NULL, &image));
-        assert_near((double)image.pixels[4 * 9 + 4], part / whole, 4e-3);
-        koksma_image_fini(&image);
-    }
-    koksma_scene_close(scene);
 }
 
 /* ---- Layers --------------------------------------------------------------------------------------------- */

@@ -110,29 +110,6 @@ TEST_CASE(absorption_is_exponential)
     }
 }
 
-/* Of an emitter behind a medium that scatters, too, the light that was not scattered is exp(-(sigma_a + sigma_s) d) in each
-   channel. */
-TEST_CASE(unscattered_light_is_exponential)
-{
-    koksma_scene *scene = scene_of(EYE("0.01") "'medium': {'sigma_a': [0.1, 0, 0.2], 'sigma_s': [0.2, 0.05, 0], "
-                                               "'low': [-9, -9, 1], 'high': [9, 9, 4]}, " NOTHING
-                                               ", 'lights': [{'kind': 'rectangle', 'centre': [0, 0, 0], 'normal': "
-                                               "[0, 0, 1], 'half': [1, 1], 'radiance': 1, 'visible': true}]}");
-    koksma_render_options options = options_of(scene, "random", "path", 16, test_repeats(64, 24));
-    koksma_aovs aovs;
-    koksma_layers layers;
-    double mean[3], error[3];
-    assert_ok(koksma_aovs_parse("bounce:0", &aovs));
-    assert_ok(koksma_render_aovs(scene, &options, NULL, &aovs, &layers));
-    means_of(&aovs.images[0], mean, error);
-    assert_mean(mean[0], error[0], exp(-0.3 * 3));
-    assert_mean(mean[1], error[1], exp(-0.05 * 3));
-    assert_mean(mean[2], error[2], exp(-0.2 * 3));
-    koksma_aovs_fini(&aovs);
-    koksma_layers_fini(&layers);
-    koksma_scene_close(scene);
-}
-
 /* ---- Single scattering ---------------------------------------------------------------------------------------- */
 
 static double henyey_greenstein(double g, double cosine)
@@ -192,34 +169,6 @@ TEST_CASE(single_scattering_is_its_integral)
                 }
             }
         }
-        koksma_scene_close(scene);
-    }
-}
-
-/* Beyond a wall that has the light on its other side haze is dark, although nothing else is there for a shadow; and beside
-   the same wall it is as bright as without. The ray of scattered_once() runs along -z at x = y = 0. */
-TEST_CASE(haze_lies_in_the_shadow_of_a_wall)
-{
-    static const struct {
-        double height; /* of the wall, between the ray and the light */
-        bool lit;
-    } walls[] = {{0.5, false}, {-0.5, true}, {1.5, true}};
-    for (size_t w = 0; w < sizeof walls / sizeof *walls; w++) {
-        char text[1024];
-        snprintf(
-            text, sizeof text,
-            EYE("0.01") "'medium': {'sigma_a': 0.05, 'sigma_s': 0.1, 'low': [-9, -9, -3], 'high': [9, 9, "
-                        "4]}, " LAMBERT
-                        "'shapes': [{'kind': 'rectangle', 'centre': [0, %g, 0], 'normal': [0, 1, 0], 'half': [90, "
-                        "90], 'material': 'm'}], 'lights': [{'kind': 'point', 'centre': [0, 1, 2], 'intensity': 2}]}",
-            walls[w].height);
-        koksma_scene *scene = scene_of(text);
-        koksma_render_options options = options_of(scene, "random", "path", 64, 32);
-        double mean[3], error[3];
-        options.depth = 0;
-        render_means(scene, &options, mean, error);
-        assert_mean(mean[0], error[0], walls[w].lit ? scattered_once(0.05, 0.1, 0) : 0);
-        assert_true(walls[w].lit || mean[0] == 0);
         koksma_scene_close(scene);
     }
 }
@@ -328,44 +277,6 @@ TEST_CASE(emitting_enclosures_are_white)
         }
         koksma_scene_close(scene);
     }
-}
-
-/* All strategies and all ways to choose among lights of all distances, some of them beside, behind and within the
-   medium, have the same mean as the other ones. */
-TEST_CASE(strategies_agree)
-{
-    koksma_scene *scene =
-        scene_of(EYE("30") "'medium': {'sigma_a': 0.1, 'sigma_s': [0.3, 0.4, 0.2], 'g': 0.6, 'low': [-2, -2, -2], "
-                           "'high': [2, 2, 4]}, " LAMBERT
-                           "'shapes': [{'kind': 'rectangle', 'centre': [0, -1, 0], 'normal': [0, 1, 0], 'half': [3, "
-                           "3], 'material': 'm'}], 'lights': [{'kind': 'sphere', 'centre': [-1, 0.5, 0], 'radius': "
-                           "0.4, 'radiance': 2, 'visible': true}, {'kind': 'rectangle', 'centre': [0, 3, 0], "
-                           "'normal': [0, -1, 0], 'half': [1, 1], 'radiance': 3, 'visible': true}, {'kind': 'point', "
-                           "'centre': [3, 0, 0], 'intensity': 2}, {'kind': 'directional', 'direction': [1, -1, -1], "
-                           "'irradiance': 4}, {'kind': 'environment', 'radiance': 0.1}]}");
-    double first[3], first_error[3];
-    koksma_render_options options = options_of(scene, "random", "path", test_repeats(64, 16), test_repeats(32, 16));
-    options.depth = 4;
-    options.seed = 99;
-    render_means(scene, &options, first, first_error);
-    for (size_t i = 0; koksma_integrator_at(i); i++) {
-        for (int lights = 0; renders_media(koksma_integrator_at(i)) && koksma_light_selection_name(lights);
-             lights++) {
-            double mean[3], error[3];
-            options.integrator = koksma_integrator_at(i);
-            options.lights = (koksma_light_selection)lights;
-            options.seed = 100 + 10 * i + (uint64_t)lights;
-            render_means(scene, &options, mean, error);
-            for (int k = 0; k < 3; k++) {
-                if (!(fabs(mean[k] - first[k]) <= 4.5 * hypot(error[k], first_error[k]))) {
-                    fail_msg("%s, lights %s, channel %d: %g +- %.2g, by path %g +- %.2g", options.integrator->name,
-                             koksma_light_selection_name(options.lights), k, mean[k], error[k], first[k],
-                             first_error[k]);
-                }
-            }
-        }
-    }
-    koksma_scene_close(scene);
 }
 
 /* ---- The phase function --------------------------------------------------------------------------------------- */

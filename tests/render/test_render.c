@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Renders as a whole: bits, light in closed form, shadows, interruptions, errors. */
-#include <time.h>
+/* Renders as a whole: bits, light in closed form, shadows, errors. */
 
 #include "rendering.h"
 
@@ -109,71 +108,6 @@ static bool stop_at_once(void *context, double fraction)
     (void)context;
     (void)fraction;
     return false;
-}
-
-static double cpu_s(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Stops when the other thread has worked for 2 ms; waits for that with 0.2 s of processor time. */
-static bool stop_the_other(void *context, double fraction)
-{
-    (void)fraction;
-    const double before = *(const double *)context, end = cpu_s(CLOCK_THREAD_CPUTIME_ID) + 0.2;
-    double now, others;
-    do {
-        now = cpu_s(CLOCK_THREAD_CPUTIME_ID);
-        others = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - now - before;
-    } while (others < 2e-3 && now < end);
-    return others < 2e-3;
-}
-
-/* Two rows of so many samples that each is a task of a thread: a thread does not finish its row before it stops. */
-TEST_CASE(an_interruption_stops_every_thread)
-{
-    koksma_render_options options;
-    koksma_layers layers;
-    double before = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - cpu_s(CLOCK_THREAD_CPUTIME_ID);
-    const koksma_run run = {.threads = 2, .keep_going = stop_the_other, .context = &before};
-    koksma_scene *scene = shipped("ball");
-    koksma_render_options_init(&options, scene);
-    options.width = 64;
-    options.height = 2;
-    options.spp = 1 << 16;
-    assert_int_equal(koksma_render_layers(scene, &options, &run, &layers), KOKSMA_INTERRUPTED);
-    assert_true(layers.rays < 64ull << 16);
-    koksma_layers_fini(&layers);
-    koksma_scene_close(scene);
-}
-
-static bool count_looks(void *context, double fraction)
-{
-    (void)fraction;
-    ++*(size_t *)context;
-    return true;
-}
-
-/* A pattern may take long for each of its sets without asking keep_going, and the sets of a row are drawn together. The
-   renderer asks between sets: here, where it would else ask once for the image, 8 times or more. */
-TEST_CASE(keep_going_is_asked_between_sets)
-{
-    koksma_render_options options;
-    koksma_image image;
-    size_t looks = 0;
-    const koksma_run run = {.threads = 1, .keep_going = count_looks, .context = &looks};
-    koksma_scene *scene = shipped("ball");
-    koksma_render_options_init(&options, scene);
-    options.width = 64;
-    options.height = 2;
-    options.spp = 1;
-    assert_ok(koksma_pattern_spec("progressive-elimination:length=4", &options.pattern));
-    assert_ok(koksma_render(scene, &options, &run, &image));
-    assert_true(looks >= 8);
-    koksma_image_fini(&image);
-    koksma_scene_close(scene);
 }
 
 TEST_CASE(errors_are_said)

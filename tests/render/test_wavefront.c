@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The general pipeline against closed forms, furnaces and form factors, and each way to light against the others. */
+/* The general pipeline against closed forms and furnaces. tests/render/test_integrators.c has those of every integrator. */
 #include "rendering.h"
 
 /* ---- Furnaces --------------------------------------------------------------------------------------------- */
@@ -8,75 +8,12 @@
 #define WORLD "'lights': [{'kind': 'environment', 'radiance': 1}]"
 #define BALL_OF "'shapes': [{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1, 'material': 'm'}]"
 
-/* Under light that is the same from everywhere, seen straight on, a convex body shows the share that it reflects.
-   That of GGX is (2 pi / 4) times the integral of D(theta / 2) / (1 + lambda(theta)) sin(theta): 1 - ln 2 for a = 1,
-   and by quadrature 0.915812 for a = 1/4. */
-TEST_CASE(furnace_shows_the_albedo)
-{
-    static const struct {
-        const char *material;
-        double reflected;
-    } cases[] = {
-        {"'kind': 'lambert', 'albedo': 0.7", 0.7},
-        {"'kind': 'mirror', 'reflectance': 0.6", 0.6},
-        {"'kind': 'dielectric', 'ior': 1.5", 1},
-        {"'kind': 'phong', 'reflectance': 0.9, 'exponent': 200", 0.9},
-        {"'kind': 'phong', 'reflectance': 0.9, 'exponent': 2", 0.9},
-        {"'kind': 'ggx', 'reflectance': 1, 'roughness': 0.5", 0.915812},
-        {"'kind': 'ggx', 'reflectance': 1, 'roughness': 1", 1 - M_LN2},
-        {"'kind': 'utah', 'albedo': 0.4, 'reflectance': 0.5, 'exponent': 300", 0.9},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[1024];
-        double error;
-        snprintf(text, sizeof text, "{" SIGHT "," WORLD "," BALL_OF ", 'materials': [{'name': 'm', %s}]}",
-                 cases[i].material);
-        const double mean = mean_of_text(text, "n-rooks", "path", 64, 256, 24, &error);
-        assert_mean(mean, error, cases[i].reflected);
-        assert_true(error < 1e-3);
-    }
-}
-
 /* ---- Form factors ----------------------------------------------------------------------------------------- */
 
 #define PATCH                                                                                                        \
     "'camera': {'eye': [0, 1, 4], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', 'kind': "        \
     "'lambert', 'albedo': 0.9}],'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], 'normal': [0, 1, 0], 'material': " \
     "'m'}]"
-
-/* What a patch of albedo 0.9 reflects under one light. */
-TEST_CASE(lights_are_their_form_factors)
-{
-    static const struct {
-        const char *light;
-        double reflected;
-    } cases[] = {
-        /* a sphere of radius r overhead at h: (r/h)^2; aslant: times the cosine */
-        {"'kind': 'sphere', 'centre': [0, 3, 0], 'radius': 1, 'radiance': 2", 0.9 * 2 / 9},
-        {"'kind': 'sphere', 'centre': [3, 4, 0], 'radius': 0.5, 'radiance': 2", 0.9 * 2 * 0.01 * 0.8},
-        /* a disk of radius r, parallel, at h: r^2 / (r^2 + h^2) */
-        {"'kind': 'disk', 'centre': [0, 2, 0], 'normal': [0, -1, 0], 'radius': 1.5, 'radiance': 2",
-         0.9 * 2 * 2.25 / 6.25},
-        {"'kind': 'disk', 'centre': [0, 2, 0], 'normal': [0, 1, 0], 'radius': 1.5, 'radiance': 2", 0},
-        {"'kind': 'point', 'centre': [3, 4, 0], 'intensity': 5", 0.9 / M_PI * 5 / 25 * 0.8},
-        {"'kind': 'directional', 'direction': [3, -4, 0], 'irradiance': 5", 0.9 / M_PI * 5 * 0.8},
-        {"'kind': 'directional', 'direction': [3, 4, 0], 'irradiance': 5", 0},
-        {"'kind': 'environment', 'radiance': 2", 0.9 * 2},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[1024];
-        snprintf(text, sizeof text, "{" PATCH ", 'lights': [{%s}]}", cases[i].light);
-        koksma_scene *scene = scene_of(text);
-        static const char *const integrators[] = {"distribution", "path"};
-        for (size_t k = 0; k < 2; k++) {
-            double error;
-            koksma_render_options options = options_of(scene, "n-rooks", integrators[k], 64, 16);
-            const double mean = mean_of(scene, &options, &error);
-            assert_mean(mean, error, cases[i].reflected);
-        }
-        koksma_scene_close(scene);
-    }
-}
 
 /* A light that is seen does not stand in its own light, be it small and far or all of it far from the origin,
    where places are known to a thousandth. */
@@ -108,38 +45,6 @@ TEST_CASE(seen_lights_do_not_shade_themselves)
         const double mean = mean_of(scene, &options, NULL), expected = 0.9 * cases[i / 2].reflected;
         assert_near(mean, expected, cases[i / 2].off * expected);
         koksma_scene_close(scene);
-    }
-}
-
-/* A light that is seen gives the same light, sampled, met by chance, or both, on a diffuse and on a glossy floor.
- */
-TEST_CASE(seen_lights_give_the_same)
-{
-    static const char *const materials[] = {"'kind': 'lambert', 'albedo': 0.9",
-                                            "'kind': 'phong', 'reflectance': 0.9, 'exponent': 8",
-                                            "'kind': 'utah', 'albedo': 0.5, 'reflectance': 0.4, 'exponent': 30",
-                                            "'kind': 'ggx', 'reflectance': 0.9, 'roughness': 0.4"};
-    static const char *const lights[] = {
-        "'kind': 'sphere', 'centre': [0, 2, -3], 'radius': 0.8, 'radiance': 3",
-        "'kind': 'disk', 'centre': [0, 2, -3], 'facing': [0, 0, 0], 'radius': 0.9, 'radiance': 3",
-        "'kind': 'rectangle', 'centre': [0, 2, -3], 'facing': [0, 0, 0], 'half': [1, 1], 'radiance': 3"};
-    for (size_t i = 0; i < 12; i++) {
-        double means[2], errors[2];
-        for (int seen = 0; seen < 2; seen++) {
-            char text[1024];
-            snprintf(text, sizeof text,
-                     "{'camera': {'eye': [0, 3, 4], 'target': [0, 0, 0], 'fov_deg': 3},'materials': [{'name': 'm', "
-                     "%s}], 'shapes': [{'kind': 'plane', 'centre': [0, 0, 0],'normal': [0, 1, 0], 'material': 'm'}], "
-                     "'lights': [{%s, 'visible': %s}]}",
-                     materials[i / 3], lights[i % 3], seen ? "true" : "false");
-            koksma_scene *scene = scene_of(text);
-            koksma_render_options options = options_of(scene, "n-rooks", "path", 256, 24);
-            options.depth = 1;
-            means[seen] = mean_of(scene, &options, &errors[seen]);
-            koksma_scene_close(scene);
-        }
-        assert_true(means[0] > 0.01);
-        assert_mean(means[1], hypot(errors[0], errors[1]), means[0]);
     }
 }
 
