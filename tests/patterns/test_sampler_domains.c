@@ -269,171 +269,78 @@ typedef struct couple {
     koksma_domain a, b;
 } couple;
 
-static couple adjacent_uses(uint32_t i)
-{
-    const koksma_domain pixel = koksma_domain_of_pixel(1, i, 2);
-    const couple c = {koksma_domain_of_use(pixel, i), koksma_domain_of_use(pixel, i + 1)};
-    return c;
-}
+static const char *const relations[] = {
+    "adjacent uses",   "uses that differ in a bit", "uses i and i << 16",       "adjacent columns",
+    "adjacent rows",   "transposed pixels",         "adjacent seeds",           "seeds that differ in a bit",
+    "seed and column", "adjacent frames",           "frame and column swapped", "adjacent samples",
+    "a sample, a use", "a domain and its use 0",    "use 0 and its use 0",      "uses 1, 2 and 2, 1",
+    "adjacent keys",   "keys that differ in a bit", "key and use swapped",
+};
 
-static couple uses_of_one_bit(uint32_t i)
+/* Two domains of that relation, of which there is one pair for each i. */
+static couple related(size_t relation, uint32_t i)
 {
-    const koksma_domain pixel = koksma_domain_of_pixel(2, i, 2);
-    const couple c = {koksma_domain_of_use(pixel, i), koksma_domain_of_use(pixel, i ^ 1u << i % 32)};
-    return c;
-}
-
-static couple uses_of_swapped_halves(uint32_t i)
-{
-    const koksma_domain pixel = koksma_domain_of_pixel(3, i, 2);
-    const couple c = {koksma_domain_of_use(pixel, i + 1), koksma_domain_of_use(pixel, (i + 1) << 16)};
-    return c;
-}
-
-static couple a_use_in_adjacent_columns(uint32_t i)
-{
-    const couple c = {koksma_domain_of_use(koksma_domain_of_pixel(4, i, 9), 1),
-                      koksma_domain_of_use(koksma_domain_of_pixel(4, i + 1, 9), 1)};
-    return c;
-}
-
-static couple a_use_in_adjacent_rows(uint32_t i)
-{
-    const couple c = {koksma_domain_of_use(koksma_domain_of_pixel(5, 9, i), 1),
-                      koksma_domain_of_use(koksma_domain_of_pixel(5, 9, i + 1), 1)};
-    return c;
-}
-
-static couple transposed_pixels(uint32_t i)
-{
-    const couple c = {koksma_domain_of_pixel(6, i, i + 7), koksma_domain_of_pixel(6, i + 7, i)};
-    return c;
-}
-
-static couple adjacent_seeds(uint32_t i)
-{
-    const couple c = {koksma_domain_of_use(koksma_domain_of_pixel(i, 8, 9), 1),
-                      koksma_domain_of_use(koksma_domain_of_pixel(i + 1, 8, 9), 1)};
-    return c;
-}
-
-static couple seeds_of_one_bit(uint32_t i)
-{
-    const couple c = {koksma_domain_of_pixel(i, 8, 10), koksma_domain_of_pixel(i ^ (uint64_t)1 << i % 64, 8, 10)};
-    return c;
-}
-
-static couple adjacent_frames(uint32_t i)
-{
-    const couple c = {koksma_domain_of_use(koksma_domain_of_pixel(koksma_seed_of_frame(10, i), 8, 9), 1),
-                      koksma_domain_of_use(koksma_domain_of_pixel(koksma_seed_of_frame(10, i + 1), 8, 9), 1)};
-    return c;
-}
-
-static couple frame_and_column_swapped(uint32_t i)
-{
-    const couple c = {koksma_domain_of_pixel(koksma_seed_of_frame(11, i), 77, 1),
-                      koksma_domain_of_pixel(koksma_seed_of_frame(11, 77), i, 1)};
-    return c;
-}
-
-static couple adjacent_samples(uint32_t i)
-{
-    const koksma_domain pixel = koksma_domain_of_pixel(12, i, 2);
-    const couple c = {koksma_domain_of_sample(pixel, i), koksma_domain_of_sample(pixel, i + 1)};
-    return c;
-}
-
-static couple a_sample_and_a_use(uint32_t i)
-{
-    const koksma_domain pixel = koksma_domain_of_pixel(13, i, 2);
-    const couple c = {koksma_domain_of_sample(pixel, i), koksma_domain_of_use(pixel, i)};
-    return c;
-}
-
-static couple seed_and_column_swapped(uint32_t i)
-{
-    const couple c = {koksma_domain_of_pixel(i, 77, 1), koksma_domain_of_pixel(77, i, 1)};
-    return c;
-}
-
-static couple parent_and_child(uint32_t i)
-{
-    const koksma_domain parent = koksma_domain_of_pixel(7, i, i);
-    const couple c = {parent, koksma_domain_of_use(parent, 0)};
-    return c;
-}
-
-static couple child_and_grandchild(uint32_t i)
-{
-    const koksma_domain child = koksma_domain_of_use(koksma_domain_of_pixel(8, i, i), 0);
-    const couple c = {child, koksma_domain_of_use(child, 0)};
-    return c;
-}
-
-static couple nested_in_either_order(uint32_t i)
-{
-    const koksma_domain pixel = koksma_domain_of_pixel(9, i, i);
-    const couple c = {koksma_domain_of_use(koksma_domain_of_use(pixel, 1), 2),
-                      koksma_domain_of_use(koksma_domain_of_use(pixel, 2), 1)};
-    return c;
-}
-
-static couple adjacent_keys(uint32_t i)
-{
-    const couple c = {{2 * i}, {2 * i + 1}};
-    return c;
-}
-
-static couple key_and_use_swapped(uint32_t i)
-{
-    const koksma_domain small = {i}, next = {i + 1};
-    const couple c = {koksma_domain_of_use(small, i + 1), koksma_domain_of_use(next, i)};
-    return c;
-}
-
-static couple keys_of_one_bit(uint32_t i)
-{
-    const couple c = {{i}, {i ^ (uint64_t)1 << i % 64}};
-    return c;
+#define PIXEL koksma_domain_of_pixel
+#define USE koksma_domain_of_use
+#define FRAME koksma_seed_of_frame
+    const koksma_domain at = PIXEL(relation, i, 2), key = {i}, next = {i + 1};
+    switch (relation) {
+    case 0:
+        return (couple){USE(at, i), USE(at, i + 1)};
+    case 1:
+        return (couple){USE(at, i), USE(at, i ^ 1u << i % 32)};
+    case 2:
+        return (couple){USE(at, i + 1), USE(at, (i + 1) << 16)};
+    case 3:
+        return (couple){USE(PIXEL(4, i, 9), 1), USE(PIXEL(4, i + 1, 9), 1)};
+    case 4:
+        return (couple){USE(PIXEL(5, 9, i), 1), USE(PIXEL(5, 9, i + 1), 1)};
+    case 5:
+        return (couple){PIXEL(6, i, i + 7), PIXEL(6, i + 7, i)};
+    case 6:
+        return (couple){USE(PIXEL(i, 8, 9), 1), USE(PIXEL(i + 1, 8, 9), 1)};
+    case 7:
+        return (couple){PIXEL(i, 8, 10), PIXEL(i ^ (uint64_t)1 << i % 64, 8, 10)};
+    case 8:
+        return (couple){PIXEL(i, 77, 1), PIXEL(77, i, 1)};
+    case 9:
+        return (couple){USE(PIXEL(FRAME(10, i), 8, 9), 1), USE(PIXEL(FRAME(10, i + 1), 8, 9), 1)};
+    case 10:
+        return (couple){PIXEL(FRAME(11, i), 77, 1), PIXEL(FRAME(11, 77), i, 1)};
+    case 11:
+        return (couple){koksma_domain_of_sample(at, i), koksma_domain_of_sample(at, i + 1)};
+    case 12:
+        return (couple){koksma_domain_of_sample(at, i), USE(at, i)};
+    case 13:
+        return (couple){PIXEL(7, i, i), USE(PIXEL(7, i, i), 0)};
+    case 14:
+        return (couple){USE(PIXEL(8, i, i), 0), USE(USE(PIXEL(8, i, i), 0), 0)};
+    case 15:
+        return (couple){USE(USE(PIXEL(9, i, i), 1), 2), USE(USE(PIXEL(9, i, i), 2), 1)};
+    case 16:
+        return (couple){{2 * i}, {2 * i + 1}};
+    case 17:
+        return (couple){key, {i ^ (uint64_t)1 << i % 64}};
+    default:
+        return (couple){USE(key, i + 1), USE(next, i)};
+    }
+#undef PIXEL
+#undef USE
+#undef FRAME
 }
 
 TEST_CASE(domains_that_are_alike_are_independent)
 {
     enum { SETS = test_repeats(64, 8), N = 256 };
-    static const struct {
-        const char *name;
-        couple (*make)(uint32_t i);
-    } relations[] = {
-        {"adjacent uses", adjacent_uses},
-        {"uses that differ in a bit", uses_of_one_bit},
-        {"uses i and i << 16", uses_of_swapped_halves},
-        {"adjacent columns", a_use_in_adjacent_columns},
-        {"adjacent rows", a_use_in_adjacent_rows},
-        {"transposed pixels", transposed_pixels},
-        {"adjacent seeds", adjacent_seeds},
-        {"seeds that differ in a bit", seeds_of_one_bit},
-        {"seed and column swapped", seed_and_column_swapped},
-        {"adjacent frames", adjacent_frames},
-        {"frame and column swapped", frame_and_column_swapped},
-        {"adjacent samples", adjacent_samples},
-        {"a sample and a use", a_sample_and_a_use},
-        {"a domain and its use 0", parent_and_child},
-        {"use 0 and its use 0", child_and_grandchild},
-        {"uses 1, 2 and 2, 1", nested_in_either_order},
-        {"adjacent keys", adjacent_keys},
-        {"keys that differ in a bit", keys_of_one_bit},
-        {"key and use swapped", key_and_use_swapped},
-    };
     for (size_t r = 0; r < sizeof relations / sizeof *relations; r++) {
         forget_pairings();
         for (uint32_t set = 0; set < SETS; set++) {
-            const couple c = relations[r].make(set);
+            const couple c = related(r, set);
             assert_true(c.a.key != c.b.key);
             draw(c.a, 0, N);
             draw(c.b, 1, N);
             pair_domains(0, 1, N);
         }
-        assert_independent(relations[r].name, N);
+        assert_independent(relations[r], N);
     }
 }

@@ -5,16 +5,13 @@
  * coordinate here and each there, by chi-squared over 4,096 pixels or seeds. A function that forgets a part of its domain
  * draws the same numbers twice and fills 16 cells.
  *
- * The table has all functions of the headers, which the last test reads; test_sampler_domains.c has the errors of sets of
- * samples in two domains. Adjacent pixels of masks, keys and z_rank depend on each other by purpose: test_masks.c and
+ * The others of these headers have no domain, make one, or are forms with the same numbers (test_sampler_blocks.c,
+ * test_keys_4d.c); test_sampler_domains.c has the errors of sets of samples in two domains. Adjacent pixels of masks, keys and z_rank depend on each other by purpose: test_masks.c and
  * test_keys.c measure how their errors do, test_sampler.c that ranks are a permutation.
  */
 #include <koksma/keys.h>
 #include <koksma/mask.h>
 #include <koksma/sampler.h>
-
-#include <stdlib.h>
-#include <string.h>
 
 #include "test.h"
 
@@ -154,47 +151,6 @@ static const struct {
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
-/* Functions without a domain, and those that make domains, which all of the above go through; and, from koksma_sobol_1d
-   on, forms that have the numbers of koksma_sobol_4d, koksma_white_4d, koksma_keys_2d or koksma_keys_4d
-   (test_sampler_blocks.c, test_keys_4d.c). */
-static const char *const parts[] = {"koksma_mix",
-                                    "koksma_domain_of_use",
-                                    "koksma_domain_of_pixel",
-                                    "koksma_part_of_sample",
-                                    "koksma_to_float",
-                                    "koksma_to_unit",
-                                    "koksma_mirror",
-                                    "koksma_owen_hash",
-                                    "koksma_fraction",
-                                    "koksma_shuffled",
-                                    "koksma_pascal",
-                                    "koksma_sobol_of",
-                                    "koksma_place",
-                                    "koksma_permute4",
-                                    "koksma_keys_of",
-                                    "koksma_keys_of_4d",
-                                    "koksma_mask_value",
-                                    "koksma_seed_of_frame",
-                                    "koksma_sobol_1d",
-                                    "koksma_sobol_2d",
-                                    "koksma_sobol_3d",
-                                    "koksma_sobol_1f",
-                                    "koksma_sobol_2f",
-                                    "koksma_sobol_3f",
-                                    "koksma_sobol_4f",
-                                    "koksma_sobol_at_2d",
-                                    "koksma_sobol_at_4d",
-                                    "koksma_sobol_range",
-                                    "koksma_sobol_range_float",
-                                    "koksma_sobol_lanes",
-                                    "koksma_sobol_lanes_float",
-                                    "koksma_white_1d",
-                                    "koksma_white_1f",
-                                    "koksma_white_4f",
-                                    "koksma_keys_2f",
-                                    "koksma_keys_4f"};
-enum { PARTS = sizeof parts / sizeof *parts };
-
 typedef struct relation {
     const char *name;
     place step; /* what is added to a place */
@@ -260,47 +216,4 @@ TEST_CASE(draws_are_independent)
             }
         }
     }
-}
-
-static bool in_table(const char *name)
-{
-    bool found = false;
-    for (size_t f = 0; f < FUNCTIONS; f++) {
-        found = found || !strcmp(functions[f].name, name);
-    }
-    for (size_t f = 0; f < PARTS; f++) {
-        found = found || !strcmp(parts[f], name);
-    }
-    return found;
-}
-
-/* A public function is a line KOKSMA_INLINE TYPE koksma_NAME(...; those of the library begin with koksma__. */
-TEST_CASE(the_tables_have_all_functions)
-{
-    static const char *const headers[] = {"sampler.h", "keys.h", "mask.h"};
-    size_t found = 0;
-    for (size_t h = 0; h < 3; h++) {
-        char path[1024], line[512], name[128];
-        snprintf(path, sizeof path, "%s/../include/koksma/%s", KOKSMA_TESTS, headers[h]);
-        FILE *file = fopen(path, "r");
-        assert_non_null(file);
-        while (fgets(line, sizeof line, file)) {
-            char *open = strchr(line, '('), *start = open;
-            if (strncmp(line, "KOKSMA_INLINE ", 14) != 0 || !open) {
-                continue;
-            }
-            while (start[-1] != ' ' && start[-1] != '*') {
-                start--;
-            }
-            snprintf(name, sizeof name, "%.*s", (int)(open - start), start);
-            if (strncmp(name, "koksma__", 8) != 0) {
-                found++;
-                if (!in_table(name)) {
-                    fail_msg("%s of %s is in no table of this file", name, headers[h]);
-                }
-            }
-        }
-        fclose(file);
-    }
-    assert_int_equal(found, FUNCTIONS + PARTS);
 }
