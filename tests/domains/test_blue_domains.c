@@ -189,47 +189,6 @@ TEST_CASE(gaussian_sets_follow_a_density)
     koksma_points_fini(&p);
 }
 
-/* An even density gives sets like those of the pattern: hardly any power at frequencies below 0.5 sqrt n, and no two
-   points closer than half the distance of the densest packing. */
-TEST_CASE(gaussian_sets_of_an_even_density_are_even)
-{
-    koksma_points p = with_density("gaussian-blue-noise", even, 144, 3, 0);
-    assert_true(deviation(&p, even) < 1e-3);
-    for (size_t i = 0; i < p.n; i++) {
-        for (size_t j = 0; j < i; j++) {
-            assert_true(distance_of(p.xs + 2 * i, p.xs + 2 * j, 2, true) > 0.5 * sqrt(2 / (sqrt(3) * 144)));
-        }
-    }
-    koksma_points_fini(&p);
-}
-
-/* One, two and five points: every image on the torus acts. */
-TEST_CASE(few_points_work)
-{
-    static const char *const specs[] = {"gaussian-blue-noise", "poisson-disk-maximal"};
-    for (size_t s = 0; s < 2; s++) {
-        for (size_t n = 1; n <= 5; n++) {
-            koksma_points p = with_density(specs[s], steps, n, n, 0);
-            for (size_t i = 0; i < 2 * n; i++) {
-                assert_true(p.xs[i] >= 0 && p.xs[i] < 1);
-            }
-            koksma_points_fini(&p);
-        }
-    }
-    koksma_points p = with_density("gaussian-blue-noise", even, 2, 1, 0); /* opposite each other */
-    assert_near(distance_of(p.xs, p.xs + 2, 2, true), sqrt(0.5), 1e-3);
-    koksma_points_fini(&p);
-}
-
-TEST_CASE(threads_have_no_effect)
-{
-    koksma_points a = with_density("gaussian-blue-noise:steps=20", steps, 200, 1, 1);
-    koksma_points b = with_density("gaussian-blue-noise:steps=20", steps, 200, 1, 3);
-    assert_memory_equal(a.xs, b.xs, 400 * sizeof *a.xs);
-    koksma_points_fini(&a);
-    koksma_points_fini(&b);
-}
-
 /* ---- Models ---------------------------------------------------------------------------------------------- */
 
 /* A unit sphere of triangles, an octahedron whose faces are quartered and pushed out, and beside it a flat square of

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Points whose density follows an image, and points on a model: counts against exact binomial bounds and chi-squared,
-   distances against all pairs, refusals. */
+   distances against all pairs. */
 #include <koksma/density.h>
 
 #include <stdlib.h>
@@ -345,49 +345,6 @@ TEST_CASE(points_on_models_keep_distances)
 }
 
 /* ---- Refusals -------------------------------------------------------------------------------------------- */
-
-TEST_CASE(wrong_inputs_are_refused)
-{
-    static const float some[4] = {1, 1, 1, 1}, none[4] = {0, 0, 0, 0}, less[4] = {1, 1, -1, 1},
-                       nan[4] = {1, (float)NAN, 1, 1};
-    static const struct {
-        const char *spec, *said;
-        const float *values; /* NULL: on the model */
-        size_t n;
-        int dim;
-        koksma_status status;
-    } rows[] = {
-        {"sobol", "sobol: it can't make points with a density; random, ", some, 16, 2, KOKSMA_UNSUPPORTED},
-        {"sobol", "sobol: it can't make points on a model; random, ", NULL, 16, 3, KOKSMA_UNSUPPORTED},
-        {"random:shift=1", "the modifier shift can't be used for points with a density", some, 16, 2,
-         KOKSMA_ARGUMENT},
-        {"random", "2 dimensions, not 3", some, 16, 3, KOKSMA_DIM},
-        {"random", "not 4", NULL, 16, 4, KOKSMA_DIM},
-        {"random", "0 everywhere", none, 16, 2, KOKSMA_MALFORMED},
-        {"random", "negative value in pixel (0, 0)", less, 16, 2, KOKSMA_MALFORMED},
-        {"random", "the density", nan, 16, 2, KOKSMA_MALFORMED},
-        {"poisson-disk:d=0.1,torus=1", "no torus", NULL, 16, 3, KOKSMA_ARGUMENT},
-        {"poisson-disk:d=0.2", "or less, or a smaller d, would do", some, 500, 2, KOKSMA_IMPOSSIBLE},
-        {"poisson-disk:d=0.9", "or less, or a smaller d, would do", NULL, 500, 3, KOKSMA_IMPOSSIBLE},
-        {"dart-throwing:f=0.95", "points with a density; a smaller f would do", some, 500, 2, KOKSMA_IMPOSSIBLE},
-        {"dart-throwing:f=1", "points on a model; a smaller f would do", NULL, 500, 3, KOKSMA_IMPOSSIBLE},
-        {"progressive-elimination:length=64", "n = 64 or less", some, 65, 2, KOKSMA_N},
-    };
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        const koksma_spec spec = spec_of(rows[r].spec);
-        koksma_image map = quarters(rows[r].values ? rows[r].values : some);
-        koksma_points p;
-        assert_ok(koksma_points_init(&p, rows[r].n, rows[r].dim));
-        assert_int_equal(rows[r].values ? koksma_generate_density(&spec, 0, &map, NULL, &p)
-                                        : koksma_generate_on(&spec, 0, model, NULL, &p),
-                         rows[r].status);
-        if (!strstr(koksma_error_text(), rows[r].said)) {
-            fail_msg("%s: %s", rows[r].spec, koksma_error_text());
-        }
-        koksma_points_fini(&p);
-        koksma_image_fini(&map);
-    }
-}
 
 static bool count(void *context, double fraction)
 {

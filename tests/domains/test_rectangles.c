@@ -3,7 +3,6 @@
    every pattern of the table that claims blue noise; sets whose distance decides how many points there are. */
 #include <koksma/density.h>
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "test.h"
@@ -217,42 +216,6 @@ TEST_CASE(the_torus_is_the_rectangle)
         assert_ok(koksma_generate_rectangle(&spec, 3, size[0], size[1], NULL, NULL, &p));
         assert_true(smallest(&p, plane) >= 20);
         assert_true((smallest(&p, size) >= 20) == (torus == 1));
-        koksma_points_fini(&p);
-    }
-}
-
-TEST_CASE(wrong_inputs_are_refused)
-{
-    static const struct {
-        const char *spec, *said;
-        double width, height;
-        size_t n;
-        int dim;
-        koksma_status status;
-    } rows[] = {
-        {"jittered", "jittered: it can't make points in a rectangle; random, ", 4, 1, 16, 2, KOKSMA_UNSUPPORTED},
-        {"random", "width and height are above 0", 0, 1, 16, 2, KOKSMA_ARGUMENT},
-        {"random", "width and height are above 0", 1, -1, 16, 2, KOKSMA_ARGUMENT},
-        {"random", "width and height are above 0", (double)NAN, 1, 16, 2, KOKSMA_ARGUMENT},
-        {"random", "width and height are above 0", (double)INFINITY, 1, 16, 2, KOKSMA_ARGUMENT},
-        {"random", "at most 10000 times", 1, 10001, 16, 2, KOKSMA_ARGUMENT},
-        {"random", "2 dimensions, not 3", 1, 1, 16, 3, KOKSMA_DIM},
-        {"random", "only poisson-disk-maximal:d=D", 1, 1, 0, 2, KOKSMA_N},
-        {"poisson-disk-maximal", "only poisson-disk-maximal:d=D", 1, 1, 0, 2, KOKSMA_N},
-        {"poisson-disk-maximal:d=1e-9", "a larger d would do", 1, 1, 0, 2, KOKSMA_N},
-        {"poisson-disk-maximal:d=0.1", "or no n, or no d, would do", 4, 1, 3, 2, KOKSMA_N},
-    };
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        const koksma_spec spec = spec_of(rows[r].spec);
-        koksma_points p = {.dim = rows[r].dim};
-        if (rows[r].n) {
-            assert_ok(koksma_points_init(&p, rows[r].n, rows[r].dim));
-        }
-        assert_int_equal(koksma_generate_rectangle(&spec, 0, rows[r].width, rows[r].height, NULL, NULL, &p),
-                         rows[r].status);
-        if (!strstr(koksma_error_text(), rows[r].said)) {
-            fail_msg("%s: %s", rows[r].spec, koksma_error_text());
-        }
         koksma_points_fini(&p);
     }
 }

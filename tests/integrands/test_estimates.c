@@ -2,7 +2,6 @@
 /* Estimators and intervals against hand-made numbers, their formulas and their coverage; integration to a tolerance. */
 #include <koksma/estimate.h>
 #include <koksma/integrate.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "test.h"
@@ -202,12 +201,6 @@ static double needle(const double *x, int dim)
     return x[0] < 1e-12 ? 1 : 0;
 }
 
-static double hole(const double *x, int dim)
-{
-    (void)dim;
-    return x[0] < 0.01 ? (double)NAN : 1;
-}
-
 static koksma_status integrate(call *c, const char *pattern, const koksma_tolerance_options *o, const koksma_run *run,
                                koksma_tolerance *t)
 {
@@ -342,37 +335,4 @@ TEST_CASE(equal_values_end_no_search_at_once)
     const koksma_tolerance_options o = {.absolute = 1e-3, .first_n = 16};
     assert_ok(integrate(&c, "random", &o, NULL, &t));
     assert_true(t.reached && c.points >= 1 << 16 && c.points < 1 << 18);
-}
-
-TEST_CASE(mistakes_are_named)
-{
-    koksma_tolerance t;
-    const koksma_tolerance_options plain = {.absolute = 1e-3};
-    const struct {
-        const char *pattern, *text;
-        call call;
-        koksma_tolerance_options o;
-        koksma_status status;
-    } cases[] = {
-        {"sobol", "one set", {.at = kink}, plain, KOKSMA_ARGUMENT},
-        {"half-jittered", "unbiased", {.at = kink}, plain, KOKSMA_ARGUMENT},
-        {"random", "is nan", {.at = hole}, plain, KOKSMA_ARGUMENT},
-        {"random", "values", {.at = kink, .status = KOKSMA_IO}, plain, KOKSMA_IO},
-        {"random", "outside the bounds", {.at = kink}, {.absolute = 1, .estimate.highest = 1}, KOKSMA_ARGUMENT},
-        {"random", "needs bounds", {.at = kink}, {.estimate.interval = "betting"}, KOKSMA_ARGUMENT},
-        {"random", "'median'", {.at = kink}, {.estimate.estimator = "medan"}, KOKSMA_UNKNOWN},
-        {"random", "'student'", {.at = kink}, {.estimate.interval = "studnt"}, KOKSMA_UNKNOWN},
-        {"random", "confidence", {.at = kink}, {.estimate.confidence = 1}, KOKSMA_ARGUMENT},
-        {"random", "most_points", {.at = kink}, {.most_points = 100}, KOKSMA_ARGUMENT},
-        {"random", "tolerance", {.at = kink}, {.absolute = -1}, KOKSMA_ARGUMENT},
-        {"random", "replicates", {.at = kink}, {.replicates = 1}, KOKSMA_ARGUMENT},
-        {"random", "seed", {.at = kink}, {.seed = UINT64_MAX - 13}, KOKSMA_ARGUMENT},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        call c = cases[i].call;
-        const koksma_status status = integrate(&c, cases[i].pattern, &cases[i].o, NULL, &t);
-        if (status != cases[i].status || !strstr(koksma_error_text(), cases[i].text)) {
-            fail_msg("case %zu: status %d, '%s'", i, status, koksma_error_text());
-        }
-    }
 }

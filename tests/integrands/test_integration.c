@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Errors of integration over trials and sizes, functions of a caller, and what is refused; the integrands themselves are
    tested by test_every_integrand.c. */
-#include <string.h>
 
 #include "integrands/integrands.h"
 #include "test.h"
@@ -137,40 +136,4 @@ TEST_CASE(functions_of_a_caller)
     koksma_integral_close(g);
     assert_int_equal(koksma_integral_of_function(&function, 3, &f), KOKSMA_DIM);
     assert_int_equal(koksma_integral_of_function(&nameless, 1, &f), KOKSMA_ARGUMENT);
-}
-
-TEST_CASE(wrong_arguments_are_refused)
-{
-    koksma_integral *f;
-    koksma_sensitivity s;
-    double mean;
-    assert_int_equal(koksma_integral_open("dsik", 2, &f), KOKSMA_UNKNOWN);
-    assert_non_null(strstr(koksma_error_text(), "did you mean 'disk'"));
-    assert_int_equal(koksma_integral_open("disk", 1, &f), KOKSMA_DIM);
-    assert_non_null(strstr(koksma_error_text(), "2 to 4096"));
-    assert_int_equal(koksma_integral_open("bernoulli:r=9", 1, &f), KOKSMA_ARGUMENT);
-    assert_int_equal(koksma_integral_open("bernoulli:s=2", 1, &f), KOKSMA_ARGUMENT);
-    assert_null(f);
-    assert_ok(koksma_integral_open("disk", 3, &f));
-    koksma_points points = test_points("random", 4, 2, 0);
-    assert_int_equal(koksma_integrate(f, &points, NULL, &mean), KOKSMA_DIM);
-    koksma_points_fini(&points);
-    assert_int_equal(koksma_integral_sensitivity(f, (int[]){0, 0}, 2, 0, 0, NULL, &s), KOKSMA_ARGUMENT);
-    assert_int_equal(koksma_integral_sensitivity(f, (int[]){3}, 1, 0, 0, NULL, &s), KOKSMA_ARGUMENT);
-    /* Two equal sizes and another are no three for a slope. */
-    koksma_spec pattern;
-    koksma_integration result;
-    koksma_integration_options twice = {.sizes = {4, 8, 4}, .n_sizes = 3, .trials = 2};
-    assert_ok(koksma_pattern_spec("random", &pattern));
-    assert_int_equal(koksma_integration_errors(f, &pattern, &twice, NULL, &result), KOKSMA_ARGUMENT);
-    assert_string_equal(koksma_error_text(), "n: 4 is given twice");
-    assert_int_equal(koksma_integration_summary(0, 1, &twice, (double[6]){0}, &result), KOKSMA_ARGUMENT);
-    /* The last seed is 2^64 - 1; after it there is no other, and least of all 0. */
-    koksma_integration_options last = {.sizes = {4}, .n_sizes = 1, .seed = UINT64_MAX - 1, .trials = 2};
-    assert_ok(koksma_integration_errors(f, &pattern, &last, NULL, &result));
-    last.trials = 3;
-    assert_int_equal(koksma_integration_errors(f, &pattern, &last, NULL, &result), KOKSMA_ARGUMENT);
-    assert_non_null(strstr(koksma_error_text(), "18446744073709551613 or less would do"));
-    koksma_integral_close(f);
-    koksma_integral_close(NULL);
 }

@@ -2,7 +2,6 @@
 /* Errors over a screen, from their definition: random points are the unit of both numbers, equal pixels are all that a
    filter can leave, integrals are right, and a pattern of pixels is the one that the library makes. */
 #include <math.h>
-#include <string.h>
 
 #include <koksma/integrate.h>
 
@@ -101,29 +100,4 @@ TEST_CASE(threads_change_no_bit)
         assert_true(one[k].plain == three[k].plain && one[k].blurred == three[k].blurred);
         assert_true(one[k].plain_error == three[k].plain_error && one[k].blurred_error == three[k].blurred_error);
     }
-}
-
-TEST_CASE(what_is_wrong_is_named)
-{
-    koksma_spec pattern;
-    koksma_screen_row rows[4];
-    koksma_screen_options o = options_of(5, 1, 1);
-    assert_ok(koksma_pattern_spec("random", &pattern));
-    assert_int_equal(koksma_screen_errors(&pattern, &o, NULL, rows), KOKSMA_DIM);
-    assert_non_null(strstr(koksma_error_text(), "5"));
-    o = options_of(2, 0, 1);
-    assert_int_equal(koksma_screen_errors(&pattern, &o, NULL, rows), KOKSMA_N);
-    assert_non_null(strstr(koksma_error_text(), "samples"));
-    o = options_of(2, 1, 1);
-    o.side = 8;
-    assert_int_equal(koksma_screen_errors(&pattern, &o, NULL, rows), KOKSMA_ARGUMENT);
-    assert_non_null(strstr(koksma_error_text(), "filter"));
-    o = options_of(2, 1, 0);
-    assert_int_equal(koksma_screen_errors(&pattern, &o, NULL, rows), KOKSMA_ARGUMENT);
-    assert_non_null(strstr(koksma_error_text(), "trials"));
-    o = options_of(2, 1, 1);
-    o.side = 24;
-    assert_ok(koksma_pattern_spec("z-sampler", &pattern));
-    assert_int_equal(koksma_screen_errors(&pattern, &o, NULL, rows), KOKSMA_ARGUMENT);
-    assert_non_null(strstr(koksma_error_text(), "power of two"));
 }

@@ -6,7 +6,6 @@
 #include <koksma/image.h>
 #include <koksma/maskfile.h>
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "test.h"
@@ -173,27 +172,6 @@ TEST_CASE(filters_have_their_weights)
     assert_near(f.weights[4 * 9 + 4] / f.weights[4 * 9 + 6], exp(2), 1e-9);
     assert_ok(koksma_mask_filter_parse("mitchell", &f));
     assert_true(f.weights[0] > 0 && f.weights[f.width / 2] < 0);
-}
-
-TEST_CASE(bad_filters_are_refused)
-{
-    koksma_mask_filter f;
-    static const char *const files[][2] = {{"1 2\n3\n", "line 2: 1 numbers, and 2"},
-                                           {"1 x\n", "line 1: not up to 65"},
-                                           {"# nothing\n", "no numbers"},
-                                           {"1 -1\n", "sum to 0"},
-                                           {"nan 1\n", "not a finite"},
-                                           {"7\n", "single weight"}};
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        put("bad.txt", files[i][0]);
-        assert_error(koksma_mask_filter_parse("file:bad.txt", &f), KOKSMA_MALFORMED, files[i][1]);
-    }
-    assert_error(koksma_mask_filter_parse("file:absent.txt", &f), KOKSMA_MISSING, "absent.txt");
-    assert_error(koksma_mask_filter_parse("gausian", &f), KOKSMA_UNKNOWN, "did you mean 'gaussian'");
-    assert_error(koksma_mask_filter_parse("box", &f), KOKSMA_ARGUMENT, "single weight");
-    assert_error(koksma_mask_filter_parse("box:size=66", &f), KOKSMA_ARGUMENT, "size=66");
-    assert_error(koksma_mask_filter_parse("gaussian:sigma=nan", &f), KOKSMA_ARGUMENT, "sigma");
-    assert_error(koksma_mask_filter_parse("tent:size=3", &f), KOKSMA_ARGUMENT, "size");
 }
 
 TEST_CASE(bad_files_are_refused)

@@ -13,12 +13,6 @@
 
 #define assert_close(a, b, share) assert_near(a, b, (share)*fabs(b))
 
-#define assert_error(call, status, text)                                                                             \
-    do {                                                                                                             \
-        assert_int_equal(call, status);                                                                              \
-        assert_non_null(strstr(koksma_error_text(), text));                                                          \
-    } while (0)
-
 enum { MOST = 64 * 64 * 4 };
 
 static const double uneven[] = {1, 4, 2, 0, 3, -1}; /* 3 x 2 pixels, neither symmetric nor positive */
@@ -276,37 +270,4 @@ TEST_CASE(white_is_the_error_of_random_arrangements)
         }
         assert_close(squares, expected, 0.06); /* a standard deviation of 2 % of each, 20 of them */
     }
-}
-
-TEST_CASE(bad_options_are_refused)
-{
-    float v[16 * 16] = {0};
-    koksma_mask_options good = options_of(16, 16, "scalar"), o = good;
-    o.width = 3;
-    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "3 x 16");
-    o = good;
-    o.height = 1025;
-    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "16 x 1025");
-    o = good;
-    o.filter.weights[1] = -5;
-    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "sum to 0");
-    o.filter.weights[1] = NAN;
-    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "not a finite");
-    o.filter.width = o.filter.height = 1;
-    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "single weight");
-    o.filter.width = 66;
-    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "66 x 1");
-    o = good;
-    o.levels = 257;
-    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "257 levels");
-    o = good;
-    o.swaps = NAN;
-    assert_error(koksma_mask_optimise(&o, NULL, v, NULL), KOKSMA_ARGUMENT, "swaps");
-    o = good;
-    o.from = v;
-    v[17] = 2;
-    float out[16 * 16];
-    assert_error(koksma_mask_optimise(&o, NULL, out, NULL), KOKSMA_ARGUMENT, "(1, 1)");
-    v[17] = NAN;
-    assert_error(koksma_mask_optimise(&o, NULL, out, NULL), KOKSMA_ARGUMENT, "(1, 1)");
 }

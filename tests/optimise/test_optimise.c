@@ -6,7 +6,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "core/spec.h"
 #include "optimise/optimise.h"
@@ -256,31 +255,6 @@ TEST_CASE(lower_bounds_hold)
                            : best.lower > 0 && best.lower <= best.value);
         koksma_optimum_fini(&best);
         koksma_points_fini(&from);
-    }
-}
-
-static bool count_calls(void *context, double fraction)
-{
-    (void)fraction;
-    ++*(size_t *)context;
-    return true;
-}
-
-/* A step is a fixed amount of work also with few points, whose gradients are short: a single point's is 0. */
-TEST_CASE(steps_of_few_points_are_short)
-{
-    static const koksma_spec to_power = {.measure = &koksma__measure_radial_power};
-    for (size_t n = 1; n <= 4; n++) {
-        enum { RINGS = 4 };
-        double power[RINGS], xs[8] = {0.1, 0.2, 0.4, 0.3, 0.8, 0.5, 0.2, 0.9};
-        size_t calls = 0;
-        koksma_points points = {n, 2, xs};
-        const koksma_run run = {.threads = 1, .keep_going = count_calls, .context = &calls};
-        const int rings = (int)ceil(2 * sqrt((double)n));
-        assert_ok(koksma_radial_power("step", n, rings, NULL, power));
-        const koksma_optimise_options options = {.n = n, .dim = 2, .power = power, .rings = rings};
-        assert_ok(koksma_method_find("descent")->search(&to_power, &options, 0, 1e9, &run, &points));
-        assert_true(calls > 0 && calls < 20000);
     }
 }
 
@@ -651,67 +625,6 @@ TEST_CASE(ends_when_asked)
     assert_int_equal(koksma_optimise(&star, &options, NULL, &best), KOKSMA_ARGUMENT);
 }
 
-/* Returns false once a search has made `steps` steps, or, before the first set is measured, from the call `calls` on. */
-typedef struct asker {
-    uint64_t steps, made;
-    bool measured;
-    int calls;
-    clock_t asked; /* processor time when it first returned false */
-} asker;
-
-static bool count_steps(void *context, const koksma_optimum *best)
-{
-    asker *a = context;
-    a->made = best->steps;
-    a->measured = true;
-    return true;
-}
-
-static bool until_steps(void *context, double fraction)
-{
-    asker *a = context;
-    (void)fraction;
-    const bool going = a->measured ? a->made < a->steps || a->calls-- > 0 : true;
-    a->asked = going || a->asked ? a->asked : clock();
-    return going;
-}
-
-/* Every method, interrupted within a step, leaves a set that is at least as good as the one of the steps before, which is
-   the same if nothing was gained since. */
-TEST_CASE(a_step_that_is_interrupted_loses_nothing)
-{
-    for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
-        asker caller = {.steps = 1, .calls = 3};
-        koksma_spec spec;
-        koksma_optimum cut;
-        koksma_optimise_options options = {.n = searches[i].n,
-                                           .dim = searches[i].dim,
-                                           .keep = searches[i].keep,
-                                           .seed = 4,
-                                           .processes = few_searches};
-        options.progress = count_steps;
-        options.context = &caller;
-        const koksma_run run = {.threads = 2, .keep_going = until_steps, .context = &caller};
-        assert_ok(koksma_measure_spec(searches[i].measure, &spec));
-        assert_int_equal(koksma_optimise(&spec, &options, &run, &cut), KOKSMA_INTERRUPTED);
-        assert_true(cut.steps > 0); /* the steps of fast methods are done while koksma_optimise asks 3 times */
-        options.progress = NULL;
-        options.steps = cut.steps;
-        koksma_optimum whole = optimised(searches[i].measure, options, 1);
-        assert_near(cut.value, kept_value(searches[i].measure, &cut.points, options.keep), 1e-14);
-        if (cut.last_gain > cut.steps) {
-            assert_true(cut.last_gain == cut.steps + 1);
-            assert_true(spec.measure->larger_is_better ? cut.value > whole.value : cut.value < whole.value);
-        } else {
-            assert_true(cut.value == whole.value && cut.last_gain == whole.last_gain);
-            assert_memory_equal(cut.points.xs, whole.points.xs,
-                                whole.points.n * (size_t)whole.points.dim * sizeof(double));
-        }
-        koksma_optimum_fini(&whole);
-        koksma_optimum_fini(&cut);
-    }
-}
-
 static bool until_calls(void *context, double fraction)
 {
     (void)fraction;
@@ -800,60 +713,4 @@ TEST_CASE(no_listed_pattern_is_better)
         }
     }
     assert_true(n > 40);
-}
-
-/* Searches whose steps take seconds to hours, or that have one value or gradient that does. */
-static const struct {
-    const char *measure;
-    size_t n;
-    int dim;
-    koksma_keep keep;
-} long_steps[] = {
-    {"l2-periodic", 3000, 2, KOKSMA_KEEP_NONE}, {"l2-star", 1000, 200, KOKSMA_KEEP_NONE},
-    {"l2-disk", 3000, 2, KOKSMA_KEEP_NONE},     {"l2-edge", 3000, 2, KOKSMA_KEEP_NONE},
-    {"star", 4000, 2, KOKSMA_KEEP_NONE},        {"star", 1000, 3, KOKSMA_KEEP_NONE},
-    {"disk", 100, 2, KOKSMA_KEEP_NONE},         {"star", 40, 4, KOKSMA_KEEP_NONE},
-    {"star", 1 << 14, 2, KOKSMA_KEEP_SEQUENCE}, {"l2-star", 1000, 2, KOKSMA_KEEP_NONE},
-    {NULL, 4000, 2, KOKSMA_KEEP_NONE},
-};
-
-/* One is ended by the caller, who is asked within the step, and one by the time limit, in the first step: both soon. */
-TEST_CASE(steps_end_when_asked)
-{
-    double power[100];
-    assert_ok(koksma_radial_power("step", 4000, 100, NULL, power));
-    for (size_t i = 0; i < sizeof long_steps / sizeof *long_steps; i++) {
-        koksma_points from =
-            test_points(long_steps[i].keep ? "sobol" : "random", long_steps[i].n, long_steps[i].dim, 1);
-        koksma_spec spec;
-        koksma_optimum best;
-        asker caller = {.calls = 3};
-        const bool to_power = !long_steps[i].measure;
-        const koksma_optimise_options options = {.n = from.n,
-                                                 .dim = from.dim,
-                                                 .first = &from,
-                                                 .keep = long_steps[i].keep,
-                                                 .progress = count_steps,
-                                                 .context = &caller,
-                                                 .power = to_power ? power : NULL,
-                                                 .rings = to_power ? 100 : 0};
-        koksma_run run = {.threads = 2, .keep_going = until_steps, .context = &caller};
-        assert_ok(to_power ? KOKSMA_OK : koksma_measure_spec(long_steps[i].measure, &spec));
-        for (int limited = 0; limited < 2; limited++) {
-            const koksma_status status = koksma_optimise(&spec, &options, &run, &best);
-            const double took_s = (double)(clock() - caller.asked) / CLOCKS_PER_SEC;
-            assert_int_equal(status, limited ? KOKSMA_OK : KOKSMA_INTERRUPTED);
-            if (took_s > 30) { /* with sanitizers one gradient takes some */
-                fail_msg("%s of %zu points: %g s of processor time to end a step",
-                         options.power ? "power" : spec.measure->name, from.n, took_s);
-            }
-            assert_true(best.steps == 0 && best.last_gain < 2);
-            assert_true(best.last_gain ||
-                        !memcmp(best.points.xs, from.xs, from.n * (size_t)from.dim * sizeof(double)));
-            koksma_optimum_fini(&best);
-            caller = (struct asker){.steps = 1, .asked = clock()};
-            run.time_limit_s = 1e-3;
-        }
-        koksma_points_fini(&from);
-    }
 }

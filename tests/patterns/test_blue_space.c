@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Blue noise in 3 to 6 dimensions: counts and distances of maximal Poisson disk sets, forces of gaussian-blue-noise
    by their definition, radial means of the power. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "patterns/darts/darts.h"
@@ -89,32 +88,6 @@ TEST_CASE(sets_by_number_are_maximal)
             }
             koksma_points_fini(&p);
         }
-    }
-}
-
-/* Words of a wrong number of points, and of more points than the memory of the cover allows. */
-TEST_CASE(limits_are_said)
-{
-    static const struct {
-        const char *spec, *said;
-        size_t n;
-        int dim;
-    } rows[] = {
-        {"poisson-disk-maximal:d=0.3", "with this seed gives", 7, 3},
-        {"poisson-disk-maximal:d=0.01", "leave out d to get n points", 7, 4},
-        {"poisson-disk-maximal:d=0.001", "leave out d to get n points", 7, 6},
-        {"gaussian-blue-noise", "20000 or less would do", 30000, 6},
-    };
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        koksma_spec spec;
-        koksma_points p;
-        assert_ok(koksma_pattern_spec(rows[r].spec, &spec));
-        assert_ok(koksma_points_init(&p, rows[r].n, rows[r].dim));
-        assert_int_equal(koksma_generate(&spec, 0, NULL, &p), KOKSMA_N);
-        if (!strstr(koksma_error_text(), rows[r].said)) {
-            fail_msg("%s: %s", rows[r].spec, koksma_error_text());
-        }
-        koksma_points_fini(&p);
     }
 }
 

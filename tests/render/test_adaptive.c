@@ -265,24 +265,6 @@ TEST_CASE(shown_strata_are_a_partition)
     koksma_scene_close(scene);
 }
 
-static koksma_status try(const koksma_scene *scene, const char *method, const char *pattern, int spp, double budget)
-{
-    koksma_render_options options = options_for(scene, spp);
-    const koksma_adaptive_options adaptive = adaptive_of(method, budget);
-    koksma_layers layers;
-    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
-    const koksma_status status = koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL);
-    koksma_layers_fini(&layers);
-    return status;
-}
-
-static bool stop_at_once(void *context, double fraction)
-{
-    (void)context;
-    (void)fraction;
-    return false;
-}
-
 static bool stop_later(void *context, double fraction)
 {
     (void)fraction;
@@ -338,35 +320,5 @@ TEST_CASE(an_interruption_ends_a_task)
     assert_true(looks >= 3);
     assert_true(report.samples > 0 && report.samples < 128ull << 12);
     koksma_layers_fini(&layers);
-    koksma_scene_close(scene);
-}
-
-TEST_CASE(errors_are_said)
-{
-    koksma_adaptive_options adaptive;
-    koksma_layers layers;
-    const koksma_run run = {.keep_going = stop_at_once};
-    assert_int_equal(koksma_adaptive_parse("adapt", &adaptive), KOKSMA_UNKNOWN);
-    assert_int_equal(koksma_adaptive_parse("blocks:size=3", &adaptive), KOKSMA_ARGUMENT);
-    koksma_scene *scene = shipped("ball");
-    assert_int_equal(try(scene, "hierarchical", "random", 17, 0), KOKSMA_N);
-    assert_int_equal(try(scene, "hierarchical:levels=8", "random", 64, 0), KOKSMA_ARGUMENT);
-    assert_int_equal(try(scene, "blocks", "random", 4, 0), KOKSMA_ARGUMENT);
-    assert_int_equal(try(scene, "contrast", "regular", 4, 8), KOKSMA_ARGUMENT);
-    assert_int_equal(try(scene, "contrast", "regular:shift=1", 4, 8), KOKSMA_OK);
-    assert_int_equal(try(scene, "contrast", "halton", 4, 8), KOKSMA_OK);
-    assert_int_equal(try(scene, "relative-error", "halton", 4, 20), KOKSMA_ARGUMENT);
-    assert_int_equal(try(scene, "contrast", "random", 4, 3), KOKSMA_ARGUMENT);
-    assert_int_equal(try(scene, "confidence", "random", 1, 3), KOKSMA_N);
-    assert_int_equal(try(scene, "contrast:first=5,most=4", "random", 1, 9), KOKSMA_ARGUMENT);
-    koksma_render_options options = options_for(scene, 4);
-    adaptive = adaptive_of("contrast", 8);
-    options.scope = KOKSMA_SCOPE_IMAGE;
-    assert_int_equal(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
-    options.scope = KOKSMA_SCOPE_PIXEL;
-    assert_int_equal(koksma_render_adaptive(scene, &options, &adaptive, &run, &layers, NULL), KOKSMA_INTERRUPTED);
-    koksma_layers_fini(&layers);
-    adaptive.probes = 4;
-    assert_int_equal(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
     koksma_scene_close(scene);
 }

@@ -240,23 +240,3 @@ TEST_CASE(adaptive_halves_are_halves)
     }
     koksma_scene_close(scene);
 }
-
-TEST_CASE(wrong_lists_are_refused)
-{
-    static const char *const wrong[] = {"",          "glow",      "direct,",       "bounce:66",        "bounce:-1",
-                                        "bounce:01", "id,id",     "half,half:odd", "bounce:",          "bounce:+1",
-                                        "bounce: 1", "bounce:1x", "bounce",        "bounce:4294967297"};
-    koksma_aovs aovs;
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        assert_true(koksma_aovs_parse(wrong[i], &aovs) != KOKSMA_OK);
-    }
-    koksma_scene *scene = scene_of(EVERYTHING(""));
-    koksma_render_options options = options_of(scene, "random", "path", 4, 8);
-    koksma_layers layers;
-    options.splat = true;
-    assert_ok(koksma_aovs_parse("direct", &aovs));
-    assert_int_equal(koksma_render_aovs(scene, &options, NULL, &aovs, &layers), KOKSMA_ARGUMENT);
-    assert_non_null(strstr(koksma_error_text(), "not splatted"));
-    koksma_aovs_fini(&aovs);
-    koksma_scene_close(scene);
-}

@@ -364,33 +364,3 @@ TEST_CASE(other_integrators_refuse_media)
     assert_int_equal(koksma_scene_set_sky(scene, NULL, 1), KOKSMA_MALFORMED);
     koksma_scene_close(scene);
 }
-
-TEST_CASE(wrong_media_are_refused)
-{
-    static const struct {
-        const char *medium, *rest, *message;
-    } bad[] = {
-        {"{}", "", "'sigma_a' or 'sigma_s' must be above 0"},
-        {"{'sigma_a': 0}", "", "'sigma_a' or 'sigma_s' must be above 0"},
-        {"{'sigma_a': -1}", "", "sigma_a"},
-        {"{'sigma_s': [1, 2]}", "", "sigma_s"},
-        {"{'sigma_s': 1, 'g': 1}", "", "g"},
-        {"{'sigma_s': 1, 'G': 0.5}", "", "G"},
-        {"{'sigma_s': 1, 'low': [0, 0, 0]}", "", "high"},
-        {"{'sigma_s': 1, 'low': [0, 0, 0], 'high': [1, 0, 1]}", "", "'low' must be below 'high'"},
-        {"{'sigma_s': 1}", ", 'background': [0, 0, 1]", "no light of the background"},
-        {"{'sigma_s': 1}", ", 'lights': [{'kind': 'environment', 'radiance': 1}]", "the environment light"},
-        {"{'sigma_s': 1}", ", 'lights': [{'kind': 'directional', 'direction': [0, 1, 0], 'irradiance': 1}]",
-         "the directional light"},
-        {"3", "", "medium"},
-    };
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        char text[1024];
-        koksma_scene *scene;
-        snprintf(text, sizeof text, EYE("30") NOTHING ", 'medium': %s%s}", bad[i].medium, bad[i].rest);
-        assert_int_equal(open_text(text, &scene), KOKSMA_MALFORMED);
-        if (!strstr(koksma_error_text(), bad[i].message)) {
-            fail_msg("%s: %s", bad[i].medium, koksma_error_text());
-        }
-    }
-}

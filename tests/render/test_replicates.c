@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Images with their standard errors: against the definition, and against an image of many samples. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <koksma/render.h>
 
@@ -119,24 +117,5 @@ TEST_CASE(intervals_hold_the_exact_image)
         assert_in_range(pictures, 180, 200);
     }
     koksma_image_fini(&exact);
-    koksma_scene_close(scene);
-}
-
-TEST_CASE(what_replicates_do_not_show_is_refused)
-{
-    koksma_scene *scene;
-    koksma_replicates found;
-    assert_int_equal(koksma_scene_open("ball", &scene), KOKSMA_OK);
-    const char *const wrong[] = {"sobol", "random;light=hammersley", "half-jittered"};
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        const koksma_render_options o = options_of(scene, wrong[i], 4, 0);
-        assert_int_equal(koksma_render_replicates(scene, &o, R, NULL, &found), KOKSMA_ARGUMENT);
-        assert_non_null(strstr(koksma_error_text(), "pattern: "));
-    }
-    koksma_render_options o = options_of(scene, "random", 4, 0);
-    assert_int_equal(koksma_render_replicates(scene, &o, 2, NULL, &found), KOKSMA_ARGUMENT);
-    o.seed = UINT64_MAX - 1;
-    assert_int_equal(koksma_render_replicates(scene, &o, R, NULL, &found), KOKSMA_ARGUMENT);
-    assert_non_null(strstr(koksma_error_text(), "seed"));
     koksma_scene_close(scene);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Groups of uses: sample i takes the coordinates of point i of one set, whatever is asked for before; the picture is
-   the same in the mean; texts, and what can't be. Long because all of it needs the same sets and scenes. */
+   the same in the mean; texts. Long because all of it needs the same sets and scenes. */
 #include "render/samples/samples.h"
 #include "rendering.h"
 
@@ -294,18 +294,6 @@ TEST_CASE(pictures_are_right_in_the_mean)
     koksma_scene_close(rays);
 }
 
-/* Random points in a group are as good as in separate uses: the variance of pixels is the same. About 40 pixels vary,
-   each over 40 seeds: the ratio has a standard deviation of about sqrt(2 * 2 / 1600) = 0.05. */
-TEST_CASE(a_random_group_is_independent_random)
-{
-    koksma_scene *scene = scene_of("{'materials': [" BLACK "], " MOVING_BALL "}");
-    const double alone = over_seeds(scene, options_for("random", N), NULL)->variance;
-    const double together = over_seeds(scene, options_for("random;pixel+time=random", N), NULL)->variance;
-    assert_true(alone > 0);
-    assert_near(together / alone, 1, 0.25);
-    koksma_scene_close(scene);
-}
-
 /* ---- Texts and errors -------------------------------------------------------------------------------------------
  */
 
@@ -368,47 +356,4 @@ TEST_CASE(texts_that_are_wrong_say_so)
         assert_memory_equal(&options, &before, sizeof before);
     }
     assert_int_equal(koksma_render_patterns(NULL, &options), KOKSMA_ARGUMENT);
-}
-
-TEST_CASE(groups_that_cannot_be_are_refused)
-{
-    koksma_scene *scene = scene_of("{'materials': [" BLACK "], " MOVING_BALL "}");
-    koksma_render_options good = options_for("random;pixel+time=scan-time", N), bad;
-    koksma_image image;
-    koksma_layers layers;
-    koksma_adaptive_options adaptive;
-#define REFUSED(wanted, change, said)                                                                                \
-    do {                                                                                                             \
-        bad = good;                                                                                                  \
-        change;                                                                                                      \
-        assert_int_equal(koksma_render(scene, &bad, NULL, &image), wanted);                                          \
-        if (!strstr(koksma_error_text(), said)) {                                                                    \
-            fail_msg("%s", koksma_error_text());                                                                     \
-        }                                                                                                            \
-    } while (0)
-    REFUSED(KOKSMA_ARGUMENT, bad.pairing = KOKSMA_PAIRING_NATIVE, "'pixel+time' has another");
-    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 1, "a group of 1 uses");
-    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 99, "a group of 99 uses");
-    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = KOKSMA_N_USES, "use number 9 in a group");
-    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = -1, "use number -1 in a group");
-    REFUSED(KOKSMA_DIM, bad.groups[0].uses[1] = 1, "4 dimensions");
-    REFUSED(KOKSMA_ARGUMENT, bad.groups[3] = bad.groups[0], "use pixel has two patterns");
-    REFUSED(KOKSMA_ARGUMENT, bad.patterns[2] = bad.pattern, "use time has two patterns");
-    REFUSED(KOKSMA_ARGUMENT, memset(&bad.groups[0].pattern, 0, sizeof bad.pattern), "no pattern for 'pixel+time'");
-    REFUSED(KOKSMA_N, bad.spp = 17, "scan-time");
-    REFUSED(KOKSMA_DIM, (bad.pattern = bad.groups[0].pattern, memset(bad.groups, 0, sizeof bad.groups)),
-            "give it to a group of uses");
-    REFUSED(KOKSMA_ARGUMENT, (bad.pairing = KOKSMA_PAIRING_NATIVE, bad.scope = KOKSMA_SCOPE_IMAGE), "native pairing");
-    for (int k = 0; k < 2; k++) {
-        assert_ok(koksma_adaptive_parse(k ? "selective" : "hierarchical", &adaptive));
-        adaptive.budget = 64;
-        assert_int_equal(koksma_render_adaptive(scene, &good, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
-        assert_non_null(strstr(koksma_error_text(), "takes no pattern for pixel+time"));
-    }
-    assert_ok(koksma_adaptive_parse("two-stage", &adaptive));
-    adaptive.budget = 128;
-    bad = options_for("random;pixel+time=zaremba", N);
-    assert_int_equal(koksma_render_adaptive(scene, &bad, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
-    assert_non_null(strstr(koksma_error_text(), "all sets of pattern zaremba are the same; with shift=1"));
-    koksma_scene_close(scene);
 }
