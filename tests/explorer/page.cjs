@@ -6,7 +6,7 @@ const definitions = require("./definitions.cjs");
 const fs = require("fs");
 const path = require("path");
 const {
-  accessibility, address, check, choose, chromium, commandLines, commandsAgree, compare, folder, idle, jsonLines, open,
+  accessibility, check, choose, chromium, commandLines, commandsAgree, compare, folder, idle, jsonLines, open,
   playwright, records, refusal, report, rounded, run, saved, screenshots, set, shell, unfold, until, values, visit,
 } = require("./harness.cjs");
 
@@ -66,29 +66,6 @@ async function controls(page) {
   check((await page.evaluate(() => koksmaExplorer.hash())).includes("axes=0,2"), "the axes are not in the address");
   await set(page, "#a-dim", 1);
   await compare(page, "a", "pattern:halton@16@1", "--seed", 3);
-}
-
-// Both sets have the colours of their patterns in the plots of the program, on light and on dark.
-async function colours(browser) {
-  const rows = [...fs.readFileSync(path.join(__dirname, "../../src/lab/plot/palette.def"), "utf8").matchAll(/COLOUR\(0x(\w+), 0x(\w+), ([^)]*)\)/g)];
-  const page = await open(browser);
-  for (const [colorScheme, at] of [["light", 1], ["dark", 2]]) {
-    await page.emulateMedia({ colorScheme });
-    await visit(page, "#a=sobol:scramble=owen@16&b=poisson-disk@16");
-    for (const [which, pattern] of [["a", "sobol"], ["b", "poisson-disk"]]) {
-      const hex = rows.find(row => row[3].match(/[\w-]+/g).includes(pattern))[at], rgb = hex.match(/../g).map(x => parseInt(x, 16)).join(", ");
-      const stroke = await page.locator(`.set-${which} svg.plane .points`).evaluate(node => getComputedStyle(node).stroke);
-      check(stroke === `rgb(${rgb})`, `${colorScheme}: ${pattern} is drawn in ${stroke}, in plots in ${rgb}`);
-    }
-    // Two sets of one family, or of one pattern, have different colours, and set A keeps that of the family.
-    for (const hash of ["#a=sobol:scramble=owen@16&b=pmj02@16", "#a=sobol@16&b=sobol@16"]) {
-      await visit(page, hash);
-      const [a, b] = await Promise.all(["a", "b"].map(which => page.locator(`.set-${which} svg.plane .points`).evaluate(node => getComputedStyle(node).stroke)));
-      const blue = rows.find(row => row[3].includes("sobol"))[at].match(/../g).map(x => parseInt(x, 16)).join(", ");
-      check(a === `rgb(${blue})` && b !== a, `${colorScheme}, ${hash}: ${a} beside ${b}`);
-    }
-  }
-  await page.context().close();
 }
 
 async function strataAndWitness(page) {
@@ -229,56 +206,6 @@ async function comparing(page) {
   await page.locator(".set-b button", { hasText: "Remove" }).click();
   await idle(page);
   check(!(await page.evaluate(() => koksmaExplorer.hash())).includes("&b="), "set B is not removed");
-}
-
-async function commandsOfStates(browser) {
-  const moves = "&a.moved=0:0,1;3:0.25,0.5", one = "#a=multi-jittered@30&a.seed=3", two = `#a=sobol@64&a.seed=5${moves}&b=jittered@25&b.seed=4`;
-  const page = await open(browser, { limit_s: 5 });
-  for (const [hash, ...wanted] of [
-    [`${one}${moves}`, "measure plot curve sets"], [`${one}${moves}&decay=l2-star:prefixes`, "measure plot curve --prefixes"],
-    [`${one}&decay=diaphony:sets&witness=extreme`, "generate measure plot curve sets"],
-    [`${one}&decay=star:prefixes&axes=1,0`, "generate measure"], // no sequence
-    ["#a=halton@30&a.seed=3&decay=star:prefixes&axes=1,0", "generate measure --prefixes"],
-    [`${two}&decay=diaphony:sets&strata=rooks`, "measure plot curve sets", "generate measure plot curve sets"],
-    [`${two}&decay=diaphony:prefixes&strata=elementary:2,3`, "measure plot curve --prefixes", "generate measure plot curve"],
-    ["#a=halton@20@3&a.moved=1:0.5,0.25,1&witness=none", "measure sets"],
-    ["#a=random@600&strata=rooks&decay=l2-star:prefixes", "generate measure plot curve --prefixes"],
-    ["#a=random@16&strata=grid:9000x2&decay=l2-star:prefixes", "generate measure plot curve --prefixes"],
-  ]) {
-    await visit(page, hash);
-    for (const [i, which] of ["a", "b"].slice(0, wanted.length).entries()) {
-      const kinds = await commandsAgree(page, which, hash);
-      check(kinds === wanted[i], `${hash}: set ${which} has the commands ${kinds}`);
-      const drawn = await page.locator(`.set-${which} .strata-text`).textContent(), lines = await page.locator(`#${which}-commands`).textContent();
-      check(!kinds.includes("plot") || Boolean(drawn) === /--(grid|rooks)/.test(lines), `${hash}: strata "${drawn}" and ${lines}`);
-    }
-  }
-  await page.context().close();
-}
-
-// Many moved points are in the address, or the page says that they aren't.
-async function manyMoves(browser) {
-  for (const [n, fit] of [[300, true], [900, false]]) {
-    const moves = Array.from({ length: n }, (_, i) => `${i}:${+(i / n).toFixed(6)},0.123457`).join(";");
-    const page = await open(browser, { hash: `#a=random@900&a.moved=${moves}`, limit_s: 1 });
-    await page.waitForTimeout(300);
-    const hash = await page.evaluate(() => location.hash), said = await page.locator(".set-a .lost").textContent();
-    check(hash.includes(`moved=${moves}`) === fit && said.includes("too long") !== fit, `${n} moved points: "${said}" ${hash.slice(0, 80)}`);
-    const { value } = records("measure", await saved(page, "a", "Save CSV"), "-m", "l2-star")[0];
-    check((await values(page, "a"))["l2-star"] === rounded(value, 9), `${n} moved points: l2-star is ${value}`);
-    await page.context().close();
-  }
-  // A move while another set is on its way is none of that set.
-  const page = await open(browser);
-  await page.evaluate(() => {
-    const n = document.getElementById("a-n"), plane = document.querySelector(".set-a svg.plane");
-    n.value = 9;
-    n.dispatchEvent(new Event("change"));
-    for (const key of ["n", "p", "ArrowRight"]) plane.dispatchEvent(new KeyboardEvent("keydown", { key }));
-  });
-  await idle(page);
-  await compare(page, "a", "pattern:n-rooks@9");
-  await page.context().close();
 }
 
 async function guards(browser) {
@@ -553,9 +480,6 @@ async function looks(browser) {
     await comparing(page);
     await page.context().close();
     await policy(browser);
-    await colours(browser);
-    await commandsOfStates(browser);
-    await manyMoves(browser);
     await guards(browser);
     await pictures(browser);
     await waiting(browser);

@@ -4,7 +4,6 @@
 #include "faults.h"
 
 #include <errno.h>
-#include <execinfo.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <stdarg.h>
@@ -29,56 +28,15 @@ static long wanted_at;
 static int mode;
 static bool listening; /* KOKSMA_FAULT is set */
 static atomic_long counts[N_FAULTS];
-static bool telling; /* KOKSMA_FAULT_COUNT is set */
 
 _Noreturn void fault_end(void)
 {
     _exit(ENDED);
 }
 
-/* ---- Places -------------------------------------------------------------------------------------------- */
-
-/* A place is where a call comes from: the addresses that the innermost FRAMES functions go back to. */
-enum { FRAMES = 12, MAX_PLACES = 1 << 14 };
-static struct {
-    uint64_t hash; /* 0: no place yet */
-    long first, last;
-} places[N_FAULTS][MAX_PLACES];
-static pthread_mutex_t places_lock = PTHREAD_MUTEX_INITIALIZER;
-
-static void note_place(fault_kind kind, long at)
-{
-    void *frames[FRAMES];
-    const int n = backtrace(frames, FRAMES);
-    uint64_t hash = 0xcbf29ce484222325; /* FNV-1a, a word at a time */
-    for (int i = 0; i < n; i++) {
-        hash = (hash ^ (uintptr_t)frames[i]) * 0x100000001b3;
-        hash ^= hash >> 29;
-    }
-    hash = hash ? hash : 1;
-    pthread_mutex_lock(&places_lock);
-    for (size_t i = hash % MAX_PLACES, tries = 0;; i = (i + 1) % MAX_PLACES, tries++) {
-        if (tries == MAX_PLACES) {
-            abort();
-        }
-        if (!places[kind][i].hash) {
-            places[kind][i].hash = hash;
-            places[kind][i].first = at;
-        }
-        if (places[kind][i].hash == hash) {
-            places[kind][i].last = at > places[kind][i].last ? at : places[kind][i].last;
-            break;
-        }
-    }
-    pthread_mutex_unlock(&places_lock);
-}
-
 bool fault_here(fault_kind kind, bool *half)
 {
     const long at = atomic_fetch_add(&counts[kind], 1) + 1;
-    if (telling) {
-        note_place(kind, at);
-    }
     if (kind != wanted || at < wanted_at || (mode != MODE_ON && at > wanted_at)) {
         return false;
     }
@@ -291,13 +249,7 @@ static void tell_counts(void)
     FILE *stream = __real_fopen(getenv("KOKSMA_FAULT_COUNT"), "w");
     if (stream) {
         for (int i = 1; i < N_FAULTS; i++) {
-            fprintf(stream, "%s %ld", names[i], atomic_load(&counts[i]));
-            for (int j = 0; j < MAX_PLACES; j++) {
-                if (places[i][j].hash) {
-                    fprintf(stream, " %ld %ld", places[i][j].first, places[i][j].last);
-                }
-            }
-            fputc('\n', stream);
+            fprintf(stream, "%s %ld\n", names[i], atomic_load(&counts[i]));
         }
         __real_fclose(stream);
     }
@@ -326,6 +278,5 @@ __attribute__((constructor)) static void begin(void)
     wanted = (fault_kind)i;
     if (getenv("KOKSMA_FAULT_COUNT")) {
         atexit(tell_counts);
-        telling = true;
     }
 }

@@ -3,7 +3,7 @@
  * One fault in a run of the program. KOKSMA_FAULT names a kind of call (or none), KOKSMA_FAULT_AT the call of that
  * kind that fails, KOKSMA_FAULT_MODE what failing means: `once`, `on` (that call and all after it), or `end` (the
  * process ends there, as by kill -9). KOKSMA_FAULT_COUNT is a file that is told, a line a kind, how many calls of it
- * there were, and the first and the last from each place.
+ * there were.
  */
 #ifndef KOKSMA_TESTS_FAULTS_H
 #define KOKSMA_TESTS_FAULTS_H

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""faults.py PROGRAM [--all | --places] [--only CASE] [--kind KIND]: runs commands of the program with one fault each.
+"""faults.py PROGRAM [--all] [--only CASE] [--kind KIND]: runs commands of the program with one fault each.
 
 PROGRAM is koksma-faults (faults.h says what it takes). A command of cases.txt is run without a fault, and then with the
 first, second, ... call of each kind failing: once, from then on, or with the end of the process there. Whatever fails,
@@ -8,8 +8,7 @@ the run must come to its end in time, with exit code 0 and all that it gives wit
 code and one line on stderr that says why. A file that it was to write must be as before or whole; a study's store must
 pass SQLite's integrity check, and the same command once more must give the same rows as an undisturbed run.
 
-With --all every call fails once; with --places the first and the last from each place, which is the chain of callers up to
-twelve functions. Without either a few calls of each kind are failed, spread over the run.
+With --all every call fails once, else a few calls of each kind, spread over the run.
 """
 import argparse
 import concurrent.futures
@@ -86,7 +85,7 @@ def is_whole(name, bytes_now, bytes_good, search):
 
 
 class Undisturbed:
-    """What a case gives without a fault, how many calls of a kind it makes, and the first and last from each place."""
+    """What a case gives without a fault, and how many calls of a kind it makes."""
 
     def __init__(self, runner, case):
         with tempfile.TemporaryDirectory() as folder:
@@ -94,8 +93,7 @@ class Undisturbed:
             done = runner.run(case.arguments, folder, ("none", 1, "once"), count)
             with open(count, encoding="ascii") as stream:
                 lines = [line.split() for line in stream]
-            self.calls = {kind: int(n) for kind, n, *_ in lines}
-            self.places = {kind: sorted({int(at) for at in ats}) for kind, _, *ats in lines}
+            self.calls = {kind: int(n) for kind, n in lines}
             os.remove(count)
             self.code, self.out, self.files = done.returncode, done.stdout, contents(folder)
             if done.returncode not in (0, 1) or done.stderr:
@@ -182,8 +180,6 @@ def chosen(case, kind, good, options):
     calls = good.calls[kind]
     if options.all:
         return range(1, calls + 1)
-    if options.places:
-        return good.places[kind]
     if case.seldom:
         some = {1 + len(case.name) * 7 % calls} if calls and kind in ("memory", "write") else set()
     else:
@@ -200,7 +196,7 @@ def plan(runner, options):
             if options.kind and kind != options.kind:
                 continue
             for at in chosen(case, kind, good, options):
-                modes = MODES[kind] if options.all or options.places else [MODES[kind][at % len(MODES[kind])]]
+                modes = MODES[kind] if options.all else [MODES[kind][at % len(MODES[kind])]]
                 for mode in modes:
                     yield case, good, (kind, at, mode)
 
@@ -223,9 +219,7 @@ def make_inputs(runner, shared):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program", type=os.path.abspath)
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--all", action="store_true", help="every call fails once")
-    which.add_argument("--places", action="store_true", help="the first and the last call from each place fail once")
+    parser.add_argument("--all", action="store_true", help="every call fails once")
     parser.add_argument("--only", help="cases whose name matches this regular expression")
     parser.add_argument("--kind", choices=KINDS)
     options = parser.parse_args()

@@ -6,8 +6,9 @@
  * draws the same numbers twice and fills 16 cells.
  *
  * The others of these headers have no domain, make one, or are forms with the same numbers (test_sampler_blocks.c,
- * test_keys_4d.c); test_sampler_domains.c has the errors of sets of samples in two domains. Adjacent pixels of masks, keys and z_rank depend on each other by purpose: test_masks.c and
- * test_keys.c measure how their errors do, test_sampler.c that ranks are a permutation.
+ * test_keys_4d.c); test_sampler_domains.c has the errors of sets of samples in two domains. Adjacent pixels of masks, keys
+ * and z_rank depend on each other by purpose: test_masks.c and test_keys.c measure how their errors do, test_sampler.c
+ * that ranks are a permutation.
  */
 #include <koksma/keys.h>
 #include <koksma/mask.h>
