@@ -8,14 +8,11 @@ it is, the program must end, in the memory of an ordinary run, with exit code 3 
 why. What the user names may be a pipe, which must give what the file gives, and is read up to the limit; the first signal
 ends the wait for it.
 """
-import ctypes
 import json
 import os
 import re
-import resource
 import signal
 import socket
-import struct
 import subprocess
 import sys
 import tempfile
@@ -374,43 +371,6 @@ def check_pipes(checks, program, folder):
     checks.refused("a scene that names '-'", done, 3, "-: can't be read: No such file")
 
 
-def check_descriptors(checks, program, folder):
-    """Without descriptors the reason is that, and the system's: the limit falls while the program waits for its scene."""
-    for arguments, made, name in (
-            (["scene", "check", "late.json"], scene(albedo={"image": "i.pfm"}), "i.pfm"),
-            (["render", "late.json", "-n", "1", "--size", "4x4", "-q", "-o", "o.pfm"], scene(), "o.pfm")):
-        fifo = os.path.join(folder, "late.json")
-        os.mkfifo(fifo)
-        process = subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   env=dict(os.environ, ASAN_OPTIONS="intercept_tls_get_addr=0:detect_leaks=0"))  # which opens files
-        with open(fifo, "w", encoding="utf-8") as stream:  # returns when the program has opened it
-            resource.prlimit(process.pid, resource.RLIMIT_NOFILE, (3, 3))
-            json.dump(made, stream)
-        out, err = process.communicate(timeout=files.SECONDS)
-        checks.refused(f"{arguments} without descriptors", files.Done(process.returncode, out, err, 0), 4, name,
-                       "Too many open files")
-        os.remove(fifo)
-
-
-def check_openings(checks, program, folder):
-    """`study quick` opens each scene of a list once to check it, the first as well as the last; counted by inotify(7)."""
-    opened, closed, event = 0x20, 0x18, struct.Struct("iIII")  # IN_OPEN; IN_CLOSE_*, which keep equal events apart
-    libc = ctypes.CDLL(None, use_errno=True)
-    names = [put(os.path.join(folder, f"listed{i}.json"), scene()) for i in range(12)]
-    descriptor = libc.inotify_init1(os.O_NONBLOCK)
-    watches = [libc.inotify_add_watch(descriptor, os.fsencode(name), opened | closed) for name in names]
-    done = files.run(program, "study", "quick", "-p", "jittered", "-n", "4", "--spp", "2", "--scene",
-                     ",".join(os.path.basename(name) for name in names), "-o", "listed", cwd=folder)
-    checks.refused("a size without a set", done, 2, "--spp 2")  # after the scenes, and before the study opens them
-    data, counts = os.read(descriptor, 1 << 16), dict.fromkeys(watches, 0)
-    os.close(descriptor)
-    for at in range(0, len(data), event.size):  # events of files have no names
-        watch, mask, _, _ = event.unpack_from(data, at)
-        counts[watch] += bool(mask & opened)
-    checks.check(set(counts.values()) == {1}, f"openings of each scene: {list(counts.values())}")
-
-
 def main():
     program = os.path.abspath(sys.argv[1])
     checks, kinds = files.Checks(), limits()
@@ -419,8 +379,6 @@ def main():
         seen |= check_named_by_user(checks, program, folder, kinds)
         check_pipes(checks, program, folder)
         check_signals(checks, program, folder)
-        check_descriptors(checks, program, folder)
-        check_openings(checks, program, folder)
     with open(os.path.join(SOURCE, "docs/files.md"), encoding="utf-8") as stream:
         rows = re.findall(r"^\| ([^|]+) \| (\d+) MiB \|", stream.read(), re.M)
     checks.check({(text, int(mib) << 20) for text, mib in rows} == {(text, most) for most, text in kinds.values()},

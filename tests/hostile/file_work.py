@@ -5,8 +5,8 @@
 References let a few kilobytes ask for any amount: instances of instances of nothing, trees of textures, lights with many
 properties that many shapes name, names that stand for long texts, texts that are included again and again. Such a scene must
 be refused by one line that names the file, within the memory and the processor time of an ordinary run. Large honest scenes
-take time and memory in proportion to their length: many names, shapes, elements and triangles, many meshes of one compressed
-file, and a mesh to subdivide whose indices are chosen against a hash table. What is repeated, a material or a mesh under other
+take time and memory in proportion to their length: many names, shapes, elements and triangles, and many meshes of one
+compressed file. What is repeated, a material or a mesh under other
 names of its file, counts once. So do the files that a model names, a list of indices that many primitives of a
 glTF file share, and an image that many materials emit; a damaged one counts each time.
 """
@@ -197,24 +197,6 @@ def names(bench):
             bench.checks.check(stream.read(12).split()[1:3] == [b"5", b"4"], "a name with two values has not the first")
 
 
-def loop(bench):
-    """Edges whose vertices a, b make (a X xor b Y) >> 20 agree in the bits that a table of their number would use."""
-    n, vertices = 300000 // LARGE, 1 << 16
-    mask = (1 << (7 * n - 1).bit_length()) - 1
-    first = [(a * 0x9E3779B97F4A7C15 & 2**64 - 1) >> 20 & mask for a in range(vertices)]
-    second = {}
-    for b in range(vertices):
-        second.setdefault((b * 0xC2B2AE3D27D4EB4F & 2**64 - 1) >> 20 & mask, []).append(b)
-    edges, bits = [], 0
-    while len(edges) < n:
-        edges += [(a, b) for a in range(vertices) for b in second.get(first[a] ^ bits, ()) if a < b]
-        bits += 1
-    faces = "\n".join(f"{a} {b} {(a + b) * 7919 % vertices}" for a, b in edges[:n])
-    places = "\n".join(f"{i % 41} {i % 37} {i % 31}" for i in range(vertices))
-    bench.counts("edges that a hash table has in one place", "s.pbrt",
-                 PBRT + f'Shape "loopsubdiv" "integer levels" 0 "integer indices" [{faces}] "point3 P" [{places}]\n', triangles=n)
-
-
 def materials(bench):
     """1,100 shapes: what is equal counts once, and 1,024 that differ are the most."""
     n = 1100
@@ -385,7 +367,7 @@ def main():
         if re.search(b"no zlib|no expat|no Embree", done.err):
             print("skipped: " + done.err.decode().strip())
             return
-        for part in (instances, trees, spectra, texts, references, names, loop, materials, meshes, material_files,
+        for part in (instances, trees, spectra, texts, references, names, materials, meshes, material_files,
                      buffers, indices, damaged, glows, packed_meshes, environments):
             part(bench)
         bench.checks.end()

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The quality t of nets in any base, by the measure t-value and by koksma_verify: against the definition, counted in
+/* The quality t of nets in any base, by the measure t-value: against the definition, counted in
    every elementary interval with whole numbers; Faure's sequence and Hammersley's points, of which theory says t = 0.
  */
 #include <koksma/verify.h>
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "test.h"
 
@@ -237,60 +236,4 @@ TEST_CASE(hammersley_of_each_prime_has_t_zero)
         }
     }
     koksma_points_fini(&halton);
-}
-
-/* The detail of net-base-b lists t of the prefixes of b^m points: each is that of t-value. */
-TEST_CASE(verify_finds_the_same)
-{
-    static const char *const patterns[] = {"faure", "halton", "sobol", "random", "n-rooks", "halton:scramble=owen"};
-    for (size_t s = 0; s < sizeof patterns / sizeof *patterns; s++) {
-        for (int dim = 2; dim <= 5; dim++) {
-            koksma_points p = test_points(patterns[s], 700, dim, 3);
-            koksma_findings all;
-            int compared = 0;
-            assert_ok(koksma_verify(&p, NULL, &all));
-            for (size_t i = 0; i < all.count; i++) {
-                const koksma_finding *f = &all.items[i];
-                if (strncmp(f->property, "net-base-", 9) != 0 || strcmp(f->subject, dim == 2 ? "0,1" : "all") != 0) {
-                    continue;
-                }
-                const unsigned long base = strtoul(f->property + 9, NULL, 10);
-                const char *at = strchr(f->detail, ':') + 1;
-                for (int m = 1; power(base, m) <= p.n; m++, compared++) {
-                    char *end;
-                    const unsigned long t = strtoul(at, &end, 10);
-                    assert_true(end > at);
-                    at = end;
-                    assert_near(t_of(base, &(koksma_points){power(base, m), dim, p.xs}), (double)t, 0);
-                }
-            }
-            assert_int_equal(compared, 9 + 5 + 4);
-            koksma_findings_fini(&all);
-            koksma_points_fini(&p);
-        }
-    }
-}
-
-TEST_CASE(what_is_no_power_is_refused)
-{
-    koksma_spec spec;
-    koksma_value value;
-    double one[] = {0.3, 0.7}, ends[] = {0, 1, 0.5, 0.25};
-    for (unsigned long base = 2; base <= 12; base++) {
-        char text[64];
-        snprintf(text, sizeof text, "t-value:base=%lu", base);
-        assert_ok(koksma_measure_spec(text, &spec));
-        for (size_t n = 1; n <= 150; n++) {
-            koksma_points p = test_points("random", n, 2, 1);
-            bool is_power = false;
-            for (int m = 0; power(base, m) <= n; m++) {
-                is_power = is_power || power(base, m) == n;
-            }
-            assert_int_equal(koksma_evaluate(&spec, &p, NULL, &value), is_power ? KOKSMA_OK : KOKSMA_N);
-            assert_true(is_power || strstr(koksma_error_text(), "is not a power of base"));
-            koksma_points_fini(&p);
-        }
-    }
-    assert_near(t_of(2, &(koksma_points){1, 2, one}), 0, 0);  /* m = 0 */
-    assert_near(t_of(2, &(koksma_points){2, 2, ends}), 0, 0); /* a coordinate of 1 is in the last interval */
 }

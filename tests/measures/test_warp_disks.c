@@ -209,28 +209,3 @@ TEST_CASE(concentric_beats_polar)
         }
     }
 }
-
-/* Planes through the centre separate two points with the chance of their angle over pi: also of opposite ones. */
-TEST_CASE(points_that_are_opposite)
-{
-    for (int i = 0; i < 160; i++) {
-        const double angle = M_PI - pow(10, -0.1 * i), p[3] = {1, 0, 0}, q[3] = {cos(angle), 0, sin(angle)};
-        assert_near(koksma__domain_separates(KOKSMA__HEMISPHERE, p, q), angle / M_PI, 3e-16);
-        assert_near(koksma__domain_separates(KOKSMA__HEMISPHERE, q, p), angle / M_PI, 3e-16);
-    }
-}
-
-/* Known exactly: a point; two opposite points, which every plane through the centre divides evenly; the six corners of an
-   octahedron, with 12 distances sqrt 2 at right angles and 3 distances 2. */
-TEST_CASE(few_points_on_the_sphere)
-{
-    static double xs[] = {0, 0, 1, 0.3, 0.5, 0, 0.5, 0.25, 0.5, 0.5, 0.5, 0.75};
-    const koksma_points point = {1, 2, xs}, opposite = {2, 2, xs}, octahedron = {6, 2, xs};
-    assert_near(warped("sphere", "l2-disk:law=area", &point).square, 1.0 / 6, 1e-15);
-    assert_near(warped("sphere", "l2-disk:law=area", &opposite).square, 1.0 / 24, 1e-15);
-    assert_near(warped("sphere", "l2-disk:law=area", &octahedron).square, (2.0 / 3 - (12 * sqrt(2) + 6) / 36) / 4,
-                1e-15);
-    assert_near(warped("sphere", "l2-edge", &point).square, 0.25, 1e-15);
-    assert_near(warped("sphere", "l2-edge", &opposite).square, 0, 1e-15);
-    assert_near(warped("sphere", "l2-edge", &octahedron).square, 0.25 - (12 * 0.5 + 3) / 36, 1e-15);
-}

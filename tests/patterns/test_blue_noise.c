@@ -217,44 +217,6 @@ TEST_CASE(prefixes_of_progressive_elimination)
     koksma_points_fini(&b);
 }
 
-/* The gain over pmj02 holds at every power of 4, places within strata of 1/n are uniform, and it is pmj02's net. */
-TEST_CASE(pmj02bn_keeps_apart_at_all_sizes)
-{
-    enum { N = 16384, BINS = 10 };
-    koksma_points plain = test_points("pmj02", N, 2, 2), blue = test_points("pmj02bn", N, 2, 2);
-    for (size_t n = 256; n <= N; n *= 4) {
-        double rho, before, after;
-        size_t bins[BINS] = {0};
-        nearest(plain.xs, n, &rho, &before);
-        nearest(blue.xs, n, &rho, &after);
-        if (!(after > 0.66 && after > before + 0.05)) {
-            fail_msg("%zu points: mean nearest distance %.3f, pmj02's %.3f", n, after, before);
-        }
-        for (size_t i = 0; i < 2 * n; i++) {
-            const double place = blue.xs[i] * (double)n;
-            bins[(size_t)((place - floor(place)) * BINS)]++;
-        }
-        for (size_t b = 0; b < BINS; b++) { /* 6 standard deviations of a binomial */
-            assert_near((double)bins[b], 0.2 * (double)n, 6 * sqrt(0.18 * (double)n));
-        }
-        static unsigned char seen[N];
-        for (size_t across = 1; across <= n; across *= 2) {
-            memset(seen, 0, n);
-            for (size_t i = 0; i < n; i++) {
-                const size_t x = (size_t)(blue.xs[2 * i] * (double)across);
-                const size_t y = (size_t)(blue.xs[2 * i + 1] * (double)(n / across));
-                assert_int_equal(seen[x * (n / across) + y]++, 0);
-            }
-        }
-    }
-    koksma_points_fini(&plain);
-    koksma_points_fini(&blue);
-    koksma_points same = test_points("pmj02bn:levels=0", 100, 2, 5), as = test_points("pmj02", 100, 2, 5);
-    assert_memory_equal(same.xs, as.xs, 200 * sizeof *as.xs);
-    koksma_points_fini(&same);
-    koksma_points_fini(&as);
-}
-
 /* Mean power over frequencies 0 < |k| < 0.75 sqrt n. */
 static double low_power(const koksma_points *points)
 {

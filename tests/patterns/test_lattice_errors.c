@@ -305,65 +305,6 @@ TEST_CASE(embedded_lattices_cost_little)
     assert_true(largest > 1.525);
 }
 
-/* The pairs of coordinates, too, are far from a diagonal, whose P_2 doesn't fall: of its order n^-2 they have 2
- * to 27. */
-TEST_CASE(worst_pairs_fall)
-{
-    for (int bits = 8; bits <= MOST_BITS && bits <= 18; bits += 2) {
-        const size_t n = (size_t)1 << bits;
-        size_t z[10];
-        double worst = 0;
-        lattices_multipliers("lattice-rank1", n, 10, z);
-        for (int k = 1; k < 10; k++) {
-            for (int l = 0; l < k; l++) {
-                worst = fmax(worst, p2(n, (size_t[]){z[l], z[k]}, 2, WEIGHT));
-            }
-        }
-        assert_true(worst < 60 / (double)n / (double)n);
-    }
-}
-
-/* prod(1 + B_2(x_k)) - 1 over shifted lattices in 8 dimensions: the root mean square of a few shifts. */
-static double shifted_error(const size_t *z, size_t n)
-{
-    enum { DIM = 8, SHIFTS = 2 };
-    koksma_points shifts = test_points("random", SHIFTS, DIM, 1);
-    double squares = 0;
-    for (int s = 0; s < SHIFTS; s++) {
-        double sum = 0, lost = 0;
-        for (size_t i = 0; i < n; i++) {
-            double product = 1;
-            for (int k = 0; k < DIM; k++) {
-                const double moved = (double)(i * z[k] % n) / (double)n + shifts.xs[s * DIM + k];
-                const double x = moved - (moved >= 1);
-                product *= 1 + x * x - x + 1.0 / 6;
-            }
-            const double term = product - 1 - lost, total = sum + term;
-            lost = total - sum - term;
-            sum = total;
-        }
-        squares += pow(sum / (double)n, 2) / SHIFTS;
-    }
-    koksma_points_fini(&shifts);
-    return sqrt(squares);
-}
-
-TEST_CASE(shifted_lattices_converge)
-{
-    double before = HUGE_VAL;
-    for (int bits = 10; bits <= MOST_BITS && bits <= 20; bits += 2) {
-        const size_t n = (size_t)1 << bits;
-        size_t z[8];
-        lattices_multipliers("lattice-rank1", n, 8, z);
-        const double error = shifted_error(z, n);
-        if (!(error < before / 2)) {
-            fail_msg("n = 2^%d: %.3g after %.3g with a quarter of the points", bits, error, before);
-        }
-        before = error;
-    }
-    assert_true(before < (MOST_BITS == 20 ? 1e-9 : 3e-7));
-}
-
 /* In the plane korobov searches all, too, and none is better than the lattices of Fibonacci. */
 TEST_CASE(plane)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The searched lattices: their multipliers against a search of all in long double, that none comes twice, and that
-   they integrate better than random points in many dimensions. test_lattice_errors.c has more points. */
+/* The searched lattices: their multipliers against a search of all in long double, and that none comes twice.
+   test_lattice_errors.c has more points. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -122,65 +122,6 @@ TEST_CASE(multipliers_are_distinct)
     }
 }
 
-/* The mean of the sum over k < l of (x_k - 1/2)(x_l - 1/2), the points moved along the torus. */
-static double mean_of_pairs(const koksma_points *points, const double *shift)
-{
-    double mean = 0;
-    for (size_t i = 0; i < points->n; i++) {
-        double sum = 0, squares = 0;
-        for (int k = 0; k < points->dim; k++) {
-            const double moved = points->xs[i * (size_t)points->dim + (size_t)k] + shift[k];
-            const double x = moved - floor(moved) - 0.5;
-            sum += x;
-            squares += x * x;
-        }
-        mean += (sum * sum - squares) / 2 / (double)points->n;
-    }
-    return mean;
-}
-
-/* Random points have the variance pairs / 144 n. */
-TEST_CASE(many_dimensions_are_better_than_random)
-{
-    static const char *const patterns[] = {"lattice-rank1", "korobov"};
-    static const struct {
-        size_t n;
-        int dim;
-        double ratio; /* about 1.4 times the greater ratio of the two in the limit of many shifts */
-    } cases[] = {{256, 8, 0.5}, {256, 16, 0.6}, {1021, 8, 0.36}, {1021, 16, 0.47}, {4096, 16, 0.4}};
-    enum { SHIFTS = 100 };
-    for (size_t c = 0; c < 2 * sizeof cases / sizeof *cases; c++) {
-        const size_t n = cases[c / 2].n;
-        const int dim = cases[c / 2].dim;
-        koksma_points points = test_points(patterns[c % 2], n, dim, 0);
-        koksma_points shifts = test_points("random", SHIFTS, dim, 0);
-        double square = 0;
-        for (int s = 0; s < SHIFTS; s++) {
-            square += pow(mean_of_pairs(&points, &shifts.xs[s * dim]), 2) / SHIFTS;
-        }
-        const double random = dim * (dim - 1) / 2.0 / 144 / (double)n;
-        if (!(sqrt(square / random) < cases[c / 2].ratio)) {
-            fail_msg("%s, n = %zu, dim = %d: %.3f of random", patterns[c % 2], n, dim, sqrt(square / random));
-        }
-        koksma_points_fini(&points);
-        koksma_points_fini(&shifts);
-    }
-}
-
-/* In the plane many multipliers are equally good; which of them is taken is part of the points. */
-TEST_CASE(planar_multipliers_stay)
-{
-    static const size_t rows[][2] = {{12, 7},     {20, 11},    {57, 16},    {64, 27},      {1021, 374},
-                                     {1024, 275}, {1999, 872}, {2048, 857}, {10136, 3921}, {19897, 7554}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        size_t z[2];
-        lattices_multipliers("lattice-rank1", rows[i][0], 2, z);
-        assert_int_equal(z[1], rows[i][1]);
-        lattices_multipliers("korobov", rows[i][0], 2, z);
-        assert_int_equal(z[1], rows[i][1]);
-    }
-}
-
 /* The first 2^m points are {i z / 2^m}; none of the multipliers comes twice. */
 TEST_CASE(embedded_lattices)
 {
@@ -205,25 +146,6 @@ TEST_CASE(embedded_lattices)
         }
         free(seen);
         koksma_points_fini(&points);
-    }
-}
-
-/* What being good for all powers of two costs, against the best for each alone. */
-TEST_CASE(embedded_lattices_are_good)
-{
-    static const int dims[] = {2, 3, 5, 10};
-    for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
-        for (size_t n = 16; n <= 4096; n *= 2) {
-            koksma_points best = test_points("lattice-rank1", n, dims[d], 0);
-            koksma_points embedded = test_points("lattice-sequence", n, dims[d], 0);
-            const double ratio =
-                test_measure("l2-wraparound", &embedded).value / test_measure("l2-wraparound", &best).value;
-            if (!(ratio > 0.9 && ratio <= 1.4)) {
-                fail_msg("n = %zu, dim = %d: %.3f times the best", n, dims[d], ratio);
-            }
-            koksma_points_fini(&best);
-            koksma_points_fini(&embedded);
-        }
     }
 }
 

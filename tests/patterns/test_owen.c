@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Owen's nested uniform scrambling (1995) of every pattern that has it, against its definition: each node of the tree
-   of digits has a random permutation, uniform and independent of the others; nets stay nets; means have no bias; and
-   variances are those of permutations drawn node by node, by the book, here. */
+   of digits has a random permutation, uniform and independent of the others; means have no bias; and variances are those
+   of permutations drawn node by node, by the book, here. The claims have that nets stay nets. */
 #include <stdlib.h>
 
 #include "claims/claims.h"
@@ -194,58 +194,6 @@ TEST_CASE(permutations_are_uniform_and_independent)
     check_digits(of_name("faure"), 3, 2);
     check_digits(of_name("faure"), 2, 1);
     check_digits(of_name("faure"), 7, 5);
-}
-
-/* Coordinates a and b of points first .. first + n - 1. */
-static koksma_points plane_of(const koksma_points *points, size_t first, size_t n, int a, int b)
-{
-    koksma_points plane;
-    assert_ok(koksma_points_init(&plane, n, 2));
-    for (size_t i = 0; i < n; i++) {
-        plane.xs[2 * i] = points->xs[(first + i) * (size_t)points->dim + (size_t)a];
-        plane.xs[2 * i + 1] = points->xs[(first + i) * (size_t)points->dim + (size_t)b];
-    }
-    return plane;
-}
-
-/* Every aligned block of b^m points of faure is a net in all dimensions; in bases 11 and 13 each pair of some. */
-TEST_CASE(blocks_are_nets)
-{
-    static const int dims[] = {1, 2, 3, 5, 7};
-    static const size_t most[] = {1024, 4096, 2187, 3125, 343};
-    for (size_t d = 0; d < 5; d++) {
-        const uint32_t b = base_of_faure(dims[d], 0);
-        for (uint64_t seed = 0; seed < 2; seed++) {
-            koksma_points all = scrambled_points("faure", most[d], dims[d], seed);
-            for (size_t n = 1; n <= most[d]; n *= b) {
-                for (size_t first = 0; first < 3 * n && first + n <= most[d]; first += n) {
-                    const koksma_points block = {n, dims[d], all.xs + first * (size_t)dims[d]};
-                    assert_true(is_net_in_base(&block, n, b));
-                }
-            }
-            koksma_points_fini(&all);
-        }
-    }
-    for (int dim = 11; dim <= 13; dim += 2) {
-        const size_t b = (size_t)dim;
-        koksma_points all = scrambled_points("faure", b * b * b, dim, 3);
-        for (int k = 0; k + 1 < dim; k += 3) {
-            for (size_t n = b; n <= b * b * b; n *= b) {
-                koksma_points plane = plane_of(&all, b * b * b - n, n, k, dim - 1);
-                assert_true(is_net_in_base(&plane, n, b));
-                koksma_points_fini(&plane);
-            }
-        }
-        koksma_points_fini(&all);
-    }
-    static const char *const planar[] = {"hammersley", "zaremba", "larcher-pillichshammer"};
-    for (size_t p = 0; p < 3; p++) {
-        for (size_t n = 1; n <= 4096; n *= 2) {
-            koksma_points points = scrambled_points(planar[p], n, 2, n);
-            assert_true(is_net2_block(&points, 0, n));
-            koksma_points_fini(&points);
-        }
-    }
 }
 
 /* With any number of points, i/n is scrambled within its stratum. */

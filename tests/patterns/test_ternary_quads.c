@@ -136,29 +136,4 @@ TEST_CASE(other_pairs_are_even)
     assert_true(total / pairs / M < 2.26 / 8);
 }
 
-/* Beyond 3^20 points, too: of independent random matrices m - t rows in m + 1 splits are dependent with probability
-   about (m + 1) 3^-t / 2, so that t is about log_3(m + 1) = 3.2 and 95 % are at most 6. */
-TEST_CASE(other_pairs_are_even_far_out)
-{
-    static const unsigned char none[DIGITS][DIGITS];
-    enum { MOST = 40 };
-    for (int m = 19; m <= DIGITS; m += 7) {
-        double total = 0, pairs = 0;
-        for (int a = 4; a < MOST; a++) {
-            for (int b = 0; b < a - a % 4; b++, pairs++) {
-                matrix pair[2];
-                int t = 0;
-                memcpy(pair[0], matrices[a], sizeof *pair);
-                memcpy(pair[1], matrices[b], sizeof *pair);
-                while (t < m && !even(none, (const matrix *)pair, 2, m - t, m)) {
-                    t++;
-                }
-                total += t;
-            }
-        }
-        print_message("3^%d points: t of pairs of different groups: mean %.3f\n", m, total / pairs);
-        assert_true(total / pairs < 3.5);
-    }
-}
-
 TEST_GROUP(read_matrices, NULL)

@@ -243,23 +243,6 @@ class Axes(unittest.TestCase):
             self.assertEqual(style["color"], "red")
             self.assertEqual(ax.loglog.called, isinstance(result, koksma.Convergence))
 
-    def test_without(self):
-        with unittest.mock.patch.dict(sys.modules, {"matplotlib": None}):
-            for result, _, _ in self.results():
-                with self.assertRaisesRegex(koksma.UnsupportedError, "pip install matplotlib"):
-                    result.draw()
-
-    def test_with(self):
-        try:
-            import matplotlib
-        except ModuleNotFoundError:
-            self.skipTest("matplotlib is not installed")
-        matplotlib.use("agg")
-        for result, x, y in self.results():
-            ax = result.draw()
-            np.testing.assert_array_equal(ax.lines[0].get_xydata(), np.column_stack([x, y]))
-            ax.figure.canvas.draw()
-
 
 class Pairs(unittest.TestCase):
     def test_differences(self):

@@ -207,36 +207,3 @@ TEST_CASE(adaptive_parts_add_up)
     }
     koksma_scene_close(scene);
 }
-
-/* A wall of radiance 1 before a wall of radiance 0: in a pixel that the edge divides, strata are split, and the half of the
-   strata, which is divided by its own volume, is as bright as the whole but for the noise of strata; where all is equal, it
-   is equal. Two quarters of the film see the wall, so that its id is there. */
-TEST_CASE(adaptive_halves_are_halves)
-{
-    koksma_scene *scene = scene_of("{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 40}, 'materials': "
-                                   "[], 'shapes': [], 'lights': [{'kind': 'rectangle', 'centre': [-4.93, 0, 0], "
-                                   "'normal': [0, 0, 1], 'half': [5, 50], 'radiance': 1, 'visible': true}]}");
-    for (size_t i = 0; koksma_adaptive_at(i); i++) {
-        koksma_render_options options = options_of(scene, "jittered", "path", 9, 16);
-        koksma_aovs aovs;
-        koksma_layers layers = render_adaptive(scene, &options, i, "id,half,bounce:0", &aovs);
-        double whole = 0, halves[2] = {0};
-        for (size_t k = 0; k < 16 * 16; k++) {
-            const float value = layers.image.pixels[k];
-            assert_near((double)aovs.images[3].pixels[k], (double)value, 1e-6);
-            assert_true(k % 16 >= 8 || aovs.images[0].pixels[k] == 1);
-            assert_true(k % 16 < 9 || aovs.images[0].pixels[k] == 0);
-            for (int h = 0; h < 2; h++) {
-                const float half = aovs.images[1 + h].pixels[k];
-                assert_true((value > 0 && value < 1) || half == value);
-                halves[h] += (double)half / 256;
-            }
-            whole += (double)value / 256;
-        }
-        assert_near(halves[0], whole, 0.004); /* 16 pixels of the edge, each within .25 */
-        assert_near(halves[1], whole, 0.004);
-        koksma_layers_fini(&layers);
-        koksma_aovs_fini(&aovs);
-    }
-    koksma_scene_close(scene);
-}

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lens, shutter, pairings, scopes, filters and layers, against closed forms. */
+/* Lens, shutter, filters and layers, against closed forms. */
 #include "render/render.h"
 #include "rendering.h"
 
@@ -161,28 +161,6 @@ TEST_CASE(shutter_sees_the_time)
 }
 
 /* ---- Patterns, pairings, scopes, filters -------------------------------------------------------------------- */
-
-TEST_CASE(every_way_of_sampling_has_the_same_mean)
-{
-    koksma_scene *scene = shipped("all");
-    scene->clamp = INFINITY;
-    const double base_error = 0.0015; /* of 147,456 random samples of standard deviation about 0.3, twice */
-    double error;
-    koksma_render_options options = options_of(scene, "random", "distribution", 256, 24);
-    const double base = mean_of(scene, &options, NULL);
-    for (int pairing = 0; pairing < 3; pairing++) {
-        for (int scope = 0; scope < 2; scope++) {
-            options = options_of(scene, "sobol:scramble=owen", "distribution", 16, 24);
-            options.pairing = (koksma_pairing)pairing;
-            options.scope = (koksma_scope)scope;
-            const double mean = mean_over_seeds(scene, options, 8, 1, &error);
-            if (fabs(mean - base) > 4 * error + base_error) {
-                fail_msg("pairing %d, scope %d: %.6f +- %.1g, expected %.6f", pairing, scope, mean, error, base);
-            }
-        }
-    }
-    koksma_scene_close(scene);
-}
 
 /* A million samples in a pixel, of a value that floats can't sum: 2^20 x 0.7 would be 1 % too much. */
 TEST_CASE(many_splats_are_summed)

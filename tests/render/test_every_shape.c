@@ -490,28 +490,3 @@ TEST_CASE(geometries_agree)
     }
     remove(file);
 }
-
-/* Fields: every kind, compounds too, is read from what it declares and refuses one that it doesn't. */
-TEST_CASE(kinds_refuse_unknown_fields)
-{
-    for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
-        const koksma__shape_type *type = koksma__shape_types[kind];
-        char fields[1024], text[4096];
-        koksma_scene *scene;
-        kind_fields(&type->kind, kind, fields, sizeof fields);
-        for (int wrong = 0; wrong < 2; wrong++) {
-            snprintf(text, sizeof text,
-                     "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 40}, 'materials': [{'name': 'm', "
-                     "'kind': 'lambert', 'albedo': 0.5}], 'shapes': [{'kind': '%s', 'material': 'm'%s%s}]}",
-                     type->kind.name, fields, wrong ? ", 'colour': 1" : "");
-            const koksma_status status = open_text(text, &scene);
-            if (wrong) {
-                assert_int_equal(status, KOKSMA_MALFORMED);
-                assert_non_null(strstr(koksma_error_text(), "colour"));
-            } else if (type->hit || type->kind.example) {
-                assert_ok(status);
-                koksma_scene_close(scene);
-            }
-        }
-    }
-}
