@@ -57,7 +57,7 @@ KOKSMA_API koksma_status koksma_generate_rectangle(const koksma_spec *spec, uint
                                                    koksma_points *out);
 
 /* Generates points on the triangles of a model, uniform in area, in the coordinates of its file.
-     spec  one of the patterns above, without modifiers; d is in the model's units
+     spec  one of the patterns above except gaussian-blue-noise, without modifiers; d is in the model's units
      path  a model: .obj, .ply, .ply.gz, .off, .gltf, .glb or .serialized
      out   points initialised by koksma_points_init, in 3 dimensions: x y z; or in 6: also the triangle's unit normal,
            on the side from which its corners are in counterclockwise order; or in 7: also the number of the triangle,

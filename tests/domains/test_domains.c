@@ -376,6 +376,9 @@ TEST_CASE(calls_ask_often)
         assert_ok(koksma_generate_density(&spec, 0, &map, &run, &p));
         assert_in_range(questions, rows[r].least, 10000);
         koksma_points_fini(&p);
+        if (strstr(rows[r].pattern, "gaussian")) {
+            continue; /* it makes no points on models */
+        }
         questions = 0;
         assert_ok(koksma_points_init(&p, rows[r].n, 3));
         assert_ok(koksma_generate_on(&spec, 0, model, &run, &p));

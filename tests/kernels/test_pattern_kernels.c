@@ -245,11 +245,11 @@ static void source_force(const koksma__kernel_table *t, size_t count, void *out)
         run[2 * r] = (uint32_t)(count + 7 * r) % 250;
         run[2 * r + 1] = run[2 * r] + r;
     }
-    const double *const sources[] = {units, units + MAX, units + 100, squares, units + 200};
+    const double *const sources[] = {units, units + MAX, squares, units + 200};
     for (size_t runs = 0; runs <= 13; runs++) {
-        const double x[] = {units[count], 0.03, 0.4};
+        const double x[] = {units[count], 0.03};
         t->source_force(runs, run, sources, x, 0.004 + 0.002 * (double)(count % 7), 12, 0x1.9c54c3b43bc8bp-18,
-                        (double *)out + 3 * runs);
+                        (double *)out + 2 * runs);
     }
 }
 

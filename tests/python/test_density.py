@@ -36,6 +36,8 @@ class Density(unittest.TestCase):
             np.testing.assert_array_equal(ours, koksma.generate(pattern, 200, seed=3, density=file, threads=2))
             np.testing.assert_array_equal(ours, self.program(pattern, "-n", "200", "-s", "3", "--density", file))
             self.assertTrue(120 < (ours[:, 0] > 0.5).sum() < 180)
+            if pattern.startswith("gaussian"):  # in rectangles alone
+                continue
             pattern = pattern.replace(",torus=1", "")
             ours = koksma.generate(pattern, 200, 7, seed=3, on=model)
             np.testing.assert_array_equal(ours, self.program(pattern, "-n", "200", "-d", "7", "-s", "3", "--on", model))

@@ -14,10 +14,10 @@
  *                          few others are compared with all points. With c candidates for each point this takes
  *                          O(n (c + n log c)) in the plane
  *
- * poisson-disk-maximal and dart-throwing (maximal.c), and gaussian-blue-noise (gaussian.c), work differently. With
- * order=progressive, patterns/spacing/elimination.c orders the points that they have made. Each part of a domain has a
- * unit of distance; the distance of two points is measured in the smaller of their two units. Where the pattern's d
- * decides how many points there are, the method counts them.
+ * poisson-disk-maximal and dart-throwing (maximal.c), and gaussian-blue-noise (gaussian.c; not on models), work
+ * differently. With order=progressive, patterns/spacing/elimination.c orders the points that they have made. Each part
+ * of a domain has a unit of distance; the distance of two points is measured in the smaller of their two units. Where
+ * the pattern's d decides how many points there are, the method counts them.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -314,7 +314,8 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
                         "%s: the modifier %s can't be used for points %s", p->name, modifier->name, domain->what);
     }
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
-        if (!strcmp(methods[i].pattern, p->name)) {
+        const bool possible = methods[i].choose != koksma__choose_gaussian || domain->open_field;
+        if (!strcmp(methods[i].pattern, p->name) && possible) {
             choice c = {domain, p, spec->params, seed, *n, run, NULL};
             const koksma_status status = choose_by(i, &c);
             *n = c.n;
@@ -324,6 +325,8 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
     }
     return koksma__fail(KOKSMA_UNSUPPORTED,
                         "%s: it can't make points %s; random, best-candidate, dart-throwing, sample-elimination, "
-                        "progressive-elimination, poisson-disk, poisson-disk-maximal and gaussian-blue-noise can",
-                        p->name, domain->what);
+                        "progressive-elimination, poisson-disk%s can",
+                        p->name, domain->what,
+                        domain->open_field ? ", poisson-disk-maximal and gaussian-blue-noise"
+                                           : " and poisson-disk-maximal");
 }

@@ -6,13 +6,13 @@
  * the unit of distance there is 1 / sqrt p. A rectangle without an image is one of equal pixels that are about square.
  *
  * Positions of choose.c are in [0,1)^2; `lengths` makes distances those of the rectangle, in units of its height.
- *
  */
 #include <koksma/density.h>
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/points.h"
@@ -138,13 +138,6 @@ static bool settle(const void *data, double *x, koksma__domain_point *point)
     return true;
 }
 
-static void along(const void *data, const koksma__domain_point *point, double *vector)
-{
-    (void)data;
-    (void)point;
-    (void)vector;
-}
-
 static void close_field(void *data)
 {
     density_field *f = data;
@@ -171,7 +164,9 @@ static koksma_status add_node(density_field *f, const double low[2], const doubl
         node.x[k] = sum > 0 ? node.x[k] / sum : low[k] + side[k] / 2;
         node.x[k] = fmin(node.x[k], 1 - 0x1p-53);
     }
-    return koksma__field_add(f->field, &f->capacity, node);
+    KOKSMA__TRY(koksma__reserve(&f->field->nodes, &f->capacity, f->field->n_nodes + 1, sizeof node));
+    f->field->nodes[f->field->n_nodes++] = node;
+    return KOKSMA_OK;
 }
 
 static koksma_status add_box(density_field *f, const double low[2], const double side[2], int depth)
@@ -253,7 +248,7 @@ static koksma_status open_field(const koksma__point_domain *domain, size_t n, do
                          .sigma = sigma,
                          .field = field,
                          .run = run};
-    *field = (koksma__field){.data = f, .width = width, .settle = settle, .along = along, .close = close_field};
+    *field = (koksma__field){.data = f, .width = width, .settle = settle, .close = close_field};
     KOKSMA__REQUIRE_MEMORY(f->table, bytes); /* the caller closes the field, also after an error */
     sum_points(f);
     return add_boxes(f);

@@ -34,8 +34,8 @@ typedef struct koksma__point_domain {
     double (*share)(const void *data, size_t part);
     /* Returns the unit of distance on a part: 1 / sqrt p where the density is p times its mean. */
     double (*unit_of)(const void *data, size_t part);
-    /* Makes the target of gaussian-blue-noise (field.h) for n points and the pattern's parameter sigma;
-       koksma__field_close frees it. */
+    /* Makes the target of gaussian-blue-noise (field.h) for n points and the pattern's parameter sigma. NULL: the
+       domain can't have that pattern. */
     koksma_status (*open_field)(const struct koksma__point_domain *domain, size_t n, double sigma,
                                 const koksma_run *run, struct koksma__field *field);
 } koksma__point_domain;

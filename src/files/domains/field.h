@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The target of gaussian-blue-noise on a domain: the density, as nodes with masses; the width of a point's Gaussian;
+/* The target of gaussian-blue-noise in a rectangle: the density, as nodes with masses; the width of a point's Gaussian;
    and the function that puts a moved point back on the domain. */
 #ifndef KOKSMA_DOMAINS_FIELD_H
 #define KOKSMA_DOMAINS_FIELD_H
@@ -11,7 +11,7 @@
    added, a Gaussian at the centroid is close to the mean of the Gaussian over the part, so that sums over nodes come
    close to integrals. */
 typedef struct koksma__field_node {
-    double x[3], mass, square;
+    double x[2], mass, square;
 } koksma__field_node;
 
 typedef struct koksma__field {
@@ -20,11 +20,9 @@ typedef struct koksma__field {
     void *data; /* argument of the functions below */
     /* Returns the width s of the Gaussian exp(-|t|^2 / s^2) of a point at x (gaussian.c). */
     double (*width)(const void *data, const double *x);
-    /* Replaces x by the nearest position of the domain and writes this position to *point, which on entry is the
-       position from which the point moved. Returns false, and leaves *point unchanged, if no point may be at x. */
+    /* Moves x into the rectangle by periods of the torus and writes this position to *point. Returns false, and leaves
+       *point unchanged, if no point may be at x. */
     bool (*settle)(const void *data, double *x, koksma__domain_point *point);
-    /* Removes from a vector at a point the component that is perpendicular to the domain. */
-    void (*along)(const void *data, const koksma__domain_point *point, double *vector);
     void (*close)(void *data);
 } koksma__field;
 
@@ -32,40 +30,19 @@ typedef struct koksma__field {
    relative error of 3e-9. Where nodes of different sizes meet, the variance in `square` corrects most of the error. */
 #define KOKSMA__NODE_WIDTHS 1.01
 
-/* Adds a node; *capacity is the capacity of field->nodes. Errors: MEMORY. */
-koksma_status koksma__field_add(koksma__field *field, size_t *capacity, koksma__field_node node);
-void koksma__field_close(koksma__field *field);
-
-/* ---- The nearest position on a set of triangles (nearest.c) ---- */
-
-typedef struct koksma__nearest koksma__nearest;
-
-/* The corners of a part. */
-void koksma__triangle_corners(const koksma__point_domain *domain, uint32_t part, double corners[3][3]);
-
-/* Prepares searches on the parts of a domain of triangles. Errors: MEMORY, INTERRUPTED. */
-koksma_status koksma__nearest_open(const koksma__point_domain *domain, const koksma_run *run, koksma__nearest **out);
-void koksma__nearest_close(koksma__nearest *nearest);
-
-/* Writes the position nearest to x to *found, which on entry has any position of the domain: the closer to x, the
-   faster the search. */
-void koksma__nearest_find(const koksma__nearest *nearest, const double x[3], koksma__domain_point *found);
-
 /* ---- Sums of the Gaussian forces that sources of different widths exert on each other, by a tree ---- */
 
 /* A box of the tree: the smallest that contains its sources, which are first .. end - 1 in the sorted order; square:
    the largest squared width of these; its children are boxes child .. child + children - 1. */
 typedef struct koksma__source_box {
-    double low[3], high[3], square;
+    double low[2], high[2], square;
     uint32_t first, end, child, children; /* children == 0: a leaf */
 } koksma__source_box;
 
 typedef struct koksma__source_tree {
-    int dim;
-    bool torus;
-    double lengths[3]; /* of the axes, as in domain.h; columns, boxes and forces are in their measure */
+    double lengths[2]; /* of the axes, as in domain.h; columns, boxes and forces are in their measure */
     size_t n, n_boxes, capacity, n_groups; /* capacity: of the array of boxes */
-    double *columns[5]; /* three coordinates, squared width and mass of each sorted source; negative masses attract */
+    double *columns[4]; /* x, y, squared width and mass of each sorted source; negative masses attract */
     uint32_t *order;    /* number of each sorted source before sorting */
     uint64_t *keys, *spare;
     koksma__source_box *boxes;
@@ -86,9 +63,9 @@ koksma_status koksma__source_tree_build(koksma__source_tree *tree,
 
 /* Computes the forces on those sources of a group whose number before sorting is at least `first`. force[i] belongs
    to source i of the group, at x with squared width s. It is the sum, over all sources at a distance d with d^2 < 12
-   v, of mass (2 s / v)^2 (exp(-d^2 / v) - exp(-12)) (x - position), where v is the sum of both squared widths. On the
-   torus all periodic images are included. force[i] is not written for the remaining sources of the group. */
+   v, of mass (2 s / v)^2 (exp(-d^2 / v) - exp(-12)) (x - position), where v is the sum of both squared widths. All
+   periodic images on the torus are included. force[i] is not written for the remaining sources of the group. */
 void koksma__source_forces(const koksma__source_tree *tree, size_t group, size_t first,
-                           double force[KOKSMA__SOURCE_GROUP][3]);
+                           double force[KOKSMA__SOURCE_GROUP][2]);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * gaussian-blue-noise on a domain, by gradient descent from independent points. The points and the wanted density p are
+ * gaussian-blue-noise in a rectangle, by gradient descent from independent points. The points and the wanted density p are
  * both smoothed by Gaussians G(x, s) = exp(-|x|^2 / s^2) / (pi s^2) of the width s, which depends on the position. With
  * x_i and s_i the position and the width of point i, the energy is the squared L2 distance
  *
@@ -55,34 +55,31 @@ typedef struct descent {
 static koksma__field_node source_of(const void *context, size_t i)
 {
     const descent *d = context;
-    const size_t dim = (size_t)d->domain->dim, n_nodes = d->field.n_nodes;
+    const size_t n_nodes = d->field.n_nodes;
     koksma__field_node source = {.mass = 1};
     if (i < n_nodes) {
         source = d->field.nodes[i];
         source.mass = -source.mass;
     } else {
-        memcpy(source.x, d->xs + dim * (i - n_nodes), dim * sizeof *d->xs);
+        memcpy(source.x, d->xs + 2 * (i - n_nodes), sizeof source.x);
         source.square = d->widths[i - n_nodes] * d->widths[i - n_nodes];
     }
     return source;
 }
 
 /* Moves point number i by its force. */
-static void move_point(descent *d, size_t i, double force[3])
+static void move_point(descent *d, size_t i, const double force[2])
 {
-    const size_t dim = (size_t)d->domain->dim;
-    double *x = d->xs + i * dim, *move = d->moves + i * dim, to[3], square = 0;
-    d->field.along(d->field.data, &d->c->points[i], force);
-    for (size_t k = 0; k < dim; k++) {
+    double *x = d->xs + 2 * i, *move = d->moves + 2 * i, to[2], square = 0;
+    for (int k = 0; k < 2; k++) {
         square += force[k] * force[k];
         to[k] = x[k] + d->momentum * move[k] + d->step * force[k] / d->domain->lengths[k];
     }
     d->squares[i] = square / (d->widths[i] * d->widths[i]);
-    const double before[3] = {x[0], x[1], dim > 2 ? x[2] : 0};
     const bool settled = d->field.settle(d->field.data, to, &d->c->points[i]);
-    for (size_t k = 0; k < dim; k++) {
+    for (int k = 0; k < 2; k++) {
+        move[k] = settled ? koksma__torus_difference(x[k], to[k]) : 0;
         x[k] = settled ? to[k] : x[k];
-        move[k] = !settled ? 0 : d->domain->torus ? koksma__torus_difference(before[k], x[k]) : x[k] - before[k];
     }
     if (d->update) {
         d->widths[i] = d->field.width(d->field.data, x);
@@ -95,7 +92,7 @@ static koksma_status move_block(void *context, size_t block)
     descent *d = context;
     const koksma__source_tree *t = &d->tree;
     for (size_t group = block * BLOCK; group < (block + 1) * BLOCK && group < t->n_groups; group++) {
-        double force[KOKSMA__SOURCE_GROUP][3];
+        double force[KOKSMA__SOURCE_GROUP][2];
         koksma__source_forces(t, group, d->field.n_nodes, force);
         for (uint32_t at = t->groups[group]; at < t->groups[group + 1]; at++) {
             if (t->order[at] >= d->field.n_nodes) {
@@ -140,22 +137,21 @@ static koksma_status descend(descent *d)
 
 static koksma_status start(descent *d)
 {
-    const size_t dim = (size_t)d->domain->dim, n = d->c->n;
-    const size_t sources = d->field.n_nodes + n, bytes = n * (2 * dim + 2) * sizeof *d->xs;
+    const size_t n = d->c->n, sources = d->field.n_nodes + n, bytes = 6 * n * sizeof *d->xs;
     KOKSMA__FAIL_IF(sources >= UINT32_MAX, KOKSMA_N, "gaussian-blue-noise: n = %zu is too large %s", n,
                     d->domain->what);
     KOKSMA__TRY(koksma__source_tree_init(&d->tree, d->domain, sources));
     d->xs = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(d->xs, bytes);
-    d->moves = d->xs + n * dim;
-    d->widths = d->moves + n * dim;
+    d->moves = d->xs + 2 * n;
+    d->widths = d->moves + 2 * n;
     d->squares = d->widths + n;
-    memset(d->moves, 0, n * dim * sizeof *d->moves);
+    memset(d->moves, 0, 2 * n * sizeof *d->moves);
     for (size_t i = 0; i < n; i++) {
         KOKSMA__TRY(koksma__look(d->c->run, i, 0));
         d->domain->draw(d->domain->data, d->c->seed, i, &d->c->points[i]);
-        d->domain->place(d->domain->data, &d->c->points[i], d->xs + i * dim);
-        d->widths[i] = d->field.width(d->field.data, d->xs + i * dim);
+        d->domain->place(d->domain->data, &d->c->points[i], d->xs + 2 * i);
+        d->widths[i] = d->field.width(d->field.data, d->xs + 2 * i);
     }
     return KOKSMA_OK;
 }
@@ -166,7 +162,10 @@ koksma_status koksma__choose_gaussian(const koksma__choice *c)
     koksma_status status = c->domain->open_field(c->domain, c->n, c->params[1], c->run, &d.field);
     status = status ? status : start(&d);
     status = status ? status : descend(&d);
-    koksma__field_close(&d.field);
+    if (d.field.close) {
+        d.field.close(d.field.data);
+    }
+    free(d.field.nodes);
     koksma__source_tree_fini(&d.tree);
     free(d.xs);
     return status;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A quadtree or octree of sources, rebuilt in every step of a descent: a radix sort orders the sources by the
+ * A quadtree of sources, rebuilt in every step of a descent: a radix sort orders the sources by the
  * interleaved bits of their coordinates (Morton 1966), so that the sources of a box are a range of the sorted array.
  * Neighbouring points share one walk down the tree: they form a group, the sources of a box with at most 32 sources
  * whose parent has more. The walk collects the ranges of those leaves that are in reach of the bounding box of the
@@ -36,15 +36,14 @@ koksma_status koksma__source_tree_init(koksma__source_tree *t, const koksma__poi
 {
     const size_t length = n + PADDING; /* the kernel reads beyond the last source */
     const size_t bytes =
-        5 * length * sizeof(double) + n * (2 * sizeof *t->keys + 2 * sizeof *t->order) + sizeof *t->order;
-    *t = (koksma__source_tree){.dim = domain->dim, .torus = domain->torus, .n = n};
-    memcpy(t->lengths, domain->lengths, sizeof t->lengths);
+        4 * length * sizeof(double) + n * (2 * sizeof *t->keys + 2 * sizeof *t->order) + sizeof *t->order;
+    *t = (koksma__source_tree){.lengths = {domain->lengths[0], domain->lengths[1]}, .n = n};
     t->columns[0] = calloc(1, bytes);
     KOKSMA__REQUIRE_MEMORY(t->columns[0], bytes);
-    for (int c = 1; c < 5; c++) {
+    for (int c = 1; c < 4; c++) {
         t->columns[c] = t->columns[c - 1] + length;
     }
-    t->keys = (uint64_t *)(t->columns[4] + length);
+    t->keys = (uint64_t *)(t->columns[3] + length);
     t->spare = t->keys + n;
     t->order = (uint32_t *)(t->spare + n);
     t->groups = t->order + n;
@@ -58,19 +57,13 @@ void koksma__source_tree_fini(koksma__source_tree *t)
     *t = (koksma__source_tree){0};
 }
 
-/* Returns the interleaved bits of the coordinates: the first DEEPEST bits of each in the plane, the first 10 in
-   space. */
-static uint32_t key_of(const double *x, int dim)
+/* Returns the interleaved first DEEPEST bits of both coordinates. */
+static uint32_t key_of(const double x[2])
 {
-    const int bits = dim == 2 ? DEEPEST : 10;
-    uint32_t key = 0, cells[3];
-    for (int k = 0; k < dim; k++) {
-        cells[k] = (uint32_t)ldexp(x[k], bits);
-    }
-    for (int bit = bits - 1; bit >= 0; bit--) {
-        for (int k = 0; k < dim; k++) {
-            key = key << 1 | (cells[k] >> bit & 1);
-        }
+    const uint32_t i = (uint32_t)ldexp(x[0], DEEPEST), j = (uint32_t)ldexp(x[1], DEEPEST);
+    uint32_t key = 0;
+    for (int bit = DEEPEST - 1; bit >= 0; bit--) {
+        key = key << 2 | (i >> bit & 1) << 1 | (j >> bit & 1);
     }
     return key;
 }
@@ -109,13 +102,13 @@ static koksma__source_box empty_box(size_t first, size_t end)
 {
     const double least = -INFINITY, most = INFINITY;
     return (koksma__source_box){
-        .low = {most, most, most}, .high = {least, least, least}, .first = (uint32_t)first, .end = (uint32_t)end};
+        .low = {most, most}, .high = {least, least}, .first = (uint32_t)first, .end = (uint32_t)end};
 }
 
 /* Extends the bounds of a box so that they contain those of another box. */
 static void extend(koksma__source_box *box, const koksma__source_box *by)
 {
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 2; k++) {
         box->low[k] = by->low[k] < box->low[k] ? by->low[k] : box->low[k];
         box->high[k] = by->high[k] > box->high[k] ? by->high[k] : box->high[k];
     }
@@ -125,8 +118,8 @@ static void extend(koksma__source_box *box, const koksma__source_box *by)
 static void extend_by_sources(const koksma__source_tree *t, koksma__source_box *box)
 {
     for (size_t i = box->first; i < box->end; i++) {
-        const double x = t->columns[0][i], y = t->columns[1][i], z = t->columns[2][i];
-        extend(box, &(koksma__source_box){.low = {x, y, z}, .high = {x, y, z}, .square = t->columns[3][i]});
+        const double x = t->columns[0][i], y = t->columns[1][i];
+        extend(box, &(koksma__source_box){.low = {x, y}, .high = {x, y}, .square = t->columns[2][i]});
     }
 }
 
@@ -135,18 +128,18 @@ static void extend_by_sources(const koksma__source_tree *t, koksma__source_box *
 static koksma_status divide(koksma__source_tree *t, size_t b, int depth, const koksma_run *run)
 {
     KOKSMA__TRY(koksma__look(run, b, 0));
-    const int bits = t->dim == 2 ? DEEPEST : 10, ways = 1 << t->dim, shift = 32 + (bits - 1 - depth) * t->dim;
+    const int shift = 32 + (DEEPEST - 1 - depth) * 2;
     koksma__source_box box = t->boxes[b];
-    if (box.end - box.first <= LEAF || depth == bits) {
+    if (box.end - box.first <= LEAF || depth == DEEPEST) {
         extend_by_sources(t, &t->boxes[b]);
         return KOKSMA_OK;
     }
     box.child = (uint32_t)t->n_boxes;
-    KOKSMA__TRY(add_boxes(t, (size_t)ways));
+    KOKSMA__TRY(add_boxes(t, 4));
     uint32_t at = box.first;
-    for (int w = 0; w < ways; w++) {
+    for (unsigned w = 0; w < 4; w++) {
         uint32_t end = at;
-        while (end < box.end && (int)(t->keys[end] >> shift & (uint64_t)(ways - 1)) == w) {
+        while (end < box.end && (t->keys[end] >> shift & 3) == w) {
             end++;
         }
         if (end > at) {
@@ -184,18 +177,17 @@ koksma_status koksma__source_tree_build(koksma__source_tree *t,
     for (size_t i = 0; i < t->n; i++) {
         KOKSMA__TRY(koksma__look(run, i, 0));
         const koksma__field_node node = source(context, i);
-        t->keys[i] = (uint64_t)key_of(node.x, t->dim) << 32 | i;
+        t->keys[i] = (uint64_t)key_of(node.x) << 32 | i;
     }
     KOKSMA__TRY(sort_keys(t, run));
     for (size_t i = 0; i < t->n; i++) {
         KOKSMA__TRY(koksma__look(run, i, 0));
         t->order[i] = (uint32_t)t->keys[i];
         const koksma__field_node node = source(context, t->order[i]);
-        for (int k = 0; k < 3; k++) {
-            t->columns[k][i] = k < t->dim ? node.x[k] * t->lengths[k] : 0;
-        }
-        t->columns[3][i] = node.square;
-        t->columns[4][i] = node.mass;
+        t->columns[0][i] = node.x[0] * t->lengths[0];
+        t->columns[1][i] = node.x[1] * t->lengths[1];
+        t->columns[2][i] = node.square;
+        t->columns[3][i] = node.mass;
     }
     t->n_boxes = 0;
     KOKSMA__TRY(add_boxes(t, 1));
@@ -214,10 +206,10 @@ typedef struct walk {
     const koksma__source_tree *t;
     size_t count;
     uint32_t points[KOKSMA__SOURCE_GROUP], start; /* numbers in the sorted array; start: of the first source */
-    double low[3], high[3], square, offset[3], from[3], to[3];
+    double low[2], high[2], square, offset[2], from[2], to[2];
     size_t n_runs;
     uint32_t runs[2 * RUNS];
-    double (*force)[3];
+    double (*force)[2];
 } walk;
 
 /* Adds the forces of the sources in the ranges to those on the group's points, and empties the list of ranges. */
@@ -225,15 +217,12 @@ static void sum_runs(walk *w)
 {
     for (size_t i = 0; i < w->count && w->n_runs; i++) {
         const uint32_t at = w->points[i];
-        double x[3], part[3], *force = w->force[at - w->start];
-        for (int k = 0; k < 3; k++) {
-            x[k] = w->t->columns[k][at] + w->offset[k];
-        }
+        double part[2], *force = w->force[at - w->start];
+        const double x[2] = {w->t->columns[0][at] + w->offset[0], w->t->columns[1][at] + w->offset[1]};
         koksma__kernels()->source_force(w->n_runs, w->runs, (const double *const *)w->t->columns, x,
-                                        w->t->columns[3][at], CUT2, AT_CUT, part);
-        for (int k = 0; k < 3; k++) {
-            force[k] += part[k];
-        }
+                                        w->t->columns[2][at], CUT2, AT_CUT, part);
+        force[0] += part[0];
+        force[1] += part[1];
     }
     w->n_runs = 0;
 }
@@ -260,14 +249,12 @@ static double gap(double low, double high, double from, double to)
     return most > 0 ? most : 0;
 }
 
-/* Adds the leaves below a box that are in reach of the group. In the plane all third coordinates are 0, and z is
-   0. */
+/* Adds the leaves below a box that are in reach of the group. */
 static void visit(walk *w, const koksma__source_box *box)
 {
     const double x = gap(w->from[0], w->to[0], box->low[0], box->high[0]);
     const double y = gap(w->from[1], w->to[1], box->low[1], box->high[1]);
-    const double z = gap(w->from[2], w->to[2], box->low[2], box->high[2]);
-    if (x * x + y * y + z * z > CUT2 * (w->square + box->square)) {
+    if (x * x + y * y > CUT2 * (w->square + box->square)) {
         return;
     }
     if (!box->children) {
@@ -287,32 +274,32 @@ static void gather(walk *w, size_t group, size_t first)
         if (t->order[at] < first) {
             continue;
         }
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 2; k++) {
             const double x = t->columns[k][at];
             w->low[k] = w->count && w->low[k] < x ? w->low[k] : x;
             w->high[k] = w->count && w->high[k] > x ? w->high[k] : x;
             w->force[at - w->start][k] = 0;
         }
-        w->square = fmax(w->square, t->columns[3][at]);
+        w->square = fmax(w->square, t->columns[2][at]);
         w->points[w->count++] = at;
     }
 }
 
 void koksma__source_forces(const koksma__source_tree *t, size_t group, size_t first,
-                           double force[KOKSMA__SOURCE_GROUP][3])
+                           double force[KOKSMA__SOURCE_GROUP][2])
 {
     walk w = {.t = t, .start = t->groups[group], .force = force};
     gather(&w, group, first);
     const double reach = sqrt(CUT2 * (w.square + t->boxes[0].square));
     int images[2];
     for (int k = 0; k < 2; k++) {
-        images[k] = t->torus ? (int)ceil(fmax(reach / t->lengths[k], 0.5) - 0.5) + 1 : 0;
+        images[k] = (int)ceil(fmax(reach / t->lengths[k], 0.5) - 0.5) + 1;
     }
     for (int i = -images[0]; i <= images[0] && w.count; i++) {
         for (int j = -images[1]; j <= images[1]; j++) {
             w.offset[0] = i * t->lengths[0];
             w.offset[1] = j * t->lengths[1];
-            for (int k = 0; k < 3; k++) {
+            for (int k = 0; k < 2; k++) {
                 w.from[k] = w.low[k] + w.offset[k];
                 w.to[k] = w.high[k] + w.offset[k];
             }
