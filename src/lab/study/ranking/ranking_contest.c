@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Runs the rounds of a contest (ranking_contest.h). Of the patterns with an undecided pair that bears on the goal,
+ * Runs the rounds of a contest (ranking_contest.h). Long because it makes the references too, whose stages follow the
+ * rounds. Of the patterns with an undecided pair that bears on the goal,
  * those with the fewest complete rounds make their next round together: only the decisions determine which patterns
  * make a round. The clock has two effects only: the time limit may end the contest, and a pattern whose first round
  * takes more thread time than its share (the time left times the threads, divided by the number of patterns) is

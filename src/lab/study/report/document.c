@@ -34,6 +34,20 @@ void koksma__doc_append(koksma__document *d, koksma__document *part)
     koksma__json_writer_fini(&part->json);
 }
 
+void koksma__doc_head(koksma__document *d, const char *format, const char *title, const char *about, const char *plan)
+{
+    d->json.in_html = true;
+    koksma__json_begin_object(&d->json, NULL);
+    koksma__json_write_text(&d->json, "format", format);
+    koksma__json_write_whole(&d->json, "version", 1);
+    koksma__json_write_text(&d->json, "title", title);
+    koksma__json_write_text(&d->json, "about", about);
+    if (plan) {
+        koksma__json_write_text(&d->json, "plan", plan);
+    }
+    koksma__json_write_text(&d->json, "koksma", koksma_version());
+}
+
 bool koksma__doc_is_empty(const koksma__document *d)
 {
     return !d->json.size && !d->json.status;

@@ -25,6 +25,10 @@ typedef struct koksma__document {
 /* Appends the content of `part`, and empties `part`. */
 void koksma__doc_append(koksma__document *d, koksma__document *part);
 
+/* Begins the text of a page: its format and version, title and description; plan: the name of a study's plan, or NULL. */
+void koksma__doc_head(koksma__document *d, const char *format, const char *title, const char *about,
+                      const char *plan);
+
 /* Whether nothing was written and nothing failed. */
 bool koksma__doc_is_empty(const koksma__document *d);
 

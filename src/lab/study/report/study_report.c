@@ -88,14 +88,8 @@ static koksma_status build(koksma__report *r, const koksma_run *run, koksma__doc
     if (koksma__report_keep(r, koksma__ask(&first))) {
         koksma__report_keep(r, koksma__rows_sha256(r->study->store, &first, r->rows));
     }
-    d->json.in_html = true;
-    koksma__json_begin_object(&d->json, NULL);
-    koksma__json_write_text(&d->json, "format", "koksma-report");
-    koksma__json_write_whole(&d->json, "version", 1);
-    koksma__json_write_text(&d->json, "title", plan->title);
-    koksma__json_write_text(&d->json, "about", plan->n_parts == 1 && plan->about ? plan->about : "");
-    koksma__json_write_text(&d->json, "plan", plan->name);
-    koksma__json_write_text(&d->json, "koksma", koksma_version());
+    koksma__doc_head(d, "koksma-report", plan->title, plan->n_parts == 1 && plan->about ? plan->about : "",
+                     plan->name);
     koksma__json_write_text(&d->json, "rows_sha256", r->rows);
     koksma__json_begin_array(&d->json, "content");
     for (; !r->status && r->part < plan->n_parts; r->part++) {

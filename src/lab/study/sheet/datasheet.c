@@ -17,13 +17,7 @@ static void put_head(const koksma__sheet *sheet, koksma__document *d)
 {
     char title[KOKSMA_MAX_SPEC + 32];
     snprintf(title, sizeof title, "Datasheet of %s", sheet->samplers[0]->text);
-    d->json.in_html = true;
-    koksma__json_begin_object(&d->json, NULL);
-    koksma__json_write_text(&d->json, "format", "koksma-datasheet");
-    koksma__json_write_whole(&d->json, "version", 1);
-    koksma__json_write_text(&d->json, "title", title);
-    koksma__json_write_text(&d->json, "about", "");
-    koksma__json_write_text(&d->json, "koksma", koksma_version());
+    koksma__doc_head(d, "koksma-datasheet", title, "", NULL);
     koksma__json_begin_array(&d->json, "samplers");
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__json_write_text(&d->json, NULL, sheet->samplers[s]->text);

@@ -48,8 +48,6 @@ typedef struct thresholds {
     int width, height;
 } thresholds;
 
-/* ---- Thresholds ------------------------------------------------------------------------------------------ */
-
 /* Bayer's matrix: that of 2 n is four times that of n, plus 0, 2, 3, 1 in the four quarters. */
 static void make_bayer(float *values)
 {
@@ -83,8 +81,6 @@ static koksma_status make_others(const koksma_run *run, float *values, threshold
     out[2] = (thresholds){"void-and-cluster", values + TILE * TILE, TILE, TILE};
     return status;
 }
-
-/* ---- Pictures -------------------------------------------------------------------------------------------- */
 
 static koksma_status make_ramp(koksma_image *out)
 {
@@ -142,15 +138,11 @@ static void apply(const koksma_mask_filter *f, const koksma_image *from, koksma_
 
 static void dither(const koksma_image *from, const thresholds *t, koksma_image *to)
 {
-    for (int y = 0; y < from->height; y++) {
-        for (int x = 0; x < from->width; x++) {
-            const float threshold = t->values[y % t->height * t->width + x % t->width];
-            to->pixels[y * from->width + x] = from->pixels[y * from->width + x] > threshold ? 1 : 0;
-        }
+    for (int i = 0; i < from->width * from->height; i++) {
+        const int x = i % from->width % t->width, y = i / from->width % t->height;
+        to->pixels[i] = from->pixels[i] > t->values[y * t->width + x] ? 1 : 0;
     }
 }
-
-/* ---- The section ----------------------------------------------------------------------------------------- */
 
 typedef struct dithering {
     const mask_sheet *sheet;
@@ -236,9 +228,9 @@ static koksma_status put_section(dithering *e, koksma__document *d)
     koksma__doc_section(d, "dithering", "Dithering");
     koksma__doc_paragraph(
         d,
-        "A ramp and the scene `%s`, in linear light: white where the picture exceeds the threshold of the "
-        "pixel. The table has the root mean square difference from the picture, both filtered; the "
-        "figures are filtered by `%s`.",
+        "A ramp and the scene `%s`, in linear light: white where the picture exceeds the threshold of the pixel. The "
+        "table has the root mean square difference from the picture, both filtered; the figures are filtered by "
+        "`%s`.",
         SCENE_NAME, e->sheet->filter_names[0]);
     koksma_status status = put_table(e, d);
     for (size_t picture = 0; picture < PICTURES && !status; picture++) {
@@ -256,8 +248,7 @@ static koksma_status put_section(dithering *e, koksma__document *d)
     return status;
 }
 
-/* Writes the section on dithering, if a mask has one uniform number a pixel. Errors: MEMORY, INTERRUPTED, UNSUPPORTED (no
-   PNG). */
+/* Writes the section on dithering, if a mask has one uniform number a pixel. Errors: UNSUPPORTED (no PNG) and others. */
 static koksma_status put_dithering(const mask_sheet *s, koksma__document *d)
 {
     dithering e = {.sheet = s, .n = OTHERS};
@@ -297,13 +288,14 @@ static size_t pixels_of(const koksma_mask *mask)
 static koksma_status put_errors(const mask_sheet *s, koksma__document *d)
 {
     koksma__doc_section(d, "errors", "What filters leave");
-    koksma__doc_paragraph(
-        d,
-        "The root of the mean, over %d thresholds t (of vectors: %d half-spaces), of the variance of the "
-        "filtered image of (value < t). White: of the same values in random order. Inside: of pixels "
-        "whose filter lies within the mask; seam: of those whose filter spans opposite sides. A tile "
-        "repeats without a visible seam if the two are equal.",
-        SCALAR_TESTS, VECTOR_TESTS);
+    koksma__doc_paragraph(d,
+                          "The root of the mean, over %d thresholds t (of vectors: %d half-spaces), of the variance "
+                          "of the filtered image "
+                          "of (value < t). White: of the same values in random order. Inside: of pixels whose filter "
+                          "lies within the mask; "
+                          "seam: of those whose filter spans opposite sides. A tile repeats without a visible seam "
+                          "if the two are equal.",
+                          SCALAR_TESTS, VECTOR_TESTS);
     koksma__doc_table_begin(d, "errors");
     koksma__doc_columns(d, "t mask;t space;t filter;n4 error;n4 white;n3 error / white;n4 inside;n4 seam");
     koksma_status status = KOKSMA_OK;
@@ -374,12 +366,13 @@ static koksma_status put_power(const koksma_mask *m, koksma__document *d)
 static koksma_status put_pictures(const mask_sheet *s, koksma__document *d)
 {
     koksma__doc_section(d, "pictures", "Masks and their spectra");
-    koksma__doc_paragraph(
-        d,
-        "Left: the numbers of the pixels, from the least (black) to the largest of the space; two or more "
-        "as red, green and blue. Right: the power at each frequency, (0, 0) in the middle; white noise "
-        "has the mean 1, mid-grey, and %d or more is white. A dark disk in the middle is blue noise.",
-        WHITE);
+    koksma__doc_paragraph(d,
+                          "Left: the numbers of the pixels, from the least (black) to the largest of the space; two "
+                          "or more as red, green "
+                          "and blue. Right: the power at each frequency, (0, 0) in the middle; white noise has the "
+                          "mean 1, mid-grey, and %d "
+                          "or more is white. A dark disk in the middle is blue noise.",
+                          WHITE);
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; i < s->n && !status; i++) {
         koksma__doc_figure_begin(d, "mask");
@@ -394,30 +387,6 @@ static koksma_status put_pictures(const mask_sheet *s, koksma__document *d)
 }
 
 /* ---- Curves ---------------------------------------------------------------------------------------------- */
-
-/* Puts a chart with a line of `count` numbers for each mask; column: of the two that `make` computes. */
-static koksma_status put_chart(const mask_sheet *s, const koksma__chart *chart, size_t count, double level,
-                               koksma_status (*make)(const koksma_mask *mask, double *x, double *y),
-                               koksma__document *d)
-{
-    double x[RINGS + BINS], y[RINGS + BINS];
-    koksma_status status = KOKSMA_OK;
-    koksma__doc_chart_begin(d, chart);
-    for (size_t i = 0; i < s->n && !status; i++) {
-        status = make(&s->masks[i], x, y);
-        koksma__doc_series_begin(d, s->names[i], NULL, KOKSMA__SERIES_LINE);
-        for (size_t k = 0; k < count && !status; k++) {
-            koksma__doc_point(d, x[k], y[k], NAN, NAN);
-        }
-        koksma__doc_end(d);
-    }
-    koksma__doc_series_begin(d, "white noise", NULL, KOKSMA__SERIES_THEORY);
-    koksma__doc_point(d, x[0], level, NAN, NAN);
-    koksma__doc_point(d, x[count - 1], level, NAN, NAN);
-    koksma__doc_end(d);
-    koksma__doc_end(d);
-    return status;
-}
 
 static koksma_status radial(const koksma_mask *m, double *x, double *y)
 {
@@ -479,6 +448,43 @@ static koksma_status histogram(const koksma_mask *m, double *x, double *y)
     return KOKSMA_OK;
 }
 
+/* A chart with a line of `count` numbers for each mask, and one for white noise, which is at `level`. */
+typedef struct curve {
+    const char *title, *x, *y;
+    size_t count;
+    double level;
+    koksma_status (*make)(const koksma_mask *mask, double *x, double *y);
+} curve;
+
+static const curve curves[] = {
+    {"Radial mean of the power", "cycles a pixel", "power", RINGS, 1, radial},
+    {"Anisotropy", "cycles a pixel", "dB", RINGS, 0, anisotropy},
+    {"Autocorrelation", "distance, pixels", "correlation", FARTHEST, 0, autocorrelation},
+    {"Histogram of all numbers", "share of the range of the space", "pixels, relative to uniform", BINS, 1,
+     histogram},
+};
+
+static koksma_status put_curve(const mask_sheet *s, const curve *c, koksma__document *d)
+{
+    double x[RINGS + BINS], y[RINGS + BINS];
+    koksma_status status = KOKSMA_OK;
+    koksma__doc_chart_begin(d, &(koksma__chart){c->title, c->x, c->y, false, false, 0});
+    for (size_t i = 0; i < s->n && !status; i++) {
+        status = c->make(&s->masks[i], x, y);
+        koksma__doc_series_begin(d, s->names[i], NULL, KOKSMA__SERIES_LINE);
+        for (size_t k = 0; k < c->count && !status; k++) {
+            koksma__doc_point(d, x[k], y[k], NAN, NAN);
+        }
+        koksma__doc_end(d);
+    }
+    koksma__doc_series_begin(d, "white noise", NULL, KOKSMA__SERIES_THEORY);
+    koksma__doc_point(d, x[0], c->level, NAN, NAN);
+    koksma__doc_point(d, x[c->count - 1], c->level, NAN, NAN);
+    koksma__doc_end(d);
+    koksma__doc_end(d);
+    return status;
+}
+
 static koksma_status put_curves(const mask_sheet *s, koksma__document *d)
 {
     koksma__doc_section(d, "spectra", "Spectra, autocorrelation, histogram");
@@ -486,21 +492,10 @@ static koksma_status put_curves(const mask_sheet *s, koksma__document *d)
         d, "Anisotropy: the variance of the power at frequencies of about equal length, divided by the square of "
            "its mean; that of noise without a preferred direction is 0 dB for one number a pixel, -3 dB "
            "for two. Autocorrelation: the mean over pixels at about equal distance.");
-    koksma_status status =
-        put_chart(s, &(koksma__chart){"Radial mean of the power", "cycles a pixel", "power", false, false, 0}, RINGS,
-                  1, radial, d);
-    status = status ? status
-                    : put_chart(s, &(koksma__chart){"Anisotropy", "cycles a pixel", "dB", false, false, 0}, RINGS, 0,
-                                anisotropy, d);
-    status =
-        status ? status
-               : put_chart(s, &(koksma__chart){"Autocorrelation", "distance, pixels", "correlation", false, false, 0},
-                           FARTHEST, 0, autocorrelation, d);
-    status = status ? status
-                    : put_chart(s,
-                                &(koksma__chart){"Histogram of all numbers", "share of the range of the space",
-                                                 "pixels, relative to uniform", false, false, 0},
-                                BINS, 1, histogram, d);
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < sizeof curves / sizeof *curves && !status; i++) {
+        status = put_curve(s, &curves[i], d);
+    }
     koksma__doc_end(d);
     return status;
 }
@@ -553,29 +548,18 @@ static koksma_status put_pairs(const mask_sheet *s, koksma__document *d)
 
 /* ---- The sheet ------------------------------------------------------------------------------------------- */
 
-static void put_head(const mask_sheet *s, koksma__document *d)
+static koksma_status put_content(const mask_sheet *s, koksma__document *d)
 {
-    d->json.in_html = true;
-    koksma__json_begin_object(&d->json, NULL);
-    koksma__json_write_text(&d->json, "format", "koksma-datasheet");
-    koksma__json_write_whole(&d->json, "version", 1);
-    koksma__json_write_text(&d->json, "title", s->n > 1 ? "Datasheet of masks" : "Datasheet of a mask");
-    koksma__json_write_text(&d->json, "about", "");
-    koksma__json_write_text(&d->json, "koksma", koksma_version());
+    static koksma_status (*const sections[])(const mask_sheet *, koksma__document *) = {
+        put_errors, put_pictures, put_curves, put_pairs, put_dithering};
+    koksma__doc_head(d, "koksma-datasheet", s->n > 1 ? "Datasheet of masks" : "Datasheet of a mask", "", NULL);
     koksma__json_begin_array(&d->json, "samplers");
     for (size_t i = 0; i < s->n; i++) {
         koksma__json_write_text(&d->json, NULL, s->names[i]);
     }
     koksma__json_end(&d->json);
     koksma__json_begin_array(&d->json, "content");
-}
-
-static koksma_status put_content(const mask_sheet *s, koksma__document *d)
-{
-    static koksma_status (*const sections[])(const mask_sheet *, koksma__document *) = {
-        put_errors, put_pictures, put_curves, put_pairs, put_dithering};
-    enum { SECTIONS = sizeof sections / sizeof *sections };
-    for (size_t i = 0; i < SECTIONS; i++) {
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
         KOKSMA__TRY(sections[i](s, d));
         KOKSMA__TRY(koksma__ask(s->run));
     }
@@ -606,10 +590,7 @@ koksma_status koksma_mask_datasheet(const koksma_mask *masks, const char *const 
     for (size_t f = 0; f < n_filters && !status; f++) {
         status = koksma_mask_filter_parse(filters[f], &s.filters[f]);
     }
-    if (!status) {
-        put_head(&s, &d);
-        status = put_content(&s, &d);
-    }
+    status = status ? status : put_content(&s, &d);
     status = koksma__sheet_finish(&d, status, start_s, json);
     free(s.filters);
     return status;
