@@ -103,16 +103,15 @@ static koksma_status draw_line(koksma__canvas *canvas, const koksma__theme *them
                                double y)
 {
     const double width = a->width / (double)l->columns;
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; i < l->n && !status; i++) {
+    for (size_t i = 0; i < l->n; i++) {
         const koksma_cell *c = &a->figure->cells[l->first + i];
         const double texts = c->chart ? koksma__chart_texts(c->chart, width) : l->texts;
         const koksma__box box = {(double)i * width, y, width, texts + l->flexible};
-        status = c->chart
-                     ? koksma__chart_draw(canvas, theme, c->chart, box)
-                     : koksma__panel_draw(canvas, theme, c->panel, box, l->title, fmin(width, l->flexible), a->run);
+        KOKSMA__TRY(
+            c->chart ? koksma__chart_draw(canvas, theme, c->chart, box)
+                     : koksma__panel_draw(canvas, theme, c->panel, box, l->title, fmin(width, l->flexible), a->run));
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 static koksma_status draw(const layout *a, double height, koksma_plot_format format, unsigned char **bytes, size_t *n)
@@ -124,9 +123,7 @@ static koksma_status draw(const layout *a, double height, koksma_plot_format for
     koksma__canvas *canvas;
     koksma_status status = koksma__canvas_open(format, a->width, height > 0 ? height : ceil(a->fixed + a->flexible),
                                                name, theme->paper, &canvas);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     koksma__canvas_lines(canvas, a->width / 2, TOP + TITLE, a->width - 2 * TOP, TITLE, 0.5, f->title, theme->ink);
     double y = a->title > 0 ? a->title + TOP : 0;
     for (size_t i = 0; i < a->n && !status; i++) {

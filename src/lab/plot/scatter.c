@@ -355,13 +355,11 @@ koksma_status koksma__panel_check(const koksma_panel *panel)
                     "the local discrepancy can be drawn only without a map");
     KOKSMA__FAIL_IF(o->warp && (!o->warp->name || !o->warp->map), KOKSMA_ARGUMENT,
                     "the warp has no %s: koksma_warp_find has warps", o->warp->name ? "map" : "name");
-    if (o->warp && panel->points->dim != 2) {
-        return koksma__fail(KOKSMA_DIM, "a map needs points of 2 dimensions, not %d", panel->points->dim);
-    }
+    KOKSMA__FAIL_IF(o->warp && panel->points->dim != 2, KOKSMA_DIM, "a map needs points of 2 dimensions, not %d",
+                    panel->points->dim);
     KOKSMA__FAIL_IF(o->warp && o->witness, KOKSMA_ARGUMENT, "a witness can be drawn only without a map");
-    if (o->witness && (unsigned)o->witness->kind > KOKSMA_WITNESS_DISK) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%d is not a kind of witness", (int)o->witness->kind);
-    }
+    KOKSMA__FAIL_IF(o->witness && (unsigned)o->witness->kind > KOKSMA_WITNESS_DISK, KOKSMA_ARGUMENT,
+                    "%d is not a kind of witness", (int)o->witness->kind);
     for (int k = 0; o->witness && k < 2; k++) {
         KOKSMA__FAIL_IF(!(fabs(o->witness->lo[k]) <= FAR && fabs(o->witness->hi[k]) <= FAR), KOKSMA_ARGUMENT,
                         "the bounds of a witness must lie within %d of 0", FAR);

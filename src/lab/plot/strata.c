@@ -128,9 +128,7 @@ koksma_status koksma_plot_strata(const koksma_strata_panel *panels, size_t n, do
         captions = captions || panels[p].caption;
         status = check_panel(&panels[p]);
     }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     square q = {.x = MARGIN, .y = MARGIN, .side = whole - 2 * MARGIN};
     status = koksma__canvas_open(format, (double)n * whole, whole + (captions ? CAPTION : 0), panels[0].caption,
                                  paper, &q.canvas);

@@ -61,9 +61,7 @@ static koksma_status collect(const char *places, const char *pattern, const glob
             out->at[out->n++] = p;
         }
     }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     qsort(out->at, out->n, sizeof *out->at, compare_pictures);
     if (!found->gl_pathc) {
         return koksma__fail(KOKSMA_MISSING, "%s: no such images: no file matches '%s'%s", places, pattern,
@@ -96,15 +94,12 @@ static koksma_status compare_one(void *context, size_t i)
 {
     pictures *all = context;
     koksma_image image;
-    koksma_status status = koksma__image_read(all->at[i].path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &image);
-    if (!status) {
-        status = koksma_image_compare(&image, &all->reference, &all->at[i].error);
-        /* images with a NaN are refused, because one NaN would make the mean of a whole group NaN */
-        status =
-            status ? koksma__fail_in(status, all->at[i].path) : koksma_image_check_finite(&image, all->at[i].path);
-        status = status ? status : apply_metric(all, &image, &all->at[i]);
-        koksma_image_fini(&image);
-    }
+    KOKSMA__TRY(koksma__image_read(all->at[i].path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &image));
+    koksma_status status = koksma_image_compare(&image, &all->reference, &all->at[i].error);
+    /* images with a NaN are refused, because one NaN would make the mean of a whole group NaN */
+    status = status ? koksma__fail_in(status, all->at[i].path) : koksma_image_check_finite(&image, all->at[i].path);
+    status = status ? status : apply_metric(all, &image, &all->at[i]);
+    koksma_image_fini(&image);
     return status;
 }
 
@@ -163,14 +158,13 @@ static koksma_status make_rows(const pictures *all, koksma_images_row **rows, si
         }
         fill_row(&all->at[i], end - i, &(*rows)[(*n)++]);
     }
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0, end; !status && i < *n; i = end) {
+    for (size_t i = 0, end; i < *n; i = end) {
         for (end = i + 1; end < *n && !strcmp((*rows)[end].group, (*rows)[i].group);) {
             end++;
         }
-        status = add_slope(*rows + i, end - i);
+        KOKSMA__TRY(add_slope(*rows + i, end - i));
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Computes the interval of the relative difference between a row's error and that of the best row of equal spp;
@@ -200,9 +194,8 @@ static koksma_status add_behind(const picture *first, size_t n_first, const pict
    images in `all` are in the order of the rows. */
 static koksma_status add_positions(const pictures *all, koksma_images_row *rows, size_t n)
 {
-    koksma_status status = KOKSMA_OK;
     const picture *images = all->at;
-    for (size_t i = 0; !status && i < n; images += rows[i++].trials) {
+    for (size_t i = 0; i < n; images += rows[i++].trials) {
         size_t best = i;
         rows[i].position = 1;
         for (size_t k = 0; k < n; k++) {
@@ -215,9 +208,9 @@ static koksma_status add_positions(const pictures *all, koksma_images_row *rows,
         }
         rows[i].behind = rows[best].mean > 0 ? rows[i].mean / rows[best].mean - 1 : 0;
         rows[i].behind_low = rows[i].behind_high = NAN;
-        status = best == i ? KOKSMA_OK : add_behind(first, rows[best].trials, images, &rows[i]);
+        KOKSMA__TRY(best == i ? KOKSMA_OK : add_behind(first, rows[best].trials, images, &rows[i]));
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Computes the coherence of each row. The images in `all` are in the order of the rows. */

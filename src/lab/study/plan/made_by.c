@@ -67,9 +67,7 @@ static koksma_status of_points(const char *pattern, const char *warp_name, const
         }
         status = koksma_measure_spec(measure, &spec);
     }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     add(out->value, spec.measure->name, spec.measure->revision);
     const koksma_warp *warp = koksma_warp_find(warp_name);
     if (warp) {
@@ -93,11 +91,9 @@ static koksma_status of_image(const char *pattern, char text[KOKSMA__MADE_BY])
 static koksma_status of_metric(const char *text, char made_by[KOKSMA__MADE_BY])
 {
     koksma_metric_spec spec;
-    const koksma_status status = koksma_metric_parse(text, &spec);
-    if (!status) {
-        add(made_by, spec.metric->name, spec.metric->revision);
-    }
-    return status;
+    KOKSMA__TRY(koksma_metric_parse(text, &spec));
+    add(made_by, spec.metric->name, spec.metric->revision);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what,

@@ -26,31 +26,25 @@ static koksma_status copy(const char *text, char **out)
 koksma_status koksma__pattern_text(const char *text, char out[KOKSMA_MAX_SPEC])
 {
     koksma_spec spec;
-    const koksma_status status = koksma_pattern_spec(text, &spec);
-    if (!status) {
-        koksma_spec_text(&spec, out);
-    }
-    return status;
+    KOKSMA__TRY(koksma_pattern_spec(text, &spec));
+    koksma_spec_text(&spec, out);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC])
 {
     koksma_spec spec;
-    const koksma_status status = koksma_measure_spec(text, &spec);
-    if (!status) {
-        koksma_spec_text(&spec, out);
-    }
-    return status;
+    KOKSMA__TRY(koksma_measure_spec(text, &spec));
+    koksma_spec_text(&spec, out);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__metric_text(const char *text, char out[KOKSMA_MAX_SPEC])
 {
     koksma_metric_spec spec;
-    const koksma_status status = koksma_metric_parse(text, &spec);
-    if (!status) {
-        koksma_metric_text(&spec, out);
-    }
-    return status;
+    KOKSMA__TRY(koksma_metric_parse(text, &spec));
+    koksma_metric_text(&spec, out);
+    return KOKSMA_OK;
 }
 
 /* An integrand is parsed in the first dimension that it supports, because its canonical text does not depend on the
@@ -63,9 +57,7 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
     for (int dim = 1; dim <= KOKSMA_MAX_DIM && status == KOKSMA_DIM; dim *= 2) {
         status = koksma_integral_open(text, dim, &integral);
     }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     koksma_integral_about(integral, &facts);
     koksma_integral_close(integral);
     const int length = snprintf(out, KOKSMA_MAX_SPEC, "error of %s", facts.text);

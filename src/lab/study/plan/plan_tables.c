@@ -31,9 +31,7 @@ static koksma_status parse_printed(const koksma__json_node *node, koksma__printe
             node, "'%s': it takes a number as printed, such as 0.0370", text);
         KOKSMA__JSON_FAIL_IF(!status && strlen(text) >= sizeof out->text, node,
                              "a printed number has at most %zu characters", sizeof out->text - 1);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(status);
     } else {
         KOKSMA__TRY(koksma__json_number(node, 0, 1e6, &out->value));
         koksma__snprintf(number, sizeof number, "%.9g", out->value);

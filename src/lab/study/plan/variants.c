@@ -150,16 +150,15 @@ static bool changes_image(const char *text, const option *o)
 
 koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma__variant *variant)
 {
-    koksma_status status = KOKSMA_OK;
     variant->adaptive.method = NULL;
-    for (int i = 0; !status && i < N_KNOWN; i++) {
+    for (int i = 0; i < N_KNOWN; i++) {
         char word[MAX_WORD];
         word_of(text, &known[i], word);
         if (!of_reference || changes_image(text, &known[i])) {
-            status = known[i].set(variant, word);
+            KOKSMA__TRY(known[i].set(variant, word));
         }
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 void koksma__variant_of_reference(const char *text, char *out)
@@ -213,13 +212,11 @@ koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__va
     koksma_layers layers;
     adaptive.budget = options.spp;
     options.spp = koksma__variant_first_spp(variant, options.spp);
-    const koksma_status status = koksma_render_adaptive(scene, &options, &adaptive, run, &layers, NULL);
-    if (!status) {
-        *out = layers.image;
-        layers.image = (koksma_image){0};
-        koksma_layers_fini(&layers);
-    }
-    return status;
+    KOKSMA__TRY(koksma_render_adaptive(scene, &options, &adaptive, run, &layers, NULL));
+    *out = layers.image;
+    layers.image = (koksma_image){0};
+    koksma_layers_fini(&layers);
+    return KOKSMA_OK;
 }
 
 /* ---- Parsing ------------------------------------------------------------------------------------------- */

@@ -226,11 +226,9 @@ koksma_status koksma_rank_by_command(void *context, const koksma_rank_picture *p
     KOKSMA__REQUIRE(picture->scene, picture->pattern);
     KOKSMA__REQUIRE_RUN(run);
     char folder[KOKSMA_MAX_SPEC / 2];
-    koksma_status status = make_folder(folder, sizeof folder);
-    if (!status) {
-        status = render_in(folder, context, picture, run, image);
-        remove_folder(folder);
-    }
+    KOKSMA__TRY(make_folder(folder, sizeof folder));
+    const koksma_status status = render_in(folder, context, picture, run, image);
+    remove_folder(folder);
     return status;
 }
 
@@ -240,10 +238,8 @@ koksma_status koksma_rank_process_by_command(void *context, const koksma_image *
     KOKSMA__REQUIRE(context, image, out);
     KOKSMA__REQUIRE_RUN(run);
     char folder[KOKSMA_MAX_SPEC / 2];
-    koksma_status status = make_folder(folder, sizeof folder);
-    if (!status) {
-        status = process_in(folder, context, image, run, out);
-        remove_folder(folder);
-    }
+    KOKSMA__TRY(make_folder(folder, sizeof folder));
+    const koksma_status status = process_in(folder, context, image, run, out);
+    remove_folder(folder);
     return status;
 }

@@ -126,11 +126,9 @@ static koksma_status render_replicate(koksma__rank_reference *reference, const k
     koksma_image image;
     picture->seed = koksma__job_seed("rank-reference|%s|%s|%dx%d|%d|%d", scene->hash, picture->variant, scene->width,
                                      scene->height, stage, reference->made);
-    koksma_status status = koksma__study_render(scene, picture, run, &image);
-    if (!status) {
-        status = add_replicate(reference, &image, squares) ? KOKSMA_OK : fail_of_pixels(scene);
-        koksma_image_fini(&image);
-    }
+    KOKSMA__TRY(koksma__study_render(scene, picture, run, &image));
+    const koksma_status status = add_replicate(reference, &image, squares) ? KOKSMA_OK : fail_of_pixels(scene);
+    koksma_image_fini(&image);
     return status;
 }
 

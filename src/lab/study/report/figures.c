@@ -32,9 +32,7 @@ static koksma_status add_points(koksma__document *d, const koksma__figure *f, co
     size_t size;
     koksma_status status = koksma_pattern_spec(f->pattern, &spec);
     status = status ? status : koksma_points_init(&points, (size_t)f->n, 2);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     status = koksma_generate(&spec, koksma__job_seed("figure|%s|%lld", f->pattern, f->n), run, &points);
     koksma_scatter_options options = {.size = POINTS_WIDTH, .warp = f->warp ? koksma_warp_find(f->warp) : NULL};
     if (f->cells) { /* how to show the strata: as n columns and n rows, or as the cells of a sqrt n x sqrt n grid */
@@ -107,10 +105,7 @@ static koksma_status add_part(koksma__document *d, const koksma__figure *f, cons
               height = whole ? image->height : (int)f->detail[3];
     KOKSMA__FAIL_IF(x + width > image->width || y + height > image->height, KOKSMA_ARGUMENT,
                     "figure %s: its detail lies beyond the image", f->id);
-    koksma_status status = koksma_image_init(&part, width, height, image->channels);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma_image_init(&part, width, height, image->channels));
     const size_t channels = (size_t)image->channels, row_size = (size_t)width * channels;
     for (int row = 0; row < height; row++) {
         const float *from = image->pixels + ((size_t)(y + row) * (size_t)image->width + (size_t)x) * channels;
@@ -118,7 +113,7 @@ static koksma_status add_part(koksma__document *d, const koksma__figure *f, cons
             part.pixels[(size_t)row * row_size + k] = (float)f->exposure * from[k];
         }
     }
-    status = koksma__doc_image(d, &part, SCENE_SCALE * image->width / width, f->title);
+    const koksma_status status = koksma__doc_image(d, &part, SCENE_SCALE * image->width / width, f->title);
     koksma_image_fini(&part);
     return status;
 }
@@ -180,11 +175,9 @@ static koksma_status add_scene(const koksma_study *study, koksma__document *d, c
     if (f->adaptive) {
         return add_adaptive(scene, d, f, picture.seed, run, report, note);
     }
-    koksma_status status = koksma__study_render(scene, &picture, run, &image);
-    if (!status) {
-        status = add_part(d, f, &image);
-        koksma_image_fini(&image);
-    }
+    KOKSMA__TRY(koksma__study_render(scene, &picture, run, &image));
+    const koksma_status status = add_part(d, f, &image);
+    koksma_image_fini(&image);
     return status;
 }
 

@@ -269,11 +269,10 @@ static koksma_status compare_row(audit *a, const koksma__task *t, const koksma__
 static koksma_status put_job(void *context, const koksma__task *t, const koksma__result *results)
 {
     const koksma__audit_group *group = group_of(context, t);
-    koksma_status status = KOKSMA_OK;
-    for (size_t k = 0; !status && k < t->n_series; k++) {
-        status = group->members[k] ? compare_row(context, t, group->members[k], &results[k]) : KOKSMA_OK;
+    for (size_t k = 0; k < t->n_series; k++) {
+        KOKSMA__TRY(group->members[k] ? compare_row(context, t, group->members[k], &results[k]) : KOKSMA_OK);
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* ---- References ---------------------------------------------------------------------------------------- */

@@ -386,9 +386,7 @@ static koksma_status add_measure(koksma__plan *plan, koksma__audit_list *list, k
         status = status || !key->options[0] ? status : koksma__texts_add(&b->warps, key->options);
         status = status ? status : set_whole(&b->n, key->n);
     }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     koksma__audit_group *group = &list->discrepancies[plan->n_discrepancies - 1];
     group->members[b->measures.n] = s;
     b->dim = (int)key->dim;
@@ -463,23 +461,19 @@ static koksma_status add_member(koksma__plan *plan, koksma__audit_list *list, ko
 {
     koksma__image_block *b = &plan->images[plan->n_images - 1];
     const size_t place = place_of(b, s);
-    const koksma_status status =
-        !strcmp(s->key.kind, "metric") ? koksma__texts_add(&b->metrics, s->key.metric) : KOKSMA_OK;
-    if (!status) {
-        list->images[plan->n_images - 1].members[place] = s;
-        b->trials = s->end > b->trials ? s->end : b->trials;
-    }
-    return status;
+    KOKSMA__TRY(!strcmp(s->key.kind, "metric") ? koksma__texts_add(&b->metrics, s->key.metric) : KOKSMA_OK);
+    list->images[plan->n_images - 1].members[place] = s;
+    b->trials = s->end > b->trials ? s->end : b->trials;
+    return KOKSMA_OK;
 }
 
 static koksma_status add_images(koksma__plan *plan, koksma__audit_list *list, koksma__audit_series **images, size_t n)
 {
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; !status && i < n; i++) {
-        status = fits(plan, list, images, i) ? KOKSMA_OK : add_image(plan, list, images[i]);
-        status = status ? status : add_member(plan, list, images[i]);
+    for (size_t i = 0; i < n; i++) {
+        KOKSMA__TRY(fits(plan, list, images, i) ? KOKSMA_OK : add_image(plan, list, images[i]));
+        KOKSMA__TRY(add_member(plan, list, images[i]));
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__audit_plan(koksma_study *study, koksma__audit_list *list)

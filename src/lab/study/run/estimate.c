@@ -115,14 +115,13 @@ static void learn(guesses *g, size_t timed)
 /* Replaces each reference by a black picture of the same size, because timing needs only the size. */
 static koksma_status stand_in(koksma_study *study, const koksma__task *task)
 {
-    koksma_status status = KOKSMA_OK;
-    for (size_t r = 0; task->image && !status && r < task->n_series; r++) {
+    for (size_t r = 0; task->image && r < task->n_series; r++) {
         koksma__reference_image *reference = &study->references[task->references[r]];
         if (!reference->image.pixels) {
-            status = koksma_image_init(&reference->image, reference->width, reference->height, 3);
+            KOKSMA__TRY(koksma_image_init(&reference->image, reference->width, reference->height, 3));
         }
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* A single timing is unreliable on a busy machine: up to MOST_LOOKS trials are timed, until they took LONG_JOB
@@ -207,18 +206,17 @@ static koksma_status time_rows(const koksma__reference_image *reference, const k
 static koksma_status add_references(koksma_study *study, const double *sample_s, const koksma_run *job,
                                     koksma_study_cost *cost)
 {
-    koksma_status status = KOKSMA_OK;
-    for (size_t r = 0; r < study->n_references && !status; r++) {
+    for (size_t r = 0; r < study->n_references; r++) {
         const koksma__reference_image *image = &study->references[r];
         double seconds = sample_s[r] * (double)image->reference->spp;
         if (isfinite(seconds)) {
-            status = time_rows(image, job, &seconds);
+            KOKSMA__TRY(time_rows(image, job, &seconds));
             cost->references++;
             cost->reference_seconds += seconds * (double)image->reference->replicates;
             cost->bytes += (double)image->width * image->height * 3 * REFERENCE_PIXEL;
         }
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 static koksma_status time_and_learn(koksma_study *study, guesses *g, size_t i, const koksma_run *job)

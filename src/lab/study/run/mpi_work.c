@@ -57,14 +57,12 @@ static koksma_status get_reference(worker *w, size_t index)
         r->failed = true;
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma_image_init(&r->image, head.width, head.height, head.channels);
-    if (!status) {
-        const size_t pixels = (size_t)head.width * (size_t)head.height * (size_t)head.channels;
-        if (!receive(w, KOKSMA__TAG_PIXELS, r->image.pixels, pixels * sizeof *r->image.pixels, NULL)) {
-            return lost(w);
-        }
+    KOKSMA__TRY(koksma_image_init(&r->image, head.width, head.height, head.channels));
+    const size_t pixels = (size_t)head.width * (size_t)head.height * (size_t)head.channels;
+    if (!receive(w, KOKSMA__TAG_PIXELS, r->image.pixels, pixels * sizeof *r->image.pixels, NULL)) {
+        return lost(w);
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 static koksma_status send_results(worker *w)

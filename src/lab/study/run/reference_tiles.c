@@ -112,12 +112,10 @@ static koksma_status do_substitute(const koksma__reference_image *r, const koksm
     koksma__reference_image other = *r;
     koksma_image image;
     other.reference = &plain;
-    koksma_status status = koksma__reference_replicate(&other, 0, (int)tile->first_row, (int)tile->rows, run, &image);
-    if (status) {
-        return status;
-    }
-    status = image.height == tile->rows ? koksma__replicates_add(out, &image)
-                                        : koksma__fail(KOKSMA_UNSUPPORTED, "its rows can't be rendered alone");
+    KOKSMA__TRY(koksma__reference_replicate(&other, 0, (int)tile->first_row, (int)tile->rows, run, &image));
+    const koksma_status status = image.height == tile->rows
+                                     ? koksma__replicates_add(out, &image)
+                                     : koksma__fail(KOKSMA_UNSUPPORTED, "its rows can't be rendered alone");
     koksma_image_fini(&image);
     return status;
 }
@@ -154,11 +152,7 @@ koksma_status koksma__tiles_put(koksma__reference_tiles *tiles, const koksma__re
     const koksma__reference_image *r = &tiles->study->references[tile->reference];
     koksma__replicates *all = &tiles->sums[tile->reference];
     const size_t width = from->pixels / (size_t)tile->rows, first = (size_t)tile->first_row * width;
-    const koksma_status status =
-        all->sum ? KOKSMA_OK : koksma__replicates_init(all, width * (size_t)r->height, from->channels);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(all->sum ? KOKSMA_OK : koksma__replicates_init(all, width * (size_t)r->height, from->channels));
     all->n = r->reference->replicates;
     memcpy(all->sum + first * from->channels, from->sum, from->pixels * from->channels * sizeof *from->sum);
     memcpy(all->luminance + first, from->luminance, from->pixels * sizeof *from->sum);

@@ -380,9 +380,7 @@ static koksma_status find_series(koksma__tasks *tasks, bool add, const koksma_ru
             most = t->series[k] > most ? t->series[k] : most;
         }
     }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     o->n = (size_t)most + 1;
     o->at = calloc(o->n, sizeof *o->at);
     status = o->at ? KOKSMA_OK : koksma__fail_memory(o->n * sizeof *o->at);

@@ -62,9 +62,7 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
     koksma_status status = koksma__sheet_look_for_bias(sheet);
     status = status ? status : koksma__sheet_measure_plane(sheet);
     status = status ? status : koksma__sheet_rank(sheet);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     note_bounds(sheet);
     put_head(sheet, d);
     koksma__sheet_verdict(sheet, d);
@@ -89,14 +87,10 @@ static koksma_status check_options(const koksma_datasheet_options *o)
             KOKSMA_ARGUMENT,
             "sampler: it must be a pattern's spec, a file of points, or a family of files such as my_{n}_{seed}.npy");
     }
-    if (o->beside && o->n_beside > KOKSMA_MAX_BESIDE) {
-        return koksma__fail(KOKSMA_ARGUMENT, "n_beside: %zu samplers to compare with; the maximum is %d", o->n_beside,
-                            KOKSMA_MAX_BESIDE);
-    }
-    if (o->scenes && o->n_scenes > KOKSMA_MAX_SHEET_SCENES) {
-        return koksma__fail(KOKSMA_ARGUMENT, "n_scenes: %zu scenes; the maximum is %d", o->n_scenes,
-                            KOKSMA_MAX_SHEET_SCENES);
-    }
+    KOKSMA__FAIL_IF(o->beside && o->n_beside > KOKSMA_MAX_BESIDE, KOKSMA_ARGUMENT,
+                    "n_beside: %zu samplers to compare with; the maximum is %d", o->n_beside, KOKSMA_MAX_BESIDE);
+    KOKSMA__FAIL_IF(o->scenes && o->n_scenes > KOKSMA_MAX_SHEET_SCENES, KOKSMA_ARGUMENT,
+                    "n_scenes: %zu scenes; the maximum is %d", o->n_scenes, KOKSMA_MAX_SHEET_SCENES);
     for (size_t i = 0; o->beside && i < o->n_beside; i++) {
         KOKSMA__FAIL_IF(!o->beside[i], KOKSMA_ARGUMENT, "beside[%zu] is NULL", i);
     }

@@ -47,16 +47,14 @@ static koksma_status parse(const char *text, koksma__sheet_sampler *out)
     char spec[KOKSMA_MAX_SPEC + sizeof file_prefix];
     const bool file = is_file(text);
     snprintf(spec, sizeof spec, "%s%s", file ? file_prefix : "", text);
-    koksma_status status = strlen(text) < KOKSMA_MAX_SPEC - sizeof file_prefix
-                               ? koksma_pattern_spec(spec, &out->spec)
-                               : koksma__fail(KOKSMA_ARGUMENT, "sampler '%.40s...': longer than %zu characters", text,
-                                              KOKSMA_MAX_SPEC - sizeof file_prefix - 1);
-    if (!status) {
-        koksma_spec_text(&out->spec, out->text);
-        out->same = koksma_has_one_set(&out->spec);
-        out->sets = SIZE_MAX;
-    }
-    return status;
+    KOKSMA__TRY(strlen(text) < KOKSMA_MAX_SPEC - sizeof file_prefix
+                    ? koksma_pattern_spec(spec, &out->spec)
+                    : koksma__fail(KOKSMA_ARGUMENT, "sampler '%.40s...': longer than %zu characters", text,
+                                   KOKSMA_MAX_SPEC - sizeof file_prefix - 1));
+    koksma_spec_text(&out->spec, out->text);
+    out->same = koksma_has_one_set(&out->spec);
+    out->sets = SIZE_MAX;
+    return KOKSMA_OK;
 }
 
 /* ---- Files ------------------------------------------------------------------------------------------------- */
@@ -198,12 +196,10 @@ static koksma_status find_dimensions(koksma__sheet *sheet)
 koksma_status koksma__sheet_points(const koksma__sheet_sampler *sampler, size_t n, int dim, size_t trial,
                                    const koksma_run *run, koksma_points *out)
 {
-    koksma_status status = koksma_points_init(out, n, dim);
-    if (!status) {
-        status = koksma_generate(&sampler->spec, sampler->seed + trial, run, out);
-        if (status) {
-            koksma_points_fini(out);
-        }
+    KOKSMA__TRY(koksma_points_init(out, n, dim));
+    const koksma_status status = koksma_generate(&sampler->spec, sampler->seed + trial, run, out);
+    if (status) {
+        koksma_points_fini(out);
     }
     return status;
 }
@@ -226,13 +222,12 @@ size_t koksma__sheet_size(const koksma__sheet *sheet, size_t most)
 static koksma_status try_sizes(koksma__sheet *sheet, const koksma__sheet_sampler *sampler)
 {
     const koksma_run run = koksma__sheet_one_set(sheet);
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; !status && i < sheet->n_sizes; i++) {
+    for (size_t i = 0; i < sheet->n_sizes; i++) {
         koksma_points points = {0};
-        status = koksma__sheet_points(sampler, sheet->sizes[i], 2, 0, &run, &points);
+        KOKSMA__TRY(koksma__sheet_points(sampler, sheet->sizes[i], 2, 0, &run, &points));
         koksma_points_fini(&points);
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Adds a sampler. If the first sampler, which the sheet describes, cannot make the points of some size, that is an
@@ -242,17 +237,14 @@ static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by
     koksma__sheet_sampler *sampler = &sheet->all[sheet->n_samplers];
     const bool first = sheet->n_samplers == 0;
     *sampler = (koksma__sheet_sampler){0};
-    koksma_status status = parse(text, sampler);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(parse(text, sampler));
     for (size_t i = 0; i < sheet->n_samplers; i++) {
         if (!strcmp(sampler->text, sheet->all[i].text)) {
             return by_default ? KOKSMA_OK
                               : koksma__fail(KOKSMA_ARGUMENT, "sampler '%s' is given twice", sampler->text);
         }
     }
-    status = koksma__reads_points(sampler->spec.pattern) ? look_at_files(sheet, sampler) : KOKSMA_OK;
+    koksma_status status = koksma__reads_points(sampler->spec.pattern) ? look_at_files(sheet, sampler) : KOKSMA_OK;
     status = status ? status : try_sizes(sheet, sampler);
     if (first && status == KOKSMA_DIM && koksma__reads_points(sampler->spec.pattern)) {
         char reason[1024]; /* a sheet takes no such file */

@@ -187,9 +187,7 @@ koksma_status koksma__database_look(const char *path, koksma__database_header *h
     char *real = realpath(path, NULL);
     status = real ? open_file(real, &held) : koksma__fail(KOKSMA_IO, "%s: %s", path, strerror(errno));
     free(real);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     const int code = held->file.pMethods->xRead(&held->file, bytes, HEADER, 0);
     close_file(held);
     KOKSMA__FAIL_IF(code != SQLITE_OK && code != SQLITE_IOERR_SHORT_READ, KOKSMA_IO, "%s: can't be read: %s", path,

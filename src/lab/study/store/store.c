@@ -102,9 +102,7 @@ koksma_status koksma__store_put_text(koksma__store *store, const char *key, cons
         koksma__seal_add(&store->seal, -1, koksma__checksum_of_text(key, old));
     }
     free(old);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(status);
     koksma__seal_add(&store->seal, 1, koksma__checksum_of_text(key, value));
     koksma__bind(s, 1, "tt", key, value);
     return koksma__store_write(store, KOKSMA__PUT_TEXT);

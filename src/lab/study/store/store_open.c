@@ -186,11 +186,10 @@ static koksma_status make_store(koksma__database *database, koksma__store **out)
 
 static koksma_status open_queries(koksma__store *store)
 {
-    koksma_status status = KOKSMA_OK;
-    for (koksma__query i = 0; !status && i < KOKSMA__N_QUERIES; i++) {
-        status = koksma__statement_open(store->database, queries[i], &store->queries[i]);
+    for (koksma__query i = 0; i < KOKSMA__N_QUERIES; i++) {
+        KOKSMA__TRY(koksma__statement_open(store->database, queries[i], &store->queries[i]));
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* ---- New stores ---------------------------------------------------------------------------------------- */

@@ -205,12 +205,11 @@ static koksma_status each_in_memory(const koksma__store *store, const wanted *w)
 {
     const koksma__kept_rows *kept = &store->kept;
     const size_t group = (size_t)w->series / KOKSMA__GROUP;
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = kept->first[group]; i < kept->first[group + 1] && !status; i++) {
+    for (size_t i = kept->first[group]; i < kept->first[group + 1]; i++) {
         const koksma__row *row = &kept->rows.at[kept->order[i]];
-        status = row->id >> 32 < w->end ? pass_result(store, w, row) : KOKSMA_OK;
+        KOKSMA__TRY(row->id >> 32 < w->end ? pass_result(store, w, row) : KOKSMA_OK);
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Calls `visit` for the results in the order of trials. */

@@ -135,8 +135,7 @@ static void gather(koksma__rows *to, long long series, const koksma__result *res
 koksma_status koksma__store_put(koksma__store *store, const long long *series, const koksma__result *results,
                                 size_t n)
 {
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; !status && i < n;) {
+    for (size_t i = 0; i < n;) {
         pthread_mutex_lock(&store->gather_lock);
         koksma__rows *to = &store->gathered;
         for (; i < n && to->n < MOST_GATHERED; i++) {
@@ -146,10 +145,10 @@ koksma_status koksma__store_put(koksma__store *store, const long long *series, c
         pthread_mutex_unlock(&store->gather_lock);
         if (write) {
             koksma__store_enter(store);
-            status = koksma__store_leave(store, koksma__store_write_rows(store));
+            KOKSMA__TRY(koksma__store_leave(store, koksma__store_write_rows(store)));
         }
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__store_row(koksma__store *store, long long group, long long trial, uint64_t *seed,
