@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     koksma_image image = {0};
     if (koksma__format_jpg.recognises(bytes, size)) {
-        fuzz_check_status(koksma__format_jpg.read(bytes, size, &image));
+        fuzz_check_status(koksma__format_jpg.read(bytes, size, KOKSMA__IMAGE_COLOURS, &image));
         koksma_image_fini(&image);
     }
     return 0;
