@@ -106,12 +106,13 @@ static const char *keyword_at(const void *table, size_t i)
     return ((const char *const *)table)[i];
 }
 
-/* Names a word that the format does not have. */
-static koksma_status name_word(const koksma__text *t, const char *given, const char *what, const char *closest,
-                               koksma__mesh_file *f)
+koksma_status koksma__name_word(const koksma__text *t, const char *word, size_t length, const char *what,
+                                const char *const *all, koksma__mesh_file *f)
 {
-    char text[256], meant[KOKSMA__OR_MEANT];
-    snprintf(text, sizeof text, "'%s' is not %s of material files%s", given, what, koksma__or_meant(closest, meant));
+    char given[48], text[256], meant[KOKSMA__OR_MEANT];
+    snprintf(given, sizeof given, "%.*s", length < 40 ? (int)length : 40, word);
+    snprintf(text, sizeof text, "'%s' is not %s%s", given, what,
+             koksma__or_meant(koksma_closest_name(given, keyword_at, all), meant));
     return koksma__unknown_put(&f->unknown, &f->n_unknown, t->path, (unsigned long)t->number, text);
 }
 
@@ -126,7 +127,7 @@ static koksma_status name_keyword(const koksma__text *t, const char *word, size_
             return KOKSMA_OK;
         }
     }
-    return name_word(t, given, "a keyword", koksma_closest_name(given, keyword_at, keywords), f);
+    return koksma__name_word(t, word, length, "a keyword of material files", keywords, f);
 }
 
 /* Reads the file's name, which follows the options, as in "-s 2 1 image.png". The options -o, -s and -t have one to
@@ -157,9 +158,8 @@ static koksma_status take_texture(koksma__text *t, koksma__mesh_file *f, koksma_
             }
         }
         if (!known) {
-            char given[48];
-            snprintf(given, sizeof given, "%.*s", length < 40 ? (int)length : 40, word);
-            KOKSMA__TRY(name_word(t, given, "an option", NULL, f));
+            KOKSMA__TRY(
+                koksma__name_word(t, word, length, "an option of material files", (const char *const[]){NULL}, f));
         }
         *t = after;
     }

@@ -337,6 +337,14 @@ static void take_group(obj *o, uint64_t *last, const char *name, size_t length)
     *last = hash;
 }
 
+/* All keywords of the format, and those that ZBrush, MeshLab and old versions write; only a few are read. */
+static const char *const keywords[] = {
+    "v",        "vt",       "vn",   "f",      "usemtl", "mtllib",     "g",         "o",     "l",     "p",
+    "s",        "vp",       "vc",   "vw",     "cstype", "deg",        "bmat",      "step",  "curv",  "curv2",
+    "surf",     "parm",     "trim", "hole",   "scrv",   "sp",         "end",       "con",   "mg",    "bevel",
+    "c_interp", "d_interp", "lod",  "usemap", "maplib", "shadow_obj", "trace_obj", "ctech", "stech", "call",
+    "csh",      "bsp",      "bzp",  "cdc",    "cdp",    "res",        "fo",        NULL};
+
 static koksma_status take_line(obj *o)
 {
     koksma__text *t = &o->text;
@@ -370,8 +378,14 @@ static koksma_status take_line(obj *o)
     }
     if (length == 1 && (*word == 'g' || *word == 'o')) {
         take_group(o, *word == 'g' ? &o->group : &o->object, rest, left);
+        return KOKSMA_OK;
     }
-    return KOKSMA_OK;
+    for (size_t i = 0; keywords[i]; i++) {
+        if (koksma__text_is(word, length, keywords[i])) {
+            return KOKSMA_OK;
+        }
+    }
+    return koksma__name_word(t, word, length, "a keyword of OBJ files", keywords, o->out);
 }
 
 /* ---- The end ------------------------------------------------------------------------------------------------ */

@@ -6,6 +6,7 @@
 #define KOKSMA_MESHES_READERS_H
 
 #include "meshes/mesh_file.h"
+#include "meshes/mesh_text.h"
 
 /* OBJ with its material files; also MISSING. */
 koksma_status koksma__obj_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
@@ -19,6 +20,11 @@ koksma_status koksma__off_read(const unsigned char *bytes, size_t size, koksma__
 /* Mitsuba's .serialized files; also UNSUPPORTED (this build lacks zlib). The second function checks their first bytes. */
 koksma_status koksma__serialized_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
 koksma_status koksma__serialized_start(const unsigned char *bytes, size_t size);
+
+/* Names a word of t's line that a format does not have, in f->unknown: with its number of line and the one that may be
+   meant. what: "a keyword of material files". Error: MEMORY. */
+koksma_status koksma__name_word(const koksma__text *t, const char *word, size_t length, const char *what,
+                                const char *const *keywords, koksma__mesh_file *f);
 
 /* ---- Material files of OBJ ---- */
 

@@ -163,6 +163,11 @@ bool koksma__lists(const char *list, size_t size, char separator, const char *wo
 /* The row of a kind, or that of unknown kinds ("?"), or NULL. */
 const koksma__plugin *koksma__plugin_find(const koksma__plugins *all, const char *of, const char *kind);
 
+/* "; did you mean 'NAME'?" for a kind that no row of the class has, or a parameter that the row lacks; "" if none is near.
+   They return text, which has KOKSMA__OR_MEANT bytes. */
+const char *koksma__kind_meant(const koksma__plugins *all, const char *of, const char *kind, char *text);
+const char *koksma__parameter_meant(const koksma__plugin *row, const char *name, char *text);
+
 /* Finds a parameter of a row. */
 bool koksma__row_entry(const koksma__plugin *row, const char *name, koksma__entry *out);
 

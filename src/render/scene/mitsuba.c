@@ -148,6 +148,16 @@ static const node *property(const reader *r, const node *n, const char *name)
 }
 
 /* Warns of what becomes of a node, which covers all that it contains. */
+/* What may be meant by the type of an object that the table does not have, or "". */
+static const char *type_meant(const reader *r, const node *n, char *text)
+{
+    const koksma__plugin *row = row_of(r, n);
+    *text = '\0';
+    return row && *row->kinds != '?'
+               ? text
+               : koksma__kind_meant(&koksma__mitsuba_plugins, is_texture(n) ? "texture" : n->tag, type_of(n), text);
+}
+
 #define REPLACE(r, n, ...)                                                                                           \
     (koksma__xml_mark(n, KOKSMA__XML_COVERED), koksma__import_unknown((r)->im, (n)->place, __VA_ARGS__))
 
@@ -487,7 +497,8 @@ static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use,
     if (!row) {
         out->rgb[0] = is(n, "spectrum") ? 1 : out->rgb[0];
         out->rgb[1] = out->rgb[2] = out->rgb[0];
-        return REPLACE(r, n, "%s '%s' is replaced by %s", n->tag, type_of(n), is(n, "spectrum") ? "white" : "grey");
+        return REPLACE(r, n, "%s '%s' is replaced by %s%s", n->tag, type_of(n), is(n, "spectrum") ? "white" : "grey",
+                       type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}));
     }
     KOKSMA__TRY(row->makes == KOKSMA__REGULAR || row->makes == KOKSMA__IRREGULAR ? KOKSMA_OK : check_needed(r, n));
     pass(r, n);
@@ -702,8 +713,8 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     const node *inner = row->makes == KOKSMA__WITHIN && nests ? find_child(r, first_of(r, n), "bsdf") : NULL;
     koksma__import_material m = {.kind = (unsigned)row->makes};
     *out = -1;
-    KOKSMA__TRY(koksma__import_unknown_if(row->instead, r->im, n->place, "BSDF '%s' is replaced by %s", type_of(n),
-                                          row->instead));
+    KOKSMA__TRY(koksma__import_unknown_if(row->instead, r->im, n->place, "BSDF '%s' is replaced by %s%s", type_of(n),
+                                          row->instead, type_meant(r, n, (char[KOKSMA__OR_MEANT]){0})));
     if (row->instead && (!is_known || row->makes == KOKSMA__NOTHING || row->makes == KOKSMA__WITHIN)) {
         koksma__xml_mark(n, KOKSMA__XML_COVERED);
     }
@@ -822,7 +833,7 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
             .facets = flag(r, n, "face_normals"), .smooths = true, .flips_v = flag(r, n, "flip_tex_coords")};
         return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename"), (long)part, rules, &item->mesh);
     } else if (item->form == KOKSMA__FORM_MESH) {
-        return REPLACE(r, n, "shape '%s' is left out", type_of(n));
+        return REPLACE(r, n, "shape '%s' is left out%s", type_of(n), type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}));
     }
     return KOKSMA_OK;
 }
@@ -1085,7 +1096,9 @@ static koksma_status emitter(reader *r, const node *n)
     KOKSMA__TRY(transform(r, n, "to_world", m));
     KOKSMA__TRY(colour(r, n, colours[row->makes], &c, 0));
     KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &c));
-    KOKSMA__TRY(row->instead ? REPLACE(r, n, "emitter '%s' is replaced by %s", type_of(n), row->instead) : KOKSMA_OK);
+    KOKSMA__TRY(row->instead ? REPLACE(r, n, "emitter '%s' is replaced by %s%s", type_of(n), row->instead,
+                                       type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}))
+                             : KOKSMA_OK);
     memcpy(light.radiance, c.rgb, sizeof c.rgb);
     double along[3] = {m[2], m[6], m[10]};
     for (int k = 0; k < 3 && row->makes <= KOKSMA__SPOT; k++) {
@@ -1124,7 +1137,8 @@ static koksma_status plain(reader *r, const node *n)
 {
     const koksma__plugin *row = row_of(r, n);
     if (!row || row->instead) {
-        return REPLACE(r, n, "%s '%s' is ignored", n->tag, type_of(n));
+        return REPLACE(r, n, "%s '%s' is ignored%s", n->tag, type_of(n),
+                       type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}));
     }
     pass(r, n);
     EACH_CHILD(r, n, c, "sampler")
@@ -1235,6 +1249,10 @@ static koksma_status integrator(reader *r, const node *n, int depth)
     if (!row_of(r, n) || (inner && depth < MOST_NESTED)) { /* the picture is that of the integrator within */
         return inner ? integrator(r, resolve(r, inner), depth + 1) : KOKSMA_OK;
     }
+    static const char surfaces_only[] = "path direct prb prb_basic ptracer";
+    KOKSMA__TRY(koksma__import_unknown_if(
+        r->medium && koksma__lists(surfaces_only, sizeof surfaces_only - 1, ' ', type_of(n)), r->im, n->place,
+        "the medium is rendered, which Mitsuba's integrator '%s' leaves out; 'volpath' has it", type_of(n)));
     const bool direct = !strcmp(type_of(n), "direct");
     const double most = direct ? 2 : number(r, n, "max_depth");
     scene->hides_lights = flag(r, n, "hide_emitters");
@@ -1244,6 +1262,29 @@ static koksma_status integrator(reader *r, const node *n, int depth)
     /* Mitsuba counts a path's segments, of which one comes from the camera and one from a light; --depth the others */
     scene->path_vertices = 1 + (most < 0 ? KOKSMA_MAX_DEPTH : (int)fmin(most - 2, KOKSMA_MAX_DEPTH));
     return KOKSMA_OK;
+}
+
+/* What may be meant by an element that is not read: a parameter of the parent's row, or a tag. */
+static const char *meant_by(const void *context, const node *parent, const node *n, char *text)
+{
+    static const char tags[] =
+        "scene sensor shape emitter integrator bsdf texture spectrum medium phase volume film sampler "
+        "rfilter ref alias default include path transform translate rotate scale lookat matrix "
+        "float integer boolean string rgb srgb point vector";
+    const reader *r = context;
+    const char *name = koksma__xml_attribute(n, "name");
+    const koksma__plugin *row = row_of(r, parent);
+    koksma__word_list words = {.n = 0};
+    koksma__entry e;
+    *text = '\0';
+    if (name && row && is_property(n)) {
+        return koksma__row_entry(row, name, &e) ? text : koksma__parameter_meant(row, name, text);
+    }
+    if (koksma__lists(tags, sizeof tags - 1, ' ', n->tag)) {
+        return text;
+    }
+    koksma__word_list_add(&words, tags, sizeof tags - 1, " ", "");
+    return koksma__or_meant(koksma__word_list_closest(&words, n->tag), text);
 }
 
 /* ---- The whole scene ---------------------------------------------------------------------------------------- */
@@ -1263,7 +1304,8 @@ static koksma_status judge(reader *r, const node *n)
 {
     const koksma__plugin *row = row_of(r, n);
     if (!row || *row->kinds == '?') {
-        return REPLACE(r, n, "%s '%s' is ignored", n->tag, type_of(n));
+        return REPLACE(r, n, "%s '%s' is ignored%s", n->tag, type_of(n),
+                       type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}));
     }
     const char *at = row->parameters;
     koksma__entry e = {.type = NULL};
@@ -1314,7 +1356,7 @@ static koksma_status read_root(reader *r)
     (void)koksma__xml_attribute(root, "version");
     KOKSMA__TRY(judge_unused(r, root));
     koksma__xml_mark(root, KOKSMA__XML_TAKEN);
-    return koksma__xml_name_unread(r->im, &r->xml);
+    return koksma__xml_name_unread(r->im, &r->xml, meant_by, r);
 }
 
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t size)

@@ -71,9 +71,14 @@ static inline void koksma__xml_mark(const koksma__xml_node *node, unsigned char 
     node->marks[0] |= marks;
 }
 
+/* Writes what may be meant by an element of `parent` that no reader has taken, as koksma__or_meant(). */
+typedef const char *koksma__xml_meant(const void *context, const koksma__xml_node *parent, const koksma__xml_node *n,
+                                      char *text);
+
 /* Warns about each element that no reader has taken, and each attribute that none has looked up, in the whole tree but for
    what is covered. Errors: MEMORY, MALFORMED (koksma__import_spend). */
-koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml);
+koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml, koksma__xml_meant *meant,
+                                      const void *context);
 
 /* Whether a text has this name of `length` bytes, as it is or in the form of Mitsuba 0.6: a capital is in place of '_'
    (toWorld, intIOR). */

@@ -769,6 +769,16 @@ static const char *kind_of(const reader *r)
     return *kind || !strstr(r->directive->name, "Material") ? kind : "none";
 }
 
+/* Warns about a kind that pbrt-v4 does not have. */
+static koksma_status name_kind(const reader *r, const char *name, const char *kind)
+{
+    char meant[KOKSMA__OR_MEANT];
+    const char *of = strcmp(name, "MakeNamedMaterial") ? name : "Material";
+    return koksma__import_unknown_if(!koksma__pbrt_is_kind(name, kind), r->im, r->parameters->place,
+                                     "%s '%.40s' is not one of pbrt-v4%s", name, kind,
+                                     koksma__kind_meant(&koksma__pbrt_plugins, of, kind, meant));
+}
+
 /* Warns about parameters that pbrt-v4 would refuse, whoever reads the directive, before it is read. */
 static koksma_status judge_parameters(void *from)
 {
@@ -779,9 +789,7 @@ static koksma_status judge_parameters(void *from)
     if (!strcmp(name, "Attribute")) {
         return KOKSMA_OK; /* take_attribute() knows whose parameters they are */
     }
-    KOKSMA__TRY(koksma__import_unknown_if(r->directive->kind == TYPE && *kind && !koksma__pbrt_is_kind(name, kind),
-                                          r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", name,
-                                          kind));
+    KOKSMA__TRY(r->directive->kind == TYPE && *kind ? name_kind(r, name, kind) : KOKSMA_OK);
     return koksma__pbrt_name_parameters(r->im, name, kind, r->parameters);
 }
 
@@ -791,9 +799,7 @@ static koksma_status name_unread(reader *r, size_t n_before)
 {
     const char *name = r->directive->name, *kind = kind_of(r);
     const bool silent = n_before == count_unknown(r);
-    KOKSMA__TRY(koksma__import_unknown_if(r->directive->kind != NONE && silent && !koksma__pbrt_is_kind(name, kind),
-                                          r->im, r->parameters->place, "%s '%.40s' is not one of pbrt-v4", name,
-                                          kind));
+    KOKSMA__TRY(r->directive->kind != NONE && silent ? name_kind(r, name, kind) : KOKSMA_OK);
     return r->directive->describes && silent ? koksma__pbrt_name_unused(r->im, name, kind, r->parameters) : KOKSMA_OK;
 }
 
@@ -849,8 +855,14 @@ static koksma_status read_source(reader *r, source *s)
             i++;
         }
         if (t.kind != KOKSMA__PBRT_WORD || i == n) {
-            return koksma__import_fail(s->place, "'%.*s' is not a directive of pbrt-v4",
-                                       t.length < 40 ? (int)t.length : 40, t.at);
+            koksma__word_list names = {.n = 0};
+            char meant[KOKSMA__OR_MEANT], word[48];
+            for (i = 0; i < n; i++) {
+                koksma__word_list_add(&names, directives[i].name, strlen(directives[i].name), "", "");
+            }
+            snprintf(word, sizeof word, "%.*s", t.length < 40 ? (int)t.length : 40, t.at);
+            return koksma__import_fail(s->place, "'%s' is not a directive of pbrt-v4%s", word,
+                                       koksma__or_meant(koksma__word_list_closest(&names, word), meant));
         }
         KOKSMA__TRY(read_directive(r, s, &directives[i]));
     }

@@ -83,6 +83,27 @@ const koksma__plugin *koksma__plugin_find(const koksma__plugins *all, const char
     return other;
 }
 
+const char *koksma__kind_meant(const koksma__plugins *all, const char *of, const char *kind, char *text)
+{
+    koksma__word_list kinds = {.n = 0};
+    for (size_t i = 0; i < all->n; i++) {
+        if (!strcmp(all->rows[i].of, of)) {
+            koksma__word_list_add(&kinds, all->rows[i].kinds, strlen(all->rows[i].kinds), " ", "");
+        }
+    }
+    return koksma__or_meant(koksma__word_list_closest(&kinds, kind), text);
+}
+
+const char *koksma__parameter_meant(const koksma__plugin *row, const char *name, char *text)
+{
+    koksma__word_list names = {.n = 0};
+    koksma__entry e = {.type = NULL};
+    for (const char *at = row->parameters; koksma__entry_next(&at, &e);) {
+        koksma__word_list_add(&names, e.name, e.length, "", "");
+    }
+    return koksma__or_meant(koksma__word_list_closest(&names, name), text);
+}
+
 bool koksma__row_entry(const koksma__plugin *row, const char *name, koksma__entry *out)
 {
     const char *text = row->parameters;

@@ -45,13 +45,14 @@ const char *koksma__xml_attribute(const koksma__xml_node *node, const char *name
 }
 
 /* Warns about an element that no reader has taken. */
-static koksma_status name_element(koksma__import *im, const koksma__xml_node *parent, const koksma__xml_node *n)
+static koksma_status name_element(koksma__import *im, const koksma__xml_node *parent, const koksma__xml_node *n,
+                                  const char *meant)
 {
     const char *name = koksma__xml_attribute(n, "name"), *type = koksma__xml_attribute(parent, "type");
     char what[80], where[136];
     snprintf(what, sizeof what, name ? "'%.60s' of" : "<%.60s> in", name ? name : n->tag);
     snprintf(where, sizeof where, type ? "%.60s '%.60s'" : "%.60s", parent->tag, type);
-    return koksma__import_unknown(im, n->place, "%s %s is ignored", what, where);
+    return koksma__import_unknown(im, n->place, "%s %s is ignored%s", what, where, meant);
 }
 
 /* Warns about the attributes of an element that no reader has looked up; all elements may have a name and an id. */
@@ -67,8 +68,10 @@ static koksma_status name_attributes(koksma__import *im, const koksma__xml_node 
     return KOKSMA_OK;
 }
 
-koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml)
+koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml, koksma__xml_meant *meant,
+                                      const void *context)
 {
+    char text[KOKSMA__OR_MEANT];
     /* parents precede their children, so that marks go down the tree in one pass */
     for (size_t i = 0; i < xml->n && !koksma__import_is_full(im); i++) {
         const koksma__xml_node *n = &xml->nodes[i];
@@ -77,7 +80,9 @@ koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml
         KOKSMA__TRY(covered ? KOKSMA_OK : name_attributes(im, n));
         for (int c = n->first; c >= 0 && !koksma__import_is_full(im); c = xml->nodes[c].next) {
             const koksma__xml_node *child = &xml->nodes[c];
-            KOKSMA__TRY(covered || child->marks[0] & KOKSMA__XML_TAKEN ? KOKSMA_OK : name_element(im, n, child));
+            KOKSMA__TRY(covered || child->marks[0] & KOKSMA__XML_TAKEN
+                            ? KOKSMA_OK
+                            : name_element(im, n, child, meant(context, n, child, text)));
             koksma__xml_mark(child, covered || !(child->marks[0] & KOKSMA__XML_TAKEN) ? KOKSMA__XML_COVERED : 0);
         }
     }
