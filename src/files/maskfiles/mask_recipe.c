@@ -58,20 +58,6 @@ koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_optio
     return status;
 }
 
-static koksma_status read_whole(const koksma__json_node *root, const char *key, long long max, long long *out)
-{
-    koksma__json_node node;
-    KOKSMA__TRY(koksma__json_member(root, key, &node));
-    return koksma__json_whole(&node, 0, max, out);
-}
-
-static koksma_status read_number(const koksma__json_node *root, const char *key, double max, double *out)
-{
-    koksma__json_node node;
-    KOKSMA__TRY(koksma__json_member(root, key, &node));
-    return koksma__json_number(&node, 0, max, out);
-}
-
 static koksma_status read_weights(const koksma__json_node *root, koksma_mask_filter *f)
 {
     koksma__json_node rows;
@@ -106,23 +92,22 @@ static koksma_status read_texts(const koksma__json_node *root, koksma_mask_optio
     char *end;
     out->seed = strtoull(text, &end, 10);
     KOKSMA__JSON_FAIL_IF(end == text || *end, &node, "a text of a whole number is expected");
-    KOKSMA__TRY(koksma__json_member(root, "open", &node));
-    return koksma__json_flag(&node, &out->open);
+    return koksma__json_get_flag(root, "open", true, &out->open);
 }
 
 static koksma_status read_options(const koksma__json_node *root, koksma_mask_options *out)
 {
     long long revision, width, height, levels, done;
-    KOKSMA__TRY(read_whole(root, "revision", 1000000, &revision));
+    KOKSMA__TRY(koksma__json_get_whole(root, "revision", true, 0, 1000000, &revision));
     KOKSMA__JSON_FAIL_IF(revision != KOKSMA_MASK_REVISION, root,
                          "made by revision %lld of the search; this library has %d and makes other masks", revision,
                          KOKSMA_MASK_REVISION);
-    KOKSMA__TRY(read_whole(root, "width", KOKSMA_MASK_MAX, &width));
-    KOKSMA__TRY(read_whole(root, "height", KOKSMA_MASK_MAX, &height));
-    KOKSMA__TRY(read_whole(root, "levels", KOKSMA_MASK_MAX * KOKSMA_MASK_MAX, &levels));
-    KOKSMA__TRY(read_whole(root, "done", (long long)1 << 53, &done));
-    KOKSMA__TRY(read_number(root, "swaps", 1e6, &out->swaps));
-    KOKSMA__TRY(read_number(root, "target", 1e100, &out->target));
+    KOKSMA__TRY(koksma__json_get_whole(root, "width", true, 0, KOKSMA_MASK_MAX, &width));
+    KOKSMA__TRY(koksma__json_get_whole(root, "height", true, 0, KOKSMA_MASK_MAX, &height));
+    KOKSMA__TRY(koksma__json_get_whole(root, "levels", true, 0, KOKSMA_MASK_MAX * KOKSMA_MASK_MAX, &levels));
+    KOKSMA__TRY(koksma__json_get_whole(root, "done", true, 0, (long long)1 << 53, &done));
+    KOKSMA__TRY(koksma__json_get_number(root, "swaps", true, 0, 1e6, &out->swaps));
+    KOKSMA__TRY(koksma__json_get_number(root, "target", true, 0, 1e100, &out->target));
     out->width = (int)width;
     out->height = (int)height;
     out->levels = (int)levels;
