@@ -31,13 +31,15 @@ typedef struct density {
 } density;
 
 /* Returns the luminance of a pixel. */
-static double share_of(const density *m, size_t pixel)
+static double share(const void *data, size_t pixel)
 {
+    const density *m = data;
     return m->sums[pixel] - (pixel ? m->sums[pixel - 1] : 0);
 }
 
-static void place_in(const density *m, const koksma__domain_point *point, double *x)
+static void place(const void *data, const koksma__domain_point *point, double *x)
 {
+    const density *m = data;
     x[0] = koksma__in_cell((double)(point->part % m->width), point->at[0], (double)m->width);
     x[1] = koksma__in_cell((double)(m->height - 1 - point->part / m->width), point->at[1], (double)m->height);
 }
@@ -130,11 +132,11 @@ static bool settle(const void *data, double *x, koksma__domain_point *point)
         to.at[k] = fmin(fmax(x[k] * cells[k] - cell[k], 0), 1 - 0x1p-53);
     }
     to.part = (cells[1] - 1 - cell[1]) * cells[0] + cell[0];
-    if (!(share_of(m, to.part) > 0)) {
+    if (!(share(m, to.part) > 0)) {
         return false;
     }
     *point = to;
-    place_in(m, point, x);
+    place(m, point, x);
     return true;
 }
 
@@ -228,7 +230,7 @@ static void sum_points(density_field *f)
         double *here = f->table + (j + 1) * (w + 1);
         here[0] = 0;
         for (size_t i = 0; i < w; i++) {
-            row += scale * share_of(f->m, (h - 1 - j) * w + i);
+            row += scale * share(f->m, (h - 1 - j) * w + i);
             here[i + 1] = below[i + 1] + row;
         }
     }
@@ -266,16 +268,6 @@ static void draw(const void *data, uint64_t seed, uint64_t i, koksma__domain_poi
     koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 0, which);
     koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 1, point->at);
     point->part = (uint32_t)koksma__domain_find(m->sums, pixels, which[0] * m->sums[pixels - 1]);
-}
-
-static void place(const void *data, const koksma__domain_point *point, double *x)
-{
-    place_in(data, point, x);
-}
-
-static double share(const void *data, size_t part)
-{
-    return share_of(data, part);
 }
 
 static double unit_of(const void *data, size_t part)
