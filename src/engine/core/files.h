@@ -65,6 +65,9 @@ enum { KOKSMA__MAX_PATH = 4096 };
    is too long. */
 KOKSMA__LAB bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH]);
 
+/* Returns FOLDER/PATH, or a copy of the path if folder is NULL, to be freed; NULL without memory. */
+char *koksma__path_below(const char *folder, const char *path);
+
 /* ---- Writing ---- */
 
 typedef struct koksma__atomic_file {
@@ -92,9 +95,6 @@ KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool k
 /* Makes closing keep a file that exists, also if another process makes it at this moment; *made then tells which. NULL: it
    is replaced. */
 void koksma__atomic_keep_old(koksma__atomic_file *file, bool *made);
-
-/* Returns FOLDER/PATH, or a copy of the path if folder is NULL, to be freed; NULL without memory. */
-char *koksma__path_below(const char *folder, const char *path);
 
 /* Opens a file, writes the bytes and closes it. */
 KOKSMA__LAB koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size);

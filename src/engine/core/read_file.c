@@ -212,6 +212,16 @@ koksma_status koksma__hash_file(const char *path, uint64_t *hash)
     return KOKSMA_OK;
 }
 
+char *koksma__path_below(const char *folder, const char *path)
+{
+    const size_t size = strlen(path) + (folder ? strlen(folder) : 0) + 2;
+    char *whole = malloc(size);
+    if (whole) {
+        snprintf(whole, size, "%s%s%s", folder ? folder : "", folder ? "/" : "", path);
+    }
+    return whole;
+}
+
 bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH])
 {
     const char *slash = koksma__last_slash(name);

@@ -22,8 +22,8 @@ typedef struct koksma__run_of_points {
 koksma_status koksma__torus_rows_init(koksma__torus_rows *rows, size_t n, size_t cells);
 void koksma__torus_rows_fini(koksma__torus_rows *rows);
 
-/* Sorts n points, each a pair of coordinates in [0, 1]; in a cell they keep their order. wrap: the coordinate 1 becomes 0, as
-   on the torus; otherwise it is in the last cell. */
+/* Sorts n points, each a pair of coordinates in [0, 1]; in a cell they keep their order. wrap: the coordinate 1 becomes
+   0, as on the torus; otherwise it is in the last cell. */
 void koksma__torus_rows_sort(koksma__torus_rows *rows, size_t n, const double *points, bool wrap);
 
 /* Returns the largest number of runs that koksma__torus_rows_near can return for a radius of at most 1/2. */

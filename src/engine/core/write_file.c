@@ -3,19 +3,8 @@
 #include "core/files.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "core/status.h"
-
-char *koksma__path_below(const char *folder, const char *path)
-{
-    const size_t size = strlen(path) + (folder ? strlen(folder) : 0) + 2;
-    char *whole = malloc(size);
-    if (whole) {
-        snprintf(whole, size, "%s%s%s", folder ? folder : "", folder ? "/" : "", path);
-    }
-    return whole;
-}
 
 static koksma_status put_file(const char *folder, const char *path, const void *bytes, size_t size, bool *made)
 {
