@@ -140,6 +140,78 @@ TEST_CASE(runs_equal_plain_search)
     }
 }
 
+static void expect_bounds(const koksma__run_list *all, const koksma__run_list *list, const koksma__strip_set *set,
+                          double n, bool exactly)
+{
+    double sides[6][16], exact[2][16], bound[2][16], other[2][16];
+    for (size_t l = 0; l < 16; l++) {
+        sides[0][l] = sides[3][l] = set->a1 + (set->a2 - set->a1) * (double)(l % 4) / 3;
+        sides[1][l] = sides[4][l] = set->b1 + (set->b2 - set->b1) * (double)(l / 4) / 3;
+        sides[2][l] = sides[5][l] = n * (sides[1][l] - sides[0][l]);
+    }
+    const double(*const lanes)[16] = (const double(*)[16])sides;
+    const double(*const lines)[KOKSMA__RUN_NUMBERS] = (const double(*)[KOKSMA__RUN_NUMBERS])list->runs;
+    const koksma__kernel_table *ref = koksma__kernels_find("ref");
+    ref->extreme_strips(all->count - 1, all->x, all->y, lanes, exact[0], exact[1]);
+    ref->extreme_runs(list->count, list->x, list->y, lines, lanes, bound[0], bound[1]);
+    for (int k = 0; k < 2; k++) {
+        for (size_t l = 0; l < 16; l++) {
+            assert_true(bound[k][l] >= exact[k][l] - 1e-9 && bound[k][l] <= exact[k][l] + (exactly ? 1e-9 : 2));
+        }
+    }
+    static const char *const isas[] = {"baseline", "avx2", "avx512"};
+    for (int isa = 0; isa < 3; isa++) {
+        const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+        if (fast) {
+            fast->extreme_runs(list->count, list->x, list->y, lines, lanes, other[0], other[1]);
+            assert_memory_equal(bound, other, sizeof bound);
+        }
+    }
+}
+
+/* Lists of narrower and narrower sets bound all their strips from above, and equal them where there is one width; the
+   kernel equals its twin. */
+TEST_CASE(runs_bound_their_strips)
+{
+    enum { N = 3000 };
+    static double x[N + 1], y[N + 1];
+    koksma__run_place *places = malloc(3 * KOKSMA__RUN_CAPACITY * sizeof *places);
+    koksma__run_list all = {.count = N + 1, .x = x, .y = y}, lists[3];
+    for (size_t i = 0; i < N; i++) { /* every fifth height is repeated */
+        x[i] = sets_unit(5, i);
+        y[i] = i % 5 == 4 ? y[i - 1] : ((double)i + sets_unit(6, i)) / N;
+    }
+    x[N] = HUGE_VAL;
+    y[N] = 1;
+    assert_non_null(places);
+    for (size_t i = 0; i < 3; i++) {
+        koksma__run_list_init(&lists[i], places + i * KOKSMA__RUN_CAPACITY);
+    }
+    for (uint64_t seed = 0; seed < test_repeats(60, 6); seed++) {
+        koksma__strip_set set = {.a1 = 0.4 * sets_unit(7, seed), .b1 = 0.4 + 0.5 * sets_unit(8, seed)};
+        const koksma__run_list *from = &all;
+        for (size_t i = 0; i < 3; i++) {
+            const double size = 0.08 * pow(0.2, (double)i);
+            set.a1 += i * size * sets_unit(9 + i, seed);
+            set.b1 += i * size * sets_unit(12 + i, seed);
+            set.a2 = set.a1 + size;
+            set.b2 = set.b1 + size;
+            set.narrow = N * fmax(0, set.b1 - set.a2);
+            set.wide = N * (set.b2 - set.a1);
+            assert_true(koksma__run_list_narrow(from, &set, &lists[i]));
+            expect_bounds(&all, &lists[i], &set, N, false);
+            from = &lists[i];
+        }
+        set.a2 = set.a1;
+        set.b2 = set.b1;
+        set.narrow = set.wide = N * (set.b1 - set.a1);
+        assert_true(koksma__run_list_narrow(&all, &set, &lists[0]));
+        expect_bounds(&all, &lists[0], &set, N, true);
+    }
+    assert_false(koksma__run_list_narrow(&all, &(koksma__strip_set){0, 0.5, 0.5, 1, 0, N}, &lists[0]));
+    free(places);
+}
+
 /* What the witness of a grid holds, counted in doubles as everywhere. */
 TEST_CASE(witness_of_a_grid)
 {
