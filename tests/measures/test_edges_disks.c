@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Half-planes and disks against brute force, quadrature and sampling. */
+#include <string.h>
 
 #include "kernels/kernels.h"
 #include "measures/edge/edge.h"
@@ -106,6 +107,41 @@ TEST_CASE(edge_equals_brute_force)
         assert_near(fabs((double)inside / (double)p.n - v.witness.volume), v.value, 1e-15);
         koksma_points_fini(&p);
     }
+}
+
+/* With all the time there is, the bounds close upon the value from both sides. */
+TEST_CASE(bounds_of_edge_hold)
+{
+    static const koksma__domain square = {koksma__area_below_through, NULL, M_SQRT1_2};
+    for (int s = 0; s < test_repeats(10, 3) * SETS_KINDS; s++) {
+        koksma_points p = sets_points(1 + (size_t)s % 30, 2, s % SETS_KINDS, (uint64_t)s);
+        const double value = test_measure("edge", &p).value;
+        koksma__edge_line line = {.value = 0};
+        double upper = NAN;
+        assert_ok(koksma__edge_cover(&square, p.n, p.xs, NULL, INFINITY, &line, &upper));
+        assert_true(line.value <= value + 1e-15);
+        assert_true(upper >= value);
+        assert_near(upper, value, 4e-9);
+        assert_near(line.value, value, 4e-9);
+        koksma_points_fini(&p);
+    }
+}
+
+TEST_CASE(edge_obeys_its_time_limit)
+{
+    koksma_points p = test_points("random", 2000, 2, 1);
+    const double value = test_measure("edge", &p).value;
+    koksma_spec edge;
+    assert_ok(koksma_measure_spec("edge", &edge));
+    for (double limit_s = 1e-6; limit_s < 0.5; limit_s *= 10) {
+        const koksma_run run = {.time_limit_s = limit_s};
+        koksma_value v;
+        assert_ok(koksma_evaluate(&edge, &p, &run, &v));
+        assert_true(v.lower <= value && value <= v.upper + 1e-14 && v.value == v.lower);
+        assert_true(v.exact == (v.lower == v.upper));
+        assert_true(limit_s > 1e-5 || !v.exact);
+    }
+    koksma_points_fini(&p);
 }
 
 TEST_CASE(signs_are_exact)

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Branch and bound for boxes in the plane against the plain search and a published value; its kernel against the
-   twin; threads. */
+   twin; bounds when time is short; threads. */
+#include <stdlib.h>
+#include <string.h>
 
+#include "core/clock.h"
 #include "kernels/kernels.h"
 #include "measures/extreme/extreme.h"
 #include "sets.h"
@@ -231,6 +234,55 @@ TEST_CASE(witness_of_a_grid)
         }
         assert_int_equal(count, v.witness.count);
         assert_near(fabs((double)count / (double)p.n - v.witness.volume), v.value, 1e-15);
+        koksma_points_fini(&p);
+    }
+}
+
+TEST_CASE(short_time_gives_bounds)
+{
+    koksma_points p = test_points("jittered", 256, 2, 3);
+    koksma_spec spec;
+    koksma_value exact, cut;
+    assert_ok(koksma_measure_spec("extreme", &spec));
+    assert_ok(koksma_evaluate(&spec, &p, NULL, &exact));
+    assert_true(exact.exact && exact.upper == exact.value && exact.lower == exact.value);
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.time_limit_s = 1e-6}, &cut));
+    assert_true(cut.lower <= exact.value + 1e-15 && cut.upper >= exact.value - 1e-15);
+    koksma_points_fini(&p);
+}
+
+/* Time that passes by a second whenever somebody asks: what a limit allows does not depend on the machine. */
+static double seconds_asked;
+
+static double ticking(void)
+{
+    return seconds_asked++;
+}
+
+/* Sets that take minutes end in time, with bounds that say something. */
+TEST_CASE(large_sets_obey_the_time_limit)
+{
+    static const struct {
+        const char *measure, *pattern;
+        size_t n;
+        int dim;
+        double upper;
+    } cases[] = {
+        {"extreme", "hammersley", 16384, 2, 0.1},
+        {"extreme", "random", 200000, 2, 0.2},
+        {"star", "random", 50000, 6, 1},
+        {"star-lower:steps=1000000000", "random", 50000, 6, 1},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        koksma_points p = test_points(cases[c].pattern, cases[c].n, cases[c].dim, 0);
+        koksma_spec spec;
+        koksma_value v;
+        assert_ok(koksma_measure_spec(cases[c].measure, &spec));
+        koksma__set_clock(ticking);
+        assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1, .time_limit_s = test_repeats(100, 20)}, &v));
+        koksma__set_clock(NULL);
+        assert_true(!v.exact && v.value == v.lower && v.lower > 0 && v.lower < v.upper);
+        assert_true(v.upper <= cases[c].upper);
         koksma_points_fini(&p);
     }
 }

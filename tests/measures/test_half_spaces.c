@@ -239,6 +239,28 @@ TEST_CASE(repeats_and_larger_sets)
     koksma_points_fini(&p);
 }
 
+TEST_CASE(edge_keeps_its_limits)
+{
+    koksma_spec edge;
+    koksma_value v, one;
+    koksma_points p = test_points("random", 1025, 3, 1), small = test_points("random", 40, 3, 1);
+    assert_ok(koksma_measure_spec("edge", &edge));
+    assert_int_equal(koksma_evaluate(&edge, &p, NULL, &v), KOKSMA_N);
+    assert_string_equal(koksma_error_text(), "edge: n = 1025: it takes up to 1024 points in 3D; l2-edge takes more");
+    koksma_points_fini(&p);
+    assert_ok(koksma_evaluate(&edge, &small, &(koksma_run){.threads = 1}, &one));
+    assert_ok(koksma_evaluate(&edge, &small, &(koksma_run){.time_limit_s = 1e-9}, &v));
+    assert_true(!v.exact && v.lower == v.value && v.value <= one.value && v.upper == 1);
+    check_witness(&small, &v);
+    static const char *const plane_only[] = {"l2-edge:law=mitchell", "edge-sampled:law=mitchell"};
+    for (int m = 0; m < 2; m++) {
+        koksma_spec spec;
+        assert_ok(koksma_measure_spec(plane_only[m], &spec));
+        assert_int_equal(koksma_evaluate(&spec, &small, NULL, &v), KOKSMA_ARGUMENT);
+    }
+    koksma_points_fini(&small);
+}
+
 /* Mean square and its standard error over sets, and what the exact measure has for them. */
 TEST_CASE(exact_agrees_with_sampled)
 {

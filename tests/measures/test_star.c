@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The ways to the star discrepancy against each other, against brute force in one and four dimensions and against
    closed forms; bounds when time is short; threads. */
+#include <string.h>
 
 #include <koksma/series.h>
 
@@ -123,6 +124,38 @@ TEST_CASE(partition_equals_sweep)
         assert_true(complete);
         assert_near(v.value, test_measure("star", &p).value, 1e-15);
         koksma_points_fini(&p);
+    }
+}
+
+TEST_CASE(short_time_gives_bounds)
+{
+    koksma_points p = test_points("random", 400, 4, 2);
+    koksma_spec spec;
+    koksma_value exact, cut;
+    assert_ok(koksma_measure_spec("star", &spec));
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &exact));
+    assert_true(exact.exact && exact.lower == exact.value && exact.upper == exact.value);
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1, .time_limit_s = 0.02}, &cut));
+    assert_true(cut.lower <= exact.value && cut.upper >= exact.value && cut.upper <= 1 && cut.value == cut.lower);
+    koksma_points_fini(&p);
+}
+
+/* Even when there is no time for a first look at anything, the bounds are those of some box. */
+TEST_CASE(no_time_gives_bounds)
+{
+    static const char *const names[] = {"star", "star-lower", "extreme"};
+    for (int m = 0; m < 3; m++) {
+        for (int s = 0; s < 40; s++) {
+            koksma_points p = sets_points(100, m == 2 ? 3 : 5, s % SETS_KINDS, (uint64_t)s);
+            koksma_spec spec;
+            koksma_value cut;
+            assert_ok(koksma_measure_spec(names[m], &spec));
+            assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.time_limit_s = 1e-9}, &cut));
+            const double share = (double)cut.witness.count / (double)p.n, volume = cut.witness.volume;
+            assert_true(cut.value >= 0 && cut.value == (cut.witness.closed ? share - volume : volume - share));
+            assert_true(!cut.exact && cut.lower == cut.value && cut.upper > cut.value && cut.upper <= 1);
+            koksma_points_fini(&p);
+        }
     }
 }
 

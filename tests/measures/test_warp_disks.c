@@ -209,3 +209,52 @@ TEST_CASE(concentric_beats_polar)
         }
     }
 }
+
+/* phi - sin phi cos phi without cancelling. */
+static double segment(double one_less_cosine)
+{
+    const double phi = 2 * asin(sqrt(one_less_cosine / 2)), x = 2 * phi;
+    double term = x * x * x / 6, sum = 0;
+    for (int k = 4; fabs(term) > 1e-20 * sum; k += 2) {
+        sum += term;
+        term *= -x * x / (k * (k + 1));
+    }
+    return sum / 2;
+}
+
+/* Disks of radius 1 and r a distance 1 + r - e apart share two segments. Small and large e, down to rounding. */
+TEST_CASE(disks_that_touch)
+{
+    for (int i = 0; i < 200; i++) {
+        const double r = i % 4 == 0 ? 1 : 0.25 * (i % 4), distance = (1 + r) - 0.4 * r * pow(10, -0.08 * i);
+        const double e = (1 + r) - distance; /* exact */
+        const double one = segment(e * (2 * r - e) / (2 * distance)),
+                     other = segment(e * (2 - e) / (2 * distance * r));
+        assert_near(koksma__disks_share(r, distance), one + r * r * other, 3e-16);
+    }
+}
+
+/* Planes through the centre separate two points with the chance of their angle over pi: also of opposite ones. */
+TEST_CASE(points_that_are_opposite)
+{
+    for (int i = 0; i < 160; i++) {
+        const double angle = M_PI - pow(10, -0.1 * i), p[3] = {1, 0, 0}, q[3] = {cos(angle), 0, sin(angle)};
+        assert_near(koksma__domain_separates(KOKSMA__HEMISPHERE, p, q), angle / M_PI, 3e-16);
+        assert_near(koksma__domain_separates(KOKSMA__HEMISPHERE, q, p), angle / M_PI, 3e-16);
+    }
+}
+
+/* Known exactly: a point; two opposite points, which every plane through the centre divides evenly; the six corners of an
+   octahedron, with 12 distances sqrt 2 at right angles and 3 distances 2. */
+TEST_CASE(few_points_on_the_sphere)
+{
+    static double xs[] = {0, 0, 1, 0.3, 0.5, 0, 0.5, 0.25, 0.5, 0.5, 0.5, 0.75};
+    const koksma_points point = {1, 2, xs}, opposite = {2, 2, xs}, octahedron = {6, 2, xs};
+    assert_near(warped("sphere", "l2-disk:law=area", &point).square, 1.0 / 6, 1e-15);
+    assert_near(warped("sphere", "l2-disk:law=area", &opposite).square, 1.0 / 24, 1e-15);
+    assert_near(warped("sphere", "l2-disk:law=area", &octahedron).square, (2.0 / 3 - (12 * sqrt(2) + 6) / 36) / 4,
+                1e-15);
+    assert_near(warped("sphere", "l2-edge", &point).square, 0.25, 1e-15);
+    assert_near(warped("sphere", "l2-edge", &opposite).square, 0, 1e-15);
+    assert_near(warped("sphere", "l2-edge", &octahedron).square, 0.25 - (12 * 0.5 + 3) / 36, 1e-15);
+}
