@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The images of a scene: each is read once for each use, and belongs to the scene. */
+#include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <koksma/image.h>
@@ -58,6 +60,66 @@ TEST_CASE(a_file_is_read_once_for_each_use)
     assert_int_equal(scene.image_bytes, 8 + 8 + 24);
     unlink("other.pfm");
     unlink("two.pfm");
+    koksma__scene_images_fini(&scene);
+}
+
+/* A failure is remembered, whatever the tint; one of opening is not. */
+TEST_CASE(a_damaged_file_is_read_once)
+{
+    koksma_scene scene = {.n_images = 0};
+    koksma_image *image;
+    koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+    static const unsigned char damaged[] = "Pf\n2 2\n-1\n";
+    for (int i = 0; i < 3; i++) {
+        use.tint[0] = i;
+        assert_int_equal(koksma__scene_image_within(&scene, "images[0]", damaged, 10, &use, &image),
+                         KOKSMA_MALFORMED);
+        assert_string_equal(koksma_error_text(), "images[0]: cut short: it claims 2 x 2 pixels but has only 0 bytes");
+        assert_null(image);
+        assert_false(koksma__is_refused());
+        assert_int_equal(koksma__scene_image(&scene, "none.pfm", &use, &image), KOKSMA_MISSING);
+    }
+    assert_int_equal(scene.n_images, 1);
+    koksma__scene_images_fini(&scene);
+}
+
+/* What was decoded before a failure counts, for each part: here one pixel and the bytes of the file. */
+TEST_CASE(failures_count)
+{
+    koksma_scene scene = {.n_images = 0};
+    koksma_image *image;
+    static const unsigned char infinite[] = "Pf\n1 1 -1\n\0\0\x80\x7F";
+    for (int part = KOKSMA__IMAGE_COLOURS; part <= KOKSMA__IMAGE_NUMBERS; part++) {
+        koksma__image_use use = KOKSMA__PLAIN_IMAGE;
+        use.part = (koksma__image_part)part;
+        for (int i = 0; i < 2; i++) {
+            assert_int_equal(koksma__scene_image_within(&scene, "a", infinite, 14, &use, &image), KOKSMA_MALFORMED);
+            assert_string_equal(koksma_error_text(), "a: pixel 0,0 has the value inf");
+        }
+        assert_int_equal(scene.image_bytes, (part + 1) * (4 + 14));
+        assert_int_equal(scene.image_file_bytes, 14);
+    }
+    koksma__scene_images_fini(&scene);
+}
+
+/* Bytes within a model count once, however the images in them overlap. */
+TEST_CASE(bytes_of_files_count_once)
+{
+    koksma_scene scene = {.n_images = 0};
+    koksma_image *image;
+    unsigned char bytes[34] = "Pf\n1 1 -1\n....Pf\n1 1 -1\n....", more[14];
+    assert_ok(koksma__scene_image_within(&scene, "a", bytes, 14, &KOKSMA__PLAIN_IMAGE, &image));
+    assert_int_equal(scene.image_file_bytes, 14);
+    assert_ok(koksma__scene_image_within(&scene, "b", bytes + 14, 14, &KOKSMA__PLAIN_IMAGE, &image));
+    assert_int_equal(scene.image_file_bytes, 28);
+    koksma__image_use numbers = KOKSMA__PLAIN_IMAGE;
+    numbers.part = KOKSMA__IMAGE_NUMBERS;
+    assert_ok(koksma__scene_image_within(&scene, "a", bytes, 14, &numbers, &image));
+    assert_int_equal(koksma__scene_image_within(&scene, "c", bytes, 28, &numbers, &image), KOKSMA_MALFORMED);
+    assert_int_equal(scene.image_file_bytes, 28);
+    memcpy(more, bytes, sizeof more);
+    assert_ok(koksma__scene_image_within(&scene, "d", more, sizeof more, &numbers, &image));
+    assert_int_equal(scene.image_file_bytes, 42);
     koksma__scene_images_fini(&scene);
 }
 
