@@ -225,15 +225,6 @@ class ErrorsSpeakPython(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "pattern must be a str, not 16"):
             koksma.generate(16, "random")
 
-    def test_reasons(self):
-        """Why a pattern is left out of a ranking, and which ones end it."""
-        ranking = koksma.rank("ball", ["jittered", "random"], 7, size=(8, 6), max_trials=8, one_size=True)
-        self.assertIn("n = 4 or 9 would do", {row.pattern: row.reason for row in ranking.rows}["jittered"])
-        with self.assertRaisesRegex(koksma.ForbiddenError, r"koksma\.allow_exec\(\)"):
-            koksma.rank("ball", ["exec:./x", "random"], 4, size=(8, 6), max_trials=8, one_size=True)
-        with self.assertRaisesRegex(koksma.MissingError, "none.txt"):
-            koksma.rank("ball", ["random", "file:none.txt"], 4, size=(8, 6), max_trials=8, one_size=True)
-
 
 class Datasheets(unittest.TestCase):
     def test_datasheet(self):

@@ -211,18 +211,6 @@ class Rendering(unittest.TestCase):
             with self.subTest(arguments=arguments), self.assertRaisesRegex(koksma.Error, said):
                 koksma.render("ball", spp=4, size=(8, 8), **arguments)
 
-    def test_write_image(self):
-        image = koksma.render("balls", spp=1, size=(12, 9))
-        with tempfile.TemporaryDirectory() as folder:
-            for ending, exact in (("pfm", True), ("png", False)):
-                path = os.path.join(folder, "image." + ending)
-                koksma.write_image(path, image)
-                read = koksma.read_image(path)
-                self.assertEqual(read.shape, image.shape)
-                self.assertEqual(np.array_equal(read, image), exact)
-            with self.assertRaises(koksma.Error):
-                koksma.write_image(os.path.join(folder, "image.xyz"), image)
-
 
 class Axes(unittest.TestCase):
     """Curves on matplotlib's axes: the numbers of the results; without matplotlib, or with other axes, a sentence or those."""
