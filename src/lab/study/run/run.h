@@ -82,9 +82,7 @@ bool koksma__work_queue_take_lost(koksma__work_queue *queue, size_t *i);
 bool koksma__work_queue_put(koksma__work_queue *queue, size_t i);
 
 /*
- * References that are being rendered. A reference is cut into tiles of whole rows; the number of tiles depends on
- * its size. A tile holds the sums of all replicates of its rows, added in their order. So the picture has the same
- * bits whichever thread or rank renders which tile, and memory holds only the sums of references that are being
+ * References that are being rendered, in tiles of whole rows. Memory holds only the sums of references that are being
  * rendered.
  */
 
@@ -100,22 +98,6 @@ typedef struct koksma__reference_tiles {
     koksma__replicates *sums; /* one entry per reference of the study */
     long long *rows_left;     /* per reference: number of rows not yet rendered */
 } koksma__reference_tiles;
-
-/* Reads the references that the tasks' jobs need and that have a file; lists the tiles of the others. */
-koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_tiles *tiles);
-void koksma__tiles_close(koksma__reference_tiles *tiles);
-
-/* Renders a tile into *out, the sums of its rows. The caller frees out->sum. */
-koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference_tile *tile, const koksma_run *run,
-                              koksma__replicates *out);
-
-/* Copies a tile's sums into those of its reference; *complete tells whether this was the reference's last tile. Calls
-   must not overlap, and each tile must be put only once. */
-koksma_status koksma__tiles_put(koksma__reference_tiles *tiles, const koksma__reference_tile *tile,
-                                const koksma__replicates *sums, bool *complete);
-
-/* Makes the pixels, the file and the store's row of a reference whose tiles are complete. */
-koksma_status koksma__tiles_finish(koksma__reference_tiles *tiles, size_t reference);
 
 /*
  * The state of a phase of a run (the discrepancies or the images of a plan): the assignments that are left, and the
