@@ -175,15 +175,16 @@ enum {
     KOKSMA__NEEDS_FIGURES = 512
 };
 
-/* A kind of question that the report answers from blocks of the plan; each is a line of questions.def. */
-typedef struct koksma__question_kind {
+/* A kind of question that the report answers from blocks of the plan, or of conclusion: a line of questions.def, or of
+   conclusions.def, which has no heading and rows. */
+typedef struct koksma__plan_kind {
     const char *name;
     unsigned fields;
     const char *heading, *rows;
-} koksma__question_kind;
+} koksma__plan_kind;
 
-/* All kinds of questions, ended by an entry whose name is NULL (plan_questions.c). */
-extern const koksma__question_kind koksma__question_kinds[];
+/* All kinds, each list ended by an entry whose name is NULL (plan_questions.c). */
+extern const koksma__plan_kind koksma__question_kinds[], koksma__conclusion_kinds[];
 
 /* Scenes of a question that have the same main source of error. */
 typedef struct koksma__scene_group {
@@ -194,28 +195,19 @@ typedef struct koksma__scene_group {
 typedef struct koksma__question {
     char *id, *title;
     size_t part; /* index of the part (of a joined plan) that has this question */
-    const koksma__question_kind *kind;
+    const koksma__plan_kind *kind;
     char *discrepancies, *images; /* ids of the question's blocks; NULL: none */
     char *metric;                 /* canonical spec of the metric that ranks patterns; NULL: that of the plan */
     size_t n_groups;
     koksma__scene_group *groups;
 } koksma__question;
 
-/* A kind of conclusion; each is a line of conclusions.def. */
-typedef struct koksma__conclusion_kind {
-    const char *name;
-    unsigned fields;
-} koksma__conclusion_kind;
-
-/* All kinds of conclusions, ended by an entry whose name is NULL (plan_conclusions.c). */
-extern const koksma__conclusion_kind koksma__conclusion_kinds[];
-
 /* What a paper concludes, and where its test is. studies/README.md has the meaning of the members by kind. */
 typedef struct koksma__conclusion {
     size_t part;  /* index of the part (of a joined plan) that has this conclusion */
     char *says;   /* the conclusion in words */
     char *remark; /* words that follow the result, or NULL */
-    const koksma__conclusion_kind *kind;
+    const koksma__plan_kind *kind;
     koksma__texts tables, by, figures;       /* ids */
     koksma__texts patterns, against, beside; /* canonical specs; beside: shown without a test */
     char *images, *discrepancies;            /* ids of blocks, or NULL */

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reads and checks the questions of a plan. A question has an id, a title, a kind, the ids of the blocks that it
- * is about, perhaps the metric that ranks its patterns and, for some kinds, groups of scenes. The table of kinds,
- * questions.def, defines which members a kind needs or takes. The blocks and scenes that a question names are checked
- * after the whole plan has been read, because a plan may list blocks after questions.
+ * Reads and checks the questions and the conclusions of a plan. A question has an id, a title, a kind, the ids of the
+ * blocks that it is about, perhaps the metric that ranks its patterns and, for some kinds, groups of scenes. A conclusion
+ * has what a paper concludes, in words, and the kind of test of it, with the tables or blocks whose rows decide it and the
+ * patterns that it is about. The tables of kinds, questions.def and conclusions.def, define which members a kind needs or
+ * takes. What they name is checked after the whole plan has been read, because a plan may list blocks after questions.
  */
 #include <stdio.h>
 #include <string.h>
@@ -13,12 +14,42 @@
 #include "core/status.h"
 #include "study/plan/plan.h"
 #include "study/plan/plan_read.h"
+#include "study/plan/variants.h"
 
-const koksma__question_kind koksma__question_kinds[] = {
+const koksma__plan_kind koksma__question_kinds[] = {
 #define QUESTION(name, fields, heading, rows) {#name, fields, heading, rows},
 #include "study/plan/questions.def"
 #undef QUESTION
     {0}};
+
+const koksma__plan_kind koksma__conclusion_kinds[] = {
+#define CONCLUSION(name, fields) {#name, fields, NULL, NULL},
+#include "study/plan/conclusions.def"
+#undef CONCLUSION
+    {0}};
+
+/* Reads the member "kind"; the error names all of them as "table, correlation, ... or inequality". */
+static koksma_status parse_kind(const koksma__json_node *node, const koksma__plan_kind *kinds,
+                                const koksma__plan_kind **out)
+{
+    const char *name;
+    char names[256] = "";
+    KOKSMA__TRY(koksma__json_get_text(node, "kind", true, &name));
+    for (*out = kinds; (*out)->name; ++*out) {
+        if (!strcmp((*out)->name, name)) {
+            return KOKSMA_OK;
+        }
+        const size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s",
+                 *out == kinds    ? ""
+                 : (*out)[1].name ? ", "
+                                  : " or ",
+                 (*out)->name);
+    }
+    return koksma__json_fail(node, "kind '%s': it takes %s", name, names);
+}
+
+/* ---- Questions --------------------------------------------------------------------------------------------- */
 
 static koksma_status parse_group(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
@@ -28,30 +59,6 @@ static koksma_status parse_group(const koksma__json_node *node, const koksma__pl
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_text(node, "title", true, &g->title);
     return status ? status : koksma__plan_texts(node, "scenes", NULL, &g->scenes);
-}
-
-/* Writes the names of all kinds as "table, correlation, ... or inequality". */
-static void list_kinds(char *text, size_t size)
-{
-    size_t used = 0;
-    for (const koksma__question_kind *k = koksma__question_kinds; k->name && used < size; k++) {
-        const char *before = k == koksma__question_kinds ? "" : k[1].name ? ", " : " or ";
-        used += (size_t)snprintf(text + used, size - used, "%s%s", before, k->name);
-    }
-}
-
-static koksma_status parse_kind(const koksma__json_node *node, koksma__question *q)
-{
-    const char *name;
-    char names[256];
-    const koksma_status status = koksma__json_get_text(node, "kind", true, &name);
-    for (q->kind = koksma__question_kinds; !status && q->kind->name; q->kind++) {
-        if (!strcmp(q->kind->name, name)) {
-            return KOKSMA_OK;
-        }
-    }
-    list_kinds(names, sizeof names);
-    return status ? status : koksma__json_fail(node, "kind '%s': it takes %s", name, names);
 }
 
 /* Fails unless the question has the members that its kind needs, and no member that its kind does not take. */
@@ -84,7 +91,7 @@ koksma_status koksma__plan_question(const koksma__json_node *node, const koksma_
     status = status ? status : koksma__plan_text(node, "discrepancies", false, &q->discrepancies);
     status = status ? status : koksma__plan_text(node, "images", false, &q->images);
     status = status ? status : koksma__plan_spec(node, "metric", koksma__metric_text, false, &q->metric);
-    status = status ? status : parse_kind(node, q);
+    status = status ? status : parse_kind(node, koksma__question_kinds, &q->kind);
     status = status ? status : check_fields(node, q);
     return status ? status
                   : koksma__plan_list(node, "groups", false, sizeof *q->groups, parse_group, trials,
@@ -159,10 +166,154 @@ koksma_status koksma__plan_check_questions(const koksma__json_node *root, const 
 bool koksma_question_at(size_t i, koksma_entry *out)
 {
     KOKSMA__REQUIRE_OR(false, out);
-    const koksma__question_kind *k = koksma__question_kinds;
+    const koksma__plan_kind *k = koksma__question_kinds;
     while (k->name && i-- > 0) {
         k++;
     }
     *out = (koksma_entry){.name = k->name, .title = k->heading};
     return k->name;
+}
+
+/* ---- Conclusions ------------------------------------------------------------------------------------------- */
+
+/* The members that some kinds need. Tables replace images where a kind takes images. */
+static koksma_status check_members(const koksma__json_node *node, const koksma__conclusion *c)
+{
+    const struct {
+        unsigned field;
+        bool has;
+        const char *name;
+    } members[] = {{KOKSMA__NEEDS_TABLES, c->tables.n, "tables"},
+                   {KOKSMA__NEEDS_SIZES, c->tables.n, "tables"},
+                   {KOKSMA__NEEDS_FIGURES, c->figures.n, "figures"},
+                   {KOKSMA__NEEDS_BY, c->by.n, "by"},
+                   {KOKSMA__NEEDS_AGAINST, c->against.n, "against"},
+                   {KOKSMA__NEEDS_METRIC, c->metric, "metric"},
+                   {KOKSMA__NEEDS_POINTS, c->discrepancies, "discrepancies"},
+                   {KOKSMA__NEEDS_IMAGES, c->images || c->tables.n, "images or tables"}};
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        KOKSMA__JSON_FAIL_IF((c->kind->fields & members[i].field) && !members[i].has, node,
+                             "a conclusion of kind %s needs %s", c->kind->name, members[i].name);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status parse_list(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                bool stored, koksma__texts *out)
+{
+    return koksma__json_has(node, key) ? koksma__plan_patterns(node, key, parser, stored, out) : KOKSMA_OK;
+}
+
+koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "says",    "kind",          "tables", "by",       "images",
+                                       "metric",  "against", "discrepancies", "remark", "patterns", "beside",
+                                       "figures", NULL};
+    koksma__conclusion *c = item;
+    const bool stored = trials->stored;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_text(node, "says", true, &c->says);
+    status = status ? status : koksma__plan_text(node, "remark", false, &c->remark);
+    status = status ? status : koksma__plan_text(node, "images", false, &c->images);
+    status = status ? status : koksma__plan_text(node, "discrepancies", false, &c->discrepancies);
+    status = status ? status : koksma__plan_spec(node, "metric", koksma__metric_text, false, &c->metric);
+    status = status ? status : parse_list(node, "tables", NULL, stored, &c->tables);
+    status = status ? status : parse_list(node, "by", NULL, stored, &c->by);
+    status = status ? status : parse_list(node, "figures", NULL, stored, &c->figures);
+    status = status ? status : parse_list(node, "against", koksma__image_pattern_text, stored, &c->against);
+    status = status ? status : parse_list(node, "beside", koksma__image_pattern_text, stored, &c->beside);
+    status =
+        status ? status : koksma__plan_patterns(node, "patterns", koksma__image_pattern_text, stored, &c->patterns);
+    status = status ? status : parse_kind(node, koksma__conclusion_kinds, &c->kind);
+    return status ? status : check_members(node, c);
+}
+
+/* ---- Whether the plan has what a conclusion names ---------------------------------------------------------- */
+
+static koksma_status check_tables(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                  const koksma__plan *p, const koksma__texts *ids, unsigned fields)
+{
+    for (size_t i = 0; i < ids->n; i++) {
+        const koksma__table *t = koksma__plan_table_of(p, 0, ids->at[i]);
+        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + p->n_tables));
+        KOKSMA__JSON_FAIL_IF(!t, node, "no table of the plan has the id '%s'", ids->at[i]);
+        KOKSMA__JSON_FAIL_IF(fields & KOKSMA__NEEDS_IMAGES && !t->scene, node, "table %s is not one of a scene",
+                             ids->at[i]);
+        KOKSMA__JSON_FAIL_IF(fields & KOKSMA__NEEDS_SIZES && !koksma__table_is_over_n(t), node,
+                             "table %s has one number of points", ids->at[i]);
+    }
+    return KOKSMA_OK;
+}
+
+/* Checks that every pattern has a row in every table; in some: in one of them. */
+static koksma_status check_rows(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                const koksma__plan *p, const koksma__texts *ids, const koksma__texts *patterns,
+                                bool in_some)
+{
+    for (size_t i = 0, found = 0; i < ids->n * patterns->n; i++) {
+        const koksma__table *t = koksma__plan_table_of(p, 0, ids->at[i % ids->n]);
+        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + p->n_tables + t->n_rows));
+        found = (i % ids->n ? found : 0) + (koksma__plan_row_of(t, patterns->at[i / ids->n]) != NULL);
+        KOKSMA__JSON_FAIL_IF(in_some ? i % ids->n + 1 == ids->n && !found : found <= i % ids->n, node,
+                             "table %s has no row of %s", t->id, patterns->at[i / ids->n]);
+    }
+    return KOKSMA_OK;
+}
+
+/* Checks that figures are of adaptive methods and come in pairs. */
+static koksma_status check_figures(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                   const koksma__plan *p, const koksma__texts *ids)
+{
+    for (size_t i = 0; i < ids->n; i++) {
+        const koksma__figure *f = koksma__plan_figure_of(p, 0, ids->at[i]);
+        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + p->n_figures));
+        KOKSMA__JSON_FAIL_IF(!f || !f->adaptive, node, "no figure with the id '%s' has an adaptive method",
+                             ids->at[i]);
+    }
+    return ids->n % 2 ? koksma__json_fail(node, "figures come in pairs") : KOKSMA_OK;
+}
+
+/* Checks that every block of the id has all patterns, and that there is one. */
+static koksma_status check_blocks(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                  const koksma__plan *p, const koksma__conclusion *c, const koksma__texts *patterns)
+{
+    const char *id = c->images ? c->images : c->discrepancies;
+    const size_t n = c->images ? p->n_images : p->n_discrepancies;
+    bool found = !id;
+    for (size_t b = 0; b < n && id; b++) {
+        const char *of = c->images ? p->images[b].id : p->discrepancies[b].id;
+        const koksma__texts *has = c->images ? &p->images[b].patterns : &p->discrepancies[b].patterns;
+        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + patterns->n * has->n));
+        for (size_t i = 0; of && !strcmp(of, id) && i < patterns->n; i++) {
+            KOKSMA__JSON_FAIL_IF(!koksma__texts_have(has, patterns->at[i]), node, "a block '%s' lacks the pattern %s",
+                                 id, patterns->at[i]);
+        }
+        found |= of && !strcmp(of, id);
+    }
+    return found ? KOKSMA_OK : koksma__json_fail(node, "no block of the plan has the id '%s'", id);
+}
+
+koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, const koksma__plan_trials *trials,
+                                             const koksma__plan *p)
+{
+    koksma__json_node list;
+    koksma_status status = p->n_conclusions ? koksma__json_member(root, "conclusions", &list) : KOKSMA_OK;
+    for (size_t i = 0; !status && i < p->n_conclusions; i++) {
+        const koksma__conclusion *c = &p->conclusions[i];
+        const koksma__json_node node = koksma__json_item(&list, i);
+        const koksma__texts *all[] = {&c->patterns, &c->against, &c->beside};
+        const unsigned fields = c->kind->fields, sizes = fields & KOKSMA__NEEDS_SIZES;
+        status = check_tables(&node, trials, p, &c->tables,
+                              fields & KOKSMA__NEEDS_AGAINST ? 0
+                              : sizes                        ? sizes
+                                                             : KOKSMA__NEEDS_IMAGES);
+        status = status ? status : check_tables(&node, trials, p, &c->by, sizes);
+        status = status ? status : check_figures(&node, trials, p, &c->figures);
+        for (size_t k = 0; !status && k < 3; k++) {
+            status = check_rows(&node, trials, p, &c->tables, all[k], sizes);
+            status = status ? status : check_rows(&node, trials, p, &c->by, all[k], false);
+            status = status ? status : check_blocks(&node, trials, p, c, all[k]);
+        }
+    }
+    return status;
 }

@@ -77,7 +77,7 @@ koksma_status koksma__plan_check_questions(const koksma__json_node *root, const 
                                            const koksma__plan *plan);
 
 /* Reads an item of "conclusions"; checks that the tables, blocks and patterns that conclusions name exist
-   (plan_conclusions.c). */
+   (plan_questions.c). */
 koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
 koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, const koksma__plan_trials *trials,
                                              const koksma__plan *plan);

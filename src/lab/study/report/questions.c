@@ -91,7 +91,7 @@ static void say_metric(koksma__document *d, const char *metric, const metric_fac
 }
 
 /* Whether the answer to a kind of question depends on the metric of image errors. */
-static bool names_metric(const koksma__question_kind *kind, const koksma__topic *topic)
+static bool names_metric(const koksma__plan_kind *kind, const koksma__topic *topic)
 {
     return topic->n_images && (!(kind->fields & KOKSMA__NEEDS_POINTS) || kind->fields & KOKSMA__NEEDS_IMAGES);
 }
@@ -162,7 +162,7 @@ static void answer_all(koksma__report *r, koksma__document *d, size_t part)
     }
     const metric_facts facts = find_facts(r, &topic);
     for (size_t k = 0; !r->status && k < sizeof answers / sizeof *answers; k++) {
-        const koksma__question_kind *kind = &koksma__question_kinds[k];
+        const koksma__plan_kind *kind = &koksma__question_kinds[k];
         koksma__document content = {0};
         char id[48]; /* the number of an answer: "1.2" for answer 2 of plan 1, or "2" if there is only one plan */
         if (kind->fields & KOKSMA__ASKED_BY_NAME) {
