@@ -23,13 +23,6 @@
 
 enum { NAMED = 4, NAMED_ZEROS = 12, MOST_TRIALS = 1000 };
 
-/* The means of one pattern over the sizes: x and y hold the n sizes whose mean is above 0. */
-typedef struct curve {
-    size_t n;
-    double *x;
-    koksma__summary *y;
-} curve;
-
 /* Whether a steeper slope means a better pattern. */
 typedef enum sense {
     FALLS,  /* for errors and discrepancies: a faster fall is better */
@@ -49,14 +42,8 @@ typedef struct slopes {
     size_t is_random;                             /* index of a pattern of random points; patterns->n: none */
 } slopes;
 
-static curve curve_of(koksma__report *r, size_t sizes)
-{
-    return (curve){0, koksma__report_memory(r, sizes, sizeof(double)),
-                   koksma__report_memory(r, sizes, sizeof(koksma__summary))};
-}
-
 /* Fills in the sizes at which a pattern's mean is above 0; returns the number of those at which it is 0. */
-static size_t collect(const slopes *s, size_t pattern, curve *out)
+static size_t collect(const slopes *s, size_t pattern, koksma__curve *out)
 {
     const koksma__wholes *n = s->of->n;
     size_t zeros = 0;
@@ -64,16 +51,13 @@ static size_t collect(const slopes *s, size_t pattern, curve *out)
     for (size_t k = 0; k < n->n; k++) {
         const koksma__summary *mean = &s->means[pattern * n->n + k];
         zeros += mean->n && mean->mean <= 0;
-        if (mean->n && mean->mean > 0) {
-            out->x[out->n] = (double)n->at[k];
-            out->y[out->n++] = *mean;
-        }
+        koksma__curve_add(out, n->at[k], *mean);
     }
     return zeros;
 }
 
 /* The trend over the larger half of the sizes, and over at least three sizes if there are that many. */
-static koksma__trend trend_of(const curve *c)
+static koksma__trend trend_of(const koksma__curve *c)
 {
     const size_t half = c->n - c->n / 2, least = c->n < 3 ? c->n : 3, n = half < least ? least : half;
     return koksma__trend_of(c->x + (c->n - n), c->y + (c->n - n), n);
@@ -295,7 +279,7 @@ static void say_slopes(koksma__document *d, slopes *s)
 
 /* Computes the lower bound of a measure over the sizes of a curve. Returns the bound's source; NULL if no bound is
    known. */
-static const char *bound_of(const koksma__subject *s, const curve *like, curve *out)
+static const char *bound_of(const koksma__subject *s, const koksma__curve *like, koksma__curve *out)
 {
     koksma_spec spec;
     koksma__bound bound;
@@ -312,7 +296,8 @@ static const char *bound_of(const koksma__subject *s, const curve *like, curve *
 }
 
 /* Adds the row and the line of a pattern. */
-static void add_pattern(koksma__document *d, koksma__document *chart, const slopes *s, size_t p, const curve *c)
+static void add_pattern(koksma__document *d, koksma__document *chart, const slopes *s, size_t p,
+                        const koksma__curve *c)
 {
     const koksma__subject *of = s->of;
     koksma__doc_series_begin(chart, of->patterns->at[p], NULL, KOKSMA__SERIES_LINE);
@@ -331,7 +316,8 @@ static void add_pattern(koksma__document *d, koksma__document *chart, const slop
 
 /* Adds the row and the line of a bound. `scale` makes the line begin at a quarter of the first value of the first
    pattern's curve. */
-static void add_bound(koksma__document *d, koksma__document *chart, const char *who, const curve *bound, double scale)
+static void add_bound(koksma__document *d, koksma__document *chart, const char *who, const koksma__curve *bound,
+                      double scale)
 {
     char text[96];
     koksma__estimate slope = trend_of(bound).slope;
@@ -350,7 +336,7 @@ static void add_bound(koksma__document *d, koksma__document *chart, const char *
 /* Adds the rows and curves of all patterns, and finds their slopes and their numbers of means that are 0. */
 static void add_rows(koksma__report *r, koksma__document *d, koksma__document *chart, slopes *s)
 {
-    curve c = curve_of(r, s->of->n->n), bound = curve_of(r, s->of->n->n);
+    koksma__curve c = koksma__curve_of(r, s->of->n->n), bound = koksma__curve_of(r, s->of->n->n);
     const char *who = NULL;
     double scale = 1;
     for (size_t p = 0; !r->status && p < s->of->patterns->n; p++) {

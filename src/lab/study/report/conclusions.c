@@ -510,19 +510,14 @@ static void say_tolerance(tested *all)
                     -0.5 - TOLERANCE);
 }
 
-/* Reads the means of a pattern at all sizes, those above 0, and returns their number. */
-static size_t read_positive(koksma__report *r, const koksma__subject *s, const char *pattern, double *x,
-                            koksma__summary *means)
+/* The means of a pattern at all sizes, those above 0. */
+static koksma__curve read_curve(koksma__report *r, const koksma__subject *s, const char *pattern)
 {
-    size_t known = 0;
+    koksma__curve c = koksma__curve_of(r, s->n->n);
     for (size_t k = 0; k < s->n->n; k++) {
-        const koksma__summary mean = koksma__read_mean(r, s, pattern, s->n->at[k], NULL);
-        if (mean.n && mean.mean > 0) {
-            x[known] = (double)s->n->at[k];
-            means[known++] = mean;
-        }
+        koksma__curve_add(&c, s->n->at[k], koksma__read_mean(r, s, pattern, s->n->at[k], NULL));
     }
-    return known;
+    return c;
 }
 
 /* Each pattern and measure is a test: the whole interval of the slope over the block's numbers of points must be below
@@ -531,21 +526,16 @@ static void test_rates(koksma__report *r, koksma__document *d, const koksma__con
                        tested *all)
 {
     const size_t sizes = s->n->n;
-    double *x = koksma__report_memory(r, sizes, sizeof *x), random = NAN;
-    koksma__summary *means = koksma__report_memory(r, sizes, sizeof *means);
-    if (!x || !means) {
-        return;
-    }
+    koksma__curve random = {0};
     koksma__doc_say(d, "`%s`, N = %lld to %lld: ", s->measure, s->n->at[0], s->n->at[sizes - 1]);
-    if (koksma__texts_have(s->patterns, "random") && read_positive(r, s, "random", x, means) == sizes) {
-        const koksma__estimate slope = koksma__trend_of(x, means, sizes).slope;
-        random = means[sizes - 1].mean;
+    if (koksma__texts_have(s->patterns, "random") && (random = read_curve(r, s, "random")).n == sizes) {
+        const koksma__estimate slope = koksma__trend_of(random.x, random.y, sizes).slope;
         koksma__doc_say(d, "random N^%.3f^ (± %.3f), ", slope.value, slope.high - slope.value);
     }
     for (size_t i = 0; i < c->patterns.n; i++) {
-        const size_t known = read_positive(r, s, c->patterns.at[i], x, means);
-        const koksma__estimate slope = koksma__trend_of(x, means, known).slope;
-        if (known < sizes || isnan(slope.high)) {
+        const koksma__curve curve = read_curve(r, s, c->patterns.at[i]);
+        const koksma__estimate slope = koksma__trend_of(curve.x, curve.y, curve.n).slope;
+        if (curve.n < sizes || isnan(slope.high)) {
             all->open++;
             continue;
         }
@@ -553,11 +543,11 @@ static void test_rates(koksma__report *r, koksma__document *d, const koksma__con
         say_label(d, r, c, c->patterns.at[i]);
         koksma__doc_say(d, " N^%.3f^ (± %.3f)%s", slope.value, slope.high - slope.value,
                         i + 1 < c->patterns.n ? ", " : ".");
-        if (!isnan(random)) {
+        if (random.n == sizes) {
             koksma__doc_say(&all->more, "At N = %lld ", s->n->at[sizes - 1]);
             say_label(&all->more, r, c, c->patterns.at[i]);
             koksma__doc_say(&all->more, " has %.2g times the mean of random points. ",
-                            means[known - 1].mean / random);
+                            curve.y[sizes - 1].mean / random.y[sizes - 1].mean);
         }
     }
 }
@@ -580,16 +570,11 @@ static void conclude_rates(koksma__report *r, koksma__document *d, const koksma_
 /* The slope of our means of a row, of all columns; NaN if one is missing. */
 static koksma__estimate slope_of(koksma__report *r, const koksma__table *t, const char *pattern)
 {
-    double x[KOKSMA__TABLE_PRINTED];
-    koksma__summary means[KOKSMA__TABLE_PRINTED];
+    koksma__curve c = koksma__curve_of(r, t->n.n);
     for (size_t k = 0; k < t->n.n; k++) {
-        means[k] = koksma__points_cell(r, t, judged_by(t), pattern, t->n.at[k]).mean;
-        if (!means[k].n || !(means[k].mean > 0)) {
-            return (koksma__estimate){NAN, NAN, NAN};
-        }
-        x[k] = (double)t->n.at[k];
+        koksma__curve_add(&c, t->n.at[k], koksma__points_cell(r, t, judged_by(t), pattern, t->n.at[k]).mean);
     }
-    return koksma__trend_of(x, means, t->n.n).slope;
+    return c.n == t->n.n ? koksma__trend_of(c.x, c.y, c.n).slope : (koksma__estimate){NAN, NAN, NAN};
 }
 
 /* Each row of a pattern is a test: its slope must be surely below -1/2 - TOLERANCE and, of a pattern of `against`, must not

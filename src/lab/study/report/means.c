@@ -211,6 +211,20 @@ koksma__summary *koksma__read_means(koksma__report *r, const koksma__subject *s)
     return means;
 }
 
+koksma__curve koksma__curve_of(koksma__report *r, size_t most)
+{
+    return (koksma__curve){0, koksma__report_memory(r, most, sizeof(double)),
+                           koksma__report_memory(r, most, sizeof(koksma__summary))};
+}
+
+void koksma__curve_add(koksma__curve *curve, long long n, koksma__summary mean)
+{
+    if (curve->y && mean.n && mean.mean > 0) {
+        curve->x[curve->n] = (double)n;
+        curve->y[curve->n++] = mean;
+    }
+}
+
 koksma__metric_means koksma__read_metric(koksma__report *r, const koksma__subject *s, const char *pattern,
                                          long long n, const char *metric)
 {

@@ -86,6 +86,16 @@ koksma__summary koksma__read_mean(koksma__report *r, const koksma__subject *s, c
 /* The means of all patterns and sizes: [pattern * sizes + size], in the report's memory. */
 koksma__summary *koksma__read_means(koksma__report *r, const koksma__subject *s);
 
+/* Means above 0, which have logarithms, by their numbers of points or samples, in the report's memory for `most` of them.
+   koksma__curve_add leaves others out. */
+typedef struct koksma__curve {
+    size_t n;
+    double *x;
+    koksma__summary *y;
+} koksma__curve;
+koksma__curve koksma__curve_of(koksma__report *r, size_t most);
+void koksma__curve_add(koksma__curve *curve, long long n, koksma__summary mean);
+
 /* Means of the members of koksma_metric_value over images. A summary's n is 0 if the store has no rows for it. */
 typedef struct koksma__metric_means {
     koksma__summary value, robust, top_share;

@@ -226,9 +226,7 @@ static void add_printed_line(sizes_table *s, const koksma__table_row *row)
 static void add_our_line(sizes_table *s, const koksma__table_row *row, const char *measure, bool own)
 {
     const koksma__wholes *n = &s->table->n;
-    koksma__summary means[KOKSMA__TABLE_PRINTED];
-    double x[KOKSMA__TABLE_PRINTED];
-    size_t known = 0;
+    koksma__curve curve = koksma__curve_of(s->report, n->n);
     koksma__doc_row(s->document);
     koksma__doc_cells(s->document, "ttt", row->label, row->pattern, measure);
     if (own) {
@@ -242,15 +240,12 @@ static void add_our_line(sizes_table *s, const koksma__table_row *row, const cha
             koksma__z_add(&s->together, &verdict, &cell);
             koksma__doc_point(&s->chart, (double)n->at[i], cell.mean.mean, cell.mean.low, cell.mean.high);
         }
-        if (cell.mean.n && cell.mean.mean > 0) {
-            x[known] = (double)n->at[i];
-            means[known++] = cell.mean;
-        }
+        koksma__curve_add(&curve, n->at[i], cell.mean);
     }
     if (own) {
         koksma__doc_end(&s->chart);
     }
-    koksma__doc_cells(s->document, "i", koksma__trend_of(x, means, known).slope);
+    koksma__doc_cells(s->document, "i", koksma__trend_of(curve.x, curve.y, curve.n).slope);
 }
 
 /* Adds the published means of a row to the chart, as hollow marks in the style of our curve. */
