@@ -431,7 +431,8 @@ static koksma_status take_light(reader *r)
                                             KOKSMA__FALLOFF_SMOOTH, &light));
         } else if (strcmp(type, "point") != 0) {
             KOKSMA__TRY(koksma__import_unknown(
-                r->im, p->place, "light '%s' is replaced by a point light equal in all directions", type));
+                r->im, p->place, "light '%s' is replaced by a point light equal in all directions%s", type,
+                koksma__pbrt_kind_meant("LightSource", type, (char[KOKSMA__OR_MEANT]){0})));
         }
     }
     return koksma__import_light(r->im, p->place, &light);
@@ -773,10 +774,9 @@ static const char *kind_of(const reader *r)
 static koksma_status name_kind(const reader *r, const char *name, const char *kind)
 {
     char meant[KOKSMA__OR_MEANT];
-    const char *of = strcmp(name, "MakeNamedMaterial") ? name : "Material";
     return koksma__import_unknown_if(!koksma__pbrt_is_kind(name, kind), r->im, r->parameters->place,
                                      "%s '%.40s' is not one of pbrt-v4%s", name, kind,
-                                     koksma__kind_meant(&koksma__pbrt_plugins, of, kind, meant));
+                                     koksma__pbrt_kind_meant(name, kind, meant));
 }
 
 /* Warns about parameters that pbrt-v4 would refuse, whoever reads the directive, before it is read. */

@@ -119,6 +119,9 @@ extern const koksma__plugins koksma__pbrt_plugins;
 /* Whether a directive has this kind; true for directives that have none. */
 bool koksma__pbrt_is_kind(const char *directive, const char *kind);
 
+/* koksma__kind_meant() of a kind that pbrt-v4 does not have, "" of others. */
+const char *koksma__pbrt_kind_meant(const char *directive, const char *kind, char *text);
+
 /* Warns about each of the directive's own parameters that pbrt-v4 would refuse: by its name, its type, or a value that is
    not in a closed list. A kind that does not exist, or NULL, stands for all kinds. Errors: those of
    koksma__import_unknown. */

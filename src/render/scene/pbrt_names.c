@@ -177,6 +177,13 @@ bool koksma__pbrt_is_kind(const char *directive, const char *kind)
     return !has_kinds;
 }
 
+const char *koksma__pbrt_kind_meant(const char *directive, const char *kind, char *text)
+{
+    *text = '\0';
+    const char *of = strcmp(directive, "MakeNamedMaterial") ? directive : "Material";
+    return koksma__pbrt_is_kind(directive, kind) ? text : koksma__kind_meant(&koksma__pbrt_plugins, of, kind, text);
+}
+
 static bool takes_type(const koksma__entry *e, const koksma__pbrt_parameter *p)
 {
     for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {

@@ -570,8 +570,9 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
     if (!strcmp(type, "mix")) {
         return mix_materials(scene, p, out);
     }
-    KOKSMA__TRY(koksma__import_unknown_if(found->instead, scene->im, p->place, "material '%s': %s here", type,
-                                          found->instead));
+    KOKSMA__TRY(koksma__import_unknown_if(found->instead, scene->im, p->place, "material '%s': %s here%s", type,
+                                          found->instead,
+                                          koksma__pbrt_kind_meant("Material", type, (char[KOKSMA__OR_MEANT]){0})));
     KOKSMA__TRY(koksma__import_unknown_if(koksma__pbrt_find(p, "displacement") || koksma__pbrt_find(p, "normalmap"),
                                           scene->im, p->place, "displacement and normal maps are ignored"));
     *out = -1;
@@ -842,7 +843,8 @@ static koksma_status make_shape(koksma__pbrt_scene *scene, const char *type, con
     } else if (!strcmp(type, "loopsubdiv")) {
         status = triangles(scene, p, false, true, &item->surface, &item->mesh);
     } else {
-        status = koksma__import_unknown(im, p->place, "shape '%s' is left out", type);
+        status = koksma__import_unknown(im, p->place, "shape '%s' is left out%s", type,
+                                        koksma__pbrt_kind_meant("Shape", type, (char[KOKSMA__OR_MEANT]){0}));
     }
     *is_there = item->mesh >= 0;
     return status;
