@@ -89,7 +89,7 @@ const cli_command cli_command_identify = {
         "Niederreiter in base 2, Halton and Faure, from any first point, in natural order and that of Gray's code; "
         "then rank-1 lattices and lattice sequences, additive recurrences, Hammersley points, grids, and every "
         "pattern of 'koksma list patterns' with seeds from 0 on. Coordinates may be permuted, points in another "
-        "order or left out, numbers rounded to float, to few digits, or scaled to [-1,1] or a box.\n"
+        "order or left out, numbers rounded to float, to few digits, or scaled to [-1,1], [-1/2,1/2] or a box.\n"
         "relation: equal, reordered, part: the points are those, another order or some of what the row names; spec "
         "makes them, 'first' is the index of the first. shifted: one vector was added modulo 1. digital-shift, "
         "digit-permutation, linear-scramble, nested-scramble: what happened to the digits; nested-scramble is "
