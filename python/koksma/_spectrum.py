@@ -132,7 +132,7 @@ def pair_correlation(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", r_max: flo
     r_max : float
         Distances up to r_max, above 0 and at most 1/2.
     bins : int
-        Equal bins of distance.
+        Equal bins of distance, each with its lower bound and without its upper; counts are over n (n - 1).
     threads : int
         0: one for each processor.
 
