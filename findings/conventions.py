@@ -9,8 +9,8 @@
     conventions.py draw SEED DIR [N]       N sets with random sizes, dimensions, skips and seeds, changed as users do,
                                            and how many of them `koksma identify` names as the table says
 
-Options of run, record and draw: --koksma PROGRAM (default: the one on PATH), --python PROGRAM (an interpreter that
-has the versions already, in place of a fresh environment for each package), --save DIR (the sets of 64 points).
+Options of run, record and draw: --koksma PROGRAM (default: the one on PATH), --python PROGRAM,.. (interpreters
+that have the versions already, in place of a fresh environment for each package), --save DIR (the sets of 64 points).
 
 A row is run with 64 points in four dimensions and seed 1, unless conventions.toml says otherwise; then with a dimension
 more, with a point more, for 20 points, and at its limit of dimensions. It ends with 1 and names the row if anything has
@@ -188,6 +188,16 @@ def program(package, here):
     return ["node", "points.mjs"]
 
 
+def present(entry, interpreters):
+    """The first of some interpreters of Python, in a list with commas, that has the stated version of a package."""
+    wanted, version_of = entry.get("install_alone", entry["install"])[0].split("=="), "import importlib.metadata as m; print(m.version({!r}))"
+    for python in interpreters.split(","):
+        done = subprocess.run([python, "-c", version_of.format(wanted[0])], capture_output=True, text=True, check=False)
+        if done.stdout.strip() == wanted[1]:
+            return python
+    sys.exit(f"conventions.py: {' '.join(wanted)} is needed, not in {interpreters}")
+
+
 class Package:
     """One package, installed in a temporary folder."""
 
@@ -196,12 +206,7 @@ class Package:
         if entry["language"] != "python":
             self.command = program(entry, self.folder)
         elif python:
-            self.command = [python]
-            for pinned in entry.get("install_alone", entry["install"])[:1]:
-                name, version = pinned.split("==")
-                found = sh(python, "-c", f"import importlib.metadata as m; print(m.version({name!r}))", cwd=self.folder).strip()
-                if found != version:
-                    sys.exit(f"conventions.py: {name} {version} is needed, {python} has {found}")
+            self.command = [present(entry, python)]
         else:
             sh(sys.executable, "-m", "venv", "venv", cwd=self.folder)
             for option, key in (((), "install"), (("--no-deps",), "install_alone")):

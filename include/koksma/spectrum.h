@@ -99,8 +99,8 @@ typedef struct koksma_spectrum_quality_values {
 KOKSMA_API void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_spectrum_quality_values *out);
 
 /* Computes the pair correlation of 2D points on the unit torus: values[b] is the density of pairs at distances from
-   b r_max / bins (included) to (b + 1) r_max / bins (not), over n (n - 1) and the ring's area: 1 for random points; NaN with
-   n = 1.
+   b r_max / bins (included) to (b + 1) r_max / bins (not), over n (n - 1) and the ring's area: 1 for random points;
+   NaN with n = 1.
      r_max   above 0, at most 1/2
      values  receives bins numbers
    O(n (1 + n r_max^2)) for evenly spread points, O(n^2) if many lie close together.

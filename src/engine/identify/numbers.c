@@ -3,9 +3,9 @@
  * The numbers of points: how they lie in the unit cube, and how they were rounded.
  *
  * Coordinates outside [0,1] are taken for whole numbers below n (divided by n), for [-1/2,1/2] (offsets from a pixel's
- * centre), for [-1,1], or for a box whose bounds are the roundest decimals within 3/n of its width around the points. Numbers that all are floats, all multiples of
- * 2^-k with k <= 32, or all decimals of up to 12 places may be rounded ones: they are compared within such a
- * rounding, after an attempt with the precision of double.
+ * centre), for [-1,1], or for a box whose bounds are the roundest decimals within 3/n of its width around the points.
+ * Numbers that all are floats, all multiples of 2^-k with k <= 32, or all decimals of up to 12 places may be rounded
+ * ones: they are compared within such a rounding, after an attempt with the precision of double.
  */
 #include <math.h>
 #include <stdio.h>
