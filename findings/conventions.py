@@ -417,10 +417,12 @@ def change(points, draw):
     return points, ""
 
 
-def alike(one, other):
-    """Whether two statements name one thing: the order, the numbers and the kind of scramble are their matter."""
+def alike(one, other, dim):
+    """Whether two statements name one thing: the order, the numbers and the kind of scramble are their matter. In one and two
+    dimensions the sequences of Sobol', Niederreiter in base 2 and Faure are one."""
     same = one["relation"] == other["relation"] or any({one["relation"], other["relation"]} <= kinds for kinds in ALIKE)
-    return same and one["what"].split()[0] == other["what"].split()[0]
+    names = [x["what"].split()[0].rstrip(",:") for x in (one, other)]
+    return same and (names[0] == names[1] or dim < 3 and set(names) <= {"Sobol'", "Niederreiter", "Faure"})
 
 
 def held_out(entries, options):
@@ -448,7 +450,7 @@ def held_out(entries, options):
             path = folder / f"{done:02d}.npy"
             write_npy(path, points)
             said = [x for x in identify(options.koksma, path) if x["relation"] not in UNNAMED]
-            good = any(alike(x, row["identify"]) for x in said)
+            good = any(alike(x, row["identify"], call[1]) for x in said)
             done, named = done + 1, named + good
             print("named" if good else "NOT NAMED", path.name, entry["name"], row["generator"], f"{len(points)} points, dimensions, seed",
                   call[1], call[3], f"skip {skip}", how, "->", *[f"{x['relation']}: {x['what']};" for x in said[:2]], flush=True)
