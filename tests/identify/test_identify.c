@@ -130,6 +130,9 @@ static void changed_points_are_named(void **state)
         expect("as float", &halton, "equal", "Halton", 0);
     }
     koksma_points_fini(&halton);
+    koksma_points hammersley = test_points("hammersley", 97, 4, 0); /* i / 97 is Halton's coordinate 24, too */
+    expect("a prime number of points", &hammersley, "equal", "Hammersley: Halton, coordinates i/n 0 1 2", 0);
+    koksma_points_fini(&hammersley);
 }
 
 /* A sequence from any first point, with the columns reversed. */

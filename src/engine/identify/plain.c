@@ -101,7 +101,7 @@ static int assign(plain *p, size_t first, size_t last)
     }
     for (size_t h = first; h < last; h++) { /* the same coordinate where that will do, else the first */
         const int k = p->hits[h].k;
-        if (p->hits[h].j != k && p->coordinates[p->hits[h].j].base > p->s->points.n) {
+        if (p->hits[h].j != k && p->coordinates[p->hits[h].j].base >= p->s->points.n) {
             continue; /* i / base: the equidistant coordinate of Hammersley's points where their number is a prime */
         }
         assigned += p->columns[k] < 0;
