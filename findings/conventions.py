@@ -333,7 +333,7 @@ def table(rows):
             cells["kept"] += ("; " if cells["kept"] else "") + f"20 give {row['twenty']}"
         lines.append(f"| {package if package != last else ''} | " + " | ".join(cells[k] for k in COLUMNS) + " |")
         last = package
-    return [line.replace("|  |", "| |") for line in lines]
+    return [re.sub(r"\|  (?=\|)", "| ", line) for line in lines]
 
 
 def page(rows):
