@@ -130,6 +130,16 @@ static void changed_points_are_named(void **state)
         expect("as float", &halton, "equal", "Halton", 0);
     }
     koksma_points_fini(&halton);
+    koksma_points late =
+        test_points("halton", 1337 + 100, 4, 0); /* from any number on its digits are a nested scramble */
+    late.n = 100;
+    for (size_t i = 0; i < 4 * late.n; i++) {
+        late.xs[i] = (double)(float)late.xs[4 * (1337 + i / 4) + 3 - i % 4];
+    }
+    if (test_repeats(1, 0)) {
+        expect("as float, from 1337, reversed", &late, "equal", "Halton, coordinates 3 2 1 0", 1337);
+    }
+    koksma_points_fini(&late);
     koksma_points hammersley = test_points("hammersley", 97, 4, 0); /* i / 97 is Halton's coordinate 24, too */
     expect("a prime number of points", &hammersley, "equal", "Hammersley: Halton, coordinates i/n 0 1 2", 0);
     koksma_points_fini(&hammersley);

@@ -26,10 +26,28 @@ void koksma_identities_fini(koksma_identities *identities)
     }
 }
 
+/* With less tolerance digits were found to be permuted, in a way that may be due to rounding: rounded points of a sequence
+   as it is are that, else the permutation is looked for again. */
+static koksma_status identify_rounded(koksma__sample *s)
+{
+    koksma_identities *found = s->found;
+    const size_t count = found->count;
+    s->named = false;
+    KOKSMA__TRY(koksma__identify_plain(s));
+    if (!s->named) {
+        s->named = true;
+        return koksma__identify_scrambled(s);
+    }
+    memmove(&found->items[s->before], &found->items[count], (found->count - count) * sizeof *found->items);
+    found->count -= count - s->before;
+    s->scramble = KOKSMA__NO_RELATION;
+    return KOKSMA_OK;
+}
+
 static koksma_status identify_with(koksma__sample *s)
 {
-    if (s->named) { /* with less tolerance digits were found to be permuted, in a way that may be due to rounding */
-        return koksma__identify_scrambled(s);
+    if (s->named) {
+        return identify_rounded(s);
     }
     koksma_status (*const tests[])(koksma__sample *) = {koksma__identify_plain, koksma__identify_fixed,
                                                         koksma__identify_progression, koksma__identify_scrambled};
