@@ -96,9 +96,8 @@ static void put_answer(koksma__document *d, const koksma__images *all, long long
 static void put_table(koksma__document *d, const koksma__images *all, long long spp)
 {
     koksma__doc_sorted_table_begin(d, "error", false, false, spp ? "errors-%lld" : "errors", spp);
-    koksma__doc_columns(d,
-                        "t images;n9 trials;i4 error;i3 behind the first#behind, %%;n4 rmse#RMSE;n3h largest error;"
-                        "t coherent#bands;n9h position;n3h coherence");
+    koksma__doc_columns(d, "t images;n9 trials;i4 error;i3 behind the first#behind, %%;n4 rmse#RMSE;n3h largest "
+                           "error;t coherent#bands;n9h position;n3h coherence");
     for (size_t i = 0; i < all->n; i++) {
         const koksma_images_row *row = &all->rows[i];
         if (row->spp == spp) {

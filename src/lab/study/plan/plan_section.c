@@ -155,13 +155,12 @@ static koksma_status from_plan(const koksma__json_node *node, text_kind kind, bo
     } else if (!is_scene && !stored && (size_t)(to - joined) > length) {
         char before[KOKSMA_MAX_SPEC];
         snprintf(before, sizeof before, "%.*s", (int)folder, name);
-        status =
-            reads_as_meant(joined, *text, before, kind)
-                ? KOKSMA_OK
-                : koksma__json_fail(node,
-                                    "'%.60s': with the plan's folder '%.100s' before its path, it would be read as "
-                                    "something else; rename the folder, or start in it, with ./%.60s",
-                                    *text, before, slash + 1);
+        status = reads_as_meant(joined, *text, before, kind)
+                     ? KOKSMA_OK
+                     : koksma__json_fail(node,
+                                         "'%.60s': with the plan's folder '%.100s' before its path, it would be read "
+                                         "as something else; rename the folder, or start in it, with ./%.60s",
+                                         *text, before, slash + 1);
     }
     free(status ? joined : *text);
     *text = status ? *text : joined;
@@ -329,9 +328,8 @@ koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, 
 koksma_status koksma__plan_step(const koksma__json_node *node, const koksma__plan_trials *trials, uint64_t n)
 {
     trials->totals->steps += n;
-    KOKSMA__JSON_FAIL_IF(
-        trials->totals->steps > MOST_STEPS, node,
-        "finding what tables and questions refer to takes more than 2^28 steps: use fewer rows, sizes, "
-        "scenes or blocks");
+    KOKSMA__JSON_FAIL_IF(trials->totals->steps > MOST_STEPS, node,
+                         "finding what tables and questions refer to takes more than 2^28 steps: use fewer rows, "
+                         "sizes, scenes or blocks");
     return KOKSMA_OK;
 }

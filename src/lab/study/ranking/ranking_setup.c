@@ -84,11 +84,10 @@ static koksma_status check_adaptive(const koksma_rank_options *options)
     koksma_adaptive_options adaptive;
     KOKSMA__FAIL_IF(options->render, KOKSMA_ARGUMENT, "adaptive: another renderer has its own adaptive sampling");
     KOKSMA__TRY(koksma_adaptive_parse(options->adaptive, &adaptive));
-    KOKSMA__FAIL_IF(
-        adaptive.method->own_samples && options->n_patterns > 1, KOKSMA_ARGUMENT,
-        "adaptive: %s places its own samples, whatever the pattern is: rank one pattern, or choose a method "
-        "that uses patterns, such as contrast",
-        adaptive.method->name);
+    KOKSMA__FAIL_IF(adaptive.method->own_samples && options->n_patterns > 1, KOKSMA_ARGUMENT,
+                    "adaptive: %s places its own samples, whatever the pattern is: rank one pattern, or choose a "
+                    "method that uses patterns, such as contrast",
+                    adaptive.method->name);
     return KOKSMA_OK;
 }
 

@@ -160,12 +160,11 @@ static void say_findings(koksma__document *d, const koksma__cases *cases, const 
     const koksma__summary gain_of_all = koksma__paired(&of->rho_all, &of->rho_single, n, STRIDE);
     const koksma__summary best = koksma__summarize(&of->rho_hindsight, n, STRIDE);
     koksma__doc_paragraph_begin(d);
-    koksma__doc_say(
-        d,
-        "The errors of each scene are predicted from the ranks of the measures; the measures are chosen, and the "
-        "regressions fitted, on the other %zu scenes (%zu cases). Mean Spearman correlation of the prediction "
-        "with the error in the scene left out: the best single measure",
-        n - 1, f->n_cases);
+    koksma__doc_say(d,
+                    "The errors of each scene are predicted from the ranks of the measures; the measures are chosen, "
+                    "and the regressions fitted, on the other %zu scenes (%zu cases). Mean Spearman correlation of "
+                    "the prediction with the error in the scene left out: the best single measure",
+                    n - 1, f->n_cases);
     say_chosen(d, cases, f, false);
     say_clamped(d, &single);
     koksma__doc_say(d, ", the best pair");
@@ -177,12 +176,11 @@ static void say_findings(koksma__document *d, const koksma__cases *cases, const 
     say_difference(d, &gain);
     koksma__doc_say(d, ", all measures by ");
     say_difference(d, &gain_of_all);
-    koksma__doc_say(
-        d,
-        ". The measure that is best in the scene left out has %+.2f on average, but it is known only in hindsight. "
-        "Intervals are by Student's t over the scenes; they are approximate, because any two fits "
-        "have scenes in common, and all scenes have the same patterns.",
-        best.mean);
+    koksma__doc_say(d,
+                    ". The measure that is best in the scene left out has %+.2f on average, but it is known only in "
+                    "hindsight. Intervals are by Student's t over the scenes; they are approximate, because any two "
+                    "fits have scenes in common, and all scenes have the same patterns.",
+                    best.mean);
     koksma__doc_paragraph_end(d);
 }
 
@@ -203,8 +201,8 @@ static void add_combinations(koksma__document *d, const koksma__cases *cases, co
     koksma__doc_section(d, NULL, "Combinations of measures, tried on the scene left out");
     say_findings(d, cases, &f);
     koksma__doc_table_begin(d, "combinations-%.40s", cases->topic->id);
-    koksma__doc_columns(d, "t scene left out;n7 cases;t single measure;n3 its Spearman;t pair;n3 pair's Spearman;"
-                           "n2 penalty of all;n3 all's Spearman;t best in hindsight;n3 hindsight's Spearman");
+    koksma__doc_columns(d, "t scene left out;n7 cases;t single measure;n3 its Spearman;t pair;n3 pair's Spearman;n2 "
+                           "penalty of all;n3 all's Spearman;t best in hindsight;n3 hindsight's Spearman");
     for (size_t s = 0; s < f.n_scenes; s++) {
         const koksma__held_out *of = &f.held_out[s];
         snprintf(text, sizeof text, "%s + %s", cases->measured[of->pair[0]].label,
@@ -398,9 +396,8 @@ static void add_measures(koksma__document *d, const char *id, const koksma__rho_
     const koksma__rho_ranking *r = &j->of[0];
     const koksma__estimate none = {NAN, NAN, NAN};
     koksma__doc_table_begin(d, "correlation-%.40s", id);
-    koksma__doc_columns(d, "t measure;i3 mean Spearman;n2 p of 0 (Holm);n3 lowest without a scene;"
-                           "n3 highest without a scene;i2 less the first;n2 p of that (Holm);n7 cases;"
-                           "n7 cases that exclude 0");
+    koksma__doc_columns(d, "t measure;i3 mean Spearman;n2 p of 0 (Holm);n3 lowest without a scene;n3 highest without "
+                           "a scene;i2 less the first;n2 p of that (Holm);n7 cases;n7 cases that exclude 0");
     for (size_t v = 0; v < n_variants; v++) {
         koksma__doc_columns(d, "n3 mean, %s", s->variants[v][0] ? s->variants[v] : "defaults");
     }
@@ -423,8 +420,8 @@ static void say_limits(koksma__document *d, const listing *l)
     const koksma__rho_means *s = &l->means;
     if (l->most_patterns > KOKSMA__CASE_PATTERNS) {
         koksma__doc_paragraph(d,
-                              "A case has up to %zu patterns; correlations use only the first %d of them. "
-                              "`koksma study export` has the results of all.",
+                              "A case has up to %zu patterns; correlations use only the first %d of them. `koksma "
+                              "study export` has the results of all.",
                               l->most_patterns, KOKSMA__CASE_PATTERNS);
     }
     if (s->n_variants > KOKSMA__RHO_VARIANTS) {

@@ -152,12 +152,12 @@ static koksma_status add_set(koksma__document *d, verdict *all, const char *patt
 static void say_verdict(koksma__document *d, verdict *all)
 {
     koksma__doc_paragraph_begin(d);
-    koksma__doc_say(d,
-                    "Koksma's inequality: the mean of _f_ over N points differs from its integral by at most "
-                    "V(_f_) D%s, the variation of _f_ (in the plane that of Hardy and Krause) times the star "
-                    "discrepancy of the points. There is one set of each pattern here, with seed 0; functions of "
-                    "_x_ alone use the first coordinates.",
-                    "*");
+    koksma__doc_say(
+        d,
+        "Koksma's inequality: the mean of _f_ over N points differs from its integral by at most V(_f_) D%s, the "
+        "variation of _f_ (in the plane that of Hardy and Krause) times the star discrepancy of the points. There is "
+        "one set of each pattern here, with seed 0; functions of _x_ alone use the first coordinates.",
+        "*");
     koksma__doc_paragraph_end(d);
     koksma__doc_answer_begin(d, !all->beyond);
     koksma__doc_say(d, "%zu of %zu errors are within the bound; the closest, at %.0f %% of it, is that of %s.",
@@ -178,11 +178,10 @@ static void say_verdict(koksma__document *d, verdict *all)
                         median_error(all, true), median_error(all, false));
     }
     if (all->no_use) {
-        koksma__doc_say(
-            d,
-            "In %zu rows the variation is finite, but the bound exceeds the whole range of f: no error can "
-            "be so large.",
-            all->no_use);
+        koksma__doc_say(d,
+                        "In %zu rows the variation is finite, but the bound exceeds the whole range of f: no error "
+                        "can be so large.",
+                        all->no_use);
     }
     koksma__doc_paragraph_end(d);
 }

@@ -181,11 +181,10 @@ static void say_bands(koksma__report *r, koksma__document *d, const standing *s)
     if (i == 0) {
         koksma__doc_say(d, " The error of %s has no visible bands.", name_at(s, 0));
     } else if (i < s->known) {
-        koksma__doc_say(
-            d,
-            " The error of %s is in visible bands; of the patterns without bands, %s has the least error, "
-            "%.1f %% more.",
-            name_at(s, 0), name_at(s, i), 100 * (mean_at(s, i)->mean / mean_at(s, 0)->mean - 1));
+        koksma__doc_say(d,
+                        " The error of %s is in visible bands; of the patterns without bands, %s has the least "
+                        "error, %.1f %% more.",
+                        name_at(s, 0), name_at(s, i), 100 * (mean_at(s, i)->mean / mean_at(s, 0)->mean - 1));
     } else {
         koksma__doc_say(d, " The errors of all patterns are in visible bands.");
     }
@@ -199,9 +198,7 @@ static void say_reference(koksma__report *r, koksma__document *d, const koksma__
     const double error = koksma__reference_error(r, s);
     koksma__doc_paragraph_begin(d);
     koksma__doc_say(
-        d,
-        "Errors by `%s` against the reference _%s_, the mean of %lld render%s with %lld samples a pixel of "
-        "%s; ",
+        d, "Errors by `%s` against the reference _%s_, the mean of %lld render%s with %lld samples a pixel of %s; ",
         s->metric, last->name, last->replicates, koksma__plural((double)last->replicates), last->spp, last->pattern);
     if (isfinite(error)) {
         koksma__doc_say(d, "its own error is about %.2g", error);
@@ -263,10 +260,10 @@ static void add_metrics(koksma__report *r, koksma__document *d, const char *id, 
     koksma__doc_columns(d, "t pattern");
     for (size_t m = 0; m < n; m++) {
         const char *metric = metrics->at[m];
-        koksma__doc_columns(d,
-                            "i4 %s#mean 95 %%#%s;n3 %s, position#position#%s;n4h %s, robust#without 0.1 %%#%s;"
-                            "n3h %s, top share##%s",
-                            metric, metric, metric, metric, metric, metric, metric, metric);
+        koksma__doc_columns(
+            d,
+            "i4 %s#mean 95 %%#%s;n3 %s, position#position#%s;n4h %s, robust#without 0.1 %%#%s;n3h %s, top share##%s",
+            metric, metric, metric, metric, metric, metric, metric, metric);
     }
     for (size_t i = 0; i < patterns->n; i++) {
         koksma__doc_row(d);

@@ -725,9 +725,8 @@ static const char *const titles[] = {[KOKSMA__PAGE_STUDY] = "koksma: report of a
                                      [KOKSMA__PAGE_DATASHEET] = "koksma: datasheet of a sampler"};
 
 static const char beside[] = "All of its numbers are in <a href=\"report.json\">report.json</a> beside it.";
-static const char inside[] =
-    "All of its numbers are in this file, in the element with the id <code>data</code>, as JSON; "
-    "<code>koksma datasheet SAMPLER -o sheet.json</code> writes them.";
+static const char inside[] = "All of its numbers are in this file, in the element with the id <code>data</code>, as "
+                             "JSON; <code>koksma datasheet SAMPLER -o sheet.json</code> writes them.";
 
 static void put_page(FILE *f, koksma__page_kind kind, const char *json)
 {

@@ -375,17 +375,14 @@ static void write_pictures(koksma__report *r, koksma__document *d)
     }
     koksma__tasks_close(&tasks);
     if (used) {
-        koksma__doc_paragraph(d,
-                              "The first trial of every pattern, its absolute error in luminance 8 times as bright, "
-                              "and the reference.");
+        koksma__doc_paragraph(d, "The first trial of every pattern, its absolute error in luminance 8 times as "
+                                 "bright, and the reference.");
         koksma__doc_paragraph(
             d,
             "Coherence of the error: the peak of the mean power spectrum of its first %d trials over the mean power "
-            "(of "
-            "frequencies as high if that is larger, so that blue noise counts as noise). Part of an error may be "
-            "common "
-            "to all trials (column _in common_). For white noise with an equally large common part, 95 %% of the "
-            "coherences lie between the columns _noise from_ and _to_. An error is coherent if such noise has a "
+            "(of frequencies as high if that is larger, so that blue noise counts as noise). Part of an error may be "
+            "common to all trials (column _in common_). For white noise with an equally large common part, 95 %% of "
+            "the coherences lie between the columns _noise from_ and _to_. An error is coherent if such noise has a "
             "coherence as large with a probability _p_ below %g: it has bands or another pattern, which the eye sees "
             "sooner than noise of the same size.",
             KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);

@@ -474,15 +474,13 @@ void koksma__rho_say(koksma__document *d, const koksma__rho_means *s, const koks
     koksma__doc_paragraph_end(d);
     koksma__doc_paragraph(
         d,
-        "A case is the rank correlation, over patterns, of a measure of n points with the error of "
-        "images of n samples a pixel. Intervals are 95 %% intervals from %d bootstrap resamples of the "
-        "patterns and their means; they are approximate: those of single cases with 7 to 30 simulated patterns hold "
-        "in 94 to 99 %%, and in 86 to 100 %% where each mean is uncertain by a fifth of their spread. _Surely_ means "
-        "significant at 5 %% for all tests of a "
-        "kind together "
-        "(Holm's method): the tests of %zu pairs of measures here, and those of %zu measures against 0. The "
-        "sign of the correlations is reversed for a measure that is better when larger, so that +1 always "
-        "means that the measure orders the patterns as their errors do.",
+        "A case is the rank correlation, over patterns, of a measure of n points with the error of images of n "
+        "samples a pixel. Intervals are 95 %% intervals from %d bootstrap resamples of the patterns and their means; "
+        "they are approximate: those of single cases with 7 to 30 simulated patterns hold in 94 to 99 %%, and in 86 "
+        "to 100 %% where each mean is uncertain by a fifth of their spread. _Surely_ means significant at 5 %% for "
+        "all tests of a kind together (Holm's method): the tests of %zu pairs of measures here, and those of %zu "
+        "measures against 0. The sign of the correlations is reversed for a measure that is better when larger, so "
+        "that +1 always means that the measure orders the patterns as their errors do.",
         KOKSMA__RHO_SAMPLES, j->of[0].n_pairs, s->n);
     if (0.05 * (KOKSMA__RHO_SAMPLES + 1) < 2 * (double)j->of[0].n_pairs) {
         koksma__doc_paragraph(d, "%d resamples are too few for so many pairs: no difference can be called sure.",

@@ -67,8 +67,8 @@ static void end_table(koksma__document *d, const koksma__table *t)
 static void add_published_columns(koksma__document *d, const char *verdict, const char *group)
 {
     koksma__doc_columns(d,
-                        "t row#pattern;th pattern;v verdict#%s;n4 published mean#ave#%s;n4 published SD#SD#%s;"
-                        "n4 published max#max#%s",
+                        "t row#pattern;th pattern;v verdict#%s;n4 published mean#ave#%s;n4 published SD#SD#%s;n4 "
+                        "published max#max#%s",
                         verdict, group, group, group);
 }
 
@@ -267,10 +267,8 @@ static void say_means(koksma__document *d, bool published, size_t sets, bool dif
                               : "Means are over %s%zu sets",
                     differ ? "up to " : "", sets);
     koksma__doc_say(d, ". Slopes are least squares over all columns; _theory_ is the exponent of the pattern for "
-                       "large N, which a slope "
-                       "over these columns need not have reached, and _× random_ the known factor of its mean there "
-                       "to that of random "
-                       "points.");
+                       "large N, which a slope over these columns need not have reached, and _× random_ the known "
+                       "factor of its mean there to that of random points.");
     koksma__doc_paragraph_end(d);
 }
 
@@ -407,11 +405,10 @@ static void say_changes(koksma__document *d, const koksma__table *t, const doubl
     }
     if (isfinite(low) && isfinite(high)) {
         const bool differ = memcmp(order[0], order[1], t->n_rows * sizeof *order[0]) != 0;
-        koksma__doc_say(
-            d,
-            "Taking the converged reference instead of the paper's changes the means by %+.1f to %+.1f %% "
-            "and %s the order of the patterns. ",
-            100 * low, 100 * high, differ ? "changes" : "does not change");
+        koksma__doc_say(d,
+                        "Taking the converged reference instead of the paper's changes the means by %+.1f to %+.1f "
+                        "%% and %s the order of the patterns. ",
+                        100 * low, 100 * high, differ ? "changes" : "does not change");
     }
 }
 

@@ -136,11 +136,10 @@ static void write_undone(koksma__report *r, koksma__document *d)
     size_t jobs = 0, undone = 0;
     if (koksma__report_keep(r, koksma__count_undone(r->study, &jobs, &undone)) && undone) {
         koksma__doc_warning_begin(d);
-        koksma__doc_say(
-            d,
-            "%zu of %zu jobs have no rows: a run ended before them, or made rows of files, scenes or code that "
-            "have changed since. `koksma study run` does them.",
-            undone, jobs);
+        koksma__doc_say(d,
+                        "%zu of %zu jobs have no rows: a run ended before them, or made rows of files, scenes or "
+                        "code that have changed since. `koksma study run` does them.",
+                        undone, jobs);
         koksma__doc_paragraph_end(d);
     }
 }
@@ -182,11 +181,11 @@ static void write_origin(koksma__report *r, koksma__document *d)
     koksma__run_record run;
     koksma__doc_paragraph(
         d,
-        "koksma %s, plan `%s`%s. The rows are in `results.sqlite` beside this file, and the numbers of "
-        "this page in `report.json`. The key of a row is enough to make the row again. Results do "
-        "not depend on the number of threads or on interruptions: `koksma study audit` makes rows again and "
-        "compares them. The SHA-256 of all rows, as `koksma study export` writes them, is `%s`. The runs "
-        "(one that was killed leaves its rows in the store, but no line here):",
+        "koksma %s, plan `%s`%s. The rows are in `results.sqlite` beside this file, and the numbers of this page in "
+        "`report.json`. The key of a row is enough to make the row again. Results do not depend on the number of "
+        "threads or on interruptions: `koksma study audit` makes rows again and compares them. The SHA-256 of all "
+        "rows, as `koksma study export` writes them, is `%s`. The runs (one that was killed leaves its rows in the "
+        "store, but no line here):",
         koksma_version(), r->study->plan.name, r->study->quick ? ", with the fewer trials of `--quick`" : "",
         r->rows);
     koksma__doc_list_begin(d, "runs", false);
@@ -200,10 +199,9 @@ static void write_origin(koksma__report *r, koksma__document *d)
                         percent(run.store_seconds, run.processor_seconds));
     }
     koksma__doc_list_end(d);
-    koksma__doc_paragraph(
-        d, "Intervals of means are " KOKSMA__MEAN_INTERVALS
-           ". Simulated 95 %% intervals of slopes and of relative changes hold in 94 to 98 %%, those of "
-           "numbers of samples in 92 to 96 %%.");
+    koksma__doc_paragraph(d, "Intervals of means are " KOKSMA__MEAN_INTERVALS
+                             ". Simulated 95 %% intervals of slopes and of relative changes hold in 94 to 98 %%, "
+                             "those of numbers of samples in 92 to 96 %%.");
 }
 
 const koksma__section koksma__section_origin = {"How it was made", false, NULL, write_origin};

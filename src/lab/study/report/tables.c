@@ -47,11 +47,10 @@ koksma__cell koksma__points_cell(koksma__report *r, const koksma__table *t, cons
     const koksma__discrepancy_block *block = block_of(r->study, t, measure, pattern, n);
     koksma__cell cell = {0};
     if (!block) {
-        koksma__report_keep(r,
-                            koksma__fail(KOKSMA_MALFORMED,
-                                         "plan '%s': table %s: no discrepancy block of the plan measures %s at n = "
-                                         "%lld",
-                                         r->study->plan.name, t->id, measure, n));
+        koksma__report_keep(
+            r, koksma__fail(KOKSMA_MALFORMED,
+                            "plan '%s': table %s: no discrepancy block of the plan measures %s at n = %lld",
+                            r->study->plan.name, t->id, measure, n));
         return cell;
     }
     const koksma__subject points = koksma__subject_of_points(block, measure, "");

@@ -35,8 +35,7 @@ static void put_origin(koksma__sheet *sheet, koksma__document *d)
     koksma__doc_paragraph(
         d,
         "koksma %s. The commands below each number compute it again. The %s of a command is the seed of the first "
-        "set; "
-        "each further set has the next seed. Sets of the sampler: up to %zu of each size; images: up to %zu.",
+        "set; each further set has the next seed. Sets of the sampler: up to %zu of each size; images: up to %zu.",
         koksma_version(), "--seed", koksma__sheet_trials(sheet->samplers[0], sheet->trials), sheet->max_trials);
     if (sheet->n_notes) {
         koksma__doc_paragraph(d, "Left out:");

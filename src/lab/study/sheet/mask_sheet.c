@@ -226,12 +226,11 @@ static koksma_status put_figure(dithering *e, size_t picture, const thresholds *
 static koksma_status put_section(dithering *e, koksma__document *d)
 {
     koksma__doc_section(d, "dithering", "Dithering");
-    koksma__doc_paragraph(
-        d,
-        "A ramp and the scene `%s`, in linear light: white where the picture exceeds the threshold of the pixel. The "
-        "table has the root mean square difference from the picture, both filtered; the figures are filtered by "
-        "`%s`.",
-        SCENE_NAME, e->sheet->filter_names[0]);
+    koksma__doc_paragraph(d,
+                          "A ramp and the scene `%s`, in linear light: white where the picture exceeds the threshold "
+                          "of the pixel. The table has the root mean square difference from the picture, both "
+                          "filtered; the figures are filtered by `%s`.",
+                          SCENE_NAME, e->sheet->filter_names[0]);
     koksma_status status = put_table(e, d);
     for (size_t picture = 0; picture < PICTURES && !status; picture++) {
         status = begin_picture(e, picture);
@@ -290,11 +289,9 @@ static koksma_status put_errors(const mask_sheet *s, koksma__document *d)
     koksma__doc_section(d, "errors", "What filters leave");
     koksma__doc_paragraph(d,
                           "The root of the mean, over %d thresholds t (of vectors: %d half-spaces), of the variance "
-                          "of the filtered image "
-                          "of (value < t). White: of the same values in random order. Inside: of pixels whose filter "
-                          "lies within the mask; "
-                          "seam: of those whose filter spans opposite sides. A tile repeats without a visible seam "
-                          "if the two are equal.",
+                          "of the filtered image of (value < t). White: of the same values in random order. Inside: "
+                          "of pixels whose filter lies within the mask; seam: of those whose filter spans opposite "
+                          "sides. A tile repeats without a visible seam if the two are equal.",
                           SCALAR_TESTS, VECTOR_TESTS);
     koksma__doc_table_begin(d, "errors");
     koksma__doc_columns(d, "t mask;t space;t filter;n4 error;n4 white;n3 error / white;n4 inside;n4 seam");
@@ -366,13 +363,12 @@ static koksma_status put_power(const koksma_mask *m, koksma__document *d)
 static koksma_status put_pictures(const mask_sheet *s, koksma__document *d)
 {
     koksma__doc_section(d, "pictures", "Masks and their spectra");
-    koksma__doc_paragraph(d,
-                          "Left: the numbers of the pixels, from the least (black) to the largest of the space; two "
-                          "or more as red, green "
-                          "and blue. Right: the power at each frequency, (0, 0) in the middle; white noise has the "
-                          "mean 1, mid-grey, and %d "
-                          "or more is white. A dark disk in the middle is blue noise.",
-                          WHITE);
+    koksma__doc_paragraph(
+        d,
+        "Left: the numbers of the pixels, from the least (black) to the largest of the space; two or more as red, "
+        "green and blue. Right: the power at each frequency, (0, 0) in the middle; white noise has the mean 1, "
+        "mid-grey, and %d or more is white. A dark disk in the middle is blue noise.",
+        WHITE);
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; i < s->n && !status; i++) {
         koksma__doc_figure_begin(d, "mask");
@@ -489,9 +485,9 @@ static koksma_status put_curves(const mask_sheet *s, koksma__document *d)
 {
     koksma__doc_section(d, "spectra", "Spectra, autocorrelation, histogram");
     koksma__doc_paragraph(
-        d, "Anisotropy: the variance of the power at frequencies of about equal length, divided by the square of "
-           "its mean; that of noise without a preferred direction is 0 dB for one number a pixel, -3 dB "
-           "for two. Autocorrelation: the mean over pixels at about equal distance.");
+        d, "Anisotropy: the variance of the power at frequencies of about equal length, divided by the square of its "
+           "mean; that of noise without a preferred direction is 0 dB for one number a pixel, -3 dB for two. "
+           "Autocorrelation: the mean over pixels at about equal distance.");
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; i < sizeof curves / sizeof *curves && !status; i++) {
         status = put_curve(s, &curves[i], d);
@@ -529,8 +525,8 @@ static koksma_status put_pairs(const mask_sheet *s, koksma__document *d)
     koksma_status status = KOKSMA_OK;
     koksma__doc_section(d, "pairs", "Correlation of two masks");
     koksma__doc_paragraph(
-        d, "At the same pixel, and the largest over all shifts of the second mask on the torus. Near 1: one is "
-           "a shifted copy of the other. Masks of other sizes or numbers have no correlation.");
+        d, "At the same pixel, and the largest over all shifts of the second mask on the torus. Near 1: one is a "
+           "shifted copy of the other. Masks of other sizes or numbers have no correlation.");
     koksma__doc_table_begin(d, "pairs");
     koksma__doc_columns(d, "t mask;t with;n3 same pixel;n3 largest;n9 at x;n9 at y");
     for (size_t a = 0; a < s->n; a++) {

@@ -123,14 +123,13 @@ koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d)
     const koksma_status status = compute(sheet, &run, results);
     if (!status) {
         koksma__doc_section(d, "integrals", "Errors of integration");
-        koksma__doc_paragraph(
-            d,
-            "Root mean square errors of the mean of five functions at n = %zu, slopes of log RMSE over "
-            "log n, with 95 %% intervals, which are approximate: simulated ones hold in 95 to 98 %% for nearly "
-            "normal errors, in 76 to 99 %% for skewed or heavy-tailed ones. Gain: the factor by which more random "
-            "points are needed for the same error; a biased sampler has none. For a sampler that has only one set, "
-            "the error is that of this set.",
-            sheet->sizes[sheet->n_sizes - 1]);
+        koksma__doc_paragraph(d,
+                              "Root mean square errors of the mean of five functions at n = %zu, slopes of log RMSE "
+                              "over log n, with 95 %% intervals, which are approximate: simulated ones hold in 95 to "
+                              "98 %% for nearly normal errors, in 76 to 99 %% for skewed or heavy-tailed ones. Gain: "
+                              "the factor by which more random points are needed for the same error; a biased "
+                              "sampler has none. For a sampler that has only one set, the error is that of this set.",
+                              sheet->sizes[sheet->n_sizes - 1]);
         put_table(sheet, results, d);
         for (size_t i = 0; i < N_INTEGRANDS; i++) {
             put_chart(sheet, integrands[i], results + i * sheet->n_samplers, d);

@@ -80,8 +80,8 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
 {
     koksma__doc_table_begin(d, "scene-%s", sheet->scenes[scene]);
     koksma__doc_columns(d,
-                        "n9m samples a pixel#samples;t sampler;i4 error;i2f behind the first#behind;t coherent#bands;"
-                        "n3h position;n3h coherence;th decision;n9h images;n4h robust;n3h top share");
+                        "n9m samples a pixel#samples;t sampler;i4 error;i2f behind the first#behind;t "
+                        "coherent#bands;n3h position;n3h coherence;th decision;n9h images;n4h robust;n3h top share");
     for (size_t k = 0; k < sheet->n_spp; k++) {
         const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
         for (size_t i = 0; i < sheet->n_samplers; i++) {
@@ -123,9 +123,9 @@ static void warn_of_few_pixels(const koksma__sheet *sheet, size_t scene, koksma_
         koksma__doc_warning_begin(d);
         koksma__doc_say(
             d,
-            "Warning: 0.1 %% of the pixels carry most of the error in %zu of %zu rows, and decide the order "
-            "there. They carry most with %d samples of %s: %.0f %% of the error; without them `%s` is %.4g "
-            "instead of %.4g. A metric that weighs them less, such as `smape`, may give another order.",
+            "Warning: 0.1 %% of the pixels carry most of the error in %zu of %zu rows, and decide the order there. "
+            "They carry most with %d samples of %s: %.0f %% of the error; without them `%s` is %.4g instead of %.4g. "
+            "A metric that weighs them less, such as `smape`, may give another order.",
             few, ranked, spp, sheet->samplers[worst->pattern]->text, 100 * worst->top_share, sheet->metric_text,
             worst->robust, worst->mean);
         koksma__doc_paragraph_end(d);
@@ -198,9 +198,8 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
             d,
             "Error of an image: %s (%s). Samplers are used as in a renderer: one set for each pixel and each use "
             "(lens, light, ...). Behind: the relative difference of the error to that of the first row with as many "
-            "samples. "
-            "Bands: the error has a pattern, which eyes notice more than noise. Intervals and decisions of a scene "
-            "hold together with 95 %%; coherence and decisions are in the CSV files.",
+            "samples. Bands: the error has a pattern, which eyes notice more than noise. Intervals and decisions of "
+            "a scene hold together with 95 %%; coherence and decisions are in the CSV files.",
             sheet->metric_text, sheet->metric.metric->title);
         koksma__doc_paragraph_end(d);
     }

@@ -163,11 +163,10 @@ static koksma_status put_section(koksma__sheet *sheet, const spectra *all, koksm
 {
     koksma_status status = KOKSMA_OK;
     koksma__doc_section(d, "spectra", "Spectra and distances");
-    koksma__doc_paragraph(
-        d,
-        "Power (1/n)|sum exp(-2 pi i k.x)|² at n = %zu: frequency 0 in the middle; random points have 1 "
-        "everywhere, mid-grey; dark in the middle is blue noise.",
-        all->n);
+    koksma__doc_paragraph(d,
+                          "Power (1/n)|sum exp(-2 pi i k.x)|² at n = %zu: frequency 0 in the middle; random points "
+                          "have 1 everywhere, mid-grey; dark in the middle is blue noise.",
+                          all->n);
     for (size_t s = 0; s < sheet->n_samplers && !status; s++) {
         koksma__document picture = {0};
         status = put_picture(&all[s], &picture);
@@ -184,8 +183,7 @@ static koksma_status put_section(koksma__sheet *sheet, const spectra *all, koksm
     status = status ? status : put_radial(all, sheet->n_samplers, d);
     put_pairs(all, sheet->n_samplers, d);
     koksma__doc_paragraph(d, "Effective Nyquist frequency: signals up to it alias little. Oscillation: how far the "
-                             "radial mean strays from 1 "
-                             "beyond that frequency (Heck, Schlömer & Deussen 2013).");
+                             "radial mean strays from 1 beyond that frequency (Heck, Schlömer & Deussen 2013).");
     put_quality(all, sheet->n_samplers, d);
     put_commands(sheet, all, d);
     koksma__doc_end(d);

@@ -84,18 +84,16 @@ static void put_bias(koksma__sheet *sheet, koksma__document *d)
     char source[2 * KOKSMA_MAX_SPEC];
     koksma__doc_paragraph_begin(d);
     if (bias->biased) {
-        koksma__doc_say(
-            d,
-            "*Biased*: over %zu sets of %zu points the mean share of the points in a box is not its volume "
-            "(%s). No number of sets averages this error away, so that this sheet calls the sampler best in "
-            "nothing, and its gains are no gains.",
-            bias->sets, bias->n, bias->detail);
+        koksma__doc_say(d,
+                        "*Biased*: over %zu sets of %zu points the mean share of the points in a box is not its "
+                        "volume (%s). No number of sets averages this error away, so that this sheet calls the "
+                        "sampler best in nothing, and its gains are no gains.",
+                        bias->sets, bias->n, bias->detail);
     } else if (bias->sets) {
-        koksma__doc_say(
-            d,
-            "Unbiased, as far as %zu sets of %zu points show: the mean share of the points agrees with the "
-            "volume in every box that `koksma verify --seeds` tests.",
-            bias->sets, bias->n);
+        koksma__doc_say(d,
+                        "Unbiased, as far as %zu sets of %zu points show: the mean share of the points agrees with "
+                        "the volume in every box that `koksma verify --seeds` tests.",
+                        bias->sets, bias->n);
     } else {
         koksma__doc_say(
             d, "Whether the sampler is unbiased is not known: that takes %d different sets, one for each seed.",

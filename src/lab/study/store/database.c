@@ -272,8 +272,8 @@ static koksma_status open_as(koksma__database *database, koksma__database_mode m
 {
     static const char *const settings[] = {
         [KOKSMA__DATABASE_READ] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA cache_size=-32768",
-        [KOKSMA__DATABASE_WRITE] = ("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; "
-                                    "PRAGMA synchronous=FULL; PRAGMA cache_size=-32768"),
+        [KOKSMA__DATABASE_WRITE] = ("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA "
+                                    "synchronous=FULL; PRAGMA cache_size=-32768"),
         [KOKSMA__DATABASE_BUILD] = "PRAGMA page_size=16384; PRAGMA journal_mode=MEMORY; PRAGMA synchronous=FULL"};
     const bool read = mode == KOKSMA__DATABASE_READ;
     const char *path = read ? database->uri : database->real;

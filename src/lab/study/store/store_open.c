@@ -139,8 +139,8 @@ static koksma_status make_schema(koksma__database *database)
 
 static const char *const queries[KOKSMA__N_QUERIES] = {
     [KOKSMA__FIND_SERIES] = "SELECT id FROM series WHERE (" SERIES_KEY ") = (?,?,?,?,?,?,?,?,?,?,?,?,?)",
-    [KOKSMA__NEXT_SERIES] = "SELECT max(id), (SELECT max(id) FROM series) FROM series WHERE (" GROUP_KEY ") = "
-                            "(?,?,?,?,?,?,?,?,?,?) AND kind = 'discrepancy'",
+    [KOKSMA__NEXT_SERIES] = "SELECT max(id), (SELECT max(id) FROM series) FROM series WHERE (" GROUP_KEY
+                            ") = (?,?,?,?,?,?,?,?,?,?) AND kind = 'discrepancy'",
     [KOKSMA__ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ", id) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
     [KOKSMA__PUT_ROW] = "INSERT OR REPLACE INTO result VALUES " ROW,
     [KOKSMA__PUT_ROWS] = "INSERT OR FAIL INTO result VALUES " TIMES_32(ROW),
@@ -148,8 +148,8 @@ static const char *const queries[KOKSMA__N_QUERIES] = {
     [KOKSMA__GET_RESULTS] =
         "WITH RECURSIVE trials(trial) AS (VALUES (0) UNION ALL SELECT trial + 1 FROM trials WHERE trial + 1 < ?2) "
         "SELECT trial, seed, v0, v1, v2, v3 FROM trials CROSS JOIN result ON id = trial << 32 | ?1",
-    [KOKSMA__FILTER_RESULTS] = "SELECT id >> 32, seed, v0, v1, v2, v3 FROM result "
-                               "WHERE id & 4294967295 = ?1 AND id < ?2 << 32",
+    [KOKSMA__FILTER_RESULTS] =
+        "SELECT id >> 32, seed, v0, v1, v2, v3 FROM result WHERE id & 4294967295 = ?1 AND id < ?2 << 32",
     [KOKSMA__GET_IDS] = "SELECT id, seed, v0, v1, v2, v3 FROM result ORDER BY id",
     [KOKSMA__GET_SERIES] = "SELECT " SORT_KEY ", id FROM series ORDER BY " SORT_KEY,
     [KOKSMA__LAST_SERIES] = "SELECT max(id) FROM series",

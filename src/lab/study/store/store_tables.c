@@ -12,21 +12,19 @@
 
 static koksma_status fail_row(const koksma__store *store, const char *table, long long id)
 {
-    return koksma__fail(
-        KOKSMA_MALFORMED,
-        "%s: row %lld of table %s has a value that is infinite, of the wrong type or out of range; move it away "
-        "to begin anew",
-        koksma__database_path(store->database), id, table);
+    return koksma__fail(KOKSMA_MALFORMED,
+                        "%s: row %lld of table %s has a value that is infinite, of the wrong type or out of range; "
+                        "move it away to begin anew",
+                        koksma__database_path(store->database), id, table);
 }
 
 static koksma_status fail_reference(const koksma__store *store, const koksma__series *key)
 {
-    return koksma__fail(
-        KOKSMA_MALFORMED,
-        "%s: the standard error of reference %.200s of %.200s%s%.100s, %lld x %lld, is infinite or no "
-        "number; move the file away to begin anew",
-        koksma__database_path(store->database), key->what, key->scene, key->options[0] ? ", " : "", key->options,
-        key->width, key->height);
+    return koksma__fail(KOKSMA_MALFORMED,
+                        "%s: the standard error of reference %.200s of %.200s%s%.100s, %lld x %lld, is infinite or "
+                        "no number; move the file away to begin anew",
+                        koksma__database_path(store->database), key->what, key->scene, key->options[0] ? ", " : "",
+                        key->options, key->width, key->height);
 }
 
 koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, int column, koksma__row *row)
