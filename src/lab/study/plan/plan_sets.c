@@ -57,19 +57,13 @@ static bool stop_at_once(void *context, double fraction)
     return false;
 }
 
-static koksma_status try_set(const char *pattern, size_t n, int dim)
+koksma_status koksma_plan_try(const char *pattern, size_t n, int dim)
 {
+    KOKSMA__REQUIRE(pattern);
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
     koksma_spec spec;
     koksma_status status = koksma_pattern_spec(pattern, &spec);
     status = status ? status : koksma__try_set(&spec, n, dim, &briefly);
-    return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
-}
-
-static koksma_status try_image_set(const char *pattern, long long n)
-{
-    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
-    const koksma_status status = koksma__image_pattern_try(pattern, (size_t)n, &briefly);
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
 }
 
@@ -78,13 +72,15 @@ typedef koksma_status (*set_trial)(const void *block, const char *name, long lon
 
 static koksma_status try_points(const void *block, const char *pattern, long long n)
 {
-    return try_set(pattern, (size_t)n, ((const koksma__discrepancy_block *)block)->dim);
+    return koksma_plan_try(pattern, (size_t)n, ((const koksma__discrepancy_block *)block)->dim);
 }
 
-static koksma_status try_image(const void *block, const char *pattern, long long n)
+static koksma_status try_image(const void *unused, const char *pattern, long long n)
 {
-    (void)block;
-    return try_image_set(pattern, n);
+    (void)unused;
+    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
+    const koksma_status status = koksma__image_pattern_try(pattern, (size_t)n, &briefly);
+    return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
 }
 
 /* koksma_evaluate refuses a number of points before its first call of keep_going. Other errors are of the points. */
@@ -163,12 +159,6 @@ static koksma_status refuse_first(const tried *t)
     return status;
 }
 
-koksma_status koksma_plan_try(const char *pattern, size_t n, int dim)
-{
-    KOKSMA__REQUIRE(pattern);
-    return try_set(pattern, n, dim);
-}
-
 /* Appends the line "what: reason". */
 static koksma_status add_line(const char *what, const char *reason, koksma__texts *lines)
 {
@@ -221,16 +211,6 @@ static koksma_status leave_out_of(const tried *t, size_t p, bool *is, koksma__te
     return add_line(line, reason + (twice ? name + 2 : 0), lines);
 }
 
-/* The number of files of n points. */
-static size_t count_sets(const koksma__file_set *sets, size_t count, size_t n)
-{
-    size_t found = 0;
-    for (size_t i = 0; i < count; i++) {
-        found += sets[i].n == n;
-    }
-    return found;
-}
-
 /* A family of files has as many trials as files (tasks.c). Where it has fewer files of a size than of another, some may
    be missing, and no job fails that would tell. Appends the line "PATTERN, N = 16 (1 of 3 trials): reason" for sizes that
    have fewer trials than the block, and than the size with most files. */
@@ -255,7 +235,10 @@ static koksma_status find_short_sizes(const koksma__discrepancy_block *b, size_t
     const size_t begin = (size_t)snprintf(line, sizeof line, "%s, N =", b->patterns.at[p]);
     size_t length = begin;
     for (size_t k = 0; k < b->n.n && length < sizeof line; k++) {
-        const size_t has = count_sets(sets, count, (size_t)b->n.at[k]);
+        size_t has = 0; /* files of this size */
+        for (size_t i = 0; i < count; i++) {
+            has += sets[i].n == (size_t)b->n.at[k];
+        }
         if (has && has < wanted) {
             length += (size_t)snprintf(line + length, sizeof line - length, "%s %lld (%zu of %zu trials)",
                                        length > begin ? "," : "", b->n.at[k], wanted - has, wanted);
@@ -263,16 +246,6 @@ static koksma_status find_short_sizes(const koksma__discrepancy_block *b, size_t
     }
     free(sets);
     return length > begin ? add_line(line, "the family has fewer files than for other N", &out->lines) : KOKSMA_OK;
-}
-
-/* Whether one of the names is not left out at size k. */
-static bool leaves(const tried *t, const bool *is, size_t k)
-{
-    bool any = false;
-    for (size_t p = 0; !any && p < t->names->n; p++) {
-        any = !is[p * t->n->n + k];
-    }
-    return any;
 }
 
 /* Tries the patterns (kinds > 0) and the measures (kinds > 1) of a block. Reports the first size that one of them refuses
@@ -306,9 +279,13 @@ static koksma_status check(const tried *t, size_t kinds, koksma__left_out *out)
         }
     }
     for (size_t k = 0; !status && !any && k < t->n->n; k++) {
-        any = true;
+        any = true; /* until all names of a kind are left out at this size */
         for (size_t i = 0; i < kinds; i++) {
-            any = any && leaves(&t[i], *is[i], k);
+            size_t p = 0;
+            while (p < t[i].names->n && (*is[i])[p * t->n->n + k]) {
+                p++;
+            }
+            any = any && p < t[i].names->n;
         }
     }
     return status || any || stored ? status
@@ -416,7 +393,7 @@ koksma_status koksma__plan_check_reference(const koksma__json_node *node, const 
 {
     const bool tries =
         reference->spp <= MOST_TRIED && has_work(trials, true, reference->pattern, reference->spp, SAMPLE);
-    const koksma_status status = tries ? try_image_set(reference->pattern, reference->spp) : KOKSMA_OK;
+    const koksma_status status = tries ? try_image(NULL, reference->pattern, reference->spp) : KOKSMA_OK;
     return is_error(status, trials->stored, true, reference->pattern) ? koksma__json_fail_in(node, status)
                                                                       : KOKSMA_OK;
 }

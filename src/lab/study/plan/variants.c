@@ -224,10 +224,9 @@ koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__va
 /* Checks a word and adds its canonical form: that of a method whose parameters are spelt otherwise becomes equal. */
 static koksma_status add_word(const koksma__json_node *item, const option *o, koksma__texts *words)
 {
-    koksma__variant scratch;
+    koksma__variant scratch = {0};
     const char *word;
     char method[KOKSMA_MAX_SPEC];
-    memset(&scratch, 0, sizeof scratch);
     KOKSMA__TRY(koksma__json_text(item, &word));
     const koksma_status status = o->set(&scratch, word);
     if (status) {
@@ -262,8 +261,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
 /* Rejects adaptive sampling with splatting or with patterns over the whole image. */
 static koksma_status check_together(const char *text)
 {
-    koksma__variant v;
-    memset(&v, 0, sizeof v);
+    koksma__variant v = {0};
     const koksma_status status = koksma__variant_apply(text, false, &v);
     return !status && v.adaptive.method && (v.render.splat || v.render.scope != KOKSMA_SCOPE_PIXEL)
                ? koksma__fail(KOKSMA_ARGUMENT, "'%s': adaptive can't be combined with splat or with scope image",
@@ -276,8 +274,7 @@ koksma_status koksma__variant_canonical(const char *text, char out[KOKSMA__VARIA
     out[0] = '\0';
     for (int i = 0; i < N_KNOWN; i++) {
         char word[MAX_WORD];
-        koksma__variant scratch;
-        memset(&scratch, 0, sizeof scratch);
+        koksma__variant scratch = {0};
         word_of(text, &known[i], word);
         KOKSMA__TRY(known[i].set(&scratch, word));
         if (scratch.adaptive.method) {
