@@ -89,7 +89,7 @@ static koksma_status get_lines(const koksma__json_node *node, koksma__figure *f)
     return status;
 }
 
-/* Reads an item of "figures"; checks that all together draw at most 2^22 points, as a page has them (plan_figures.c). */
+/* Reads an item of "figures"; checks that all together draw at most 2^22 points, as a page has them. */
 static koksma_status parse_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
     static const char *const keys[] = {"comment", "id",       "title",  "pattern",  "scene", "n",
