@@ -16,6 +16,8 @@ from functools import cache
 from pathlib import Path
 from statistics import NormalDist
 
+from schema import blocks, words
+
 KOKSMA = Path(sys.argv[1]).resolve()
 PATTERNS = ["random", "jittered", "n-rooks", "halton", "multi-jittered", "hammersley"]
 PLANS = [(["star", "min-distance", "l2-star"], [16, 64], 3), (["star", "l2-periodic"], [9], 20), (["l2-star"], [256], 100), (["star"], [16], 1)]
@@ -36,16 +38,6 @@ def student(p, degrees, steps=2000):
         inside = sum((1 if i in (0, steps) else 4 if i % 2 else 2) * density(math.tan(i * h)) / math.cos(i * h) ** 2 for i in range(steps + 1)) * h / 3
         low, high = (x, high) if inside < p - 0.5 else (low, x)
     return low
-
-
-def words(runs):
-    return "".join(run if isinstance(run, str) else run["text"] for run in runs)
-
-
-def blocks(content):
-    for block in content:
-        yield block
-        yield from blocks(block.get("content", []))
 
 
 def complain(text):

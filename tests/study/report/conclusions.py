@@ -14,6 +14,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from schema import words
+
 KOKSMA = Path(sys.argv[1]).resolve()
 PALETTE = Path(__file__).resolve().parents[3] / "src/lab/plot/palette.def"
 problems = 0
@@ -98,10 +100,6 @@ def complain(text):
     global problems
     problems += 1
     print(text)
-
-
-def words(runs):
-    return "".join(run if isinstance(run, str) else run["text"] for run in runs)
 
 
 def blocks(content, under=()):

@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from schema import errors
+from schema import blocks, errors, words
 
 ROOT = Path(__file__).resolve().parents[3]
 KOKSMA = Path(sys.argv[1]).resolve()
@@ -45,16 +45,6 @@ def check_schema(name, report, schema=SCHEMA):
 
 
 # ---- What the schema can't say
-
-def blocks(content):
-    for block in content:
-        yield block
-        yield from blocks(block.get("content", []))
-
-
-def words(runs):
-    return "".join(run if isinstance(run, str) else run["text"] for run in runs)
-
 
 def check_tables(name, report):
     for table in (b for b in blocks(report["content"]) if b["kind"] == "table"):

@@ -1,10 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The part of JSON Schema (2020-12) that docs/report.schema.json and docs/datasheet.schema.json use."""
+"""The part of JSON Schema (2020-12) that docs/report.schema.json and docs/datasheet.schema.json use; and all blocks and the
+words of such a document."""
 import re
 
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None)}
 KNOWN = {"$schema", "$defs", "$ref", "title", "type", "required", "additionalProperties", "properties", "const", "enum", "oneOf",
          "items", "minItems", "maxItems", "minimum", "pattern"}
+
+
+def blocks(content):
+    for block in content:
+        yield block
+        yield from blocks(block.get("content", []))
+
+
+def words(runs):
+    return "".join(run if isinstance(run, str) else run["text"] for run in runs)
 
 
 def is_of(value, name):

@@ -6,9 +6,7 @@ each series, a figure "figure [id] caption" with a line for each image, pictures
 import json
 import sys
 
-
-def words(runs):
-    return "".join(run if isinstance(run, str) else run["text"] for run in runs)
+from schema import words
 
 
 def number(value, column):

@@ -16,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tests/study/report"))
-from schema import errors  # noqa: E402
+from schema import blocks, errors, words as text_of  # noqa: E402
 
 KOKSMA = str(Path(sys.argv[1]).resolve())
 SANITIZED = os.environ.get("KOKSMA_SANITIZED") == "1"
@@ -46,19 +46,9 @@ def sheet(*arguments):
     return text, data
 
 
-def blocks(content):
-    for block in content:
-        yield block
-        yield from blocks(block.get("content", []))
-
-
 def tables(data):
     return {b["name"]: [dict(zip([c["name"] for c in b["columns"]], row)) for row in b["rows"]]
             for b in blocks(data["content"]) if b["kind"] == "table"}
-
-
-def text_of(runs):
-    return "".join(r if isinstance(r, str) else r["text"] for r in runs)
 
 
 def rows_of(command):
