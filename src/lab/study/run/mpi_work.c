@@ -59,10 +59,8 @@ static koksma_status get_reference(worker *w, size_t index)
     }
     KOKSMA__TRY(koksma_image_init(&r->image, head.width, head.height, head.channels));
     const size_t pixels = (size_t)head.width * (size_t)head.height * (size_t)head.channels;
-    if (!receive(w, KOKSMA__TAG_PIXELS, r->image.pixels, pixels * sizeof *r->image.pixels, NULL)) {
-        return lost(w);
-    }
-    return KOKSMA_OK;
+    return receive(w, KOKSMA__TAG_PIXELS, r->image.pixels, pixels * sizeof *r->image.pixels, NULL) ? KOKSMA_OK
+                                                                                                   : lost(w);
 }
 
 static koksma_status send_results(worker *w)
