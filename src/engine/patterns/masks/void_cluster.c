@@ -39,6 +39,8 @@ typedef struct mask {
     double *gauss; /* the weight of an offset, SPAN numbers for each step along an axis */
 } mask;
 
+static const double NONE = (double)INFINITY; /* the value of a pixel of the other kind */
+
 static int side_of(const mask *m, int level, int axis)
 {
     return (m->sides[axis] + (1 << m->bits * level) - 1) >> m->bits * level;
@@ -74,7 +76,7 @@ static void renew_node(mask *m, int kind, int level, const int at[3])
     const int columns = b.to[0] - b.from[0] + 1;
     double least[FAN];
     for (int c = 0; c < FAN; c++) {
-        least[c] = INFINITY;
+        least[c] = NONE;
     }
     for (int child[3] = {b.from[0], 0, b.from[2]}; child[2] <= b.to[2]; child[2]++) {
         child[1] = b.from[1];
@@ -195,8 +197,8 @@ static void change(mask *m, size_t pixel, bool on, bool nodes)
     }
     double *of[2] = {m->trees[VOIDS][0] + pixel, m->trees[CLUSTERS][0] + pixel};
     const double energy = on ? *of[VOIDS] : -*of[CLUSTERS];
-    *of[VOIDS] = on ? INFINITY : energy;
-    *of[CLUSTERS] = on ? -energy : INFINITY;
+    *of[VOIDS] = on ? NONE : energy;
+    *of[CLUSTERS] = on ? -energy : NONE;
     for (int i = 0, n = counts[0] * counts[1] * counts[2]; i < n; i++) {
         const int which[3] = {i % counts[0], i / counts[0] % counts[1], i / counts[0] / counts[1]};
         box b;
@@ -228,7 +230,7 @@ static void clear(mask *m)
 {
     for (size_t i = 0; i < m->n; i++) {
         m->trees[VOIDS][0][i] = 0;
-        m->trees[CLUSTERS][0][i] = INFINITY;
+        m->trees[CLUSTERS][0][i] = NONE;
     }
 }
 
@@ -240,7 +242,7 @@ static koksma_status begin(mask *m, uint64_t seed, const koksma_run *run, size_t
     for (size_t placed = 0, i = 0; placed < *count; i++) {
         const uint32_t word = koksma__random(seed, KOKSMA__PURPOSE_DART, i, m->reach == REACH ? 0 : 3).w[0];
         const size_t at = koksma__below(word, (uint32_t)m->n);
-        if (m->trees[CLUSTERS][0][at] == INFINITY) {
+        if (m->trees[CLUSTERS][0][at] == NONE) {
             change(m, at, true, false);
             placed++;
         }
