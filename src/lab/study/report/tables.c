@@ -255,8 +255,9 @@ static const char *verb(size_t n)
 
 /* Writes how many published means of a group agree, unless the group has no means to compare. The answer is undecided if
    some differ for an unknown reason. */
-static void say_group(koksma__document *d, int group, const counts *all)
+static void say_group(koksma__document *d, int group, const counts *all, size_t tables)
 {
+    size_t one_set = 0;
     const size_t *of = all->of[group];
     const size_t agree = of[KOKSMA_VERDICT_AGREES] + of[KOKSMA_VERDICT_FITTED],
                  explained = of[KOKSMA_VERDICT_EXPLAINED], unexplained = of[KOKSMA_VERDICT_UNEXPLAINED];
@@ -283,6 +284,12 @@ static void say_group(koksma__document *d, int group, const counts *all)
     }
     if (unexplained) {
         koksma__doc_say(d, "; %zu %s for an unknown reason: ✗ in the tables", unexplained, verb(unexplained));
+    }
+    for (size_t i = 0; i < tables && group == MEASURES; i++) {
+        one_set += all->z[i].one_set;
+    }
+    if (one_set) {
+        koksma__doc_say(d, "; %zu of these are of a pattern with one set, where rounding alone decides", one_set);
     }
     if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
         koksma__doc_say(d, "; %zu more are no test", of[KOKSMA_VERDICT_UNTESTED]);
@@ -361,7 +368,7 @@ static void write_agreement(koksma__report *r, koksma__document *d)
         count_table(r, &plan->tables[i], &all, &all.z[i]);
     }
     for (int group = 0; !r->status && group < GROUPS; group++) {
-        say_group(d, group, &all);
+        say_group(d, group, &all, plan->n_tables);
         waiting += all.of[group][KOKSMA_VERDICT_WAITING];
         if (group == MEASURES) {
             say_joint(d, plan, all.z);
