@@ -140,6 +140,14 @@ static void changed_points_are_named(void **state)
         expect("as float, from 1337, reversed", &late, "equal", "Halton, coordinates 3 2 1 0", 1337);
     }
     koksma_points_fini(&late);
+    koksma_points sobol =
+        test_points("sobol", 129 + 204, 6, 0); /* digits after the eighth place make a linear scramble */
+    sobol.n = 204;
+    for (size_t i = 0; i < 6 * sobol.n; i++) {
+        sobol.xs[i] = round(sobol.xs[6 * 129 + i] * 1e8) / 1e8;
+    }
+    expect("to 8 places, from 129", &sobol, "equal", "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201)", 129);
+    koksma_points_fini(&sobol);
     koksma_points hammersley = test_points("hammersley", 97, 4, 0); /* i / 97 is Halton's coordinate 24, too */
     expect("a prime number of points", &hammersley, "equal", "Hammersley: Halton, coordinates i/n 0 1 2", 0);
     koksma_points_fini(&hammersley);

@@ -27,7 +27,7 @@ void koksma_identities_fini(koksma_identities *identities)
 }
 
 /* With less tolerance digits were found to be permuted, in a way that may be due to rounding: rounded points of a sequence
-   as it is are that, else the permutation is looked for again. */
+   as it is are that, else a nested one is looked for again. */
 static koksma_status identify_rounded(koksma__sample *s)
 {
     koksma_identities *found = s->found;
@@ -36,7 +36,7 @@ static koksma_status identify_rounded(koksma__sample *s)
     KOKSMA__TRY(koksma__identify_plain(s));
     if (!s->named) {
         s->named = true;
-        return koksma__identify_scrambled(s);
+        return s->scramble == KOKSMA__NESTED ? koksma__identify_scrambled(s) : KOKSMA_OK;
     }
     memmove(&found->items[s->before], &found->items[count], (found->count - count) * sizeof *found->items);
     found->count -= count - s->before;
@@ -63,7 +63,8 @@ static koksma_status identify_within(koksma__sample *s, const double *tolerances
     double tolerance = 0;
     s->before = s->found->count;
     s->scramble = KOKSMA__NO_RELATION;
-    for (int i = 0; i < precisions && (!s->named || s->scramble == KOKSMA__NESTED); i++) {
+    for (int i = 0; i < precisions && (!s->named || s->scramble == KOKSMA__NESTED || s->scramble == KOKSMA__LINEAR);
+         i++) {
         const int before = s->scramble;
         s->tolerance = tolerances[i];
         KOKSMA__TRY(identify_with(s));
