@@ -18,12 +18,11 @@ static const char six[] = "binomial:size=3,binomial:size=4,box:size=3,box:size=5
 
 typedef struct job {
     const cli_arguments *arguments;
-    const char *output, *filter, *from; /* from: the file of the first arrangement, or NULL */
-    char recipe[PATH];                  /* path of the recipe beside the output */
-    koksma_mask_options options;
+    const char *output;
+    char path[PATH]; /* of the recipe beside the output */
+    koksma_mask_recipe recipe;
     koksma_mask mask;  /* the mask that is made */
-    koksma_mask first; /* that of `from` */
-    koksma_mask_result result;
+    koksma_mask first; /* that of --from or --resume */
     uint64_t bits;
     cli_work work;
 } job;
@@ -62,7 +61,8 @@ static bool recipe_of(const cli_arguments *arguments, const char *path, char rec
 /* Reads the options of a new mask. Returns the exit code. */
 static int parse_new(job *j)
 {
-    koksma_mask_options *o = &j->options;
+    koksma_mask_options *o = &j->recipe.options;
+    const char *from = cli_text(j->arguments, "from", "");
     uint64_t levels;
     o->width = o->height = 128;
     if (!parse_space(j->arguments, &o->space) || !cli_size(j->arguments, &o->width, &o->height) ||
@@ -74,12 +74,14 @@ static int parse_new(job *j)
     }
     o->open = cli_flag(j->arguments, "open");
     o->levels = (int)levels;
-    koksma_status status = koksma_mask_filter_parse(j->filter, &o->filter);
-    if (!status && j->from) {
-        status = koksma_mask_read(j->from, o->space, &j->first);
+    snprintf(j->recipe.filter, KOKSMA_MASK_MAX_TEXT, "%s", cli_text(j->arguments, "filter", "gaussian:sigma=1"));
+    snprintf(j->recipe.from, KOKSMA_MASK_MAX_TEXT, "%s", from);
+    koksma_status status = koksma_mask_filter_parse(j->recipe.filter, &o->filter);
+    if (!status && *from) {
+        status = koksma_mask_read(from, o->space, &j->first);
         if (!status && cli_text(j->arguments, "size", NULL) &&
             (j->first.width != o->width || j->first.height != o->height)) {
-            return cli_usage_error(j->arguments, "--from %s: its size is %d x %d; --size may be left out", j->from,
+            return cli_usage_error(j->arguments, "--from %s: its size is %d x %d; --size may be left out", from,
                                    j->first.width, j->first.height);
         }
         o->width = j->first.width;
@@ -95,17 +97,17 @@ static int parse_resumed(job *j)
 {
     const char *path = cli_text(j->arguments, "resume", NULL);
     char recipe[PATH];
+    koksma_mask_options *o = &j->recipe.options;
     if (!recipe_of(j->arguments, path, recipe)) {
         return CLI_USAGE;
     }
-    koksma_status status = koksma_mask_read_recipe(recipe, &j->options);
-    status = status ? status : koksma_mask_read(path, j->options.space, &j->first);
-    if (!status && (j->first.width != j->options.width || j->first.height != j->options.height)) {
+    koksma_status status = koksma_mask_read_recipe(recipe, &j->recipe);
+    status = status ? status : koksma_mask_read(path, o->space, &j->first);
+    if (!status && (j->first.width != o->width || j->first.height != o->height)) {
         return cli_usage_error(j->arguments, "--resume %s: its size is %d x %d, and %d x %d in its recipe", path,
-                               j->first.width, j->first.height, j->options.width, j->options.height);
+                               j->first.width, j->first.height, o->width, o->height);
     }
-    j->options.levels = 0; /* those of the values that were read */
-    j->options.from = j->first.values;
+    o->from = j->first.values;
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
@@ -116,12 +118,12 @@ static int report(const job *j, const koksma_mask_quality *q)
     cli_row_whole(rows, "width", (uint64_t)j->mask.width);
     cli_row_whole(rows, "height", (uint64_t)j->mask.height);
     cli_row_text(rows, "space", j->mask.space->name);
-    cli_row_text(rows, "filter", j->filter);
+    cli_row_text(rows, "filter", *j->recipe.filter ? j->recipe.filter : "-");
     cli_row_number(rows, "error", q->error);
     cli_row_number(rows, "white", q->white);
     cli_row_number(rows, "ratio", q->error / q->white);
-    cli_row_whole(rows, "swaps", j->result.done);
-    cli_row_flag(rows, "finished", j->result.finished);
+    cli_row_whole(rows, "swaps", j->recipe.result.done);
+    cli_row_flag(rows, "finished", j->recipe.result.finished);
     cli_row_end(rows);
     return cli_rows_close(rows, CLI_YES);
 }
@@ -134,31 +136,29 @@ static int tests_of(const koksma_mask_space *space)
 /* Makes, writes and measures the mask. Returns the exit code. */
 static int make(job *j)
 {
-    const size_t count = (size_t)j->options.width * (size_t)j->options.height * (size_t)j->options.space->dim;
-    j->mask = (koksma_mask){j->options.width, j->options.height, j->options.space, malloc(count * sizeof(float))};
-    if (!j->mask.values) {
+    koksma_mask_options *o = &j->recipe.options;
+    const size_t pixels = (size_t)o->width * (size_t)o->height;
+    j->mask = (koksma_mask){o->width, o->height, o->space, malloc(pixels * (size_t)o->space->dim * sizeof(float))};
+    o->state = o->done ? o->state : calloc(pixels, sizeof *o->state);
+    if (!j->mask.values || (!o->done && !o->state)) {
         return cli_no_memory();
     }
     koksma_mask_quality q;
-    koksma_status status = koksma_mask_optimise(&j->options, &j->work.run, j->mask.values, &j->result);
+    koksma_status status = koksma_mask_optimise(o, &j->work.run, j->mask.values, &j->recipe.result);
     cli_work_end();
     status = status ? status : koksma_mask_write(j->output, &j->mask, (int)j->bits);
-    status = status ? status
-                    : koksma_mask_write_recipe(j->recipe, &j->options, strcmp(j->filter, "-") ? j->filter : NULL,
-                                               j->from, &j->result);
+    status = status ? status : koksma_mask_write_recipe(j->path, &j->recipe);
     j->work.run.time_limit_s = 0;
     status = status ? status
-                    : koksma_mask_measure(j->mask.width, j->mask.height, j->mask.space, j->mask.values,
-                                          &j->options.filter, tests_of(j->mask.space), &j->work.run, &q);
+                    : koksma_mask_measure(j->mask.width, j->mask.height, j->mask.space, j->mask.values, &o->filter,
+                                          tests_of(j->mask.space), &j->work.run, &q);
     return status ? cli_fail(j->arguments, status) : report(j, &q);
 }
 
 static int run_make(const cli_arguments *arguments)
 {
-    job j = {.arguments = arguments,
-             .output = cli_text(arguments, "output", cli_text(arguments, "resume", NULL)),
-             .filter = cli_text(arguments, "filter", "gaussian:sigma=1"),
-             .from = cli_text(arguments, "from", NULL)};
+    job j = {.arguments = arguments, .output = cli_text(arguments, "output", cli_text(arguments, "resume", NULL))};
+    koksma_mask_options *o = &j.recipe.options;
     if (arguments->n_operands) {
         return cli_usage_error(arguments, "%s: it takes 'check' and files, or options alone", arguments->operands[0]);
     }
@@ -171,20 +171,20 @@ static int run_make(const cli_arguments *arguments)
     const bool resumed = cli_text(arguments, "resume", NULL) != NULL;
     if ((resumed && !cli_refuse(arguments, "filter size space open levels swaps until seed from",
                                 "has no effect with --resume")) ||
-        !recipe_of(arguments, j.output, j.recipe) || !cli_whole(arguments, "bits", 0, 8, 32, &j.bits) ||
+        !recipe_of(arguments, j.output, j.path) || !cli_whole(arguments, "bits", 0, 8, 32, &j.bits) ||
         !cli_work_begin(arguments, "arranging", &j.work) ||
         !cli_real(arguments, "time-limit", 0, 0, 1e9, &j.work.run.time_limit_s)) {
         return CLI_USAGE;
     }
-    j.filter = resumed ? "-" : j.filter;
     int code = resumed ? parse_resumed(&j) : parse_new(&j);
-    j.options.space = j.options.space ? j.options.space : koksma_mask_space_at(0);
-    const koksma_status status = code ? KOKSMA_OK : koksma_mask_check_path(j.output, j.options.space, (int)j.bits);
+    o->space = o->space ? o->space : koksma_mask_space_at(0);
+    const koksma_status status = code ? KOKSMA_OK : koksma_mask_check_path(j.output, o->space, (int)j.bits);
     code = status ? cli_fail(arguments, status) : code;
     code = code ? code : cli_try_output(arguments, j.output);
     code = code ? code : make(&j);
     koksma_mask_fini(&j.mask);
     koksma_mask_fini(&j.first);
+    koksma_mask_recipe_fini(&j.recipe);
     return code;
 }
 

@@ -132,8 +132,13 @@ typedef struct koksma_mask_options {
     const float *from; /* width * height * dim numbers of a mask of this space: the search rearranges them. NULL: a
                           random arrangement of new values */
     uint64_t done;     /* number of proposals that an earlier call with these options has made before it returned the
-                          mask `from`: this call continues it. 0: the search begins */
-    double target;     /* end once the error is at most this number; 0: never */
+                          mask `from`: this call continues it, and `levels` has no effect. 0: the search begins */
+    double first;      /* with done above 0: koksma_mask_result.first of that call. 0: the error of `from` */
+    uint32_t
+        *state; /* width * height numbers that a call writes at its end, and reads at its beginning if done is above
+                          0: where the search stands, which the returned mask does not tell if it is an earlier one or
+                          has equal numbers. NULL: the search stands at the mask */
+    double target; /* end once the error is at most this number; 0: never */
 } koksma_mask_options;
 
 typedef struct koksma_mask_result {
@@ -154,11 +159,11 @@ typedef struct koksma_mask_result {
    measure (Crofton's formula), and so the generalised energy distance of Szekely & Rizzo (2013) after filtering.
 
    The search is simulated annealing by swaps of two pixels whose values are close. The error of the result is never above
-   that of the first arrangement. Equal options give equal bits on every machine. With 4,000 swaps a pixel it takes
-   about 5 s for 128 x 128 scalars and a filter of 5 x 5 pixels; the time is proportional to the number of pixels and of
-   the filter's pixels.
-     run     its time limit ends the search; the mask then is as good as it was by then, and options.done continues it.
-             It uses one thread
+   that of the first arrangement: `from` is returned if the search stands at a larger one. Equal options give equal bits
+   on every machine. With 4,000 swaps a pixel it takes about 5 s for 128 x 128 scalars and a filter of 5 x 5 pixels; the
+   time is proportional to the number of pixels and of the filter's pixels.
+     run     its time limit ends the search; the mask then is as good as it was by then, and options.done, first and state
+             continue it to the mask of one call. It uses one thread
      values  receives width * height * space->dim numbers: coordinate k of pixel (x, y) is
              values[(y * width + x) * dim + k]
      result  may be NULL

@@ -59,17 +59,28 @@ KOKSMA_API koksma_status koksma_mask_check_path(const char *path, const koksma_m
    Errors: ARGUMENT, UNSUPPORTED, IO, MEMORY. */
 KOKSMA_API koksma_status koksma_mask_write(const char *path, const koksma_mask *mask, int bits);
 
-/* Writes a JSON text with everything that makes a mask again, its filter's weights included.
-     filter  the text of koksma_mask_filter_parse; may be NULL
-     from    the file of options->from, if the search began with one; NULL: none
-   Errors: ARGUMENT, IO, MEMORY. */
-KOKSMA_API koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_options *options,
-                                                  const char *filter, const char *from,
-                                                  const koksma_mask_result *result);
+enum { KOKSMA_MASK_MAX_TEXT = 4200 };
 
-/* Reads such a text: out->done is the number of proposals that were made, and out->from is NULL.
+/* Everything that makes a mask again. */
+typedef struct koksma_mask_recipe {
+    koksma_mask_options options;
+    koksma_mask_result result;
+    char filter[KOKSMA_MASK_MAX_TEXT]; /* the text of koksma_mask_filter_parse; "": weights without one */
+    char from[KOKSMA_MASK_MAX_TEXT];   /* the file of options.from, if the search began with one; "": none */
+} koksma_mask_recipe;
+
+/* Frees options.state and zeroes the struct. recipe may be NULL, or zeroed. */
+KOKSMA_API void koksma_mask_recipe_fini(koksma_mask_recipe *recipe);
+
+/* Writes a recipe as a JSON text, the filter's weights included; of a search that is not finished also options.state, if it
+   is not NULL.
+   Errors: ARGUMENT, IO, MEMORY. */
+KOKSMA_API koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_recipe *recipe);
+
+/* Reads such a text such that out->options continue the search once options.from has the numbers of the mask: options.done
+   and first are those of the result, and options.from is NULL. koksma_mask_recipe_fini releases out.
    Errors: MISSING, MALFORMED (also of another revision of the search), MEMORY, SYSTEM. */
-KOKSMA_API koksma_status koksma_mask_read_recipe(const char *path, koksma_mask_options *out);
+KOKSMA_API koksma_status koksma_mask_read_recipe(const char *path, koksma_mask_recipe *out);
 
 /* The power spectrum of a mask on the torus, summed over its numbers.
      power  receives width * height numbers: power[v * width + u] is that at u cycles along the width and v along the

@@ -2,7 +2,7 @@
 """The structs of the public headers, member for member. tests/python/test_structs.py compares them with the C
 compiler's."""
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_longlong,
-                    c_size_t, c_uint, c_uint64, c_void_p, sizeof)
+                    c_size_t, c_uint, c_uint32, c_uint64, c_void_p, sizeof)
 
 MAX_PARAMS, MAX_MODIFIERS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 8, 512, 16, 9
 MAX_USE_GROUPS = N_USES // 2
@@ -129,7 +129,7 @@ class MaskFilter(Structure):
 class MaskOptions(Structure):
     _fields_ = [("width", c_int), ("height", c_int), ("space", POINTER(MaskSpace)), ("filter", MaskFilter), ("open", c_bool),
                 ("levels", c_int), ("seed", c_uint64), ("swaps", c_double), ("from", POINTER(c_float)), ("done", c_uint64),
-                ("target", c_double)]
+                ("first", c_double), ("state", POINTER(c_uint32)), ("target", c_double)]
 
 
 class MaskQuality(Structure):

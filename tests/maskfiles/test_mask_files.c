@@ -127,17 +127,31 @@ TEST_CASE(recipes_make_the_mask_again)
                              .space = koksma_mask_space_find("vector2"),
                              .swaps = 7.5,
                              .open = true,
-                             .seed = UINT64_MAX - 1},
-                        again;
+                             .seed = UINT64_MAX - 1};
     koksma_mask_result r;
-    assert_ok(koksma_mask_filter_parse("gaussian:sigma=0.6", &o.filter));
-    assert_ok(koksma_mask_optimise(&o, NULL, first, &r));
-    assert_ok(koksma_mask_write_recipe("a.json", &o, "gaussian:sigma=0.6", NULL, &r));
+    static koksma_mask_recipe recipe, again;
+    uint32_t stands[N];
+    recipe = (koksma_mask_recipe){.options = o, .filter = "gaussian:sigma=0.6", .from = "m.png"};
+    recipe.options.state = stands;
+    assert_ok(koksma_mask_filter_parse(recipe.filter, &recipe.options.filter));
+    assert_ok(koksma_mask_optimise(&recipe.options, NULL, first, &recipe.result));
+    assert_ok(koksma_mask_write_recipe("a.json", &recipe));
     assert_ok(koksma_mask_read_recipe("a.json", &again));
-    assert_true(again.done == r.done && r.done == (uint64_t)(7.5 * N));
-    again.done = 0;
-    assert_ok(koksma_mask_optimise(&again, NULL, second, &r));
+    assert_true(again.options.done == again.result.done && again.result.done == (uint64_t)(7.5 * N));
+    assert_true(again.result.first == recipe.result.first && again.result.error == recipe.result.error);
+    assert_true(again.result.finished && !again.options.state); /* a finished search stands nowhere */
+    assert_string_equal(again.filter, recipe.filter);
+    assert_string_equal(again.from, recipe.from);
+    again.options.done = 0;
+    assert_ok(koksma_mask_optimise(&again.options, NULL, second, &r));
     assert_memory_equal(first, second, sizeof first);
+    recipe.result.finished = false;
+    *recipe.filter = *recipe.from = '\0';
+    assert_ok(koksma_mask_write_recipe("a.json", &recipe));
+    assert_ok(koksma_mask_read_recipe("a.json", &again));
+    assert_memory_equal(again.options.state, stands, sizeof stands);
+    assert_true(!*again.filter && !*again.from);
+    koksma_mask_recipe_fini(&again);
     put("b.json", "{\"revision\": 1}");
     assert_error(koksma_mask_read_recipe("b.json", &again), KOKSMA_MALFORMED, "width");
     assert_error(koksma_mask_read_recipe("absent.json", &again), KOKSMA_MISSING, "absent.json");

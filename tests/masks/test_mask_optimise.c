@@ -161,23 +161,74 @@ TEST_CASE(each_value_occurs_once_or_equally_often)
 
 TEST_CASE(a_search_continues_where_it_ended)
 {
-    static const char *const names[] = {"scalar", "tent", "vector3", "circle"};
-    static float whole[MOST], part[MOST], rest[MOST];
-    for (size_t s = 0; s < 4; s++) {
-        koksma_mask_options o = options_of(16, 16, names[s]);
-        koksma_mask_result r;
+    static const struct {
+        const char *space;
+        int levels;
+        bool tied, state; /* tied: of a mask of few different numbers */
+    } cases[] = {{"scalar", 0, false, false}, {"tent", 0, false, false},  {"vector3", 0, false, false},
+                 {"circle", 0, false, false}, {"scalar", 9, false, true}, {"scalar", 0, true, true},
+                 {"gaussian", 0, true, true}, {"vector2", 0, true, true}};
+    static float whole[MOST], part[MOST], rest[MOST], given[MOST];
+    static uint32_t stands[16 * 16];
+    for (size_t s = 0; s < sizeof cases / sizeof *cases; s++) {
+        koksma_mask_options o = options_of(16, 16, cases[s].space);
+        koksma_mask_result r, all;
         koksma_run soon = {.threads = 1, .time_limit_s = 1e-9}; /* ends after the first block */
         o.seed = 5;
-        assert_ok(koksma_mask_optimise(&o, NULL, whole, &r));
-        assert_int_equal(r.done, 40 * 256);
+        o.levels = cases[s].levels;
+        o.state = cases[s].state ? stands : NULL;
+        for (int i = 0; i < 512; i++) {
+            given[i] = (float)(i * 5 % 7) / 7;
+        }
+        o.from = cases[s].tied ? given : NULL;
+        assert_ok(koksma_mask_optimise(&o, NULL, whole, &all));
+        assert_int_equal(all.done, 40 * 256);
         assert_ok(koksma_mask_optimise(&o, &soon, part, &r));
-        assert_true(r.done > 0 && r.done < 40 * 256 && !r.finished);
-        o.from = part;
-        o.done = r.done;
-        assert_ok(koksma_mask_optimise(&o, NULL, rest, &r));
-        assert_true(r.finished && r.done == 40 * 256);
+        for (int calls = 0; calls < 3; calls++) {
+            assert_true(r.done == 1024 * (calls + 1U) && !r.finished && r.first == all.first);
+            o.from = part;
+            o.done = r.done;
+            o.first = r.first;
+            assert_ok(koksma_mask_optimise(&o, calls < 2 ? &soon : NULL, rest, &r));
+            memcpy(part, rest, sizeof part);
+        }
+        assert_true(r.finished && r.done == 40 * 256 && r.first == all.first);
         assert_memory_equal(rest, whole, 256 * (size_t)o.space->dim * sizeof *whole);
     }
+}
+
+/* A search that is ended while it is hot stands at a worse mask than the one that it was given: it returns the latter, and
+   continues from where it stands, to the mask of a search that is not ended. */
+TEST_CASE(a_search_that_is_ended_keeps_the_better_mask)
+{
+    enum { N = 16 * 16 };
+    static float given[N], whole[N], part[N], rest[N];
+    static uint32_t stands[N];
+    koksma_mask_options o = options_of(16, 16, "scalar");
+    koksma_mask_result r;
+    const koksma_run soon = {.threads = 1, .time_limit_s = 1e-9};
+    o.swaps = 200;
+    assert_ok(koksma_mask_optimise(&o, NULL, given, &r));
+    const double error = r.error;
+    o.from = given;
+    o.seed = 3;
+    o.swaps = 1000;
+    assert_ok(koksma_mask_optimise(&o, NULL, whole, &r));
+    assert_true(r.error < error); /* five times as many swaps */
+    assert_ok(koksma_mask_optimise(&o, &soon, part, &r));
+    assert_memory_equal(part, given, sizeof part);
+    assert_true(!r.finished && r.done == 0 && r.error == r.first); /* nothing to continue without the state */
+    o.state = stands;
+    assert_ok(koksma_mask_optimise(&o, &soon, part, &r));
+    assert_memory_equal(part, given, sizeof part);
+    assert_true(!r.finished && r.done == 1024 && r.error == r.first);
+    o.from = part;
+    o.done = r.done;
+    o.first = r.first;
+    assert_ok(koksma_mask_optimise(&o, NULL, rest, &r));
+    assert_memory_equal(rest, whole, sizeof rest);
+    stands[7] = stands[8];
+    assert_int_equal(koksma_mask_optimise(&o, NULL, rest, &r), KOKSMA_ARGUMENT);
 }
 
 TEST_CASE(target_ends_the_search)

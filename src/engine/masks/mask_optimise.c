@@ -9,7 +9,8 @@
  * A swap changes only the terms of the windows about its two pixels, which the kernel mask_growth sums in floats. A pixel
  * beyond the border of an open mask has no error: the terms with it are h(v), the mean distance, in place of a distance.
  *
- * Proposal i depends on the seed and i alone, so a search can be continued from the arrangement that it left.
+ * Proposal i depends on the seed and i alone, so a search can be continued from the arrangement that it left: which of
+ * the sorted values each pixel has, since equal ones differ by their place in the list.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -237,7 +238,7 @@ static koksma_status make_room(search *s)
     return KOKSMA_OK;
 }
 
-/* Fills the arrays, and computes the error of the first arrangement. */
+/* Fills the arrays but those of the arrangement. */
 static koksma_status begin(search *s, const koksma_run *run)
 {
     const koksma__mask_window *w = &s->window;
@@ -247,9 +248,6 @@ static koksma_status begin(search *s, const koksma_run *run)
             i == centre ? 0 : (float)(w->weights[i] / w->weights[centre]);
     }
     s->scale = w->weights[centre] / (double)s->values->n;
-    for (uint32_t p = 0; p < s->values->n; p++) {
-        place(s, p, s->values->value[p]);
-    }
     if (s->outside) {
         weigh_outside(s);
     }
@@ -257,30 +255,73 @@ static koksma_status begin(search *s, const koksma_run *run)
     for (size_t i = 0; i < s->values->n; i++) {
         s->mean += s->h[i] / (double)s->values->n;
     }
-    double error;
-    KOKSMA__TRY(koksma__mask_energy(s->options, s->values, s->h, run, &error));
-    s->error_square = error * error;
     return KOKSMA_OK;
 }
 
-/* Searches, and keeps the first arrangement if the last is worse. */
+/* Lets the search stand at the arrangement of the values, and computes its error. */
+static koksma_status stand(search *s, const koksma_run *run, double *error)
+{
+    for (uint32_t p = 0; p < s->values->n; p++) {
+        place(s, p, s->values->value[p]);
+    }
+    KOKSMA__TRY(koksma__mask_energy(s->options, s->values, s->h, run, error));
+    s->error_square = *error * *error;
+    return KOKSMA_OK;
+}
+
+/* Lets the search stand where the call before left it. */
+static koksma_status stand_again(search *s, const koksma_run *run)
+{
+    const uint32_t none = UINT32_MAX, *state = s->options->state;
+    double error;
+    for (size_t i = 0; i < s->values->n; i++) {
+        s->pixel[i] = none;
+    }
+    for (uint32_t p = 0; p < s->values->n; p++) {
+        KOKSMA__FAIL_IF(state[p] >= s->values->n || s->pixel[state[p]] != none, KOKSMA_ARGUMENT,
+                        "mask: the state of the search has the number %u at pixel %u; it has each from 0 to %zu once",
+                        (unsigned)state[p], (unsigned)p, s->values->n - 1);
+        s->pixel[state[p]] = p;
+    }
+    memcpy(s->values->value, state, s->values->n * sizeof *state);
+    return stand(s, run, &error);
+}
+
+/* Searches. kept: a copy of the first arrangement, which is the result if the search stands at a worse one. */
+static koksma_status find_from(search *s, const uint32_t *kept, const koksma_run *run, koksma_mask_result *result)
+{
+    const koksma_mask_options *o = s->options;
+    const size_t bytes = s->values->n * sizeof *kept;
+    double error;
+    KOKSMA__TRY(stand(s, run, &error));
+    result->first = o->done && o->first > 0 ? o->first : error;
+    KOKSMA__TRY(o->done && o->state ? stand_again(s, run) : KOKSMA_OK);
+    KOKSMA__TRY(anneal(s, run, result));
+    KOKSMA__TRY(koksma__mask_energy(o, s->values, s->h, run, &result->error));
+    if (o->state) {
+        memcpy(o->state, s->values->value, bytes);
+    }
+    if (result->error > result->first) {
+        memcpy(s->values->value, kept, bytes);
+        result->error = error;
+        if (!result->finished && !o->state) { /* what was searched is lost */
+            result->done = o->done;
+        }
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status find(search *s, const koksma_run *run, koksma_mask_result *result)
 {
     KOKSMA__TRY(koksma__mask_window_init(s->options, LEAST, &s->window));
     KOKSMA__TRY(make_room(s));
     KOKSMA__TRY(begin(s, run));
     const size_t bytes = s->values->n * sizeof *s->values->value;
-    result->first = result->error = sqrt(fmax(s->error_square, 0));
-    uint32_t *first = malloc(bytes);
-    KOKSMA__REQUIRE_MEMORY(first, bytes);
-    memcpy(first, s->values->value, bytes);
-    koksma_status status = anneal(s, run, result);
-    status = status ? status : koksma__mask_energy(s->options, s->values, s->h, run, &result->error);
-    if (!status && result->finished && result->error > result->first) {
-        memcpy(s->values->value, first, bytes);
-        result->error = result->first;
-    }
-    free(first);
+    uint32_t *kept = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(kept, bytes);
+    memcpy(kept, s->values->value, bytes);
+    const koksma_status status = find_from(s, kept, run, result);
+    free(kept);
     return status;
 }
 
@@ -293,13 +334,15 @@ static koksma_status check(const koksma_mask_options *o)
                     "mask: levels are of the space scalar, not of %s", o->space->name);
     KOKSMA__FAIL_IF(o->levels < 0 || o->levels == 1 || o->levels > pixels, KOKSMA_ARGUMENT,
                     "mask: %d levels for %d pixels; it takes 2 to as many as pixels, or 0", o->levels, pixels);
-    KOKSMA__FAIL_IF(o->levels && o->from, KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF(o->levels && o->from && !o->done, KOKSMA_ARGUMENT,
                     "mask: levels have no effect on the values of a mask that is given");
     KOKSMA__FAIL_IF(o->done && !o->from, KOKSMA_ARGUMENT,
                     "mask: done is above 0 without `from`, the mask that the search made");
     KOKSMA__FAIL_IF((double)o->done > o->swaps * pixels, KOKSMA_ARGUMENT,
                     "mask: done = %llu proposals, and the search has %.0f in all", (unsigned long long)o->done,
                     o->swaps * pixels);
+    KOKSMA__FAIL_IF(!(o->first >= 0 && o->first <= 1e100), KOKSMA_ARGUMENT, "mask: first = %g; errors are 0 or more",
+                    o->first);
     KOKSMA__FAIL_IF(!(o->target >= 0 && o->target <= 1e100), KOKSMA_ARGUMENT,
                     "mask: a target of %g; errors are 0 or more", o->target);
     return KOKSMA_OK;

@@ -5,7 +5,8 @@
  * warp that preserves ratios of areas.
  *
  * The search swaps values that are close, so they are sorted: numbers by size, vectors by their position on a Z-order
- * curve, which neighbours in space share but for few exceptions. Equal values are in the order of their pixels.
+ * curve, which neighbours in space share but for few exceptions, and those that share their position by their numbers.
+ * Equal values are in the order of their pixels.
  */
 #include <koksma/warp.h>
 
@@ -102,12 +103,18 @@ koksma_status koksma__mask_check(int width, int height, const koksma_mask_space 
 
 typedef struct sorted {
     uint64_t key;
-    uint32_t i;
+    const float *numbers;
+    uint32_t dim, i;
 } sorted;
 
 static int compare(const void *left, const void *right)
 {
     const sorted *a = left, *b = right;
+    for (uint32_t k = 0; a->key == b->key && k < a->dim; k++) {
+        if (a->numbers[k] < b->numbers[k] || b->numbers[k] < a->numbers[k]) {
+            return a->numbers[k] < b->numbers[k] ? -1 : 1;
+        }
+    }
     return a->key != b->key ? (a->key < b->key ? -1 : 1) : a->i < b->i ? -1 : 1;
 }
 
@@ -136,7 +143,7 @@ static koksma_status sort(const koksma_mask_space *face, const float *numbers, k
     sorted *order = malloc(v->n * sizeof *order);
     KOKSMA__REQUIRE_MEMORY(order, v->n * sizeof *order);
     for (size_t i = 0; i < v->n; i++) {
-        order[i] = (sorted){key_of(face, numbers + dim * i), (uint32_t)i};
+        order[i] = (sorted){key_of(face, numbers + dim * i), numbers + dim * i, (uint32_t)dim, (uint32_t)i};
     }
     qsort(order, v->n, sizeof *order, compare);
     for (size_t i = 0; i < v->n; i++) {

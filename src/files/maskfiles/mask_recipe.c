@@ -11,15 +11,39 @@
 #include "masks/masks.h"
 #include "json/json.h"
 
-koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_options *options, const char *filter,
-                                       const char *from, const koksma_mask_result *result)
+void koksma_mask_recipe_fini(koksma_mask_recipe *recipe)
 {
-    KOKSMA__REQUIRE(path, options, result);
-    const koksma_mask_options *o = options;
-    koksma_mask_filter f = o->filter;
+    if (recipe) {
+        free(recipe->options.state);
+        memset(recipe, 0, sizeof *recipe);
+    }
+}
+
+/* Writes where the search stands. */
+static void write_state(koksma__json_writer *w, const koksma_mask_options *o)
+{
+    koksma__json_begin_array(w, "state");
+    for (size_t p = 0; p < (size_t)o->width * (size_t)o->height; p++) {
+        koksma__json_write_whole(w, NULL, o->state[p]);
+    }
+    koksma__json_end(w);
+}
+
+static const char *text_or_null(const char *text)
+{
+    return *text ? text : NULL;
+}
+
+koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_recipe *recipe)
+{
+    KOKSMA__REQUIRE(path, recipe);
+    const koksma_mask_options *o = &recipe->options;
+    const koksma_mask_result *result = &recipe->result;
+    const koksma_mask_filter *f = &o->filter;
+    koksma_mask_filter normalised = *f;
     const koksma_mask_space *space = o->space;
     KOKSMA__TRY(koksma__mask_check(o->width, o->height, &space, NULL));
-    KOKSMA__TRY(koksma_mask_filter_check(&f));
+    KOKSMA__TRY(koksma_mask_filter_check(&normalised));
     koksma__json_writer w = {0};
     char seed[32], *text;
     size_t size;
@@ -36,21 +60,24 @@ koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_optio
     koksma__json_write_text(&w, "seed", seed);
     koksma__json_write_number(&w, "swaps", o->swaps);
     koksma__json_write_number(&w, "target", o->target);
-    koksma__json_write_text(&w, "from", from);
+    koksma__json_write_text(&w, "from", text_or_null(recipe->from));
     koksma__json_write_whole(&w, "done", (int64_t)result->done);
     koksma__json_write_flag(&w, "finished", result->finished);
     koksma__json_write_number(&w, "first", result->first);
     koksma__json_write_number(&w, "error", result->error);
-    koksma__json_write_text(&w, "filter", filter);
+    koksma__json_write_text(&w, "filter", text_or_null(recipe->filter));
     koksma__json_begin_array(&w, "weights");
-    for (int y = 0; y < f.height; y++) {
+    for (int y = 0; y < f->height; y++) {
         koksma__json_begin_array(&w, NULL);
-        for (int x = 0; x < f.width; x++) {
-            koksma__json_write_number(&w, NULL, f.weights[y * f.width + x]);
+        for (int x = 0; x < f->width; x++) {
+            koksma__json_write_number(&w, NULL, f->weights[y * f->width + x]);
         }
         koksma__json_end(&w);
     }
     koksma__json_end(&w);
+    if (o->state && !result->finished) {
+        write_state(&w, o);
+    }
     koksma__json_end(&w);
     KOKSMA__TRY(koksma__json_finish(&w, &text, &size));
     const koksma_status status = koksma__atomic_put(NULL, path, text, size);
@@ -75,8 +102,43 @@ static koksma_status read_weights(const koksma__json_node *root, koksma_mask_fil
             KOKSMA__TRY(koksma__json_number(&item, -1e100, 1e100, &f->weights[y * width + x]));
         }
     }
-    const koksma_status status = koksma_mask_filter_check(f);
+    koksma_mask_filter normalised = *f; /* f keeps its bits: they make the same mask */
+    const koksma_status status = koksma_mask_filter_check(&normalised);
     return status ? koksma__json_fail_in(&rows, status) : KOKSMA_OK;
+}
+
+/* Reads a text that may be null. */
+static koksma_status read_text(const koksma__json_node *root, const char *key, char out[KOKSMA_MASK_MAX_TEXT])
+{
+    koksma__json_node node;
+    const char *text;
+    KOKSMA__TRY(koksma__json_member(root, key, &node));
+    if (koksma__json_is_text(&node)) {
+        KOKSMA__TRY(koksma__json_text(&node, &text));
+        const int length = snprintf(out, KOKSMA_MASK_MAX_TEXT, "%s", text);
+        KOKSMA__JSON_FAIL_IF(length >= KOKSMA_MASK_MAX_TEXT, &node, "the text is longer than %d bytes",
+                             KOKSMA_MASK_MAX_TEXT - 1);
+    }
+    return KOKSMA_OK;
+}
+
+/* Reads where the search stands, if the text has it; koksma_mask_optimise checks that it is a permutation. */
+static koksma_status read_state(const koksma__json_node *root, koksma_mask_options *out)
+{
+    const size_t n = (size_t)out->width * (size_t)out->height;
+    if (!koksma__json_has(root, "state")) {
+        return KOKSMA_OK;
+    }
+    double *numbers = malloc(n * sizeof *numbers);
+    out->state = malloc(n * sizeof *out->state);
+    koksma_status status =
+        numbers && out->state ? KOKSMA_OK : koksma__fail_memory(n * (sizeof *numbers + sizeof *out->state));
+    status = status ? status : koksma__json_get_numbers(root, "state", true, 0, (double)n - 1, n, numbers);
+    for (size_t p = 0; p < n && !status; p++) {
+        out->state[p] = (uint32_t)numbers[p];
+    }
+    free(numbers);
+    return status;
 }
 
 static koksma_status read_texts(const koksma__json_node *root, koksma_mask_options *out)
@@ -97,6 +159,7 @@ static koksma_status read_texts(const koksma__json_node *root, koksma_mask_optio
 
 static koksma_status read_options(const koksma__json_node *root, koksma_mask_options *out)
 {
+    const koksma_mask_space *space = NULL;
     long long revision, width, height, levels, done;
     KOKSMA__TRY(koksma__json_get_whole(root, "revision", true, 0, 1000000, &revision));
     KOKSMA__JSON_FAIL_IF(revision != KOKSMA_MASK_REVISION, root,
@@ -112,22 +175,42 @@ static koksma_status read_options(const koksma__json_node *root, koksma_mask_opt
     out->height = (int)height;
     out->levels = (int)levels;
     out->done = (uint64_t)done;
+    const koksma_status status = koksma__mask_check(out->width, out->height, &space, NULL);
+    KOKSMA__TRY(status ? koksma__json_fail_in(root, status) : KOKSMA_OK);
     KOKSMA__TRY(read_texts(root, out));
+    KOKSMA__TRY(read_state(root, out));
     return read_weights(root, &out->filter);
 }
 
-koksma_status koksma_mask_read_recipe(const char *path, koksma_mask_options *out)
+static koksma_status read_recipe(const koksma__json_node *root, koksma_mask_recipe *out)
+{
+    koksma_mask_result *r = &out->result;
+    KOKSMA__TRY(read_options(root, &out->options));
+    KOKSMA__TRY(read_text(root, "filter", out->filter));
+    KOKSMA__TRY(read_text(root, "from", out->from));
+    KOKSMA__TRY(koksma__json_get_number(root, "first", true, 0, 1e100, &r->first));
+    KOKSMA__TRY(koksma__json_get_number(root, "error", true, 0, 1e100, &r->error));
+    KOKSMA__TRY(koksma__json_get_flag(root, "finished", true, &r->finished));
+    r->done = out->options.done;
+    out->options.first = r->first;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_mask_read_recipe(const char *path, koksma_mask_recipe *out)
 {
     KOKSMA__REQUIRE(path, out);
     unsigned char *bytes;
     size_t size;
     koksma__json *document = NULL;
-    *out = (koksma_mask_options){0};
+    memset(out, 0, sizeof *out);
     KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_PLAN, KOKSMA__BY_USER, koksma__check_text, &bytes, &size));
     koksma_status status = koksma__json_open("mask", path, (const char *)bytes, size, &document);
     if (!status) {
         const koksma__json_node root = koksma__json_root(document);
-        status = read_options(&root, out);
+        status = read_recipe(&root, out);
+    }
+    if (status) {
+        koksma_mask_recipe_fini(out);
     }
     koksma__json_close(document);
     free(bytes);
