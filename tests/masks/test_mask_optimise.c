@@ -302,23 +302,53 @@ TEST_CASE(masks_are_better_than_void_and_cluster)
     }
 }
 
-/* A random arrangement has the error `white`. */
+/* A random arrangement has the error `white`; also one whose tile is smaller than the filter, of 7 x 7 pixels. */
 TEST_CASE(white_is_the_error_of_random_arrangements)
 {
+    static const struct {
+        const char *name;
+        int width, height;
+        unsigned masks;
+        double apart; /* some three standard deviations */
+    } cases[] = {{"scalar", 32, 32, 20, 0.06}, {"vector2", 32, 32, 20, 0.06}, {"scalar", 4, 6, 2000, 0.03}};
     float v[32 * 32 * 2];
-    static const char *const names[] = {"scalar", "vector2"};
-    for (size_t s = 0; s < 2; s++) {
-        koksma_mask_options o = options_of(32, 32, names[s]);
+    for (size_t s = 0; s < sizeof cases / sizeof *cases; s++) {
+        const int width = cases[s].width, height = cases[s].height;
+        koksma_mask_options o = options_of(width, height, cases[s].name);
         use_gaussian(&o);
         double squares = 0, expected = 0;
         o.swaps = 0;
-        for (o.seed = 0; o.seed < 20; o.seed++) {
+        for (o.seed = 0; o.seed < cases[s].masks; o.seed++) {
             koksma_mask_quality q;
             assert_ok(koksma_mask_optimise(&o, NULL, v, NULL));
-            assert_ok(koksma_mask_measure(32, 32, o.space, v, &o.filter, 32, NULL, &q));
-            squares += q.error * q.error / 20;
+            assert_ok(koksma_mask_measure(width, height, o.space, v, &o.filter, 32, NULL, &q));
+            squares += q.error * q.error / cases[s].masks;
             expected = q.white * q.white;
         }
-        assert_close(squares, expected, 0.06); /* a standard deviation of 2 % of each, 20 of them */
+        assert_close(squares, expected, cases[s].apart);
     }
+}
+
+/* Equal weights over the whole tile leave nothing of a mask; a box of 65 pixels over 24 x 20 is 2 or 3 of them along the
+   width, 3 or 4 along the height. */
+TEST_CASE(white_wraps_filters_that_are_larger_than_the_mask)
+{
+    float v[24 * 20];
+    koksma_mask_options o = options_of(24, 20, "scalar");
+    koksma_mask_quality q;
+    o.swaps = 0;
+    o.filter.width = o.filter.height = 65;
+    for (int i = 0; i < 65 * 65; i++) {
+        o.filter.weights[i] = 1;
+    }
+    double squares = 0, shares = 0;
+    for (int i = 0; i < 24 * 20; i++) {
+        squares += pow((i % 24 < 17 ? 3 : 2) * (i / 24 < 5 ? 4 : 3) / (65 * 65.0), 2);
+    }
+    for (int t = 0; t < 16; t++) {
+        shares += (t + 0.5) / 16 * (1 - (t + 0.5) / 16) / 16;
+    }
+    assert_ok(koksma_mask_optimise(&o, NULL, v, NULL));
+    assert_ok(koksma_mask_measure(24, 20, NULL, v, &o.filter, 16, NULL, &q));
+    assert_close(q.white, sqrt(shares * (480 * squares - 1) / 479), 1e-9);
 }

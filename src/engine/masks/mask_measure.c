@@ -134,15 +134,31 @@ static koksma_status rank(const float *values, size_t n, float *ranks)
     return KOKSMA_OK;
 }
 
+/* Returns the sum of squares of the weights on the torus: those of a filter that is larger than the mask fall on each other. */
+static koksma_status squares_on_torus(const measuring *m, double *squares)
+{
+    const koksma_mask_filter *f = m->filter;
+    const size_t n = (size_t)m->width * (size_t)m->height;
+    double *weights = calloc(n, sizeof *weights);
+    KOKSMA__REQUIRE_MEMORY(weights, n * sizeof *weights);
+    for (int i = 0; i < f->width * f->height; i++) {
+        weights[i / f->width % m->height * m->width + i % f->width % m->width] += f->weights[i];
+    }
+    *squares = 0;
+    for (size_t p = 0; p < n; p++) {
+        *squares += weights[p] * weights[p];
+    }
+    free(weights);
+    return KOKSMA_OK;
+}
+
 static koksma_status measure_all(measuring *m, const koksma_run *run, koksma_mask_quality *out)
 {
     KOKSMA__TRY(koksma__parallel(run, (size_t)m->tests, measure_test, m));
     const int free_x = m->width - m->filter->width + 1, free_y = m->height - m->filter->height + 1;
     const double n = (double)m->width * m->height, within = free_x > 0 && free_y > 0 ? (double)free_x * free_y : 0;
-    double inside = 0, seam = 0, random = 0, squares = 0;
-    for (int i = 0; i < m->filter->width * m->filter->height; i++) {
-        squares += m->filter->weights[i] * m->filter->weights[i];
-    }
+    double inside = 0, seam = 0, random = 0, squares;
+    KOKSMA__TRY(squares_on_torus(m, &squares));
     for (int t = 0; t < m->tests; t++) {
         inside += m->inside[t] / m->tests;
         seam += m->seam[t] / m->tests;
