@@ -5,6 +5,7 @@
 #include <koksma/warp.h>
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "claims/claims.h"
 #include "test.h"
@@ -414,6 +415,31 @@ TEST_CASE(vectors_in_files_are_the_samples)
     assert_ok(koksma_points_init(&two, 2 * N, 2));
     assert_int_equal(koksma_generate(&spec, 0, NULL, &two), KOKSMA_N);
     koksma_points_fini(&two);
+}
+
+/* The uniform directions of a circle and of a sphere have no place in the square. */
+TEST_CASE(directions_without_samples_are_refused)
+{
+    static const char *const spaces[] = {"circle", "sphere"};
+    for (int s = 0; s < 2; s++) {
+        const koksma_mask_space *space = koksma_mask_space_find(spaces[s]);
+        koksma_mask_options options = {.width = 9, .height = 4, .space = space, .filter = {2, 1, {1, 1}}};
+        float v[3 * 36];
+        koksma_spec spec;
+        koksma_points points;
+        assert_ok(koksma_mask_optimise(&options, NULL, v, NULL));
+        FILE *file = fopen("unit.npy", "wb");
+        char head[119];
+        snprintf(head, sizeof head, "{'descr': '<f4', 'fortran_order': False, 'shape': (4, 9, %d), }", space->dim);
+        fprintf(file, "%cNUMPY%c%c%c%c%-117s\n", 0x93, 1, 0, 118, 0, head);
+        fwrite(v, sizeof *v, (size_t)space->dim * 36, file);
+        fclose(file);
+        assert_ok(koksma_pattern_spec("mask-file:unit.npy", &spec));
+        assert_ok(koksma_points_init(&points, 36, 2));
+        assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_MALFORMED);
+        assert_non_null(strstr(koksma_error_text(), spaces[s]));
+        koksma_points_fini(&points);
+    }
 }
 
 /* Masks of directions and of points of the disk give the points that the warp maps to their values, each once, in one

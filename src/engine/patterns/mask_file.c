@@ -13,6 +13,8 @@
  *     3, all unit vectors with z >= 0 (the space hemisphere): the pixel's one sample is the point that the warp
  *                         cosine-hemisphere maps there, as renderers do for diffuse reflection and ambient occlusion
  *
+ * Unit vectors of the circle and of the whole sphere (the spaces circle and sphere) are refused.
+ *
  * A rank is a number's position in the sorted list of all numbers of its kind; equal numbers are in the order of the
  * pixels. The renderer repeats the tile over the image.
  *
@@ -77,26 +79,43 @@ static void rank(const mask *m, uint64_t seed, entry *sorted, uint32_t *ranks)
     }
 }
 
-/* Returns whether all pixels have unit vectors of the upper hemisphere. */
-static bool are_directions(const mask *m)
+/* Returns whether all pixels have unit vectors. */
+static bool are_unit(const mask *m)
 {
-    bool unit = m->numbers == 3;
+    bool unit = true;
     for (size_t p = 0; p < m->width * m->height && unit; p++) {
-        const float *v = m->values + 3 * p;
-        const double x = (double)v[0], y = (double)v[1], z = (double)v[2];
-        unit = z >= 0 && fabs(x * x + y * y + z * z - 1) < LENGTH;
+        double square = 0;
+        for (size_t k = 0; k < m->numbers; k++) {
+            square += (double)m->values[p * m->numbers + k] * (double)m->values[p * m->numbers + k];
+        }
+        unit = fabs(square - 1) < LENGTH;
     }
     return unit;
 }
 
-/* Returns whether the numbers are points of the unit disk, not of the unit square. */
-static bool are_in_disk(const mask *m)
+/* Returns whether the last number of a pixel, or one of the others, is below 0: points of the unit disk, not of the unit
+   square; with `last` alone, directions below the horizon. */
+static bool are_negative(const mask *m, bool last)
 {
     bool negative = false;
-    for (size_t i = 0; i < 2 * m->width * m->height; i++) {
-        negative |= m->values[i] < 0;
+    for (size_t i = 0; i < m->numbers * m->width * m->height; i++) {
+        negative |= m->values[i] < 0 && (!last || (i + 1) % m->numbers == 0);
     }
     return negative;
+}
+
+/* Fails for directions that no map of the square to directions of the renderer gives. */
+static koksma_status check_directions(const char *path, const mask *m, bool unit)
+{
+    KOKSMA__FAIL_IF(unit && m->numbers == 2 && are_negative(m, false), KOKSMA_MALFORMED,
+                    "mask-file:%s: directions on the circle are no samples of a square; points of the disk (mask "
+                    "--space disk) would do",
+                    path);
+    KOKSMA__FAIL_IF(unit && m->numbers == 3 && are_negative(m, true), KOKSMA_MALFORMED,
+                    "mask-file:%s: directions on the whole sphere are no samples of a square; those of a hemisphere, "
+                    "z >= 0 (mask --space hemisphere), would do",
+                    path);
+    return KOKSMA_OK;
 }
 
 /* Makes the point of the square that the concentric map sends to a point of the unit disk (its inverse: a = r and b = r (4
@@ -117,7 +136,7 @@ static void unmap_concentric(double x, double y, double u[2])
 static koksma_status fill_vectors(const char *path, const mask *m, uint64_t seed, koksma_points *out)
 {
     const size_t pixels = m->width * m->height;
-    const bool round = m->numbers == 3 || are_in_disk(m);
+    const bool round = m->numbers == 3 || are_negative(m, false);
     KOKSMA__TRY(koksma__tile_check("mask-file", pixels, true, out));
     for (size_t p = 0; p < pixels; p++) {
         const float *v = m->values + m->numbers * shifted(m, seed, 0, p);
@@ -147,7 +166,9 @@ static koksma_status fill(const mask *m, uint64_t seed, const koksma_args *args,
         KOKSMA__FAIL_IF(!(m->values[i] >= -1e30f && m->values[i] <= 1e30f), KOKSMA_MALFORMED,
                         "mask-file:%s: number %zu is not finite", args->path, i);
     }
-    if (m->numbers == 2 || are_directions(m)) {
+    const bool unit = m->numbers > 1 && are_unit(m);
+    KOKSMA__TRY(check_directions(args->path, m, unit));
+    if (m->numbers == 2 || unit) {
         return fill_vectors(args->path, m, seed, out);
     }
     KOKSMA__TRY(koksma__tile_check("mask-file", pixels, false, out));
