@@ -477,7 +477,7 @@ static const cli_option options[] = {
      "filters', or file:PATH, rows of numbers (default: gaussian:sigma=1); check: a list (default: six common ones)"},
     {0, "size", "WxH", "size in pixels, 4 to 1024 a side (default: 128x128)"},
     {0, "space", "scalar|tent|gaussian|vector2|vector3|vector4|disk|circle|sphere|hemisphere",
-     "the numbers of a pixel (default: scalar; check and --from: by the file's channels)"},
+     "the numbers of a pixel (default: scalar; check and --from: by FILE.json beside the file, or by its channels)"},
     {0, "open", NULL, "the mask has borders (default: a tile that repeats)"},
     {0, "levels", "L", "scalars: L different values, each equally often (default: as many as pixels)"},
     {0, "swaps", "K", "proposed swaps a pixel (default: 4000); more give a smaller error"},

@@ -36,7 +36,8 @@ KOKSMA_API void koksma_mask_fini(koksma_mask *mask);
      path   PNG, EXR or PFM, known by their content, or an .npy array of shape (height, width) or (height, width,
             numbers). Of an image all channels are read, but for an alpha that is 1 everywhere, a blue that is 0
             everywhere, and green and blue that equal red everywhere
-     space  NULL: scalar, vector2, vector3 or vector4, by the number of channels
+     space  NULL: that of the recipe beside the file (koksma_mask_recipe_space); without one scalar, vector2, vector3 or
+            vector4, by the number of channels
    Errors: MISSING, MALFORMED (also a size that masks do not have, a number outside the space, or another number of
    channels), UNSUPPORTED (this build lacks the format), MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_mask_read(const char *path, const koksma_mask_space *space, koksma_mask *out);
@@ -76,6 +77,10 @@ KOKSMA_API void koksma_mask_recipe_fini(koksma_mask_recipe *recipe);
    is not NULL.
    Errors: ARGUMENT, IO, MEMORY. */
 KOKSMA_API koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_recipe *recipe);
+
+/* Finds the space of a mask's file by its recipe, whose name is that of the file and ".json"; NULL if there is none.
+   Errors: MALFORMED (a recipe without a space), MEMORY, SYSTEM. */
+KOKSMA_API koksma_status koksma_mask_recipe_space(const char *path, const koksma_mask_space **out);
 
 /* Reads such a text such that out->options continue the search once options.from has the numbers of the mask: options.done
    and first are those of the result, and options.from is NULL. koksma_mask_recipe_fini releases out.

@@ -194,7 +194,7 @@ def read_mask(path: Union[str, "os.PathLike[str]"], space: Optional[str] = None)
     ----------
     path : str or path
     space : str
-        Default: "scalar", "vector2", "vector3" or "vector4", by the channels.
+        Default: that of the file's recipe, `path`.json; without one "scalar", "vector2", "vector3" or "vector4", by the channels.
 
     Returns
     -------

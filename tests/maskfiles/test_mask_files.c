@@ -157,6 +157,36 @@ TEST_CASE(recipes_make_the_mask_again)
     assert_error(koksma_mask_read_recipe("absent.json", &again), KOKSMA_MISSING, "absent.json");
 }
 
+/* Without a space a file is read in that of the recipe beside it; other JSON tells nothing. */
+TEST_CASE(the_space_follows_from_the_recipe)
+{
+    float values[4 * N];
+    static koksma_mask_recipe recipe;
+    koksma_mask again;
+    const koksma_mask_space *found;
+    for (size_t s = 0; koksma_mask_space_at(s); s++) {
+        const koksma_mask mask = mask_of(koksma_mask_space_at(s)->name, values);
+        recipe.options =
+            (koksma_mask_options){.width = W, .height = H, .space = mask.space, .filter = {2, 1, {1, 1}}};
+        assert_ok(koksma_mask_write("r.npy", &mask, 0));
+        assert_ok(koksma_mask_write_recipe("r.npy.json", &recipe));
+        assert_ok(koksma_mask_read("r.npy", NULL, &again));
+        assert_ptr_equal(again.space, mask.space);
+        assert_memory_equal(again.values, values, (size_t)(N * mask.space->dim) * sizeof *values);
+        koksma_mask_fini(&again);
+    }
+    assert_ok(koksma_mask_recipe_space("absent.npy", &found));
+    assert_null(found);
+    put("r.npy.json", "{\"space\": \"tent\"}");
+    assert_ok(koksma_mask_recipe_space("r.npy", &found));
+    assert_null(found);
+    put("r.npy.json", "{\"format\": \"koksma-mask\", \"space\": \"tents\"}");
+    assert_error(koksma_mask_recipe_space("r.npy", &found), KOKSMA_MALFORMED, "tents");
+    const koksma_mask mask = mask_of("gaussian", values);
+    assert_ok(koksma_mask_write("g.npy", &mask, 0));
+    assert_error(koksma_mask_read("g.npy", NULL, &again), KOKSMA_MALFORMED, "of tent -1 to 1, of gaussian -6 to 6");
+}
+
 static void assert_weights(const char *text, int width, int height, const double *weights)
 {
     koksma_mask_filter f;

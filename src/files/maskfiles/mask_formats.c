@@ -127,10 +127,28 @@ static koksma_status read_npy(const char *path, numbers *n)
     return KOKSMA_OK;
 }
 
+/* Fails for a number outside the space; without a known space the text has all of this number of channels. */
+static koksma_status fail_outside(const char *path, const numbers *n, size_t i, const koksma_mask_space *space,
+                                  bool known)
+{
+    char others[512] = "";
+    for (size_t k = 0, at = 0; koksma_mask_space_at(k) && !known && at < sizeof others; k++) {
+        const koksma_mask_space *other = koksma_mask_space_at(k);
+        if (other != space && other->dim == space->dim) {
+            at += (size_t)snprintf(others + at, sizeof others - at, "%s%s %g to %g", at ? ", of " : "; of ",
+                                   other->name, other->low, other->high);
+        }
+    }
+    return koksma__fail(KOKSMA_MALFORMED, "%s: pixel (%zu, %zu) has the number %.9g; those of %s are %g to %g%s",
+                        path, i / n->channels % n->width, i / n->channels / n->width, (double)n->values[i],
+                        space->name, space->low, space->high, others);
+}
+
 /* Fails unless the numbers are a mask of the space; maps levels to its range. */
 static koksma_status to_mask(const char *path, numbers *n, const koksma_mask_space *space, koksma_mask *out)
 {
     static const char *const by_channels[] = {"scalar", "vector2", "vector3", "vector4"};
+    const bool known = space != NULL;
     space = space ? space : koksma_mask_space_find(by_channels[n->channels - 1]);
     KOKSMA__FAIL_IF(n->channels != (size_t)space->dim, KOKSMA_MALFORMED,
                     "%s: %zu numbers a pixel, and the space %s has %d", path, n->channels, space->name, space->dim);
@@ -143,10 +161,7 @@ static koksma_status to_mask(const char *path, numbers *n, const koksma_mask_spa
             n->values[i] = (float)(space->low + (double)n->values[i] * (space->high - space->low));
         }
         const double x = (double)n->values[i];
-        KOKSMA__FAIL_IF(!(x >= space->low && x <= space->high), KOKSMA_MALFORMED,
-                        "%s: pixel (%zu, %zu) has the number %.9g; those of %s are %g to %g", path,
-                        i / n->channels % n->width, i / n->channels / n->width, x, space->name, space->low,
-                        space->high);
+        KOKSMA__TRY(x >= space->low && x <= space->high ? KOKSMA_OK : fail_outside(path, n, i, space, known));
     }
     *out = (koksma_mask){(int)n->width, (int)n->height, space, n->values};
     return KOKSMA_OK;
@@ -159,6 +174,7 @@ koksma_status koksma_mask_read(const char *path, const koksma_mask_space *space,
     *out = (koksma_mask){0};
     const koksma_mask_space *checked = space;
     KOKSMA__TRY(koksma__mask_check(KOKSMA_MASK_MIN, KOKSMA_MASK_MIN, &checked, NULL));
+    KOKSMA__TRY(space ? KOKSMA_OK : koksma_mask_recipe_space(path, &space));
     koksma_status status = koksma__path_ends_in(path, ".npy") ? read_npy(path, &n) : read_image(path, &n);
     status = status ? status : to_mask(path, &n, space, out);
     if (status) {

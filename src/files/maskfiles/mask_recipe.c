@@ -141,14 +141,22 @@ static koksma_status read_state(const koksma__json_node *root, koksma_mask_optio
     return status;
 }
 
-static koksma_status read_texts(const koksma__json_node *root, koksma_mask_options *out)
+static koksma_status read_space(const koksma__json_node *root, const koksma_mask_space **out)
 {
     koksma__json_node node;
     const char *text;
     KOKSMA__TRY(koksma__json_member(root, "space", &node));
     KOKSMA__TRY(koksma__json_text(&node, &text));
-    out->space = koksma_mask_space_find(text);
-    KOKSMA__JSON_FAIL_IF(!out->space, &node, "no space '%s'", text);
+    *out = koksma_mask_space_find(text);
+    KOKSMA__JSON_FAIL_IF(!*out, &node, "no space '%s'", text);
+    return KOKSMA_OK;
+}
+
+static koksma_status read_texts(const koksma__json_node *root, koksma_mask_options *out)
+{
+    koksma__json_node node;
+    const char *text;
+    KOKSMA__TRY(read_space(root, &out->space));
     KOKSMA__TRY(koksma__json_member(root, "seed", &node));
     KOKSMA__TRY(koksma__json_text(&node, &text));
     char *end;
@@ -196,23 +204,51 @@ static koksma_status read_recipe(const koksma__json_node *root, koksma_mask_reci
     return KOKSMA_OK;
 }
 
+/* Opens a recipe; the caller closes *out. */
+static koksma_status open_recipe(const char *path, koksma__json **out)
+{
+    unsigned char *bytes;
+    size_t size;
+    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_PARAMETERS, KOKSMA__BY_USER, koksma__check_text, &bytes, &size));
+    const koksma_status status = koksma__json_open("mask", path, (const char *)bytes, size, out);
+    free(bytes);
+    return status;
+}
+
 koksma_status koksma_mask_read_recipe(const char *path, koksma_mask_recipe *out)
 {
     KOKSMA__REQUIRE(path, out);
-    unsigned char *bytes;
-    size_t size;
     koksma__json *document = NULL;
     memset(out, 0, sizeof *out);
-    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_PLAN, KOKSMA__BY_USER, koksma__check_text, &bytes, &size));
-    koksma_status status = koksma__json_open("mask", path, (const char *)bytes, size, &document);
-    if (!status) {
-        const koksma__json_node root = koksma__json_root(document);
-        status = read_recipe(&root, out);
-    }
+    KOKSMA__TRY(open_recipe(path, &document));
+    const koksma__json_node root = koksma__json_root(document);
+    const koksma_status status = read_recipe(&root, out);
+    koksma__json_close(document);
     if (status) {
         koksma_mask_recipe_fini(out);
     }
+    return status;
+}
+
+koksma_status koksma_mask_recipe_space(const char *path, const koksma_mask_space **out)
+{
+    KOKSMA__REQUIRE(path, out);
+    koksma__json *document = NULL;
+    char beside[KOKSMA__MAX_PATH];
+    *out = NULL;
+    if (snprintf(beside, sizeof beside, "%s.json", path) >= (int)sizeof beside) {
+        return KOKSMA_OK; /* no recipe has so long a path */
+    }
+    koksma_status status = open_recipe(beside, &document);
+    if (status) {
+        return status == KOKSMA_MISSING ? KOKSMA_OK : status;
+    }
+    const koksma__json_node root = koksma__json_root(document);
+    if (koksma__json_has(&root, "format")) {
+        const char *format = "";
+        status = koksma__json_get_text(&root, "format", true, &format);
+        status = status || strcmp(format, "koksma-mask") != 0 ? status : read_space(&root, out);
+    }
     koksma__json_close(document);
-    free(bytes);
     return status;
 }
