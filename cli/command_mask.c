@@ -217,7 +217,8 @@ static bool put_histogram(cli_rows *rows, const koksma_mask *mask, const char *w
         most = next - i > most ? next - i : most;
     }
     free(sorted);
-    if (warn && most > least + 1) { /* one more where the levels of a picture do not divide the pixels */
+    /* One more where the levels of a picture do not divide the pixels; levels of a distribution are not equally often. */
+    if (warn && mask->space->low >= 0 && most > least + 1) {
         fprintf(stderr,
                 "koksma mask: %s: warning: no permutation: some numbers occur %zu times, others %zu, so that a "
                 "threshold keeps no exact share of the pixels; --from makes a mask of these numbers\n",

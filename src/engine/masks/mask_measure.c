@@ -134,7 +134,7 @@ static koksma_status rank(const float *values, size_t n, float *ranks)
     return KOKSMA_OK;
 }
 
-/* Returns the sum of squares of the weights on the torus: those of a filter that is larger than the mask fall on each other. */
+/* Computes the sum of squares of the weights on the torus, where those of a filter larger than the mask meet. */
 static koksma_status squares_on_torus(const measuring *m, double *squares)
 {
     const koksma_mask_filter *f = m->filter;

@@ -135,8 +135,8 @@ static koksma_status fail_outside(const char *path, const numbers *n, size_t i, 
     for (size_t k = 0, at = 0; koksma_mask_space_at(k) && !known && at < sizeof others; k++) {
         const koksma_mask_space *other = koksma_mask_space_at(k);
         if (other != space && other->dim == space->dim) {
-            at += (size_t)snprintf(others + at, sizeof others - at, "%s%s %g to %g", at ? ", of " : "; of ",
-                                   other->name, other->low, other->high);
+            at += (size_t)koksma__snprintf(others + at, sizeof others - at, "%s%s %g to %g", at ? ", of " : "; of ",
+                                           other->name, other->low, other->high);
         }
     }
     return koksma__fail(KOKSMA_MALFORMED, "%s: pixel (%zu, %zu) has the number %.9g; those of %s are %g to %g%s",
