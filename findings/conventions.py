@@ -34,7 +34,8 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE, FACTS = ROOT / "docs" / "conventions-of-others.md", ROOT / "docs" / "conventions-of-others.json"
 SETS = ROOT / "tests" / "identify" / "sets"
 COLUMNS = {"generator": "generator", "first": "first point", "order": "order and numbers", "randomisation": "randomisation",
-           "kept": "kept", "limit": "dimensions", "equal": "equal to"}
+           "kept": "kept; limit", "equal": "equal to"}
+WRITTEN = ("generator", "first", "order", "randomisation", "limit", "equal")
 POINTS, DIM, SEED = 64, 4, 1
 UNNAMED = ("property", "unknown", "scaled", "rounded")
 ALIKE = ({"equal", "reordered", "part"}, {"linear-scramble", "digital-shift", "nested-scramble"},
@@ -310,7 +311,7 @@ def facts(entry, options):
             write_npy(path, points)
             named = name(identify(options.koksma, path))
         given = "-" if isinstance(twenty, str) else len(twenty)
-        found.append({"package": entry["name"], "version": version(entry), **{k: row.get(k, "") for k in COLUMNS},
+        found.append({"package": entry["name"], "version": version(entry), **{k: row.get(k, "") for k in WRITTEN},
                       "unchecked": row.get("unchecked", False), "kept": kept, "twenty": given, "identify": named, "points": [len(points), len(points[0])],
                       "digest": digest(points) if again == points else "differs in each run"})
     package.close()
@@ -322,16 +323,27 @@ def version(entry):
     return re.split("==|=|@|:", entry.get("install_alone", entry["install"])[0])[-1].lstrip("=v")
 
 
+def held(row):
+    """The letters of what a seed keeps, how many points are given for 20 if not as many, and the most dimensions."""
+    words = ["".join(word[0] for word in row["kept"])]
+    words += [f"20 give {row['twenty']}"] * (row["twenty"] not in (20, "-"))
+    words += [f"{row['limit']}{'+' * row['unchecked']}"] if row["limit"] else []
+    return "; ".join(filter(None, words))
+
+
 def table(rows):
-    """The lines of the page's table."""
-    lines = ["| package | " + " | ".join(COLUMNS.values()) + " |", "|---" * (len(COLUMNS) + 1) + "|"]
-    last = None
+    """The lines of the page's table: one for each group of neighbours of a package that differ in their generator alone."""
+    lines, last, groups = ["| package | " + " | ".join(COLUMNS.values()) + " |", "|---" * (len(COLUMNS) + 1) + "|"], None, []
     for row in rows:
         package = f"{row['package']} {row['version']}"
-        cells = {**row, "kept": ", ".join(row["kept"]), "limit": f"{row['limit']}{'+' * row.get('unchecked', False)}" if row["limit"] else ""}
-        if row["twenty"] not in (20, "-"):
-            cells["kept"] += ("; " if cells["kept"] else "") + f"20 give {row['twenty']}"
-        lines.append(f"| {package if package != last else ''} | " + " | ".join(cells[k] for k in COLUMNS) + " |")
+        cells = [row[k] if k != "kept" else held(row) for k in COLUMNS if k != "generator"]
+        if groups and groups[-1][0] == package and groups[-1][2] == cells:
+            groups[-1][1].append(row["generator"])
+        else:
+            groups.append((package, [row["generator"]], cells))
+    for package, generators, cells in groups:
+        cells = [re.sub(r"^none$", "", re.sub("^none; the kind of", "~", cell)) for cell in cells]
+        lines.append(f"| {package if package != last else ''} | " + " | ".join([", ".join(generators), *cells]) + " |")
         last = package
     return [re.sub(r"\|  (?=\|)", "| ", line) for line in lines]
 
@@ -386,8 +398,8 @@ def check(entries):
     """The page's table is made of the file of facts, that has each row of conventions.toml, and the sets are theirs."""
     rows = json.loads(FACTS.read_text(encoding="utf-8"))
     bad = [] if page(rows) == PAGE.read_text(encoding="utf-8") else [f"{PAGE.name}: not the table of {FACTS.name}: conventions.py table"]
-    written = [(e["name"], version(e), *(str(r.get(k, "")) for k in COLUMNS if k != "kept")) for e in entries for r in e["row"]]
-    measured = [(r["package"], r["version"], *(str(r[k]) for k in COLUMNS if k != "kept")) for r in rows]
+    written = [(e["name"], version(e), *(str(r.get(k, "")) for k in WRITTEN)) for e in entries for r in e["row"]]
+    measured = [(r["package"], r["version"], *(str(r[k]) for k in WRITTEN)) for r in rows]
     bad += [f"{FACTS.name}: has no such row: {row}; run conventions.py record" for row in written if row not in measured]
     bad += [f"conventions.toml: has no such row: {row}" for row in measured if row not in written]
     of = {r["set"]: (e["name"], r["generator"]) for e in entries for r in e["row"] if "set" in r}
