@@ -148,6 +148,16 @@ static void changed_points_are_named(void **state)
     }
     expect("to 8 places, from 129", &sobol, "equal", "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201)", 129);
     koksma_points_fini(&sobol);
+    koksma_points rooks = test_points("n-rooks", 133, 9, 3); /* five left out */
+    rooks.n = 128;
+    for (size_t i = 0; i < 9 * rooks.n;
+         i++) { /* another seed for each coordinate, so that it is no pattern of ours */
+        koksma_points other = test_points("n-rooks", 133, 9, 1000 + i % 9);
+        rooks.xs[i] = other.xs[9 * (i / 9) + (i + 4) % 9];
+        koksma_points_fini(&other);
+    }
+    expect("5 of 133 left out", &rooks, "stratified", "Latin hypercube (n-rooks), points left out", 0);
+    koksma_points_fini(&rooks);
     koksma_points hammersley = test_points("hammersley", 97, 4, 0); /* i / 97 is Halton's coordinate 24, too */
     expect("a prime number of points", &hammersley, "equal", "Hammersley: Halton, coordinates i/n 0 1 2", 0);
     koksma_points_fini(&hammersley);

@@ -295,6 +295,34 @@ static koksma_status look_at_grid(koksma__sample *s, double *scratch)
 
 /* ---- Strata ---- */
 
+/* Whether the points are n of m points of a Latin hypercube: in each coordinate no two in one of m intervals, which random
+   points are with a probability below 1e-12. *m: the least number from n + 1 to 9/8 n; 0: there is none. */
+static koksma_status find_latin_part(const koksma__sample *s, size_t *m)
+{
+    const size_t n = s->points.n, dim = (size_t)s->points.dim, most = n + n / 8;
+    size_t *seen = calloc(most + 1, sizeof *seen), looks = 0;
+    KOKSMA__REQUIRE_MEMORY(seen, (most + 1) * sizeof *seen);
+    bool all = false;
+    for (*m = n; !all && *m < most;) {
+        double chance = 27.6; /* of 1e12; the logarithm of the probability is added */
+        ++*m;
+        all = true;
+        for (size_t k = 0; k < dim && all; k++) {
+            looks++;
+            for (size_t i = 0; i < n && all; i++) {
+                size_t *cell = &seen[koksma__stratum(x_at(s, i, k), *m)];
+                all = *cell != looks;
+                *cell = looks;
+                chance += koksma__log1p(-(double)i / (double)*m);
+            }
+        }
+        all = all && chance < 0;
+    }
+    free(seen);
+    *m = all ? *m : 0;
+    return KOKSMA_OK;
+}
+
 static koksma_status look_at_strata(koksma__sample *s)
 {
     const size_t n = s->points.n, dim = (size_t)s->points.dim;
@@ -304,7 +332,13 @@ static koksma_status look_at_strata(koksma__sample *s)
         return name(s, "stratified", centred ? "centred Latin hypercube (n-rooks)" : "Latin hypercube (n-rooks)",
                     "each of n intervals of every coordinate has one point", 0);
     }
-    size_t columns = (size_t)nearbyint(koksma__pow((double)n, 1. / (double)dim)), cells = 1;
+    size_t whole, columns = (size_t)nearbyint(koksma__pow((double)n, 1. / (double)dim)), cells = 1;
+    char detail[120];
+    KOKSMA__TRY(find_latin_part(s, &whole));
+    if (whole) {
+        snprintf(detail, sizeof detail, "each of %zu intervals of every coordinate has at most one point", whole);
+        return name(s, "stratified", "Latin hypercube (n-rooks), points left out", detail, 0);
+    }
     for (size_t k = 0; k < dim && cells <= n; k++) {
         cells *= columns;
     }
@@ -323,7 +357,6 @@ static koksma_status look_at_strata(koksma__sample *s)
         seen[cell] = 1;
     }
     free(seen);
-    char detail[100];
     snprintf(detail, sizeof detail, "each of the %zu^%zu cells of a grid has one point", columns, dim);
     return each ? name(s, "stratified", "jittered points", detail, 0) : KOKSMA_OK;
 }
