@@ -349,7 +349,7 @@ static void add_image_columns(koksma__document *d, const koksma__image_block *bl
     snprintf(group, sizeof group, "against %lld %s samples (%s), %lld trial%s", first->spp * first->replicates,
              first->pattern, first->name, block->trials, koksma__plural((double)block->trials));
     add_error_columns(d, first->name, group);
-    koksma__doc_columns(d, "n3 coherence;n2 p;t coherent");
+    koksma__doc_columns(d, "n3 coherence;n3 noise below;n2 p;t coherent");
     if (block->n_references > 1) {
         snprintf(group, sizeof group, "against %lld × %lld %s samples (%s)", last->replicates, last->spp,
                  last->pattern, last->name);
@@ -371,7 +371,8 @@ static void add_image_row(koksma__report *r, koksma__document *d, const koksma__
     means[1] = last.mean.mean;
     begin_row(d, t, row, &verdict);
     koksma__doc_cells(d, "inn", koksma__estimate_of(&cell.mean), cell.sd, cell.max);
-    koksma__doc_cells(d, "nnt", v.images ? v.coherence : (double)NAN, v.images ? v.p : (double)NAN,
+    koksma__doc_cells(d, "nnnt", v.images ? v.coherence : (double)NAN, v.images ? v.noise_high : (double)NAN,
+                      v.images ? v.p : (double)NAN,
                       !v.images    ? "not known"
                       : v.coherent ? "yes"
                                    : "no");
@@ -523,16 +524,15 @@ static bool has_image_tables(const koksma__report *r)
 static void write_image_tables(koksma__report *r, koksma__document *d)
 {
     size_t i = 0;
-    koksma__doc_paragraph(
-        d,
-        "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
-        "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get "
-        "no verdict. Coherence (defined in the section _Pictures_) is that of the errors of the first %d trials: "
-        "white "
-        "noise has as large a one with probability p, and an error with p below %g is coherent: in bands, a slow "
-        "shade or "
-        "another pattern that the eye sees.",
-        KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
+    koksma__doc_paragraph(d,
+                          "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
+                          "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get "
+                          "no verdict. Coherence (defined in the section _Pictures_) is that of the errors of the "
+                          "first %d trials: that of "
+                          "white noise is below _noise below_ in 97.5 %% of cases, and as large as here with "
+                          "probability p. An error with p "
+                          "below %g is coherent: in bands, a slow shade or another pattern that the eye sees.",
+                          KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
     for (const koksma__table *t; !r->status && (t = next_table(r, true, &i));) {
         add_image_table(r, d, t);
     }
