@@ -457,8 +457,7 @@ bool cli_size(const cli_arguments *arguments, int *width, int *height)
     const char *text = cli_text(arguments, "size", NULL);
     int used = 0;
     if (text && (sscanf(text, "%6dx%6d%n", width, height, &used) != 2 || text[used] || *width < 1 || *height < 1)) {
-        cli_usage_error(arguments, "--size %s: it takes WIDTHxHEIGHT, such as 512x384, each 1 to %d", text,
-                        KOKSMA_MAX_IMAGE_SIDE);
+        cli_usage_error(arguments, "--size %s: it takes WIDTHxHEIGHT, such as 512x384, each 1 to 65536", text);
         return false;
     }
     if (text && (*width > KOKSMA_MAX_IMAGE_SIDE || *height > KOKSMA_MAX_IMAGE_SIDE ||

@@ -283,13 +283,15 @@ static void say_group(koksma__document *d, int group, const counts *all, size_t 
         koksma__doc_say(d, "; %zu %s for a reason that a note below the table gives", explained, verb(explained));
     }
     if (unexplained) {
-        koksma__doc_say(d, "; %zu %s for an unknown reason: ✗ in the tables", unexplained, verb(unexplained));
+        koksma__doc_say(d, "; %zu %s for an unknown reason%s: ✗ in the tables", unexplained, verb(unexplained),
+                        group == MEASURES ? " or by chance" : "");
     }
     for (size_t i = 0; i < tables && group == MEASURES; i++) {
         one_set += all->z[i].one_set;
     }
     if (one_set) {
-        koksma__doc_say(d, "; %zu of these are of a pattern with one set, where rounding alone decides", one_set);
+        koksma__doc_say(d, "; %zu of the %zu are of a pattern with one set, where rounding alone decides", one_set,
+                        agree + explained + unexplained);
     }
     if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
         koksma__doc_say(d, "; %zu more are no test", of[KOKSMA_VERDICT_UNTESTED]);
@@ -346,7 +348,7 @@ static void say_joint(koksma__document *d, const koksma__plan *plan, const koksm
         list_failed(d, plan, z, all_tests, true);
     }
     if (failed > strictly) {
-        koksma__doc_say(d, "; one that fails decides nothing for table ");
+        koksma__doc_say(d, "; one failure at 5 %% decides nothing: table ");
         list_failed(d, plan, z, all_tests, false);
         koksma__doc_say(d, " (of %.0f tests %.2g fail by chance)", all_tests, 0.05 * all_tests);
     }
