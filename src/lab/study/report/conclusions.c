@@ -126,6 +126,36 @@ static void add_ranks(const double *values, size_t n, double *ranks)
     }
 }
 
+/* Whether the intervals of two means overlap; without an interval a mean is one point. */
+static bool overlap(const koksma__summary *x, const koksma__summary *y)
+{
+    return (isnan(x->low) ? x->mean : x->low) <= (isnan(y->high) ? y->mean : y->high) &&
+           (isnan(y->low) ? y->mean : y->low) <= (isnan(x->high) ? x->mean : x->high);
+}
+
+/* Names the pairs of means in the tables whose intervals overlap, so that chance may have ranked them. */
+static void say_overlaps(koksma__report *r, koksma__document *d, const koksma__conclusion *c)
+{
+    size_t said = 0;
+    for (size_t t = 0; t < c->tables.n; t++) {
+        const koksma__table *of = table_of(r, c, c->tables.at[t]);
+        for (size_t i = 0; i < c->patterns.n; i++) {
+            const koksma__summary x = koksma__table_cell(r, of, c->patterns.at[i], 0).mean;
+            for (size_t k = i + 1; k < c->patterns.n; k++) {
+                const koksma__summary y = koksma__table_cell(r, of, c->patterns.at[k], 0).mean;
+                if (overlap(&x, &y)) {
+                    koksma__doc_say(d, said++ ? "; " : "Chance may have ranked, as their intervals overlap: ");
+                    say_label(d, r, c, c->patterns.at[i]);
+                    koksma__doc_say(d, " and ");
+                    say_label(d, r, c, c->patterns.at[k]);
+                    koksma__doc_say(d, " in %s", of->id);
+                }
+            }
+        }
+    }
+    koksma__doc_say(d, said ? ". " : "");
+}
+
 /* Each pattern's mean rank over the tables, by our means against the paper's reference, must not fall along that order:
    each neighbouring pair is a test. Beside it stands Spearman's correlation of the printed with our means. */
 static void conclude_order(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
@@ -145,6 +175,7 @@ static void conclude_order(koksma__report *r, koksma__document *d, const koksma_
         }
     }
     bool tied = false;
+    say_overlaps(r, &all->more, c);
     koksma__doc_say(&all->more, "Rank correlation of the printed means with ours: ");
     for (size_t t = 0; t < tables; t++) {
         koksma__doc_say(&all->more, "%s%.2f in %s%s", t ? "; " : "", rho[t], t ? "" : "table ", c->tables.at[t]);
@@ -271,7 +302,7 @@ static const char *name_of(const koksma__table *t)
    least. */
 static void conclude_predictor(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
 {
-    const double least = koksma__spearman_limit(c->patterns.n, 0.05);
+    const double least = koksma__spearman_limit(c->patterns.n, 0.025);
     const char *worst[2] = {"", ""};
     double lowest[2] = {INFINITY, INFINITY};
     bool printed = true; /* whether all measures are in print */
@@ -287,7 +318,8 @@ static void conclude_predictor(koksma__report *r, koksma__document *d, const kok
         for (size_t k = 0; k < c->tables.n; k++) {
             test(all, rho[2 * k] > least - 1e-12);
             if (!by) {
-                koksma__doc_say(d, "%s%s", k ? ", " : "Rank correlation with the error in ", c->tables.at[k]);
+                koksma__doc_say(d, k ? ", " : "Rank correlation of %s with the error in ", name_of(of));
+                koksma__doc_say(d, "%s", c->tables.at[k]);
             }
         }
         koksma__doc_say(by ? &all->more : d, by ? "%s (`%s`, table %s): " : ": ", name_of(of),
@@ -302,7 +334,7 @@ static void conclude_predictor(koksma__report *r, koksma__document *d, const kok
         }
     }
     koksma__doc_words_append(d, &averages);
-    if (c->by.n > 1) {
+    if (c->by.n > 2) {
         koksma__doc_say(d, ": %s predicts worst", worst[0]);
         koksma__doc_say(d, printed ? ", in print %s" : "%s",
                         !printed                     ? ""
@@ -310,7 +342,8 @@ static void conclude_predictor(koksma__report *r, koksma__document *d, const kok
                                                      : "too");
     }
     koksma__doc_say(d, ". %zu of %zu correlations are surely above 0.", all->passed, all->tests);
-    koksma__doc_say(&all->more, "Of %zu patterns a correlation is surely above 0 (at 5 %%) from %.2f on. ",
+    koksma__doc_say(&all->more,
+                    "Of %zu patterns a correlation is surely above 0 (at 5 %% on two sides) from %.2f on. ",
                     c->patterns.n, least);
 }
 
@@ -521,7 +554,7 @@ static koksma__curve read_curve(koksma__report *r, const koksma__subject *s, con
 }
 
 /* Each pattern and measure is a test: the whole interval of the slope over the block's numbers of points must be below
-   -1/2 - TOLERANCE. If the block has random points, each pattern's mean at the largest size is given as a multiple. */
+   -1/2 - TOLERANCE. If the block has random points, each pattern's means are given, the last as a multiple of theirs. */
 static void test_rates(koksma__report *r, koksma__document *d, const koksma__conclusion *c, const koksma__subject *s,
                        tested *all)
 {
@@ -543,11 +576,16 @@ static void test_rates(koksma__report *r, koksma__document *d, const koksma__con
         say_label(d, r, c, c->patterns.at[i]);
         koksma__doc_say(d, " N^%.3f^ (± %.3f)%s", slope.value, slope.high - slope.value,
                         i + 1 < c->patterns.n ? ", " : ".");
-        if (random.n == sizes) {
-            koksma__doc_say(&all->more, "At N = %lld ", s->n->at[sizes - 1]);
-            say_label(&all->more, r, c, c->patterns.at[i]);
-            koksma__doc_say(&all->more, " has %.2g times the mean of random points. ",
-                            curve.y[sizes - 1].mean / random.y[sizes - 1].mean);
+        for (size_t k = 0; k < sizes && random.n == sizes; k++) {
+            if (!k) {
+                say_label(&all->more, r, c, c->patterns.at[i]);
+            }
+            koksma__doc_say(&all->more, k ? ", %.3g at %lld" : " has means of %.3g at N = %lld", curve.y[k].mean,
+                            s->n->at[k]);
+            if (k + 1 == sizes) {
+                koksma__doc_say(&all->more, ", the last %.2g times that of random points. ",
+                                curve.y[k].mean / random.y[k].mean);
+            }
         }
     }
 }
@@ -567,12 +605,12 @@ static void conclude_rates(koksma__report *r, koksma__document *d, const koksma_
 
 /* ---- slopes: the printed tables over several n, by the slopes that stand beside their rows ------------------- */
 
-/* The slope of our means of a row, of all columns; NaN if one is missing. */
-static koksma__estimate slope_of(koksma__report *r, const koksma__table *t, const char *pattern)
+/* The slope of our means of a row by a measure of its table, of all columns; NaN if one is missing. */
+static koksma__estimate slope_of(koksma__report *r, const koksma__table *t, const char *measure, const char *pattern)
 {
     koksma__curve c = koksma__curve_of(r, t->n.n);
     for (size_t k = 0; k < t->n.n; k++) {
-        koksma__curve_add(&c, t->n.at[k], koksma__points_cell(r, t, judged_by(t), pattern, t->n.at[k]).mean);
+        koksma__curve_add(&c, t->n.at[k], koksma__points_cell(r, t, measure, pattern, t->n.at[k]).mean);
     }
     return c.n == t->n.n ? koksma__trend_of(c.x, c.y, c.n).slope : (koksma__estimate){NAN, NAN, NAN};
 }
@@ -586,14 +624,14 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
     const koksma__estimate none = {NAN, NAN, NAN};
     for (size_t i = 0; i < c->tables.n; i++) {
         const koksma__table *t = table_of(r, c, c->tables.at[i]);
-        const bool other = is_other(t, 0);
-        koksma__document *to = other ? &all->more : d;
+        const bool other = is_other(t, 0), exact = judged_by(t) != t->measure;
+        koksma__document *to = other && c->tables.n > 1 ? &all->more : d;
         koksma__doc_say(to, other ? "By our rows' procedure (`%s`) in table %s:" : "%s in table %s",
                         other        ? t->measure
                         : all->tests ? ";"
                                      : "Slopes",
                         t->id);
-        if (!other && judged_by(t) != t->measure) {
+        if (!other && exact) {
             koksma__doc_say(to, " (`%s`)", judged_by(t));
         }
         for (size_t k = 0, said = 0; k < c->patterns.n + c->against.n; k++) {
@@ -602,10 +640,17 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
             if (!koksma__plan_row_of(t, pattern)) {
                 continue;
             }
-            const koksma__estimate slope = slope_of(r, t, pattern), least = by ? slope_of(r, by, pattern) : none;
+            const koksma__estimate slope = slope_of(r, t, judged_by(t), pattern),
+                                   least = by ? slope_of(r, by, judged_by(by), pattern) : none;
             koksma__doc_say(to, said++ ? ", " : " ");
             say_label(to, r, c, pattern);
             koksma__doc_say(to, " %.3f ± %.3f", slope.value, slope.high - slope.value);
+            if (exact) {
+                const koksma__estimate printed = slope_of(r, t, t->measure, pattern);
+                koksma__doc_say(&all->more, said > 1 ? ", " : "By `%s`, as printed, ", t->measure);
+                say_label(&all->more, r, c, pattern);
+                koksma__doc_say(&all->more, " %.3f ± %.3f", printed.value, printed.high - printed.value);
+            }
             if (by) {
                 koksma__doc_say(to, " (%.3f ± %.3f in table %s)", least.value, least.high - least.value, by->id);
             }
@@ -615,7 +660,8 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
                 test(all, by ? slope.low > least.high : (slope.high < -0.5 - TOLERANCE) == faster);
             }
         }
-        koksma__doc_say(to, other ? ". " : "");
+        koksma__doc_say(&all->more, exact ? ". " : "");
+        koksma__doc_say(to, other ? to == d ? "." : ". " : "");
     }
     koksma__doc_say(d, all->tests ? "." : "");
     if (by) {

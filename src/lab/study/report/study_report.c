@@ -90,6 +90,7 @@ static koksma_status build(koksma__report *r, const koksma_run *run, koksma__doc
     }
     koksma__doc_head(d, "koksma-report", plan->title, plan->n_parts == 1 && plan->about ? plan->about : "",
                      plan->name);
+    koksma__json_write_flag(&d->json, "quick", r->study->quick);
     koksma__json_write_text(&d->json, "rows_sha256", r->rows);
     koksma__json_begin_array(&d->json, "content");
     for (; !r->status && r->part < plan->n_parts; r->part++) {

@@ -221,6 +221,7 @@ enum { MEASURES, IMAGES, FITTED, GROUPS };
 /* The verdicts of each group, where the means of measures are no test, and the values of z of each table. */
 typedef struct counts {
     size_t of[GROUPS][KOKSMA_VERDICT_UNTESTED + 1];
+    size_t inferred; /* cells of measures that count, by a procedure that their table's note infers from the table */
     char untested[256]; /* such as "3 in table 1; 15 in table 3" */
     koksma__z_sums *z;  /* [table] */
 } counts;
@@ -228,6 +229,16 @@ typedef struct counts {
 static bool has_tables(const koksma__report *r)
 {
     return r->study->plan.n_tables > 0;
+}
+
+/* Whether a note on all means of a table says which procedure they are probably of, which explains no difference. */
+static bool is_inferred(const koksma__table *t)
+{
+    bool inferred = false;
+    for (size_t i = 0; i < t->n_notes; i++) {
+        inferred |= !t->notes[i].pattern && !t->notes[i].explained && !t->notes[i].untested;
+    }
+    return inferred;
 }
 
 /* A table over several numbers of points has one mean per row and column, other tables one per row. */
@@ -239,6 +250,8 @@ static void count_table(koksma__report *r, const koksma__table *t, counts *all, 
         const koksma__cell cell = koksma__table_cell(r, t, row->pattern, i % t->n.n);
         const koksma__verdict verdict = koksma__table_judge(t, row, i % t->n.n, &cell);
         of[verdict.kind]++;
+        all->inferred += !t->scene && is_inferred(t) &&
+                         (verdict.kind == KOKSMA_VERDICT_AGREES || verdict.kind == KOKSMA_VERDICT_UNEXPLAINED);
         koksma__z_add(z, &verdict, &cell);
     }
     const size_t used = strlen(all->untested);
@@ -292,6 +305,10 @@ static void say_group(koksma__document *d, int group, const counts *all, size_t 
     if (one_set) {
         koksma__doc_say(d, "; %zu of the %zu are of a pattern with one set, where rounding alone decides", one_set,
                         agree + explained + unexplained);
+    }
+    if (group == MEASURES && all->inferred) {
+        koksma__doc_say(d, "; %zu are by a procedure that was inferred from their tables, as the notes say",
+                        all->inferred);
     }
     if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
         koksma__doc_say(d, "; %zu more are no test", of[KOKSMA_VERDICT_UNTESTED]);

@@ -4,7 +4,7 @@
 import { element } from "../../../../explorer/page/dom.mjs";
 import { filterTables, plain, unique, words } from "./tables.mjs";
 
-const mostAnswers = 8, levels = 3, marks = { decided: "✓", holds: "✓", partly: "(✓)", fails: "✗" };
+const mostAnswers = 10, levels = 3, marks = { decided: "✓", holds: "✓", partly: "(✓)", fails: "✗" };
 
 // Gives every section an anchor, the id of its heading.
 export function addAnchors(content) {
@@ -54,8 +54,8 @@ function tablesIn(content) {
 
 // What the words of a reproduction's answers mean, and where its tables are.
 function glossary(content) {
-  return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks; white noise leaves about 3, and more where all trials have the same points. A wave with less than two periods over the picture is a shade, no bands. grain: amplitude of slow errors. "
-    + "Slope: exponent of the number of points. z: printed mean minus ours, in standard errors with half of the last printed digit. V(f), D*: variation, star discrepancy. Tables:",
+  return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks; white noise leaves about 3, and more where all trials have the same points. A wave with less than two periods over the picture is a shade, no bands. grain: amplitude of slow errors. Scenes fitted: their cameras and lights were fitted to the printed errors, so that sizes agree by construction, and orders and ratios are what is tested. "
+    + "Slope: exponent of the number of points. z: printed mean minus ours, in standard errors with half of the last printed digit. V(f), D*: variation, star discrepancy. Names such as extreme:grid=20 are those of koksma's measures and patterns with their parameters. Tables:",
     ...tablesIn(content).flatMap(t => [" ", element("a", { href: `#${t.anchor}` }, t.id.slice(6))]));
 }
 
@@ -70,7 +70,7 @@ function contents(blocks, level = 1) {
 export function overview(report) {
   const answers = answersIn(report.content), field = element("input", { type: "search" }), reproduces = report.content.some(b => b.id === "agreement");
   field.addEventListener("input", () => filterTables(field.value.trim().toLowerCase()));
-  return element("header", {}, element("p", { class: "kicker" }, reproduces ? "Koksma reproduces" : report.plan ? `A study by koksma ${report.koksma}: ${report.plan}` : `Made by koksma ${report.koksma}`),
+  return element("header", {}, element("p", { class: "kicker" }, reproduces ? `Koksma reproduces${report.quick ? ", with the fewer trials of --quick" : ""}` : report.plan ? `A study by koksma ${report.koksma}: ${report.plan}` : `Made by koksma ${report.koksma}`),
     element("h1", {}, report.title), report.about ? element("p", {}, report.about) : null, answers.length ? verdict(answers, ...(reproduces ? [glossary(report.content)] : [])) : null,
     element("nav", { "aria-label": "contents" }, element("details", { open: true }, element("summary", {}, "Contents"), contents(report.content)),
       element("label", { class: "search" }, "Show rows of all tables with ", field)));
