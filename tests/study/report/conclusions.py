@@ -70,6 +70,7 @@ CONCLUSIONS = [  # the words, the expected verdict, and the test
     ("predictor true", "holds", {"kind": "predictor", "tables": ["errors"], "by": ["errors"], "patterns": FIVE}),
     ("predictor false", "fails", {"kind": "predictor", "tables": ["errors"], "by": ["distance"], "patterns": FIVE}),
     ("predictor half true", "partly", {"kind": "predictor", "tables": ["errors"], "by": ["distance", "errors", "S"], "patterns": FIVE}),
+    ("predictor beside others", "holds", {"kind": "predictor", "tables": ["errors"], "by": ["errors"], "than": ["distance", "S"], "patterns": FIVE}),
     ("before true", "holds", {"kind": "before", "tables": ["sizes"], "patterns": ["jittered"], "against": ["random"]}),
     ("before false", "fails", {"kind": "before", "tables": ["sizes"], "patterns": ["random"], "against": ["jittered"]}),
     ("before of some other procedure", "holds", {"kind": "before", "tables": ["other", "sizes"], "patterns": ["jittered"], "against": ["random"]}),
@@ -158,6 +159,10 @@ def check_verdicts(report, rows):
     below = evidence(report, "predictor half true")
     if "min-distance predicts worst." not in text or "S l2-star" not in text or "S (l2-star, table S)" not in below or "from 1.00 on" not in below:
         complain(f"predictors: {text} {below}")
+    # What stands beside a measure is averaged and no test.
+    text = words(next(b for t, b in said.items() if t.startswith("predictor beside others"))["text"])
+    if "min-distance predicts worst." not in text or "1 of 1 correlations" not in text:
+        complain(f"measures beside: {text}")
 
 
 def check_agreement(report):

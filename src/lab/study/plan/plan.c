@@ -143,7 +143,7 @@ static void free_table(koksma__table *t)
 
 static void free_conclusion(koksma__conclusion *c)
 {
-    koksma__texts *const lists[] = {&c->tables, &c->by, &c->figures, &c->patterns, &c->against, &c->beside};
+    koksma__texts *const lists[] = {&c->tables, &c->by, &c->than, &c->figures, &c->patterns, &c->against, &c->beside};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         koksma__texts_fini(lists[i]);
     }

@@ -208,7 +208,7 @@ typedef struct koksma__conclusion {
     char *says;   /* the conclusion in words */
     char *remark; /* words that follow the result, or NULL */
     const koksma__plan_kind *kind;
-    koksma__texts tables, by, figures;       /* ids */
+    koksma__texts tables, by, than, figures; /* ids; than: tables whose measures stand beside those of `by` */
     koksma__texts patterns, against, beside; /* canonical specs; beside: shown without a test */
     char *images, *discrepancies;            /* ids of blocks, or NULL */
     char *metric;                            /* canonical spec, or NULL */

@@ -206,9 +206,9 @@ static koksma_status parse_list(const koksma__json_node *node, const char *key, 
 
 koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment", "says",    "kind",          "tables", "by",       "images",
-                                       "metric",  "against", "discrepancies", "remark", "patterns", "beside",
-                                       "figures", NULL};
+    static const char *const keys[] = {"comment", "says",     "kind",   "tables",  "by",
+                                       "than",    "images",   "metric", "against", "discrepancies",
+                                       "remark",  "patterns", "beside", "figures", NULL};
     koksma__conclusion *c = item;
     const bool stored = trials->stored;
     koksma_status status = koksma__json_only(node, keys);
@@ -219,6 +219,7 @@ koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksm
     status = status ? status : koksma__plan_spec(node, "metric", koksma__metric_text, false, &c->metric);
     status = status ? status : parse_list(node, "tables", NULL, stored, &c->tables);
     status = status ? status : parse_list(node, "by", NULL, stored, &c->by);
+    status = status ? status : parse_list(node, "than", NULL, stored, &c->than);
     status = status ? status : parse_list(node, "figures", NULL, stored, &c->figures);
     status = status ? status : parse_list(node, "against", koksma__image_pattern_text, stored, &c->against);
     status = status ? status : parse_list(node, "beside", koksma__image_pattern_text, stored, &c->beside);
@@ -308,10 +309,12 @@ koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, cons
                               : sizes                        ? sizes
                                                              : KOKSMA__NEEDS_IMAGES);
         status = status ? status : check_tables(&node, trials, p, &c->by, sizes);
+        status = status ? status : check_tables(&node, trials, p, &c->than, sizes);
         status = status ? status : check_figures(&node, trials, p, &c->figures);
         for (size_t k = 0; !status && k < 3; k++) {
             status = check_rows(&node, trials, p, &c->tables, all[k], sizes);
             status = status ? status : check_rows(&node, trials, p, &c->by, all[k], false);
+            status = status ? status : check_rows(&node, trials, p, &c->than, all[k], false);
             status = status ? status : check_blocks(&node, trials, p, c, all[k]);
         }
     }

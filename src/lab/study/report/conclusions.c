@@ -270,16 +270,13 @@ static double *correlate(koksma__report *r, const koksma__conclusion *c, const k
     return rho;
 }
 
-/* Writes the correlations of a measure in all tables, where they are not surely above 0, and their means into `means`. */
-static void say_correlations(koksma__document *d, const koksma__conclusion *c, const double *rho, double least,
-                             double means[2])
+/* Writes the correlations of a measure in all tables, and where they are not surely above 0. */
+static void say_correlations(koksma__document *d, const koksma__conclusion *c, const double *rho, double least)
 {
     size_t unsure = 0;
     for (size_t side = 0; side < 2; side++) {
-        means[side] = 0;
         for (size_t k = 0; k < c->tables.n; k++) {
             koksma__doc_say(d, "%s%.2f", k ? ", " : side ? " (in print " : "", rho[2 * k + side]);
-            means[side] += rho[2 * k + side] / (double)c->tables.n;
         }
     }
     koksma__doc_say(d, ")");
@@ -297,49 +294,87 @@ static const char *name_of(const koksma__table *t)
     return t->symbol ? t->symbol : t->scene ? t->scene : t->measure;
 }
 
+/* Writes what the correlations of the exact measure beside that of the printed numbers are. */
+static void say_exact(koksma__report *r, const koksma__conclusion *c, const koksma__table *by, koksma__document *d)
+{
+    size_t open = 0;
+    koksma__table exact = *by;
+    exact.measure = by->also;
+    const double *rho = by->also ? correlate(r, c, &exact, &open) : NULL;
+    for (size_t k = 0; rho && k < c->tables.n; k++) {
+        koksma__doc_say(d, k ? ", " : "By the exact `%s` ", by->also);
+        koksma__doc_say(d, "%.2f", rho[2 * k]);
+    }
+    koksma__doc_say(d, rho ? ". " : "");
+}
+
+/* The averages of the measures' correlations, ours [0] and in print [1], and the measures with the least. */
+typedef struct averages {
+    koksma__document words;
+    double least[2];
+    const char *worst[2];
+    bool printed; /* whether all measures are in print */
+} averages;
+
+/* Adds a measure's averages over the n tables and the number of its correlations of at least `limit`. */
+static void add_averages(averages *a, const koksma__table *of, const double *rho, size_t n, double limit)
+{
+    double means[2] = {0};
+    size_t sure = 0;
+    for (size_t k = 0; k < n; k++) {
+        sure += rho[2 * k] > limit - 1e-12;
+        means[0] += rho[2 * k] / (double)n;
+        means[1] += rho[2 * k + 1] / (double)n;
+    }
+    koksma__doc_say(&a->words, "%s%s%s`%s` %.2f (%.2f in print; %zu sure)",
+                    koksma__doc_is_empty(&a->words) ? "On average " : ", ", of->symbol ? of->symbol : "",
+                    of->symbol ? " " : "", of->scene ? of->scene : of->measure, means[0], means[1], sure);
+    a->printed &= !isnan(means[1]);
+    for (size_t side = 0; side < 2; side++) {
+        a->worst[side] = means[side] < a->least[side] ? name_of(of) : a->worst[side];
+        a->least[side] = fmin(a->least[side], means[side]);
+    }
+}
+
 /* Each measure of `by` must be surely correlated with the errors of each table, which is a test. The words give the
-   correlations of the first, those of the others are evidence; then the means over the tables of all, and which is
-   least. */
+   correlations of the first, those of the others are evidence; then the means over the tables of all, those of `than`
+   beside them, and which is least. */
 static void conclude_predictor(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
 {
     const double least = koksma__spearman_limit(c->patterns.n, 0.025);
-    const char *worst[2] = {"", ""};
-    double lowest[2] = {INFINITY, INFINITY};
-    bool printed = true; /* whether all measures are in print */
-    koksma__document averages;
-    koksma__doc_words_begin(&averages);
-    for (size_t by = 0; by < c->by.n; by++) {
-        const koksma__table *of = table_of(r, c, c->by.at[by]);
+    averages means = {.least = {INFINITY, INFINITY}, .worst = {"", ""}, .printed = true};
+    koksma__doc_words_begin(&means.words);
+    for (size_t i = 0; i < c->by.n + c->than.n; i++) {
+        const koksma__table *of = table_of(r, c, i < c->by.n ? c->by.at[i] : c->than.at[i - c->by.n]);
         const double *rho = correlate(r, c, of, &all->open);
-        double means[2];
+        koksma__document *to = i ? &all->more : d;
         if (!rho) {
             break;
         }
+        add_averages(&means, of, rho, c->tables.n, least);
+        if (i >= c->by.n) {
+            continue;
+        }
+        if (i) {
+            koksma__doc_say(to, "%s (`%s`, table %s): ", name_of(of), of->scene ? of->scene : of->measure, of->id);
+        }
         for (size_t k = 0; k < c->tables.n; k++) {
             test(all, rho[2 * k] > least - 1e-12);
-            if (!by) {
+            if (!i) {
                 koksma__doc_say(d, k ? ", " : "Rank correlation of %s with the error in ", name_of(of));
-                koksma__doc_say(d, "%s", c->tables.at[k]);
+                koksma__doc_say(d, k + 1 < c->tables.n ? "%s" : "%s: ", c->tables.at[k]);
             }
         }
-        koksma__doc_say(by ? &all->more : d, by ? "%s (`%s`, table %s): " : ": ", name_of(of),
-                        of->scene ? of->scene : of->measure, of->id);
-        say_correlations(by ? &all->more : d, c, rho, least, means);
-        koksma__doc_say(&averages, "%s%s%s`%s` %.2f (%.2f)", by ? ", " : "On average ", of->symbol ? of->symbol : "",
-                        of->symbol ? " " : "", of->scene ? of->scene : of->measure, means[0], means[1]);
-        printed &= !isnan(means[1]);
-        for (size_t side = 0; side < 2; side++) {
-            worst[side] = means[side] < lowest[side] ? name_of(of) : worst[side];
-            lowest[side] = fmin(lowest[side], means[side]);
-        }
+        say_correlations(to, c, rho, least);
+        say_exact(r, c, of, &all->more);
     }
-    koksma__doc_words_append(d, &averages);
-    if (c->by.n > 2) {
-        koksma__doc_say(d, ": %s predicts worst", worst[0]);
-        koksma__doc_say(d, printed ? ", in print %s" : "%s",
-                        !printed                     ? ""
-                        : strcmp(worst[0], worst[1]) ? worst[1]
-                                                     : "too");
+    koksma__doc_words_append(d, &means.words);
+    if (c->by.n + c->than.n > 2) {
+        koksma__doc_say(d, ": %s predicts worst", means.worst[0]);
+        koksma__doc_say(d, means.printed ? ", in print %s" : "%s",
+                        !means.printed                           ? ""
+                        : strcmp(means.worst[0], means.worst[1]) ? means.worst[1]
+                                                                 : "too");
     }
     koksma__doc_say(d, ". %zu of %zu correlations are surely above 0.", all->passed, all->tests);
     koksma__doc_say(&all->more,
@@ -415,6 +450,7 @@ static void conclude_before(koksma__report *r, koksma__document *d, const koksma
 /* The least and the largest coherence of errors that are in bands [0], and of those that are noise [1]. */
 typedef struct coherences {
     double low[2], high[2];
+    size_t shades;           /* errors that should be in bands and are one slow wave */
     koksma__document beside; /* the words of those of `beside` */
 } coherences;
 
@@ -457,6 +493,7 @@ static void test_bands(koksma__report *r, const koksma__conclusion *c, const kok
                 koksma__doc_say(&found->beside, " in %s %.3g, %s", s->scene, v.coherence, kind);
             } else {
                 test(all, banded == (list == 0));
+                found->shades += !list && v.coherent && !banded;
                 if (banded == v.coherent) {
                     found->low[!banded] = fmin(found->low[!banded], v.coherence);
                     found->high[!banded] = fmax(found->high[!banded], v.coherence);
@@ -489,7 +526,7 @@ static void conclude_bands(koksma__report *r, koksma__document *d, const koksma_
                             k ? ", of noise " : ": coherence with bands ", found.low[k], found.high[k]);
         }
     }
-    koksma__doc_say(d, ".");
+    koksma__doc_say(d, found.shades ? ", and %zu a shade, one slow wave." : ".", found.shades);
     if (!koksma__doc_is_empty(&found.beside)) {
         koksma__doc_words_append(d, &found.beside);
         koksma__doc_say(d, ".");
@@ -574,7 +611,8 @@ static void test_rates(koksma__report *r, koksma__document *d, const koksma__con
         }
         test(all, slope.high < -0.5 - TOLERANCE);
         say_label(d, r, c, c->patterns.at[i]);
-        koksma__doc_say(d, " N^%.3f^ (± %.3f)%s", slope.value, slope.high - slope.value,
+        koksma__doc_say(d, " N^%.3f^ (± %.3f%s)%s", slope.value, slope.high - slope.value,
+                        slope.high < -0.5 - TOLERANCE ? "" : ", not surely better",
                         i + 1 < c->patterns.n ? ", " : ".");
         for (size_t k = 0; k < sizes && random.n == sizes; k++) {
             if (!k) {
@@ -615,6 +653,13 @@ static koksma__estimate slope_of(koksma__report *r, const koksma__table *t, cons
     return c.n == t->n.n ? koksma__trend_of(c.x, c.y, c.n).slope : (koksma__estimate){NAN, NAN, NAN};
 }
 
+/* Whether a slope is as a conclusion says: surely above that of another table, or surely below -1/2 - TOLERANCE if it is to
+   be `faster`, and otherwise not. */
+static bool slope_passes(koksma__estimate slope, const koksma__estimate *other, bool faster)
+{
+    return other ? slope.low > other->high : (slope.high < -0.5 - TOLERANCE) == faster;
+}
+
 /* Each row of a pattern is a test: its slope must be surely below -1/2 - TOLERANCE and, of a pattern of `against`, must not
    be; with `by` it must be surely above the pattern's slope in that table. Rows by another procedure than the printed
    one are no tests. */
@@ -634,7 +679,8 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
         if (!other && exact) {
             koksma__doc_say(to, " (`%s`)", judged_by(t));
         }
-        for (size_t k = 0, said = 0; k < c->patterns.n + c->against.n; k++) {
+        size_t said = 0, unsure = 0; /* unsure: slopes that do not pass by the printed procedure */
+        for (size_t k = 0; k < c->patterns.n + c->against.n; k++) {
             const bool faster = k < c->patterns.n;
             const char *pattern = faster ? c->patterns.at[k] : c->against.at[k - c->patterns.n];
             if (!koksma__plan_row_of(t, pattern)) {
@@ -650,6 +696,7 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
                 koksma__doc_say(&all->more, said > 1 ? ", " : "By `%s`, as printed, ", t->measure);
                 say_label(&all->more, r, c, pattern);
                 koksma__doc_say(&all->more, " %.3f ± %.3f", printed.value, printed.high - printed.value);
+                unsure += !slope_passes(printed, by ? &least : NULL, faster);
             }
             if (by) {
                 koksma__doc_say(to, " (%.3f ± %.3f in table %s)", least.value, least.high - least.value, by->id);
@@ -657,10 +704,13 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
             all->other += other;
             all->open += isnan(slope.high) || (by && isnan(least.high));
             if (!other) {
-                test(all, by ? slope.low > least.high : (slope.high < -0.5 - TOLERANCE) == faster);
+                test(all, slope_passes(slope, by ? &least : NULL, faster));
             }
         }
         koksma__doc_say(&all->more, exact ? ". " : "");
+        if (unsure) {
+            koksma__doc_say(d, "; by the printed procedure %zu of %zu not surely", unsure, said);
+        }
         koksma__doc_say(to, other ? to == d ? "." : ". " : "");
     }
     koksma__doc_say(d, all->tests ? "." : "");
@@ -682,11 +732,11 @@ static void conclude_adaptive(koksma__report *r, koksma__document *d, const koks
         const koksma__figure *f = koksma__plan_figure_of(&r->study->plan, c->part, c->figures.at[i]);
         const koksma_adaptive_report *cost = &r->adaptive[f - r->study->plan.figures];
         share[i % 2] = (double)cost->needless / (double)cost->splits;
-        koksma__doc_say(d, "%s%.0f %% in %s%s",
+        koksma__doc_say(d, "%s%.0f %% in %s%s (`%s`)",
                         i % 2 ? " against "
                         : i   ? "; "
                               : "Needless splits: ",
-                        100 * share[i % 2], i ? "" : "figure ", f->id);
+                        100 * share[i % 2], i ? "" : "figure ", f->id, f->adaptive);
         koksma__doc_say(&all->more, "%s%s: %.1f more samples a pixel", i ? ", " : "Figure ", f->id,
                         (double)(cost->samples - cost->first) / (double)cost->first * (double)f->n);
         if (i % 2) {

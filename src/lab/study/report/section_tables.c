@@ -267,8 +267,8 @@ static void say_means(koksma__document *d, bool published, size_t sets, bool dif
                               : "Means are over %s%zu sets",
                     differ ? "up to " : "", sets);
     koksma__doc_say(d, ". Slopes are least squares over all columns; _theory_ is the exponent of the pattern for "
-                       "large N, which a slope over these columns need not have reached, and _× random_ the known "
-                       "factor of its mean there to that of random points.");
+                       "large N, which a slope over these columns need not have reached, and _× random_ the factor, "
+                       "where known, of its mean there to that of random points.");
     koksma__doc_paragraph_end(d);
 }
 
