@@ -302,14 +302,10 @@ static bool check_format(const cli_arguments *arguments, const char *output)
     return true;
 }
 
-/* Checks what the command line of a search without --scene has. Returns false after an error. */
+/* Checks what the command line has. Returns false after an error. */
 static bool check_arguments(const cli_arguments *arguments)
 {
     const char *power = cli_text(arguments, "power", NULL), *output = cli_text(arguments, "output", NULL);
-    if (!cli_refuse(arguments, "against held-out candidates phases size max-trials unknown",
-                    "has an effect only with --scene")) {
-        return false;
-    }
     if (arguments->n_operands != !power) {
         cli_usage_error(arguments, power ? "it takes a measure or --power, not both"
                                          : "it takes one measure, such as star or l2-disk:r=0.25");
@@ -329,9 +325,6 @@ static int run(const cli_arguments *arguments)
     koksma_optimum best = {0};
     job j = {
         .arguments = arguments, .measure = &measure, .first = NAN, .options = {.progress = progress, .context = &j}};
-    if (cli_text(arguments, "scene", NULL)) {
-        return cli_optimise_scene(arguments);
-    }
     const char *power = cli_text(arguments, "power", NULL), *output = cli_text(arguments, "output", NULL);
     if (!check_arguments(arguments)) {
         return CLI_USAGE;
@@ -398,17 +391,6 @@ static const cli_option options[] = {
     {0, "power", "step|gaussian|PATTERN|FILE",
      "instead of MEASURE: a target for the radial mean of the power spectrum of 2D points"},
     {0, "band", "B", "with --power: frequencies up to B sqrt(n) (default: 2)"},
-    {0, "scene", "SCENE", "search for a set that renders this scene well as file:FILE with -n samples a pixel"},
-    CLI_UNKNOWN_OPTION,
-    {0, "held-out", "SCENE,..",
-     "with --scene: other scenes in which the set is tested (default: six of the library)"},
-    {0, "against", "PATTERN,..|all",
-     "with --scene: patterns to compare the set with (default: those of 17 that make SPP points)"},
-    {0, "candidates", "N", "with --scene: number of candidate sets (default: 8)"},
-    {0, "phases", "N", "with --scene: number of shifts of each candidate on the torus (default: 4)"},
-    {0, "size", "WxH",
-     "with --scene: image size (default: that of the scene, halved until it has at most 1,200 pixels)"},
-    {0, "max-trials", "N", "with --scene: images of each candidate and pattern, 8 to 65536 (default: 32)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -418,8 +400,7 @@ const cli_command cli_command_optimise = {
     .name = "optimise",
     .summary = "search for points with a small value of a measure",
     .synopsis = "MEASURE -n N [-d DIM] [--from FILE] [--keep WHAT] [--projections LIST] [--steps K] -o FILE | "
-                "--power TARGET -n N [--band B] -o FILE | --scene SCENE -n SPP [--held-out SCENE,..] [--against "
-                "PATTERN,..] -o FILE",
+                "--power TARGET -n N [--band B] -o FILE",
     .details =
         "MEASURE is any measure with exact values, such as star or l2-disk:law=area; the search maximises "
         "distances and minimises all other measures. Equal arguments with --steps give equal sets, on any number "
@@ -445,22 +426,12 @@ const cli_command cli_command_optimise = {
         "--power minimises the root mean square difference between the power spectrum and a target, over the plane "
         "of frequencies f. The target step is 0 for f below sqrt(n / pi) and 1 above, gaussian is 1 - exp(-pi f^2 "
         "/ n), and PATTERN is the mean spectrum of 16 of its sets. Each line of FILE has a frequency, in units of "
-        "sqrt(n), and a power of 0 to 1e100. The search starts from gaussian-blue-noise.\n"
-        "\n"
-        "--scene SCENE renders. With --scene the candidates are sets of low L2 discrepancy and their shifts. The "
-        "weights of the discrepancies in x, in y and in the plane are estimated from images of the scene. The "
-        "confidence intervals of koksma rank eliminate candidates; the best one is compared with the listed "
-        "patterns (--against) in SCENE and in the held-out scenes. FILE has the first candidate as soon as it is "
-        "made, and the best one once it is found; Ctrl-C keeps it.\n"
-        "gain: 1 - (error of the set / error of the best listed pattern), with a 95 % interval in each scene.\n"
-        "shrinks_by: the gain in SCENE minus the gain in the row's scene. The exit code is 1 if the average gain "
-        "in the held-out scenes is not above 0.",
+        "sqrt(n), and a power of 0 to 1e100. The search starts from gaussian-blue-noise.",
     .examples = "koksma optimise star -n 64 --time-limit 60 -o best.txt\n"
                 "koksma optimise star -n 64 --from best.txt --time-limit 60 -o best.txt\n"
                 "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n"
                 "koksma optimise star -n 256 --keep sequence --steps 4 -o net.txt\n"
-                "koksma optimise --power step -n 256 --steps 2 -o step.txt\n"
-                "koksma optimise --scene ball -n 16 -o ball.txt\n",
+                "koksma optimise --power step -n 256 --steps 2 -o step.txt\n",
     .options = options,
     .run = run,
 };

@@ -120,9 +120,4 @@ bool cli_has_eight_bits(const char *path);
    0 in black. The colour of a number is the same in every image. */
 koksma_status cli_write_ids(const char *path, const koksma_image *ids, const char *metadata);
 
-/* ---- `koksma optimise --scene` ------------------------------------------------------------------------ */
-
-/* Runs `koksma optimise --scene SCENE`. Returns the exit code. */
-int cli_optimise_scene(const cli_arguments *arguments);
-
 #endif

@@ -388,12 +388,6 @@ typedef struct koksma_rank_options {
     /* further settings of the images, as the options of a study's plan: "scope=image;lights=one;depth=4" (NULL: defaults).
        Unused with an external renderer */
     const char *variant;
-    /* true: end when it is decided which pattern has the least error, without advice, checks at other sizes, or the
-       order of the other patterns */
-    bool best_only;
-    /* true: the reference has all its samples from the first trial on, 256 images' worth, for errors that a few trials of
-       one image have to show exactly (false: it grows with the trials) */
-    bool full_reference;
 } koksma_rank_options;
 
 /* Whether a pattern was ranked. */
@@ -555,83 +549,13 @@ typedef struct koksma_target_ranking {
    the power law of the errors; and measures the error of the number found by 8 images of fresh seeds, with an interval.
    Equal options give equal results on any number of threads, unless the time limit ends the work; no pattern changes the
    numbers of another.
-     options  as for koksma_rank_patterns; spp, max_trials, one_size, best_only and full_reference are not used
+     options  as for koksma_rank_patterns; spp, max_trials and one_size are not used
      target   error by options->metric, above 0
      rows     receives options->n_patterns rows, fewest samples first
    Errors: those of koksma_rank_patterns; ARGUMENT (target). A time limit is not an error. */
 KOKSMA_API koksma_status koksma_rank_to_error(const koksma_rank_options *options, double target,
                                               const koksma_run *run, koksma_target_row *rows,
                                               koksma_target_ranking *out);
-
-/* ---- A point set for a scene ------------------------------------------------------------------------------- */
-
-enum { KOKSMA_MAX_AGAINST = 64, KOKSMA_MAX_HELD_OUT = 16 };
-
-/* How a set of koksma_optimise_scene compares with the listed patterns in one scene. Errors are mean absolute errors
-   in luminance. `scene` and `best_listed` point to texts of the options, or to texts of the library where the options
-   are NULL. */
-typedef struct koksma_scene_gain {
-    const char *scene;
-    int width, height;
-    double error;            /* error of the set */
-    const char *best_listed; /* the listed pattern with the least error */
-    double listed_error;
-    double gain, low, high; /* 1 - error / listed_error, and its 95 % interval */
-    long long trials;       /* number of images of the set */
-    bool settled;           /* true: it is decided whether the set or a listed pattern has the least error */
-    bool coherent;          /* true: the error of the set has bands or another pattern (koksma_coherence_values) */
-} koksma_scene_gain;
-
-/* The result of koksma_optimise_scene. */
-typedef struct koksma_scene_optimum {
-    koksma_points points; /* the set */
-    bool chosen;          /* false: no candidate has been chosen yet by its images; points is the first candidate */
-    const char *measure;  /* the L2 discrepancy that the set was made for */
-    size_t phase;         /* index of the set's shift on the torus; 0: not shifted */
-    size_t candidates, eliminated; /* number of candidates, with each shift counted as one; number of candidates that
-                                      are decided to have a larger error than the best */
-    double shares[3];              /* shares of a pixel's variance along x, along y, and of their interaction */
-    koksma_scene_gain gains[1 + KOKSMA_MAX_HELD_OUT]; /* gains[0] is for the scene itself, all others are for the
-                                                         held-out scenes */
-    size_t n_gains;         /* number of members of gains that are set: fewer after an interruption */
-    double gain, low, high; /* means over the held-out scenes; NaN if there are none */
-} koksma_scene_optimum;
-
-/* Options of koksma_optimise_scene. */
-typedef struct koksma_scene_search {
-    const char *scene;    /* as for koksma_scene_open */
-    int spp;              /* number of points of the set and of samples per pixel, 1 to 4096 */
-    int width, height;    /* size of the images; 0: that of the scene, halved until it has at most 1,200 pixels */
-    uint64_t seed;        /* below 2^32 */
-    size_t candidates;    /* number of candidate sets, at most 1000; 0: 8 */
-    size_t phases;        /* number of shifts of each candidate on the torus, at most 1000; 0: 4 */
-    long long max_trials; /* images of each candidate and pattern, 8 to KOKSMA_MAX_RANK_TRIALS; 0: 32 */
-    const char *const *held_out; /* other scenes in which the set is tested (NULL: six of the library) */
-    size_t n_held_out;           /* at most KOKSMA_MAX_HELD_OUT */
-    const char *const
-        *against;     /* patterns to compare the set with, as koksma_render_patterns takes them (NULL: those of 17
-                         that make spp points) */
-    size_t n_against; /* 1 to KOKSMA_MAX_AGAINST */
-    /* Called on the calling thread with the first candidate and with the chosen one. May be NULL; an error ends the
-       search. */
-    koksma_status (*found)(void *context, const koksma_scene_optimum *so_far);
-    void *context;
-} koksma_scene_search;
-
-/* Searches for a point set that gives the image of one scene a small error if every pixel uses it, and compares it
-   with other patterns, in that scene and in scenes that took no part in the search. The candidates are sets of low L2
-   discrepancy and their shifts; the weights of the discrepancies in x, in y and in the plane are estimated from
-   images of the scene. Equal options give equal results on any number of threads. A time limit of run has no effect.
-   All scenes are opened, and all patterns tried, before the search.
-     out  receives the result, which koksma_scene_optimum_fini frees, also after INTERRUPTED
-   Errors: ARGUMENT, UNKNOWN, MISSING, MALFORMED, IMPOSSIBLE (the image of a scene is the same for every seed, or a listed
-   pattern lacks the points of some seed), MEMORY, those of making points by the patterns, INTERRUPTED (out then has what
-   was found), and those of options->found. */
-KOKSMA_API koksma_status koksma_optimise_scene(const koksma_scene_search *options, const koksma_run *run,
-                                               koksma_scene_optimum *out);
-
-/* Frees the points and zeroes the struct. best may be NULL, or zeroed. */
-KOKSMA_API void koksma_scene_optimum_fini(koksma_scene_optimum *best);
 
 #ifdef __cplusplus
 }

@@ -26,7 +26,6 @@ from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, Mis
                        SystemError as SystemError, UnsupportedError, allow_exec, refuse_unknown)
 from ._mask import MaskQuality, mask, mask_quality, read_mask, write_mask
 from ._optimise import Optimum, Record, optimise, radial_power, records
-from ._optimise_scene import SceneGain, SceneOptimum, optimise_scene
 from ._points import (Finding, Identity, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, identify, local_discrepancy, measure, measures,
                       modifiers, patterns, read, verify, verify_sets, warp_points, warps, write)
 from ._plot import Picture, plot, plot_compare, plot_convergence
@@ -45,12 +44,12 @@ __all__ = [
     "Error", "Finding", "ForbiddenError", "Identity", "ImageGroup", "Integral", "Integrand", "Integration",
     "Interval", "Layers", "MalformedError", "MaskQuality", "Member", "MetricValue", "MissingError", "Modifier",
     "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "Replicates",
-    "SceneCheck", "SceneGain", "SceneOptimum", "ScenePart", "ScreenError", "Sensitivity", "Share", "SizeCheck",
+    "SceneCheck", "ScenePart", "ScreenError", "Sensitivity", "Share", "SizeCheck",
     "Spectrum", "Step", "Study", "Summary", "TableRow", "Target", "Trials", "UnsupportedError", "Value", "Witness",
     "adaptive", "allow_exec", "audit", "canonical", "check_scene", "compare", "convergence", "datasheet",
     "estimators", "filters", "generate", "has_ranges", "identify", "integrand", "integrands", "integrate",
     "integrators", "intervals", "local_discrepancy", "mask", "mask_quality", "measure", "measures", "metrics",
-    "modifiers", "optimise", "optimise_scene", "pair_correlation", "patterns", "plans", "plot", "plot_compare",
+    "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare",
     "plot_convergence", "radial_power", "rank", "rank_to_error", "read", "read_image", "read_mask", "records",
     "refuse_unknown", "render", "render_replicates", "scenes", "screen_errors", "sensitivity", "spectrum",
     "study_images", "trials", "verify", "verify_sets", "version", "warp_points", "warps", "write", "write_image",

@@ -228,8 +228,6 @@ def lab() -> ctypes.CDLL:
              POINTER(s.Ranking))
     _declare(library, c_int, "koksma_rank_to_error", POINTER(s.RankOptions), c_double, POINTER(s.Run), POINTER(s.TargetRow),
              POINTER(s.TargetRanking))
-    _declare(library, c_int, "koksma_optimise_scene", POINTER(s.SceneSearch), POINTER(s.Run), POINTER(s.SceneOptimum))
-    _declare(library, None, "koksma_scene_optimum_fini", POINTER(s.SceneOptimum))
     _declare(library, s.SceneCounts, "koksma_scene_count", c_void_p)
     _declare(library, c_bool, "koksma_scene_part_at", c_void_p, c_size_t, POINTER(s.ScenePart))
     for name in ("warning", "unknown"):
@@ -326,7 +324,7 @@ _OF_PYTHON = (  # what the library says of the program and of C, as this package
     (r"'koksma list (\w+)'", r"koksma.\1()"),
     (r"--allow-exec allows that \(koksma_allow_exec in C, koksma.allow_exec in Python\)", "koksma.allow_exec() allows that"),
     (r"^koksma_\w+: ", ""),
-    (r"^n_(beside|against|held_out)\b", r"\1"),
+    (r"^n_(beside)\b", r"\1"),
     (r"^([a-z].*): the number of points is missing$", r"\1: n, the number of points, is missing"),
 )
 

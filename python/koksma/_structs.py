@@ -9,7 +9,7 @@ MAX_USE_GROUPS = N_USES // 2
 MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
 MAX_SPP, MAX_IMAGE_SIDE, MAX_DEPTH, MAX_AOVS = 1 << 20, 65536, 64, 72
 MAX_RANK_TRIALS, RANK_CHECKS, RANK_REASON = 65536, 2, 256
-MAX_SIZES, MAX_AGAINST, MAX_HELD_OUT, IMAGES_GROUP, MAX_STEPS = 64, 64, 16, 256, 32
+MAX_SIZES, IMAGES_GROUP, MAX_STEPS = 64, 256, 32
 MASK_MIN, MASK_MAX, MASK_MAX_SIDE = 4, 1024, 65
 MAX_INT, MAX_SEED, MAX_INDEX = (1 << 31) - 1, (1 << 64) - 1, (1 << 51) - 1
 
@@ -376,26 +376,7 @@ class RankOptions(Structure):
                 ("width", c_int), ("height", c_int), ("integrator", c_void_p), ("filter", c_void_p), ("adaptive", c_char_p),
                 ("metric", POINTER(MetricSpec)), ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool), ("render", RankRenderer),
                 ("render_context", c_void_p), ("reference", c_char_p), ("reference_image", POINTER(Image)), ("process", RankProcess), ("process_context", c_void_p), ("seed", c_uint64),
-                ("variant", c_char_p), ("best_only", c_bool), ("full_reference", c_bool)]
-
-
-class SceneGain(Structure):
-    _fields_ = [("scene", c_char_p), ("width", c_int), ("height", c_int), ("error", c_double), ("best_listed", c_char_p),
-                ("listed_error", c_double), ("gain", c_double), ("low", c_double), ("high", c_double), ("trials", c_longlong),
-                ("settled", c_bool), ("coherent", c_bool)]
-
-
-class SceneOptimum(Structure):
-    _fields_ = [("points", Points), ("chosen", c_bool), ("measure", c_char_p), ("phase", c_size_t), ("candidates", c_size_t),
-                ("eliminated", c_size_t), ("shares", c_double * 3), ("gains", SceneGain * (1 + MAX_HELD_OUT)),
-                ("n_gains", c_size_t), ("gain", c_double), ("low", c_double), ("high", c_double)]
-
-
-class SceneSearch(Structure):
-    _fields_ = [("scene", c_char_p), ("spp", c_int), ("width", c_int), ("height", c_int), ("seed", c_uint64),
-                ("candidates", c_size_t), ("phases", c_size_t), ("max_trials", c_longlong),
-                ("held_out", POINTER(c_char_p)), ("n_held_out", c_size_t), ("against", POINTER(c_char_p)),
-                ("n_against", c_size_t), ("found", c_void_p), ("context", c_void_p)]
+                ("variant", c_char_p)]
 
 
 class SceneCounts(Structure):
@@ -472,8 +453,7 @@ CONSTANTS = [
     ("render.h", "KOKSMA_N_USES", N_USES), ("render.h", "KOKSMA_MAX_USE_GROUPS", MAX_USE_GROUPS),
     ("image.h", "KOKSMA_MAX_IMAGE_SIDE", MAX_IMAGE_SIDE), ("koksma.h", "(size_t)INT_MAX", MAX_INT),
     ("study.h", "KOKSMA_MAX_RANK_TRIALS", MAX_RANK_TRIALS), ("study.h", "KOKSMA_RANK_CHECKS", RANK_CHECKS),
-    ("study.h", "KOKSMA_RANK_REASON", RANK_REASON), ("study.h", "KOKSMA_MAX_AGAINST", MAX_AGAINST),
-    ("study.h", "KOKSMA_MAX_HELD_OUT", MAX_HELD_OUT), ("study.h", "KOKSMA_IMAGES_GROUP", IMAGES_GROUP),
+    ("study.h", "KOKSMA_RANK_REASON", RANK_REASON), ("study.h", "KOKSMA_IMAGES_GROUP", IMAGES_GROUP),
     ("koksma.h", "UINT64_MAX", MAX_SEED), ("koksma.h", "KOKSMA_MAX_INDEX", MAX_INDEX), ("series.h", "KOKSMA_MAX_SIZES", MAX_SIZES),
     ("estimate.h", "KOKSMA_MAX_STEPS", MAX_STEPS),
 ]
@@ -518,8 +498,7 @@ LAYOUTS = [
     ("study.h", "koksma_rank_check_result", RankCheckResult),
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),
     ("study.h", "koksma_target_row", TargetRow), ("study.h", "koksma_target_ranking", TargetRanking),
-    ("study.h", "koksma_scene_gain", SceneGain), ("study.h", "koksma_scene_optimum", SceneOptimum),
-    ("study.h", "koksma_scene_search", SceneSearch), ("study.h", "koksma_images_row", ImagesRow),
+    ("study.h", "koksma_images_row", ImagesRow),
     ("render.h", "koksma_scene_counts", SceneCounts), ("render.h", "koksma_scene_part", ScenePart),
     ("optimise.h", "koksma_record", Record),
 ]

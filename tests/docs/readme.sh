@@ -48,8 +48,6 @@ while read -r command; do
       case "$sheets $command" in 1*--scenes* | 0*) ;; *) command="$command --scenes ball" ;; esac
       sheets=1 ;;
     'koksma manual '*) command -v man >/dev/null || command=true ;;
-    'koksma optimise --scene '*)
-      command="$command --candidates 2 --phases 1 --max-trials 8 --size 16x12 --held-out checker --against random,jittered" ;;
     'koksma optimise '*) command=$(echo "$command" | sed 's/--time-limit [0-9]*/--steps 1/; s/--steps [0-9]*/--steps 1/; s/ -n [0-9]*/ -n 16/') ;;
     'koksma render '*) command="$command --size 32x32 -q" ;;
   esac

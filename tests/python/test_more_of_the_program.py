@@ -6,7 +6,6 @@ import json
 import os
 import subprocess
 import tempfile
-import threading
 import unittest
 
 import numpy as np
@@ -96,65 +95,6 @@ class Values(unittest.TestCase):
 
 
 class Scenes(unittest.TestCase):
-    ASKED = dict(held_out=["checker"], against=["jittered", "sobol"], candidates=2, phases=2, size=(12, 9), max_trials=8)
-
-    def test_same_set_as_the_program(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "o.npy")
-            done = subprocess.run([os.environ["KOKSMA"], "optimise", "--scene", "ball", "-n", "16", "--candidates", "2", "--phases", "2",
-                                   "--size", "12x9", "--held-out", "checker", "--against", "jittered,sobol", "--max-trials", "8",
-                                   "-s", "5", "-o", path, "-q", "--json"], capture_output=True, text=True)
-            self.assertIn(done.returncode, (0, 1))
-            rows = [json.loads(line) for line in done.stdout.splitlines()]
-            done_by = []
-            ours = koksma.optimise_scene("ball", 16, seed=5, progress=done_by.append, **self.ASKED)
-            np.testing.assert_array_equal(ours.points, np.load(path))
-        self.assertEqual(done_by, sorted(done_by))
-        for gain, row in zip(ours.gains, rows):
-            self.assertEqual((gain.scene, gain.error, gain.best_listed, gain.listed_error, gain.gain, *gain.interval, gain.size),
-                             (row["scene"], row["error"], row["best_listed"], row["listed_error"], row["gain"], row["gain_low"],
-                              row["gain_high"], (row["width"], row["height"])))
-        self.assertEqual((ours.gain, ours.candidates, ours.eliminated, ours.measure, ours.phase),
-                         (rows[-1]["gain"], rows[0]["candidates"], rows[0]["eliminated"], rows[0]["measure"], rows[0]["phase"]))
-        self.assertIn("ball", repr(ours))
-        self.assertIn("<table>", ours._repr_html_())
-
-    def test_two_at_once(self):
-        """Searches in two threads do not see each other's sets."""
-        alone = [koksma.optimise_scene("ball", 4, seed=seed, **self.ASKED) for seed in (1, 2)]
-        found = [None, None]
-
-        def search(i):
-            found[i] = koksma.optimise_scene("ball", 4, seed=i + 1, threads=1, **self.ASKED)
-
-        threads = [threading.Thread(target=search, args=(i,)) for i in range(2)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        for one, two in zip(alone, found):
-            np.testing.assert_array_equal(one.points, two.points)
-            self.assertEqual(one.gains, two.gains)
-
-    def test_no_held_out(self):
-        found = koksma.optimise_scene("ball", 4, **{**self.ASKED, "held_out": []})
-        self.assertEqual(len(found.gains), 1)
-        self.assertTrue(np.isnan([found.gain, *found.interval]).all())
-        self.assertIn("none", found._repr_html_())
-
-    def test_refusals(self):
-        for arguments, said in ((dict(spp=0), "spp must be 1 to 4096"), (dict(held_out=["ball"]), "held_out: 'ball' is the scene"),
-                                (dict(held_out="checker"), "held_out must be a list"), (dict(against=["sobl"]), "sobl"),
-                                (dict(against=[]), "n_against|against"), (dict(candidates=1001), "candidates must be"), (dict(seed=-1), "seed must be"),
-                                (dict(scene="bal"), r"koksma\.scenes\(\)"), (dict(max_trials=7), "max_trials must be 8"),
-                                (dict(held_out=["x"] * 17), "held_out"), (dict(against=["random"] * 65), "against")):
-            asked = {"scene": "ball", "spp": 4, **self.ASKED, **arguments}
-            with self.subTest(arguments=arguments), self.assertRaisesRegex(koksma.Error, said) as caught:
-                koksma.optimise_scene(asked.pop("scene"), asked.pop("spp"), **asked)
-            self.assertNotRegex(str(caught.exception), "n_against|n_held_out|--")
-        with self.assertRaises(ZeroDivisionError):
-            koksma.optimise_scene("ball", 4, progress=lambda done: 1 / 0, **self.ASKED)
-
     def test_check(self):
         for name in ("ball", "cornell", "many-lights"):
             rows = [json.loads(line) for line in program("scene", "check", name, "--json").splitlines()]

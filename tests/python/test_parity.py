@@ -66,7 +66,7 @@ class Tables(unittest.TestCase):
     def test_same_defaults(self):
         """What the help gives as a default is the default here, but for a time limit, without which optimise may not begin."""
         for command, function, renamed in (("generate", koksma.generate, {}), ("render", koksma.render, {}), ("rank", koksma.rank, {}),
-                                           ("optimise", koksma.optimise_scene, {}), ("integrate", koksma.integrate, {})):
+                                           ("integrate", koksma.integrate, {})):
             text = re.sub(r"\n {8,}", " ", options_of(command))
             for option, default in re.findall(r"--([a-z-]+) [^\n]*\(default: ([a-z0-9-]+)\)", text):
                 parameter = inspect.signature(function).parameters.get(renamed.get(option, option.replace("-", "_")))

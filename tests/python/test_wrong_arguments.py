@@ -68,7 +68,6 @@ class WrongArguments(unittest.TestCase):
                 (engine.random, {}), (engine.random_base2, dict(m=0)), (engine.fast_forward, dict(n=1)),
                 (koksma.warp_points, dict(points=points, warp="polar-disk")),
                 (koksma.local_discrepancy, dict(points=points, corner=[0.5, 0.5])), (koksma.check_scene, dict(scene="ball")),
-                (koksma.optimise_scene, dict(scene="ball", spp=1, held_out=[], against=["random"], candidates=1, phases=1, size=small, max_trials=8)),
                 (koksma.study_images, dict(places="i_{trial}.pfm", reference="i.pfm"))):
             yield function, given
         yield lambda seconds=1: koksma.allow_exec(seconds).__enter__(), {}

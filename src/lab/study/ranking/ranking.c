@@ -401,8 +401,7 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
     }
     const double made = c->references[0].made + r->control.fraction; /* another renderer tells no fraction */
     if (c->references[0].made < KOKSMA__RANK_REPLICATES) { /* a trial is estimated by its number of samples */
-        const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(
-                                                             r->options->spp, koksma__contest_stage(r->options, 0));
+        const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(r->options->spp, 0);
         const double trials = (double)(needed * open) * r->options->spp / samples;
         out->needed_s = made > 0 ? elapsed_s * (1 + trials) * KOKSMA__RANK_REPLICATES / made : 0;
         return;
@@ -445,9 +444,6 @@ static koksma_status do_sequence(ranking *r, koksma_ranking *out)
     koksma_status status = koksma__contest_try_patterns(c);
     status = status ? status : nobody_can_serve(c);
     status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_LEADER);
-    if (r->options->best_only) {
-        return status ? status : nobody_can_serve(c);
-    }
     status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_ADVISED);
     status = status ? status : nobody_can_serve(c);
     for (int i = 0; !status && check_sizes(r->options) && checked(c) != NOBODY && i < KOKSMA_RANK_CHECKS; i++) {

@@ -467,15 +467,13 @@ koksma_status koksma__contest_make_reference(const koksma_rank_options *options,
 static koksma_status make_reference(koksma__contest *c, int stage)
 {
     return c->references[stage].pixels ? KOKSMA_OK
-                                       : koksma__contest_make_reference(c->options, &c->scene, c->variant,
-                                                                        koksma__contest_stage(c->options, stage),
+                                       : koksma__contest_make_reference(c->options, &c->scene, c->variant, stage,
                                                                         &c->control->run, &c->references[stage]);
 }
 
 static koksma_status do_round(koksma__contest *c, int round, const size_t *active, size_t n_active)
 {
-    const bool one = c->options->reference_image || c->options->full_reference;
-    const int stage = one ? 0 : stage_of(round);
+    const int stage = c->options->reference_image ? 0 : stage_of(round);
     KOKSMA__TRY(make_reference(c, stage));
     const size_t end = koksma__rank_trials(round);
     batch b = {.contest = c,

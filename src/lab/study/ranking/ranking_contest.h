@@ -113,12 +113,6 @@ koksma_status koksma__contest_try_patterns(koksma__contest *contest);
    INTERRUPTED (also when the time limit is reached). */
 koksma_status koksma__contest_run(koksma__contest *contest, koksma__rank_goal goal);
 
-/* The stage of the reference that is references[i]: with full_reference the first, the only one, is of the last stage. */
-static inline int koksma__contest_stage(const koksma_rank_options *options, int i)
-{
-    return options->full_reference ? KOKSMA__RANK_STAGES - 1 : i;
-}
-
 /* Makes the reference of a stage, or takes that of the options. Errors: those of rendering, IMPOSSIBLE (a
    pixel is not a finite number, or another renderer makes equal pictures for all seeds), MEMORY, INTERRUPTED. */
 koksma_status koksma__contest_make_reference(const koksma_rank_options *options, const koksma__study_scene *scene,
