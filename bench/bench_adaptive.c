@@ -48,9 +48,6 @@ static const struct {
     {"contrast", 1, true},
     {"confidence:test=t", 1, true},
     {"confidence:test=chi2", 1, true},
-    {"relative-error", 4, true},
-    {"two-stage", 4, true},
-    {"blocks", 2, true},
 };
 
 static const char *const patterns[] = {"n-rooks", "sobol:scramble=owen", "pmj02", "correlated-multi-jittered"};
@@ -243,11 +240,6 @@ static void bench_scene(const scene *s, int trials, const char *only)
         }
         check(koksma_adaptive_parse(spec, &adaptive));
         if (only && !strstr(only, adaptive.method->name)) {
-            continue;
-        }
-        /* a pilot of `first` samples and one set at least */
-        if (!strcmp(adaptive.method->name, "two-stage") && s->first + s->first / methods[i].parts > s->budget) {
-            printf("| `%s` | no room in this budget | | | | | |\n", spec);
             continue;
         }
         adaptive.budget = methods[i].budget ? s->budget : 0;

@@ -184,7 +184,7 @@ WIDE = """{"name": "w", "title": "w", "metric": "relmse", "metrics": ["smape"],
      "options": {"pairing": ["native"], "integrator": ["distribution", "whitted"], "lights": ["one"], "scope": ["image"]},
      "references": [{"name": "c", "pattern": "jittered", "spp": 4, "replicates": 2}]},
     {"scenes": ["ball"], "patterns": ["random"], "spp": [16], "size": [8, 6], "trials": 2,
-     "options": {"adaptive": ["none", "contrast", "two-stage:prior=2", "hierarchical:levels=3,threshold=0"]},
+     "options": {"adaptive": ["none", "contrast", "confidence:test=chi2", "hierarchical:levels=3,threshold=0"]},
      "references": [{"name": "c", "pattern": "jittered", "spp": 4, "replicates": 2}]}],
   "figures": [{"id": "1", "title": "f", "pattern": "random", "n": 4}]}"""
 

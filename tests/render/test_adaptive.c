@@ -17,9 +17,6 @@ static const char *const methods[] = {
     "contrast:threshold=0.1,most=5",
     "confidence:threshold=0.01,most=5",
     "confidence:threshold=0.01,test=chi2,most=5,level=0.99",
-    "relative-error:threshold=0.02,most=7",
-    "two-stage:threshold=0.05,most=6,first=2",
-    "blocks:threshold=0.001,most=6",
 };
 enum { N_METHODS = sizeof methods / sizeof *methods };
 
@@ -87,7 +84,7 @@ TEST_CASE(same_bits_for_any_number_of_threads)
     koksma_scene_close(scene);
 }
 
-/* A grey sky: each pixel is exactly it, and costs the first samples; two-stage and fresh must draw those that count.
+/* A grey sky: each pixel is exactly it, and costs the first samples; fresh must draw those that count.
  */
 TEST_CASE(constant_pictures_cost_the_first_samples)
 {
@@ -96,7 +93,7 @@ TEST_CASE(constant_pictures_cost_the_first_samples)
         const char *method = methods[m / 2];
         koksma_adaptive_report report;
         koksma_layers layers = render(scene, method, m % 2 ? 0 : 50, 2, &report);
-        const uint64_t again = strstr(method, "fresh") ? report.first : strstr(method, "two-stage") ? 4 * PIXELS : 0;
+        const uint64_t again = strstr(method, "fresh") ? report.first : 0;
         if (report.samples != report.first + again || layers.rays != report.samples) {
             fail_msg("%s took %llu samples, %llu of them at first", method, (unsigned long long)report.samples,
                      (unsigned long long)report.first);
@@ -114,7 +111,7 @@ TEST_CASE(constant_pictures_cost_the_first_samples)
 static double limit_of(const koksma_adaptive_options *a)
 {
     if (!a->method->own_samples) {
-        return 4 * a->params[1] + (strcmp(a->method->name, "two-stage") == 0 ? 4 * a->params[0] : 0);
+        return 4 * a->params[1];
     }
     const double leaves = 4 * pow(4, a->params[0]);
     return a->params[2] == 1 ? 4 * (pow(4, a->params[0] + 1) - 1) / 3 : a->params[2] == 2 ? 2 * leaves : leaves;
@@ -310,7 +307,7 @@ TEST_CASE(an_interruption_ends_a_task)
     koksma_layers layers;
     int looks = 0;
     const koksma_run run = {.threads = 1, .keep_going = stop_within_a_task, .context = &looks};
-    const koksma_adaptive_options adaptive = adaptive_of("two-stage:threshold=0.05,most=6,first=2", 0);
+    const koksma_adaptive_options adaptive = adaptive_of("contrast:threshold=0.05,most=6,first=2", 0);
     koksma_adaptive_report report;
     koksma_scene *scene = shipped("ball");
     koksma_render_options options = options_for(scene, 1 << 12);

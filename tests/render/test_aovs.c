@@ -174,8 +174,7 @@ static void assert_halves(const koksma_layers *layers, const koksma_image *even,
     }
 }
 
-/* With every method and both kinds of filters the parts add up to the picture, though samples weigh differently and pilots
-   do not count, and halves of samples make it. Two sets of 9 samples: even ones are odd ones of the next set. */
+/* With every method and both kinds of filters the parts add up to the picture, though samples weigh differently, and halves of samples make it. Two sets of 9 samples: even ones are odd ones of the next set. */
 TEST_CASE(adaptive_parts_add_up)
 {
     static const char names[] = "direct,half,indirect,id,bounce:0,bounce:1,bounce:2,bounce:3,bounce:4,bounce:5";
@@ -197,8 +196,7 @@ TEST_CASE(adaptive_parts_add_up)
             koksma_aovs two = {.n = 2, .images = {aovs.images[0], aovs.images[3]}};
             assert_sum(&layers, &two, 0, 2, koksma_adaptive_at(i)->name);
             assert_sum(&layers, &aovs, 5, 11, koksma_adaptive_at(i)->name);
-            const bool pilot = !strcmp(koksma_adaptive_at(i)->name, "two-stage");
-            if (!filter && !koksma_adaptive_at(i)->own_samples && !pilot) {
+            if (!filter && !koksma_adaptive_at(i)->own_samples) {
                 assert_halves(&layers, &aovs.images[1], &aovs.images[2]);
             }
             koksma_layers_fini(&layers);

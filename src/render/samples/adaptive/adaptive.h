@@ -62,17 +62,11 @@ extern const koksma__adaptive_family koksma__sets_family, koksma__strata_family;
 /* An adaptive method. */
 typedef struct koksma__adaptive_method {
     const koksma__adaptive_family *family;
-    bool fresh; /* whether sets are drawn independently, even if the pattern is a sequence that could be continued */
-    /* whether the samples of the first sets only determine the demands: they are dropped when new sets arrive, so that an
-       image that is interrupted before still has them */
-    bool pilot;
     /* Allocates the state and sets the demands of the first round, which selects all pixels. */
     koksma_status (*open)(koksma__adaptive *run);
     /* NULL, or determines the next demand of the pixel; *demand is zero before the call, and scratch has run->scratch
        bytes. */
     void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
-    /* NULL, or a function that is called between rounds and may examine the whole image and change demands */
-    void (*plan)(koksma__adaptive *run);
     /* NULL, or a function that is called when no pixel is selected any more and sets demands for one last round */
     void (*last)(koksma__adaptive *run);
 } koksma__adaptive_method;
@@ -102,13 +96,11 @@ typedef struct koksma__pixel_sets {
     uint32_t drawn;     /* number of sets that were drawn */
     float lo[3], hi[3]; /* minimum and maximum of the samples in each channel */
     float origin;
-    double sum[3];  /* weighted sum of the samples in each channel */
-    double half[3]; /* unweighted sum over the sets 0, 2, 4, … */
+    double sum[3]; /* weighted sum of the samples in each channel */
     double all[3];
-    double sum_y, sum_yy;   /* sums of the luminances of samples and of their squares */
-    double sum_mean_square; /* sum of the squared mean luminances of the sets */
-    double sum_w3;          /* sum of the cubed weights */
-    double moments[3][3];   /* element [j][k] is the sum over the samples of weight^j luminance^k */
+    double sum_y, sum_yy; /* sums of the luminances of samples and of their squares */
+    double sum_w3;        /* sum of the cubed weights */
+    double moments[3][3]; /* element [j][k] is the sum over the samples of weight^j luminance^k */
 } koksma__pixel_sets;
 
 /* The parameters of every method that draws sets begin with these: first, most and, if there is one, threshold. */
@@ -128,13 +120,8 @@ size_t koksma__set_size(const koksma__adaptive *run);
 void koksma__sets_demand(const koksma__adaptive *run, size_t pixel, double sets, double score,
                          koksma__sample_demand *demand);
 
-/* Return the mean luminance of the samples, and the variance of the luminance of a sample as if the samples were
-   independent. */
-double koksma__sets_mean(const koksma__adaptive *run, const koksma__pixel_sets *p);
+/* Returns the variance of the luminance of a sample, as if the samples were independent. */
 double koksma__sets_variance(const koksma__adaptive *run, const koksma__pixel_sets *p);
-
-/* Returns the standard error of the mean luminance, estimated from the variance between the means of the sets. */
-double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pixel_sets *p);
 
 /* ---- Places in strata that are split (adaptive_place.c) --------------------------------------------------------- */
 

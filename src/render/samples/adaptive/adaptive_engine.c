@@ -276,9 +276,6 @@ static koksma_status render_rounds(job *j, const koksma_run *how)
     koksma_status status = render_round(j, how);
     j->first = false;
     for (; !status; run->report.rounds++) {
-        if (run->method->plan && !last) {
-            run->method->plan(run);
-        }
         status = last ? KOKSMA_OK : choose(run, &selected);
         if (status || (!selected && (last || !run->method->last))) {
             return status;
@@ -360,7 +357,7 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
             koksma_use_group_text(&options->groups[g], group);
             return koksma__fail(KOKSMA_ARGUMENT,
                                 "%s: this method divides pixels into strata itself and takes no pattern for %s; "
-                                "methods such as two-stage, which draw sets of the pattern, take one",
+                                "methods such as contrast, which draw sets of the pattern, take one",
                                 name, group);
         }
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Implements the methods whose samples come in sets of the pattern with spp points each. Each set of a pixel is drawn
- * as if it were for a different pixel. If the pattern is a sequence and the method allows it, the sets are instead
+ * as if it were for a different pixel. If the pattern is a sequence, the sets are instead
  * consecutive blocks of one sequence, so that the samples of a pixel are always a prefix of the sequence. A group of
  * uses always has separate sets, whatever its pattern.
  */
@@ -30,8 +30,8 @@ static bool continues(const koksma__adaptive *run, int u)
 {
     const koksma_render_options *options = run->frame->options;
     const koksma_spec *spec = options->patterns[u].pattern ? &options->patterns[u] : &options->pattern;
-    return !run->method->fresh && koksma__place_of_use_at(options, u).group < 0 && koksma_is_sequence(spec) &&
-           spec->pattern->max_dim >= 2 && options->pairing != KOKSMA_PAIRING_NATIVE;
+    return koksma__place_of_use_at(options, u).group < 0 && koksma_is_sequence(spec) && spec->pattern->max_dim >= 2 &&
+           options->pairing != KOKSMA_PAIRING_NATIVE;
 }
 
 /* Finds out whether two seeds give the same points, by generating both sets: the claims of a pattern cannot decide
@@ -102,8 +102,7 @@ koksma_status koksma__sets_open(koksma__adaptive *run)
     }
     for (size_t p = 0; p < run->pixels; p++) {
         const uint32_t n = (uint32_t)(first * run->frame->options->spp);
-        run->demands[p] =
-            (koksma__sample_demand){.now = n, .later = run->method->pilot ? (uint32_t)run->frame->options->spp : 0};
+        run->demands[p] = (koksma__sample_demand){.now = n};
     }
     return KOKSMA_OK;
 }
@@ -191,7 +190,6 @@ static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const flo
             p->hi[k] = none || rgb[k] > p->hi[k] ? rgb[k] : p->hi[k];
             p->sum[k] += weight * (double)rgb[k];
             p->all[k] += (double)rgb[k];
-            p->half[k] += p->sets % 2 ? 0 : (double)rgb[k];
         }
         sum_y += y;
         p->sum_yy += y * y;
@@ -204,7 +202,6 @@ static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const flo
         }
     }
     p->sum_y += sum_y;
-    p->sum_mean_square += sum_y * sum_y / ((double)n * (double)n);
     p->sets++;
     p->drawn++;
 }
@@ -238,23 +235,10 @@ static void take_parts(const koksma__adaptive *run, size_t pixel, size_t before,
     }
 }
 
-/* Resets the sums over a pixel's sets; the number of sets that were drawn is kept. */
-static void forget(koksma__adaptive *run, size_t pixel)
-{
-    koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
-    *sets = (koksma__pixel_sets){.drawn = sets->drawn};
-    if (run->sums) {
-        memset(sums_of(run, pixel), 0, run->frame->aovs->n * NUMBERS_OF_AOV * sizeof *run->sums);
-    }
-}
-
 static void take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
 {
     const size_t n = koksma__set_size(run), channels = (size_t)run->frame->channels;
     koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
-    if (run->method->pilot) {
-        forget(run, pixel);
-    }
     if (run->sums) {
         take_parts(run, pixel, sets->sets * n, run->demands[pixel].now, values);
     }
@@ -278,11 +262,6 @@ static double samples_of(const koksma__adaptive *run, const koksma__pixel_sets *
     return (double)p->sets * (double)koksma__set_size(run);
 }
 
-double koksma__sets_mean(const koksma__adaptive *run, const koksma__pixel_sets *p)
-{
-    return (double)p->origin + p->sum_y / samples_of(run, p);
-}
-
 static double variance(double sum, double squares, double n)
 {
     return n > 1 ? fmax(squares - sum * sum / n, 0) / (n - 1) : 0;
@@ -291,12 +270,6 @@ static double variance(double sum, double squares, double n)
 double koksma__sets_variance(const koksma__adaptive *run, const koksma__pixel_sets *p)
 {
     return variance(p->sum_y, p->sum_yy, samples_of(run, p));
-}
-
-double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pixel_sets *p)
-{
-    const double k = p->sets, mean = p->sum_y / samples_of(run, p);
-    return k > 1 ? sqrt(fmax(p->sum_mean_square - k * mean * mean, 0) / ((k - 1) * k)) : 0;
 }
 
 /* Sample i of filter weight w_i has the weight a w_i + b in the pixel, as film.c describes; the weights add up to 1. */
