@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * `koksma render`: renders a scene into an image file and prints one row with the options, the number of rays and the
- * time. --aov adds layers to an EXR file, or writes further files beside an image of another format. Before it starts
- * it computes how much memory the image takes, and refuses an image that takes more than the machine has. When it is
+ * time. Before it starts it computes how much memory the image takes, and refuses an image that takes more than the machine has. When it is
  * interrupted it writes the image with the pixels that are done.
  */
 #include <stdio.h>
@@ -83,28 +82,10 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
 
 enum { PATH = 8192 }; /* a path that is cut here is one that no system opens, and is refused as such */
 
-/* Writes the name that an AOV has in files, with '-' instead of ':'. */
-static void name_layer(const char *aov, char out[16])
-{
-    snprintf(out, 16, "%s", aov);
-    for (char *at = out; (at = strchr(at, ':')) != NULL;) {
-        *at = '-';
-    }
-}
-
-/* Writes the path of an AOV's own file, beside an image whose format has no layers. */
-static void layer_path(const char *output, const char *aov, char path[PATH])
-{
-    const char *dot = strrchr(output, '.');
-    char name[16];
-    name_layer(aov, name);
-    snprintf(path, PATH, "%.*s.%s%s", (int)(dot - output), output, name, dot);
-}
-
 /* Finds file i of those that the command writes: `option` is its part of the command line; the path is empty if the option
    isn't given. Returns false past the last one. */
-static bool file_at(const cli_arguments *arguments, const cli_adaptive *adaptive, const koksma_aovs *aovs, int i,
-                    char option[64], char path[PATH])
+static bool file_at(const cli_arguments *arguments, const cli_adaptive *adaptive, int i, char option[64],
+                    char path[PATH])
 {
     const char *output = cli_text(arguments, "output", ""), *strata = adaptive->strata_path;
     const struct {
@@ -113,25 +94,22 @@ static bool file_at(const cli_arguments *arguments, const cli_adaptive *adaptive
                {"--counts", cli_text(arguments, "counts", "")},
                {"--strata", strata ? strata : ""},
                {"--error-map", cli_text(arguments, "error-map", "")}};
-    const int n = sizeof own / sizeof *own, layers = koksma_image_has_layers(output) ? 0 : aovs->n;
+    const int n = sizeof own / sizeof *own;
     if (i < n) {
         snprintf(option, 64, "%s", own[i].name);
         snprintf(path, PATH, "%s", own[i].path);
-    } else if (i < n + layers) {
-        snprintf(option, 64, "--aov %s", aovs->names[i - n]);
-        layer_path(output, aovs->names[i - n], path);
     }
-    return i < n + layers;
+    return i < n;
 }
 
 /* Returns false, after an error, if two options write one file. */
-static bool check_files(const cli_arguments *arguments, const cli_adaptive *adaptive, const koksma_aovs *aovs)
+static bool check_files(const cli_arguments *arguments, const cli_adaptive *adaptive)
 {
     static char path[PATH], other[PATH];
     char option[64], with[64];
-    for (int i = 0; file_at(arguments, adaptive, aovs, i, option, path); i++) {
+    for (int i = 0; file_at(arguments, adaptive, i, option, path); i++) {
         for (int k = 0; k < i && *path; k++) {
-            file_at(arguments, adaptive, aovs, k, with, other);
+            file_at(arguments, adaptive, k, with, other);
             if (*other && cli_is_same_output(path, other)) {
                 cli_usage_error(arguments, "%s and %s would both write %s", with, option, other);
                 return false;
@@ -142,12 +120,12 @@ static bool check_files(const cli_arguments *arguments, const cli_adaptive *adap
 }
 
 /* Tries whether all files can be written, before the work. Returns the exit code. */
-static int try_files(const cli_arguments *arguments, const cli_adaptive *adaptive, const koksma_aovs *aovs)
+static int try_files(const cli_arguments *arguments, const cli_adaptive *adaptive)
 {
     static char path[PATH];
     char option[64];
     int code = CLI_YES;
-    for (int i = 0; !code && file_at(arguments, adaptive, aovs, i, option, path); i++) {
+    for (int i = 0; !code && file_at(arguments, adaptive, i, option, path); i++) {
         code = *path ? cli_try_output(arguments, path) : CLI_YES;
     }
     return code;
@@ -155,30 +133,16 @@ static int try_files(const cli_arguments *arguments, const cli_adaptive *adaptiv
 
 static koksma_status write_image(const cli_arguments *arguments, const koksma_scene *scene,
                                  const koksma_render_options *options, const koksma_adaptive_options *adaptive,
-                                 koksma_layers *layers, koksma_aovs *aovs)
+                                 koksma_layers *layers)
 {
-    static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC], path[PATH], names[KOKSMA_MAX_AOVS][16];
+    static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC];
     const koksma_layer own[] = {{"", &layers->image},          {"albedo", &layers->albedo},
                                 {"normal", &layers->normal},   {"Z", &layers->depth},
                                 {"samples", &layers->samples}, {"variance", &layers->variance}};
-    koksma_layer all[sizeof own / sizeof *own + KOKSMA_MAX_AOVS];
     const char *output = cli_text(arguments, "output", "");
-    const bool layered = koksma_image_has_layers(output);
-    size_t n = layers->albedo.pixels && (layered || !aovs->n) ? sizeof own / sizeof *own : 1;
-    koksma_status status = KOKSMA_OK;
-    memcpy(all, own, sizeof own);
+    const size_t n = layers->albedo.pixels ? sizeof own / sizeof *own : 1;
     describe(arguments, scene, options, adaptive, metadata, sizeof metadata);
-    for (int i = 0; !status && i < aovs->n; i++) {
-        name_layer(aovs->names[i], names[i]);
-        if (layered) {
-            all[n++] = (koksma_layer){names[i], &aovs->images[i]};
-        } else {
-            layer_path(output, aovs->names[i], path);
-            status = (strcmp(aovs->names[i], "id") != 0 ? koksma_image_write : cli_write_ids)(path, &aovs->images[i],
-                                                                                              metadata);
-        }
-    }
-    status = status ? status : koksma_image_write_layers(output, all, n, metadata);
+    const koksma_status status = koksma_image_write_layers(output, own, n, metadata);
     return status ? status : cli_adaptive_counts(arguments, &layers->samples);
 }
 
@@ -193,14 +157,12 @@ static double in_gib(uint64_t bytes)
 /* Prints how much memory a large image takes. Returns false, after an error, if this is more than the machine has,
    because swapping would take longer than rendering. */
 static bool announce_size(const cli_arguments *arguments, const koksma_scene *scene,
-                          const koksma_render_options *options, const koksma_adaptive_options *adaptive,
-                          const koksma_aovs *aovs)
+                          const koksma_render_options *options, const koksma_adaptive_options *adaptive)
 {
-    const bool layers = adaptive->method || aovs->n || koksma_image_has_layers(cli_text(arguments, "output", ""));
+    const bool layers = adaptive->method || koksma_image_has_layers(cli_text(arguments, "output", ""));
     const koksma_render_size size = koksma_render_size_of(scene, options, layers);
     const uint64_t first =
         size.film + size.samples + (adaptive->method ? koksma_adaptive_size_of(options, adaptive) : 0) +
-        (uint64_t)options->width * (uint64_t)options->height * (uint64_t)aovs->n * 3 * sizeof(float) +
         (cli_text(arguments, "error-map", NULL) ? (uint64_t)options->width * (uint64_t)options->height * MAP_BYTES
                                                 : 0);
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
@@ -230,7 +192,7 @@ static bool parse_error_map(const cli_arguments *arguments, uint64_t *replicates
         cli_usage_error(arguments, "--replicates has an effect only with --error-map");
         return false;
     }
-    if (path && !cli_refuse(arguments, "adaptive aov",
+    if (path && !cli_refuse(arguments, "adaptive",
                             "excludes --error-map, which is for images with equal samples in all pixels")) {
         return false;
     }
@@ -284,7 +246,7 @@ static int render_map(const cli_arguments *arguments, const koksma_scene *scene,
 }
 
 static int render(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options,
-                  cli_adaptive *adaptive, koksma_aovs *aovs)
+                  cli_adaptive *adaptive)
 {
     koksma_layers layers;
     cli_work work;
@@ -294,7 +256,6 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
     const double start = cli_seconds();
     koksma_status status = adaptive->options.method ? koksma_render_adaptive(scene, options, &adaptive->options,
                                                                              &work.run, &layers, &adaptive->report)
-                           : aovs->n                ? koksma_render_aovs(scene, options, &work.run, aovs, &layers)
                            : koksma_image_has_layers(cli_text(arguments, "output", ""))
                                ? koksma_render_layers(scene, options, &work.run, &layers)
                                : koksma_render_only(scene, options, &work.run, &layers);
@@ -302,9 +263,8 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
     cli_work_end();
     const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);
     const koksma_status written =
-        done ? write_image(arguments, scene, options, &adaptive->options, &layers, aovs) : KOKSMA_OK;
+        done ? write_image(arguments, scene, options, &adaptive->options, &layers) : KOKSMA_OK;
     koksma_layers_fini(&layers);
-    koksma_aovs_fini(aovs);
     if (!status && !written) {
         status = cli_adaptive_strata(adaptive);
     }
@@ -334,37 +294,11 @@ static bool set_sky(const cli_arguments *arguments, koksma_scene *scene, int *co
     return !status;
 }
 
-/* Reads --aov; refuses it together with --splat, because the layers are not splatted, and the odd half of one sample,
-   unless --adaptive draws more. Returns false after an error. */
-static bool parse_aovs(const cli_arguments *arguments, const koksma_render_options *options, cli_adaptive *adaptive,
-                       koksma_aovs *out, int *code)
-{
-    const char *text = cli_text(arguments, "aov", NULL);
-    const koksma_status status = text ? koksma_aovs_parse(text, out) : KOKSMA_OK;
-    if (status) {
-        *code = cli_fail(arguments, status);
-    } else if (text && options->splat) {
-        cli_usage_error(arguments, "--aov excludes --splat: each pixel of a layer has only its own samples");
-        *code = CLI_USAGE;
-        return false;
-    }
-    for (int i = 0; text && !status && options->spp < 2 && !adaptive->options.method && i < out->n; i++) {
-        if (!strcmp(out->names[i], "half:odd")) {
-            *code =
-                cli_usage_error(arguments, "--aov half needs -n 2 or more: of one sample the second half is empty");
-            return false;
-        }
-    }
-    adaptive->options.aovs = text ? out : NULL;
-    return !status;
-}
-
 static int run(const cli_arguments *arguments)
 {
     koksma_scene *scene;
     koksma_render_options options;
     cli_adaptive adaptive;
-    static koksma_aovs aovs;
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
     }
@@ -382,18 +316,17 @@ static int run(const cli_arguments *arguments)
     if (set_sky(arguments, scene, &code) && cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) &&
         cli_size(arguments, &options.width, &options.height) && cli_sampling_options(arguments, &options) &&
         cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code) &&
-        cli_adaptive_options(arguments, &adaptive, &code) &&
-        parse_aovs(arguments, &options, &adaptive, &aovs, &code) && parse_error_map(arguments, &replicates) &&
-        check_files(arguments, &adaptive, &aovs)) {
+        cli_adaptive_options(arguments, &adaptive, &code) && parse_error_map(arguments, &replicates) &&
+        check_files(arguments, &adaptive)) {
         if (!cli_flag(arguments, "quiet")) {
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_warn_unused(arguments, arguments->operands[0], scene, &options);
         }
-        code = try_files(arguments, &adaptive, &aovs);
+        code = try_files(arguments, &adaptive);
         code = code ? code
-               : announce_size(arguments, scene, &options, &adaptive.options, &aovs)
+               : announce_size(arguments, scene, &options, &adaptive.options)
                    ? replicates ? render_map(arguments, scene, &options, &adaptive, (size_t)replicates)
-                                : render(arguments, scene, &options, &adaptive, &aovs)
+                                : render(arguments, scene, &options, &adaptive)
                    : koksma_status_exit_code(KOKSMA_MEMORY);
     }
     koksma_scene_close(scene);
@@ -410,8 +343,6 @@ static const cli_option options[] = {
      "light of this radiance from all directions; replaces the sky of the scene or the default lights of a mesh "
      "file"},
     {0, "environment", "FILE", "light from an environment map in latitude and longitude, multiplied by --sky"},
-    {0, "aov", "LIST",
-     "further layers: direct, indirect, bounce:N, id, half; in the .exr, or in files such as IMAGE.direct.png"},
     {0, "error-map", "FILE",
      "write the standard error of each pixel, from independent images; -o then has their mean"},
     {0, "replicates", "R", "with --error-map: number of images, 3 to 100000 (default: 8)"},
@@ -442,12 +373,6 @@ const cli_command cli_command_render = {
         "--adaptive takes SPP samples in every pixel, or first x SPP if METHOD has a parameter first, and then "
         "adds samples in rounds until METHOD stops or the budget is spent.\n"
         "\n"
-        "--aov direct,indirect or bounce:0,bounce:1,... splits the light into layers that add up to the image: the "
-        "light of bounce:N was reflected N times, and direct is bounce:0 + bounce:1. id has the number of the "
-        "object in a pixel (as 'koksma scene check' lists them, from 1; 0: none); a .png or .jpg shows each number "
-        "in its own colour and 0 in black. half gives two layers, half-even and half-odd: the means of the samples "
-        "with even and with odd index (-n 2 or more, or --adaptive). Two options can't write one file.\n"
-        "\n"
         "--error-map renders R images of SPP samples with the seeds S, S + 1, ..., S + R - 1: -o is their mean, "
         "and FILE its standard error, in each pixel and channel the standard deviation of the images divided by "
         "sqrt R (a .png or .jpg is scaled so that the largest is white). mean: luminance of the picture, with its "
@@ -460,7 +385,6 @@ const cli_command cli_command_render = {
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
                 "koksma render ball -p random -n 16 --error-map error.exr -o mean.exr\n"
-                "koksma render cornell --integrator path --aov direct,indirect -o parts.exr\n"
                 "koksma render cornell --integrator path --filter mitchell --splat -o c.exr\n"
                 "koksma render glossy --adaptive hierarchical --counts counts.png -o glossy.exr\n",
     .options = options,

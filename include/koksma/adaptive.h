@@ -70,8 +70,6 @@ typedef struct koksma_adaptive_options {
                    whether the split was needed and do not enter the image. Must be 0 unless method->own_samples is
                    true */
     koksma_strata *strata; /* receives the strata of one pixel. Must be NULL unless method->own_samples is true */
-    koksma_aovs *aovs; /* receives further images, as koksma_render_aovs allocates them (the caller must free them,
-                              also after an error); may be NULL */
 } koksma_adaptive_options;
 
 enum { KOKSMA_MAX_PROBES = 256 };
@@ -98,11 +96,8 @@ typedef struct koksma_adaptive_report {
      options  as for koksma_render_layers; spp, times the method's parameter `first` if there is one, is the number of
               samples of the first round
      out      `samples` has the number of samples of each pixel; `variance` estimates the variance of the pixel's
-              luminance as if its samples were independent; albedo, normal, depth and the AOV "id" come from the
-              first round. The AOVs of parts of the light ("direct", "bounce:1" and so on) use the sample weights of
-              the image, and add up to it; "half:even" and "half:odd" are the means of every second sample that enters
-              the image, or of every second stratum. With AOVs the renderer uses one pipeline for all scenes; its
-              different rounding may change a decision of the method
+              luminance as if its samples were independent; albedo, normal and depth come from the
+              first round
      report   may be NULL
    Errors: those of koksma_render_layers; also ARGUMENT for splatting, for scope image, for a pattern that gives the
    same set for every seed (but sequences are taken, whose successive blocks differ, by methods without fresh sets), and

@@ -346,35 +346,6 @@ KOKSMA_API koksma_status koksma_render_replicates(const koksma_scene *scene, con
 /* Frees the images and zeroes the struct. replicates may be NULL, or zeroed. */
 KOKSMA_API void koksma_replicates_fini(koksma_replicates *replicates);
 
-/* Further images of a render (arbitrary output variables). All but "id" have as many channels as the image. Light
-   that was reflected or refracted r times, mirrors and glass included, is in "bounce:r", with r from 0 (light sources
-   that the camera sees directly) to KOKSMA_MAX_DEPTH + 1; ambient light and the indirect light of an irradiance cache
-   count as reflected one time more than light that reaches the same surface directly from a light. "direct" is the
-   light with r = 0 and 1, "indirect" all other light. The sum of these two, and the sum of all bounces, equal the
-   image within the rounding of floats. "id" is the number of the object that most samples of a pixel hit first: i + 1
-   for koksma_scene_part_at(i), 0 for none. "half:even" and "half:odd" are the means of the samples of a pixel with
-   even and with odd index. */
-enum { KOKSMA_MAX_AOVS = 72 };
-typedef struct koksma_aovs {
-    int n;
-    char names[KOKSMA_MAX_AOVS][16];
-    koksma_image images[KOKSMA_MAX_AOVS];
-} koksma_aovs;
-
-/* Reads names separated by ',' into an empty list without images; "half" is both halves.
-   Errors: UNKNOWN (no such AOV), ARGUMENT (one is given twice). */
-KOKSMA_API koksma_status koksma_aovs_parse(const char *text, koksma_aovs *out);
-
-/* Renders as koksma_render_layers and allocates the images of `aovs`, which the caller must free also after an error.
-   The image can differ from that of koksma_render by the rounding of floats, because this function renders all scenes
-   with the same pipeline.
-   Errors: those of koksma_render; ARGUMENT (splatting). */
-KOKSMA_API koksma_status koksma_render_aovs(const koksma_scene *scene, const koksma_render_options *options,
-                                            const koksma_run *run, koksma_aovs *aovs, koksma_layers *out);
-
-/* Frees the images; aovs may be NULL. */
-KOKSMA_API void koksma_aovs_fini(koksma_aovs *aovs);
-
 #ifdef __cplusplus
 }
 #endif

@@ -6,16 +6,16 @@ import math
 import os
 import warnings
 from contextlib import contextmanager
-from ctypes import byref, c_void_p, create_string_buffer, pointer
-from dataclasses import dataclass, field
-from typing import Any, Dict, Iterator, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
+from ctypes import byref, c_void_p, create_string_buffer
+from dataclasses import dataclass
+from typing import Any, Dict, Iterator, List, Literal, Optional, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
 from ._library import (ArgumentError, Seed, call, check, choice, core, flag, lab, pair, quoted, real, seed_of, text,
-                       texts, whole)
+                       whole)
 from ._points import Named, free_with, named, shown
 
 
@@ -199,8 +199,6 @@ class Layers:
         Rays cast.
     rounds, splits, needless : int
         Of adaptive sampling: rounds after the first, strata that were split, and splits that `probes` found not needed.
-    aovs : dict of ndarray
-        By name what `aov` asked for; "half" is the two images "half:even" and "half:odd".
     """
 
     image: npt.NDArray[np.float32]
@@ -213,7 +211,6 @@ class Layers:
     rounds: int
     splits: int
     needless: int = 0
-    aovs: Dict[str, npt.NDArray[np.float32]] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         height, width, channels = self.image.shape
@@ -303,14 +300,14 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
            adaptive: Optional[str] = None, budget: float = 0, probes: SupportsIndex = 0, sky: Optional[float] = None,
-           environment: Union[str, "os.PathLike[str]", None] = None, layers: Literal[True], aov: Sequence[str] = (),
+           environment: Union[str, "os.PathLike[str]", None] = None, layers: Literal[True],
            threads: SupportsIndex = 0) -> Layers: ...
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: Seed = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
            adaptive: Optional[str] = None, budget: float = 0, probes: SupportsIndex = 0, sky: Optional[float] = None,
-           environment: Union[str, "os.PathLike[str]", None] = None, layers: bool = False, aov: Sequence[str] = (),
+           environment: Union[str, "os.PathLike[str]", None] = None, layers: bool = False,
            threads: SupportsIndex = 0) -> Union[npt.NDArray[np.float32], Layers]:
     """Renders a scene, with the bits of `koksma render`.
 
@@ -352,9 +349,6 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         With adaptive: further samples to test whether each split was needed; `needless` counts those that were not.
     layers : bool
         Return a `Layers`.
-    aov : sequence of str
-        With layers: further images for its `aovs`. "direct" and "indirect", or "bounce:0", "bounce:1", ..., parts of the light
-        that add up to the image; "id"; "half".
     threads : int
         0: one for each processor. The image does not depend on it.
 
@@ -370,16 +364,11 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     Examples
     --------
     >>> import koksma
-    >>> parts = koksma.render("cornell", spp=4, size=(8, 8), integrator="path", layers=True, aov=["direct", "indirect"])
-    >>> bool(abs(parts.aovs["direct"] + parts.aovs["indirect"] - parts.image).max() < 1e-5)
-    True
+    >>> koksma.render("cornell", spp=4, size=(8, 8), integrator="path", layers=True).depth.shape
+    (8, 8, 1)
     """
-    image, every, report, further = s.Image(), s.Layers(), s.AdaptiveReport(), s.Aovs()
-    aov = texts("aov", aov)
-    if not flag("layers", layers) and aov:
-        raise ArgumentError("aov needs layers=True")
-    if aov:
-        check(lab().koksma_aovs_parse(text(",".join(aov), "aov"), byref(further)))
+    image, every, report = s.Image(), s.Layers(), s.AdaptiveReport()
+    flag("layers", layers)
     with _opened(scene, pattern, spp, size, seed, pairing, scope, lights, integrator, depth, filter, splat, sky, environment) as (handle, options):
         try:
             if adaptive is not None:
@@ -390,15 +379,11 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
                 if method.method.contents.own_samples and pattern != "n-rooks":
                     raise ArgumentError(f"pattern '{pattern}': the adaptive method {adaptive} places its own samples")
                 method.budget, method.probes = budget, whole("probes", probes, 0, s.MAX_INT)
-                if aov:
-                    method.aovs = pointer(further)
                 call(lab().koksma_render_adaptive, handle, byref(options), byref(method), byref(every), byref(report),
                      threads=threads, run_at=3)
             elif budget or probes:
                 given = f"budget {budget}" if budget else f"probes {probes}"
                 raise ArgumentError(f"{given}: give a method of adaptive sampling, too; koksma.adaptive() names them")
-            elif aov:
-                call(lab().koksma_render_aovs, handle, byref(options), byref(further), byref(every), threads=threads, run_at=2)
             elif layers:
                 call(lab().koksma_render_layers, handle, byref(options), byref(every), threads=threads, run_at=2)
             else:
@@ -406,7 +391,6 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         except BaseException:  # a signal's handler's, perhaps, when the image was there
             lab().koksma_image_fini(byref(image))
             lab().koksma_layers_fini(byref(every))
-            lab().koksma_aovs_fini(byref(further))
             raise
     if adaptive is None and not layers:
         return adopt_image(image)
@@ -414,8 +398,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
              for name in ("image", "albedo", "normal", "depth", "samples", "variance")}
     if not layers:
         return parts["image"]
-    aovs = {further.names[i].value.decode(): adopt_image(s.Image.from_buffer_copy(further.images[i])) for i in range(further.n)}
-    return Layers(**parts, rays=every.rays, rounds=report.rounds, splits=report.splits, needless=report.needless, aovs=aovs)
+    return Layers(**parts, rays=every.rays, rounds=report.rounds, splits=report.splits, needless=report.needless)
 
 
 def render_replicates(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, replicates: SupportsIndex = 8,

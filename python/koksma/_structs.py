@@ -7,7 +7,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_d
 MAX_PARAMS, MAX_MODIFIERS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 8, 512, 16, 9
 MAX_USE_GROUPS = N_USES // 2
 MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
-MAX_SPP, MAX_IMAGE_SIDE, MAX_DEPTH, MAX_AOVS = 1 << 20, 65536, 64, 72
+MAX_SPP, MAX_IMAGE_SIDE, MAX_DEPTH = 1 << 20, 65536, 64
 MAX_RANK_TRIALS, RANK_CHECKS, RANK_REASON = 65536, 2, 256
 MAX_SIZES, IMAGES_GROUP, MAX_STEPS = 64, 256, 32
 MASK_MIN, MASK_MAX, MASK_MAX_SIDE = 4, 1024, 65
@@ -138,10 +138,6 @@ class MaskQuality(Structure):
 
 class Mask(Structure):
     _fields_ = [("width", c_int), ("height", c_int), ("space", POINTER(MaskSpace)), ("values", POINTER(c_float))]
-
-
-class Aovs(Structure):
-    _fields_ = [("n", c_int), ("names", (c_char * 16) * MAX_AOVS), ("images", Image * MAX_AOVS)]
 
 
 class ImageError(Structure):
@@ -355,7 +351,7 @@ class Adaptive(Structure):
 
 class AdaptiveOptions(Structure):
     _fields_ = [("method", POINTER(Adaptive)), ("params", c_double * MAX_PARAMS), ("budget", c_double), ("probes", c_int),
-                ("strata", c_void_p), ("aovs", POINTER(Aovs))]
+                ("strata", c_void_p)]
 
 
 class AdaptiveReport(Structure):
@@ -449,7 +445,7 @@ CONSTANTS = [
     ("koksma.h", "KOKSMA_MAX_PARAMS", MAX_PARAMS), ("koksma.h", "KOKSMA_MAX_MODIFIERS", MAX_MODIFIERS), ("koksma.h", "KOKSMA_MAX_SPEC", MAX_SPEC),
     ("koksma.h", "KOKSMA_MAX_DIM", MAX_DIM), ("koksma.h", "KOKSMA_MAX_COORDINATES", MAX_COORDINATES),
     ("mask.h", "KOKSMA_MASK_MIN", MASK_MIN), ("mask.h", "KOKSMA_MASK_MAX", MASK_MAX), ("mask.h", "KOKSMA_MASK_MAX_SIDE", MASK_MAX_SIDE),
-    ("spectrum.h", "KOKSMA_SPECTRUM_MAX_HALF", MAX_HALF), ("render.h", "KOKSMA_MAX_SPP", MAX_SPP), ("render.h", "KOKSMA_MAX_DEPTH", MAX_DEPTH), ("render.h", "KOKSMA_MAX_AOVS", MAX_AOVS),
+    ("spectrum.h", "KOKSMA_SPECTRUM_MAX_HALF", MAX_HALF), ("render.h", "KOKSMA_MAX_SPP", MAX_SPP), ("render.h", "KOKSMA_MAX_DEPTH", MAX_DEPTH),
     ("render.h", "KOKSMA_N_USES", N_USES), ("render.h", "KOKSMA_MAX_USE_GROUPS", MAX_USE_GROUPS),
     ("image.h", "KOKSMA_MAX_IMAGE_SIDE", MAX_IMAGE_SIDE), ("koksma.h", "(size_t)INT_MAX", MAX_INT),
     ("study.h", "KOKSMA_MAX_RANK_TRIALS", MAX_RANK_TRIALS), ("study.h", "KOKSMA_RANK_CHECKS", RANK_CHECKS),
@@ -485,7 +481,7 @@ LAYOUTS = [
     ("image.h", "koksma_metric_spec", MetricSpec), ("image.h", "koksma_metric_value", MetricValue),
     ("image.h", "koksma_coherence", Coherence), ("image.h", "koksma_coherence_values", CoherenceValues),
     ("render.h", "koksma_use_group", UseGroup), ("render.h", "koksma_render_options", RenderOptions),
-    ("render.h", "koksma_layers", Layers), ("render.h", "koksma_replicates", Replicates), ("render.h", "koksma_aovs", Aovs), ("adaptive.h", "koksma_adaptive", Adaptive), ("adaptive.h", "koksma_adaptive_options", AdaptiveOptions),
+    ("render.h", "koksma_layers", Layers), ("render.h", "koksma_replicates", Replicates), ("adaptive.h", "koksma_adaptive", Adaptive), ("adaptive.h", "koksma_adaptive_options", AdaptiveOptions),
     ("adaptive.h", "koksma_adaptive_report", AdaptiveReport),
     ("series.h", "koksma_line", Line), ("plot.h", "koksma_scatter_options", ScatterOptions), ("plot.h", "koksma_panel", Panel),
     ("plot.h", "koksma_curve", Curve), ("plot.h", "koksma_chart", Chart), ("plot.h", "koksma_cell", Cell),

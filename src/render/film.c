@@ -272,9 +272,6 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
             add_layers(film->layers, values, has_lobes ? weights : NULL, channels, pixel, first, end);
         }
     }
-    if (frame->aovs) {
-        koksma__aov_film(frame, group, values, weights);
-    }
 }
 
 void koksma__film_fill(const koksma__film *film, const koksma__group *group, const float *rgb, size_t channels)
@@ -359,11 +356,6 @@ koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film
     }
     const bool fills = whole && any && (film->splats || frame->options->scope == KOKSMA_SCOPE_IMAGE);
     koksma_status status = fills ? koksma__film_fill_gaps(image, has) : KOKSMA_OK;
-    for (size_t a = 0; !status && fills && frame->aovs && a < frame->aovs->n; a++) {
-        status = frame->aovs->items[a].kind == KOKSMA__AOV_ID
-                     ? KOKSMA_OK
-                     : koksma__film_fill_gaps(frame->aovs->items[a].image, has);
-    }
     free(weights);
     return status;
 }

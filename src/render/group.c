@@ -65,14 +65,12 @@ static koksma_status values_init(koksma__values *v, size_t capacity, const koksm
         v->depth = malloc(n * sizeof(float));
         all &= v->albedo && v->normal && v->depth;
     }
-    return !all          ? koksma__fail_memory(13 * n * sizeof(float))
-           : frame->aovs ? koksma__aov_values_init(frame->aovs, capacity, v)
-                         : KOKSMA_OK;
+    return all ? KOKSMA_OK : koksma__fail_memory(13 * n * sizeof(float));
 }
 
 static void values_fini(koksma__values *v)
 {
-    KOKSMA__FREE(v->film, v->weights, v->rgb, v->albedo, v->normal, v->depth, v->parts, v->ids);
+    KOKSMA__FREE(v->film, v->weights, v->rgb, v->albedo, v->normal, v->depth);
 }
 
 koksma_status koksma__task_scratch_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,

@@ -158,17 +158,12 @@ bool koksma_render_warning(const koksma_scene *scene, const koksma_render_option
 }
 
 static koksma_status render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
-                            bool all_layers, koksma_aovs *images, koksma_layers *out)
+                            bool all_layers, koksma_layers *out)
 {
     koksma__frame f;
-    koksma__aovs aovs;
     job j = {.frame = &f, .end_row = options->height};
     *out = (koksma_layers){0};
     koksma_status status = koksma__frame_open(scene, options, run, &f);
-    if (!status && images) {
-        status = koksma__aovs_init(&f, images, &aovs);
-        f.aovs = &aovs;
-    }
     status = status ? status : render_image(&j, run, all_layers, out);
     koksma__frame_close(&f);
     if (status && status != KOKSMA_INTERRUPTED) {
@@ -183,15 +178,7 @@ koksma_status koksma_render_layers(const koksma_scene *scene, const koksma_rende
 {
     KOKSMA__REQUIRE(scene, options, out);
     KOKSMA__REQUIRE_RUN(run);
-    return render(scene, options, run, true, NULL, out);
-}
-
-koksma_status koksma_render_aovs(const koksma_scene *scene, const koksma_render_options *options,
-                                 const koksma_run *run, koksma_aovs *aovs, koksma_layers *out)
-{
-    KOKSMA__REQUIRE(scene, options, aovs, out);
-    KOKSMA__REQUIRE_RUN(run);
-    return render(scene, options, run, true, aovs, out);
+    return render(scene, options, run, true, out);
 }
 
 koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_options *options,
@@ -199,7 +186,7 @@ koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_
 {
     KOKSMA__REQUIRE(scene, options, out);
     KOKSMA__REQUIRE_RUN(run);
-    return render(scene, options, run, false, NULL, out);
+    return render(scene, options, run, false, out);
 }
 
 koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
@@ -208,7 +195,7 @@ koksma_status koksma_render(const koksma_scene *scene, const koksma_render_optio
     KOKSMA__REQUIRE(scene, options, out);
     KOKSMA__REQUIRE_RUN(run);
     koksma_layers layers;
-    const koksma_status status = render(scene, options, run, false, NULL, &layers);
+    const koksma_status status = render(scene, options, run, false, &layers);
     *out = (koksma_image){0};
     if (!status) {
         *out = layers.image;

@@ -18,8 +18,6 @@
 #include "render/pipelines/vertices.h"
 #include "render/samples/samples.h"
 
-typedef struct koksma__aovs koksma__aovs;
-
 typedef struct koksma__frame {
     const koksma_scene *scene;
     const koksma_render_options *options;
@@ -46,7 +44,6 @@ typedef struct koksma__frame {
     float background[3];
     koksma__filter_table *filter; /* NULL: box */
     void *cache;                  /* data of the integrator */
-    const koksma__aovs *aovs;     /* further images, or NULL */
     koksma_scene *replaced;       /* the scene that the integrator made, to which `scene` then points; or NULL */
 } koksma__frame;
 
@@ -69,8 +66,6 @@ typedef struct koksma__values {
     float *weights; /* weights of the filter; NULL: all weights are 1 */
     float *rgb;     /* channels a sample */
     float *albedo, *normal, *depth;
-    float *parts; /* 3 numbers for each AOV of light for each sample; NULL: no AOVs */
-    float *ids;   /* the number of the first object that each sample hits */
     uint64_t rays;
 } koksma__values;
 
@@ -216,54 +211,6 @@ koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film
    of its neighbours that are one step nearer. has: each pixel's number of samples, or sum of weights. Every pixel is
    visited once, however wide the gaps are. */
 koksma_status koksma__film_fill_gaps(koksma_image *image, const float *has);
-
-/* ---- Further images of a render --------------------------------------------------------------------------------- */
-
-typedef enum koksma__aov_kind {
-    KOKSMA__AOV_LIGHT, /* light that was reflected `first` to `last` times */
-    KOKSMA__AOV_ID,
-    KOKSMA__AOV_HALF /* the samples first, first + 2, ... of each pixel */
-} koksma__aov_kind;
-
-typedef struct koksma__aov {
-    koksma__aov_kind kind;
-    int first, last;
-    koksma_image *image;
-} koksma__aov;
-
-struct koksma__aovs {
-    size_t n;
-    bool has_id;
-    size_t n_parts; /* number of AOVs of the kind KOKSMA__AOV_LIGHT */
-    koksma__aov items[KOKSMA_MAX_AOVS];
-};
-
-/* Finds the meaning of the names and allocates the images. Errors: MEMORY. */
-koksma_status koksma__aovs_init(const koksma__frame *frame, koksma_aovs *images, koksma__aovs *out);
-
-/* Allocates the AOVs' values of a group's samples. Errors: MEMORY. */
-koksma_status koksma__aov_values_init(const koksma__aovs *aovs, size_t capacity, koksma__values *values);
-
-/* Adds the light that the vertices gained since `before` to the AOVs of light that was reflected `reflections`
-   times. */
-void koksma__aov_add(const koksma__frame *frame, const koksma__vertices *v, const koksma__lanes before[3],
-                     int reflections, koksma__values *values);
-
-/* Stores the numbers of the objects that the rays hit first. */
-void koksma__aov_note(const koksma__frame *frame, const koksma__vertices *v, koksma__values *values);
-
-/* Multiplies channel k of sample i in all AOVs of the kind KOKSMA__AOV_LIGHT by the factor by which the sample was
-   clamped. */
-void koksma__aov_clamp(const koksma__aovs *aovs, koksma__values *values, size_t i, int k, float factor);
-
-/* In each AOV of object numbers, sets the pixel to the number of the object that most of the samples first .. end - 1
-   hit; sorts the samples' numbers. */
-void koksma__aov_ids(const koksma__frame *frame, const koksma__values *values, size_t pixel, size_t first,
-                     size_t end);
-
-/* Adds the samples of a group to the images. weights: those of the filter; NULL: all are 1. */
-void koksma__aov_film(const koksma__frame *frame, const koksma__group *group, const koksma__values *values,
-                      const float *weights);
 
 /* ---- The lens --------------------------------------------------------------------------------------------------- */
 

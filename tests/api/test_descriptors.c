@@ -116,8 +116,6 @@ TEST_CASE(releases)
     koksma_strata strata = {.n_spaces = 5};
     koksma_strata_fini(&strata);
     assert_true(strata.n_spaces == 0);
-    koksma_aovs aovs = {.n = 1000};
-    koksma_aovs_fini(&aovs);
 }
 
 /* ---- Functions that fail ------------------------------------------------------------------------------------- */

@@ -144,58 +144,6 @@ class Rendering(unittest.TestCase):
         self.assertTrue((layers.depth >= 0).all() and layers.depth.max() > 0 and (np.linalg.norm(layers.normal, axis=2) < 1 + 1e-5).all())
         self.assertEqual((layers.rounds, layers.splits), (0, 0))
 
-    def test_aovs(self):
-        """The bits of the program's files; parts of the light add up to the image; every name that it knows."""
-        names = ["direct", "indirect", "bounce:0", "bounce:2", "id", "half:even", "half:odd"]
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "image.pfm")
-            program("render", "cornell", "--integrator", "path", "--size", "24x18", "-n", "4", "-q", "--aov", ",".join(names), "-o", path)
-            found = koksma.render("cornell", spp=4, size=(24, 18), integrator="path", layers=True, aov=names)
-            self.assertEqual(list(found.aovs), names)
-            np.testing.assert_array_equal(found.image, koksma.read_image(path))
-            for name, array in found.aovs.items():
-                np.testing.assert_array_equal(array, koksma.read_image(os.path.join(folder, f"image.{name.replace(':', '-')}.pfm")), name)
-        np.testing.assert_allclose(found.aovs["direct"] + found.aovs["indirect"], found.image, atol=1e-5)
-        np.testing.assert_allclose((found.aovs["half:even"] + found.aovs["half:odd"]) / 2, found.image, atol=1e-5)
-        self.assertGreater(found.aovs["indirect"].max(), 0)
-
-    def test_colours_of_objects(self):
-        """Where a file has 8 bits, the program writes one colour for each object, the same in every picture; 0 is black."""
-        colours = {}
-        with tempfile.TemporaryDirectory() as folder:
-            for scene in ("many-lights", "cornell"):
-                for ending in ("pfm", "png", "jpg"):
-                    program("render", scene, "--size", "64x48", "-n", "1", "-q", "--aov", "id", "-o", os.path.join(folder, f"image.{ending}"))
-                ids, png, jpg = (koksma.read_image(os.path.join(folder, f"image.id.{ending}")) for ending in ("pfm", "png", "jpg"))
-                self.assertGreater(len(np.unique(ids)), 8)
-                for number, colour in {(int(i), tuple(c.tolist())) for i, c in zip(ids.ravel(), png.reshape(-1, 3))}:
-                    self.assertEqual(colours.setdefault(number, colour), colour, number)  # one colour for each number
-                self.assertLess(np.abs(jpg - png).mean(), 0.03)
-        self.assertEqual(len(set(colours.values())), len(colours))  # and one number for each colour
-        self.assertEqual(colours[0], (0, 0, 0))
-        for number, colour in colours.items():
-            self.assertTrue(number == 0 or max(colour) > 0.3, (number, colour))
-        self.assertEqual(list(koksma.render("ball", spp=4, size=(8, 8), layers=True, aov=["half"]).aovs), ["half:even", "half:odd"])
-        for arguments, said in ((dict(aov=["direct"]), "layers=True"), (dict(aov="direct", layers=True), "a list of texts"),
-                                (dict(aov=["odd"], layers=True), "odd"),
-                                (dict(aov=["id", "id"], layers=True), "twice"), (dict(aov=["id"], layers=True, splat=True), "splat")):
-            with self.subTest(arguments=arguments), self.assertRaisesRegex(koksma.ArgumentError, said):
-                koksma.render("ball", spp=4, size=(8, 8), **arguments)
-
-    def test_adaptive_aovs(self):
-        """The bits of the program's files, by a method of strata and one of sets."""
-        names = ["direct", "indirect", "id", "half:even", "half:odd"]
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "image.pfm")
-            for method in ("hierarchical", "contrast"):
-                program("render", "cornell", "--integrator", "path", "--size", "24x18", "-n", "4", "-q", "--adaptive", method,
-                        "--budget", "20", "--aov", ",".join(names), "-o", path)
-                found = koksma.render("cornell", spp=4, size=(24, 18), integrator="path", layers=True, aov=names, adaptive=method, budget=20)
-                self.assertEqual(list(found.aovs), names)
-                for name, array in found.aovs.items():
-                    np.testing.assert_array_equal(array, koksma.read_image(os.path.join(folder, f"image.{name.replace(':', '-')}.pfm")), name)
-                np.testing.assert_allclose(found.aovs["direct"] + found.aovs["indirect"], found.image, atol=1e-5)
-
     def test_adaptive(self):
         """The budget holds; more samples are where the variance is."""
         layers = koksma.render("ball", spp=4, size=(48, 36), adaptive="contrast", budget=12, layers=True)

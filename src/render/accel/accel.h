@@ -33,8 +33,6 @@ typedef struct koksma__geometry {
                     koksma__shadows *shadows);
     /* If the primitive is part of a light's surface, the index of that light; otherwise -1. */
     int (*light)(const struct koksma__geometry *geometry, int32_t primitive);
-    /* The index of the shape, or of the placement after all shapes, to which the primitive belongs. */
-    int (*object)(const struct koksma__geometry *geometry, int32_t primitive);
     /* Writes the triangle on which p lies at this time to `out`; returns false if the primitive is an analytic shape. */
     bool (*triangle)(const struct koksma__geometry *geometry, int32_t primitive, const float p[3], float time,
                      koksma__triangle *out);

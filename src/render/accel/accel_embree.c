@@ -426,12 +426,6 @@ static int light_of(const koksma__geometry *geometry, int32_t primitive)
     return primitive < e->n_shapes ? e->shapes.light(&e->shapes, primitive) : part_of(e, primitive)->light;
 }
 
-static int object_of(const koksma__geometry *geometry, int32_t primitive)
-{
-    const embree *e = geometry->made;
-    return primitive < e->n_shapes ? primitive : e->n_shapes + (int)(part_of(e, primitive) - e->parts);
-}
-
 /* ---- Texture coordinates of triangles ------------------------------------------------------------------------ */
 
 /* The barycentric coordinates of a position in triangle t, computed from the areas of the three parts into which the
@@ -750,7 +744,7 @@ static koksma_status make(const koksma_scene *scene, koksma__geometry *out)
 {
     const size_t size = sizeof(embree) + scene->n_placements * sizeof(part);
     embree *e = calloc(1, size);
-    *out = (koksma__geometry){e, NULL, NULL, closest, occlude, light_of, object_of, triangle_of, release};
+    *out = (koksma__geometry){e, NULL, NULL, closest, occlude, light_of, triangle_of, release};
     KOKSMA__REQUIRE_MEMORY(e, size);
     fenv_t mode; /* Embree may change the floating-point mode while it builds */
     fegetenv(&mode);

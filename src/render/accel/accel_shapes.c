@@ -41,12 +41,6 @@ static int light_of(const koksma__geometry *geometry, int32_t primitive)
     return s->scene->shapes[primitive].light;
 }
 
-static int object_of(const koksma__geometry *geometry, int32_t primitive)
-{
-    (void)geometry;
-    return primitive;
-}
-
 static void release(koksma__geometry *geometry)
 {
     free(geometry->made);
@@ -122,6 +116,6 @@ koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *
     }
     s->batch = koksma__batch();
     s->scene = scene;
-    *out = (koksma__geometry){s, &s->all, &s->occluders, closest, occlude, light_of, object_of, NULL, release};
+    *out = (koksma__geometry){s, &s->all, &s->occluders, closest, occlude, light_of, NULL, release};
     return KOKSMA_OK;
 }

@@ -490,16 +490,6 @@ static void fill_lanes(koksma__paths *p, int n, int whole)
     }
 }
 
-/* Adds to the AOVs the light that the vertices gained since `before`; then sets `before` to their light. */
-static void note_aovs(const koksma__trace *trace, const koksma__vertices *v, int reflections, koksma__lanes before[3],
-                      koksma__values *values)
-{
-    if (values->parts) {
-        koksma__aov_add(trace->frame, v, (const koksma__lanes *)before, reflections, values);
-        memcpy(before, v->light, sizeof v->light);
-    }
-}
-
 static koksma_status travel(const koksma__trace *trace, koksma__paths *paths, koksma__vertices *v)
 {
     const uint32_t use = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE + KOKSMA__USE_DISTANCE;
@@ -517,7 +507,6 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     const koksma__frame *frame = trace->frame;
     koksma__vertices *v = trace->scratch->vertices;
     koksma__hits *hits = &v->hits;
-    _Alignas(64) koksma__lanes before[3] = {{0}};
     v->paths = paths;
     v->n = n;
     v->whole = (int)koksma__whole_lanes((size_t)n);
@@ -558,14 +547,8 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
         note_first(frame, values, v, i);
     }
     koksma__wavefront_detach(frame->scene, v);
-    note_aovs(trace, v, trace->bounce, before, values);
-    if (values->parts && !trace->bounce) {
-        koksma__aov_note(frame, v, values);
-    }
     KOKSMA__TRY(add_local(frame, v));
-    note_aovs(trace, v, trace->bounce + 2, before, values);
     KOKSMA__TRY(koksma__wavefront_light(trace, v, values));
-    note_aovs(trace, v, trace->bounce + 1, before, values);
     KOKSMA__TRY(scatter(trace, v));
     for (int i = 0; i < n; i++) {
         float *sum = trace->scratch->sums + 3 * (size_t)paths->sample[i];
@@ -585,9 +568,6 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
         for (int k = 0; k < frame->channels; k++) {
             const float value = sums[3 * i + (size_t)k]; /* a NaN stays a NaN, because it is not above clamp */
             values->rgb[i * (size_t)frame->channels + (size_t)k] = value > clamp ? clamp : value;
-            if (values->parts && value > clamp) {
-                koksma__aov_clamp(frame->aovs, values, i, k, clamp / value);
-            }
         }
     }
 }
@@ -641,9 +621,6 @@ static koksma_status trace_group(const koksma__frame *frame, void *opened, const
         scratch->drawn[i].done = false;
     }
     memset(scratch->sums, 0, 3 * n * sizeof *scratch->sums);
-    if (values->parts) {
-        memset(values->parts, 0, 3 * frame->aovs->n_parts * n * sizeof *values->parts);
-    }
     for (size_t p = 0; group->count > 1 && p < group->count; p++) {
         memset(scratch->pixel_of + group->start[p], (int)p, group->start[p + 1] - group->start[p]);
     }

@@ -30,7 +30,6 @@ typedef struct koksma__adaptive koksma__adaptive;
 typedef struct koksma__sample_values {
     const float *rgb;
     const float *weights; /* weights of the filter (filters/filters.h); NULL: all are 1 */
-    const float *parts;   /* 3 numbers for each AOV of light for each sample; unused without AOVs */
 } koksma__sample_values;
 
 /* What methods of one family share: those whose samples come in point sets, and those that split strata. Any thread may
@@ -51,8 +50,6 @@ typedef struct koksma__adaptive_family {
     size_t (*probes)(const koksma__adaptive *run, size_t pixel);
     /* computes the value of a pixel and returns its variance */
     double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]);
-    /* computes the value of a pixel in AOV `a`, whose kind is not ID; called only if run->frame->aovs is set */
-    void (*part)(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3]);
     /* NULL, or describes the strata of a pixel for a figure. Errors: MEMORY. */
     koksma_status (*show)(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
 } koksma__adaptive_family;
@@ -83,7 +80,6 @@ struct koksma__adaptive {
     bool probing;    /* this round draws only probes */
     void *state;     /* state of the method: koksma__pixel_sets of every pixel, or koksma__strata */
     void *extra;     /* further memory of the method, freed by the engine; NULL: none */
-    double *sums;    /* sums for the AOVs in methods that draw sets (koksma__sets_part); NULL: no AOVs */
     koksma_adaptive_report report;
 };
 
@@ -170,7 +166,6 @@ typedef struct koksma__stratum {
 
 typedef struct koksma__tree {
     koksma__stratum *strata;
-    float *parts; /* 3 numbers for each AOV of light for each stratum; NULL: there are none */
     uint32_t n, marked, splits, needless;
     uint32_t base;  /* the base use, in which neighbouring strata are compared */
     uint32_t stage; /* KOKSMA__STAGE_TREE or KOKSMA__STAGE_LAST */

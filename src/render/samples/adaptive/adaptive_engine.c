@@ -84,15 +84,13 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
     koksma__sample_demand demand = {0};
     const float *weights = j->frame.filter ? r->pixels.values.weights + first : NULL;
     const koksma__values *v = &r->pixels.values;
-    const float *parts = j->frame.aovs ? v->parts + 3 * j->frame.aovs->n_parts * first : NULL;
-    const koksma__sample_values values = {v->rgb + channels * first, weights, parts};
+    const koksma__sample_values values = {v->rgb + channels * first, weights};
     run->method->family->take(run, pixel, &values);
     if (run->probing) {
         return;
     }
     if (j->first) {
         keep_layers(j, v, pixel, first, end);
-        koksma__aov_ids(&j->frame, v, pixel, first, end);
     }
     run->taken[pixel] += (uint32_t)(end - first);
     if (run->method->decide) {
@@ -298,22 +296,6 @@ static koksma_status render_rounds(job *j, const koksma_run *how)
     return status;
 }
 
-static void write_aovs(const job *j, size_t pixel)
-{
-    const koksma__aovs *aovs = j->frame.aovs;
-    const size_t channels = (size_t)j->frame.channels;
-    for (size_t a = 0; aovs && a < aovs->n; a++) {
-        double rgb[3] = {0, 0, 0};
-        if (aovs->items[a].kind == KOKSMA__AOV_ID) {
-            continue;
-        }
-        j->run->method->family->part(j->run, pixel, a, rgb);
-        for (size_t k = 0; k < channels; k++) {
-            aovs->items[a].image->pixels[channels * pixel + k] = (float)rgb[k];
-        }
-    }
-}
-
 static void write_results(const job *j)
 {
     koksma__adaptive *run = j->run;
@@ -322,7 +304,6 @@ static void write_results(const job *j)
         double rgb[3] = {0, 0, 0}, variance = 0;
         if (run->taken[p]) {
             variance = run->method->family->result(run, p, rgb);
-            write_aovs(j, p);
         }
         for (size_t k = 0; k < channels; k++) {
             j->layers->image.pixels[channels * p + k] = (float)rgb[k];
@@ -403,9 +384,7 @@ uint64_t koksma_adaptive_size_of(const koksma_render_options *options, const kok
     const uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
     const size_t strata = sizeof(koksma__tree) + (size_t)options->spp * sizeof(koksma__stratum);
     const size_t state = adaptive->method->own_samples ? strata : sizeof(koksma__pixel_sets);
-    const size_t n_aovs = adaptive->aovs && adaptive->aovs->n > 0 ? (size_t)adaptive->aovs->n : 0;
-    const size_t aov = adaptive->method->own_samples ? (size_t)options->spp * 3 * sizeof(float) : 6 * sizeof(double);
-    return pixels * (sizeof(koksma__sample_demand) + sizeof(uint32_t) + state + n_aovs * aov);
+    return pixels * (sizeof(koksma__sample_demand) + sizeof(uint32_t) + state);
 }
 
 static koksma_status open_layers(const koksma__frame *frame, koksma_layers *out)
@@ -426,12 +405,7 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
     KOKSMA__TRY(check(options, adaptive));
     koksma__adaptive run = {.options = adaptive, .method = adaptive->method->functions, .budget = UINT64_MAX};
     job j = {.run = &run, .layers = out, .how = how, .caller = pthread_self()};
-    koksma__aovs aovs;
     koksma_status status = koksma__frame_open(scene, options, how, &j.frame);
-    if (!status && adaptive->aovs) {
-        status = koksma__aovs_init(&j.frame, adaptive->aovs, &aovs);
-        j.frame.aovs = &aovs;
-    }
     if (!status) {
         run.frame = &j.frame;
         run.pixels = (size_t)options->width * (size_t)options->height;
@@ -459,7 +433,7 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
         j.frame.sampler = run.base;
     }
     koksma__frame_close(&j.frame);
-    KOKSMA__FREE(run.extra, run.sums, run.demands, run.taken);
+    KOKSMA__FREE(run.extra, run.demands, run.taken);
     if (status && status != KOKSMA_INTERRUPTED) {
         koksma_layers_fini(out);
         *out = (koksma_layers){0};

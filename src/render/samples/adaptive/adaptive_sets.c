@@ -19,9 +19,6 @@
 #include "render/samples/uses.h"
 #include "render/vector3.h"
 
-/* The numbers that are stored for each AOV and pixel: the sums of weight x value and of value, three channels each. */
-enum { NUMBERS_OF_AOV = 6 };
-
 enum { LANE_CONTINUED = 1 << 21 }; /* keys of the shuffles' random numbers, above the keys of uses and pairings */
 
 /* ---- Open and close --------------------------------------------------------------------------------------- */
@@ -95,11 +92,6 @@ koksma_status koksma__sets_open(koksma__adaptive *run)
                     "%s: give a threshold, or a budget, or both", name);
     run->state = calloc(run->pixels, sizeof(koksma__pixel_sets));
     KOKSMA__REQUIRE_MEMORY(run->state, run->pixels * sizeof(koksma__pixel_sets));
-    if (run->frame->aovs) {
-        const size_t numbers = run->pixels * run->frame->aovs->n * NUMBERS_OF_AOV;
-        run->sums = calloc(numbers + 1, sizeof *run->sums);
-        KOKSMA__REQUIRE_MEMORY(run->sums, numbers * sizeof *run->sums);
-    }
     for (size_t p = 0; p < run->pixels; p++) {
         const uint32_t n = (uint32_t)(first * run->frame->options->spp);
         run->demands[p] = (koksma__sample_demand){.now = n};
@@ -206,42 +198,10 @@ static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const flo
     p->drawn++;
 }
 
-static double *sums_of(const koksma__adaptive *run, size_t pixel)
-{
-    return run->sums + pixel * run->frame->aovs->n * NUMBERS_OF_AOV;
-}
-
-/* Adds `count` samples to the sums of the AOVs; the first one is sample `before` of the pixel. */
-static void take_parts(const koksma__adaptive *run, size_t pixel, size_t before, size_t count,
-                       const koksma__sample_values *values)
-{
-    const koksma__aovs *aovs = run->frame->aovs;
-    const size_t channels = (size_t)run->frame->channels;
-    for (size_t i = 0; i < count; i++) {
-        const double weight = values->weights ? (double)values->weights[i] : 1;
-        const float *part = values->parts + 3 * aovs->n_parts * i;
-        double *sums = sums_of(run, pixel);
-        for (size_t a = 0; a < aovs->n; a++, sums += NUMBERS_OF_AOV) {
-            const koksma__aov *aov = &aovs->items[a];
-            const bool light = aov->kind == KOKSMA__AOV_LIGHT;
-            const bool half = aov->kind == KOKSMA__AOV_HALF && (before + i) % 2 == (size_t)aov->first;
-            const float *value = light ? part : values->rgb + channels * i;
-            for (size_t k = 0; (light || half) && k < channels; k++) {
-                sums[k] += weight * (double)value[k];
-                sums[3 + k] += (double)value[k];
-            }
-            part += light ? 3 : 0;
-        }
-    }
-}
-
 static void take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
 {
     const size_t n = koksma__set_size(run), channels = (size_t)run->frame->channels;
     koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
-    if (run->sums) {
-        take_parts(run, pixel, sets->sets * n, run->demands[pixel].now, values);
-    }
     for (size_t k = 0; k < run->demands[pixel].now / n; k++) {
         take_set(sets, n, channels, values->rgb + k * n * channels, values->weights ? values->weights + k * n : NULL);
     }
@@ -314,21 +274,5 @@ static double result(const koksma__adaptive *run, size_t pixel, double rgb[3])
     return p->sets ? variance(p->moments[0][1], p->moments[0][2], n) / n : 0;
 }
 
-static void part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
-{
-    const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
-    const koksma__aov *aov = &run->frame->aovs->items[a];
-    const double *sums = sums_of(run, pixel) + a * NUMBERS_OF_AOV;
-    const size_t n = p->sets * koksma__set_size(run), odd = n / 2;
-    const size_t samples = aov->kind != KOKSMA__AOV_HALF ? n : aov->first ? odd : n - odd;
-    double weight, rest;
-    if (samples) {
-        weights_of(run, p, &weight, &rest);
-        for (int k = 0; k < 3; k++) {
-            rgb[k] = (weight * sums[k] + rest * sums[3 + k]) * (double)n / (double)samples;
-        }
-    }
-}
-
 const koksma__adaptive_family koksma__sets_family = {
-    .close = close_sets, .draw = draw, .take = take, .result = result, .part = part};
+    .close = close_sets, .draw = draw, .take = take, .result = result};

@@ -26,16 +26,9 @@ static koksma_status too_many(const koksma__adaptive *run)
                         MAX_STRATA);
 }
 
-/* The number of floats that each stratum stores for the AOVs of light. */
-static size_t numbers_of_parts(const koksma__adaptive *run)
-{
-    return run->frame->aovs ? 3 * run->frame->aovs->n_parts : 0;
-}
-
 static koksma_status open_trees(koksma__adaptive *run, koksma__strata *s)
 {
     const uint32_t n = s->m * s->m;
-    const size_t numbers = numbers_of_parts(run);
     s->trees = calloc(run->pixels, sizeof *s->trees);
     KOKSMA__REQUIRE_MEMORY(s->trees, run->pixels * sizeof *s->trees);
     atomic_store(&s->total, run->pixels * n);
@@ -43,10 +36,6 @@ static koksma_status open_trees(koksma__adaptive *run, koksma__strata *s)
         koksma__tree *tree = &s->trees[p];
         tree->strata = malloc(n * sizeof *tree->strata);
         KOKSMA__REQUIRE_MEMORY(tree->strata, run->pixels * n * sizeof *tree->strata);
-        tree->parts = numbers ? malloc(n * numbers * sizeof *tree->parts) : NULL;
-        if (numbers) {
-            KOKSMA__REQUIRE_MEMORY(tree->parts, run->pixels * n * numbers * sizeof *tree->parts);
-        }
         tree->n = n;
         for (uint32_t i = 0; i < n; i++) {
             tree->strata[i] = (koksma__stratum){.number = i, .pending = true};
@@ -88,7 +77,6 @@ static void close_strata(koksma__adaptive *run)
         run->report.splits += s->trees[p].splits;
         run->report.needless += s->trees[p].needless;
         free(s->trees[p].strata);
-        free(s->trees[p].parts);
     }
     if (s) {
         free(s->trees);
@@ -192,20 +180,12 @@ static koksma_status prepare(koksma__adaptive *run, size_t pixel)
     if (atomic_fetch_add(&s->total, 3 * (size_t)tree->marked) + 3 * (size_t)tree->marked > MAX_STRATA) {
         return too_many(run);
     }
-    const size_t numbers = numbers_of_parts(run), bytes = numbers * sizeof *tree->parts;
     koksma__stratum *strata = malloc(n * sizeof *strata), *to = strata;
-    float *parts = numbers ? malloc(n * bytes) : NULL;
     koksma__use_cells base;
-    if (!strata || (numbers && !parts)) {
-        KOKSMA__FREE(strata, parts);
-        return koksma__fail_memory(n * (sizeof *strata + bytes));
-    }
+    KOKSMA__REQUIRE_MEMORY(strata, n * sizeof *strata);
     koksma__use_cells_init(run, pixel, tree->base, NULL, &base);
     for (uint32_t i = 0; i < tree->n; i++) {
         const koksma__stratum *from = &tree->strata[i];
-        for (int k = 0; numbers && k < (from->marked ? 4 : 1); k++) {
-            memcpy(parts + (size_t)(to - strata + k) * numbers, tree->parts + i * numbers, bytes);
-        }
         if (!from->marked) {
             *to++ = *from;
             continue;
@@ -220,9 +200,7 @@ static koksma_status prepare(koksma__adaptive *run, size_t pixel)
         }
     }
     free(tree->strata);
-    free(tree->parts);
     tree->strata = strata;
-    tree->parts = parts;
     tree->n = (uint32_t)n;
     tree->splits += tree->marked;
     tree->marked = 0;
@@ -286,7 +264,7 @@ static void take(koksma__adaptive *run, size_t pixel, const koksma__sample_value
 {
     koksma__strata *s = run->state;
     koksma__tree *tree = &s->trees[pixel];
-    const size_t channels = (size_t)run->frame->channels, numbers = numbers_of_parts(run);
+    const size_t channels = (size_t)run->frame->channels;
     size_t sample = 0;
     if (run->probing) {
         take_probes(run, tree, values->rgb);
@@ -297,9 +275,6 @@ static void take(koksma__adaptive *run, size_t pixel, const koksma__sample_value
             memcpy(tree->strata[i].value, values->rgb + channels * sample, channels * sizeof(float));
             tree->strata[i].weight = values->weights ? values->weights[sample] : 1;
             tree->strata[i].pending = false;
-            if (numbers) {
-                memcpy(tree->parts + i * numbers, values->parts + sample * numbers, numbers * sizeof(float));
-            }
             sample++;
         }
     }
@@ -351,34 +326,6 @@ static double weight_of(const strata_weights *w, const koksma__stratum *stratum)
     return 1 + ((double)stratum->weight - w->mean) * w->scale;
 }
 
-/* Computes the value of AOV `a` as the value of the pixel is computed. `half:even` and `half:odd` sum over every
-   second stratum in the order of the tree, in which the parts of a stratum follow each other, and divide by the total
-   volume of these strata. */
-static void part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
-{
-    const koksma__strata *s = run->state;
-    const koksma__tree *tree = &s->trees[pixel];
-    const koksma__aovs *aovs = run->frame->aovs;
-    const bool half = aovs->items[a].kind == KOKSMA__AOV_HALF;
-    const strata_weights weights = weights_of(run, tree);
-    size_t part = 0;
-    double whole = 0;
-    for (size_t i = 0; i < a; i++) {
-        part += aovs->items[i].kind == KOKSMA__AOV_LIGHT;
-    }
-    for (uint32_t i = half ? (uint32_t)aovs->items[a].first : 0; i < tree->n; i += half ? 2 : 1) {
-        const double volume = volume_of(s, &tree->strata[i]);
-        const float *value = half ? tree->strata[i].value : tree->parts + 3 * (aovs->n_parts * i + part);
-        whole += volume;
-        for (size_t k = 0; k < (size_t)run->frame->channels; k++) {
-            rgb[k] += weight_of(&weights, &tree->strata[i]) * volume * (double)value[k];
-        }
-    }
-    for (size_t k = 0; half && whole > 0 && k < 3; k++) {
-        rgb[k] /= whole;
-    }
-}
-
 static double result(const koksma__adaptive *run, size_t pixel, double rgb[3])
 {
     const koksma__strata *s = run->state;
@@ -411,5 +358,4 @@ const koksma__adaptive_family koksma__strata_family = {.close = close_strata,
                                                        .take = take,
                                                        .probes = probes,
                                                        .result = result,
-                                                       .part = part,
                                                        .show = koksma__strata_show};
