@@ -605,7 +605,7 @@ const cli_command cli_command_rank = {
         "bands: samples that decide about further ones and then count make pixels of one edge err alike "
         "(docs/findings/adaptive.md). Therefore no row is 'unbiased'.\n"
         "\n"
-        "Only the integrators path and irradiance-cache render light that surfaces reflect onto each other. "
+        "Only the integrator path renders light that surfaces reflect onto each other. "
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
         "modern: sobol:scramble=owen and pmj02, which the project's own studies put first, "
         "correlated-multi-jittered, multi-jittered, n-rooks, jittered and random. thesis: the seven patterns of "

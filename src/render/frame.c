@@ -246,14 +246,11 @@ static koksma_status make_frame(koksma__frame *f, const koksma_scene *scene, con
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);
     }
-    return !status && f->flags->open ? f->flags->open(f, run) : status;
+    return status;
 }
 
 void koksma__frame_close(koksma__frame *f)
 {
-    if (f->flags && f->flags->close) {
-        f->flags->close(f);
-    }
     if (f->sampler.release) {
         f->sampler.release(&f->sampler);
     }

@@ -207,8 +207,7 @@ koksma_status koksma_render(const koksma_scene *scene, const koksma_render_optio
 
 bool koksma__rows_stand_alone(const koksma_render_options *options)
 {
-    const koksma__integrator_flags *flags = options->integrator->flags;
-    return options->scope == KOKSMA_SCOPE_PIXEL && !options->splat && !flags->open;
+    return options->scope == KOKSMA_SCOPE_PIXEL && !options->splat;
 }
 
 koksma_status koksma__render_rows(const koksma_scene *scene, const koksma_render_options *options, int first_row,

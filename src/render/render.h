@@ -43,7 +43,6 @@ typedef struct koksma__frame {
     koksma__lane_materials lane_materials;
     float background[3];
     koksma__filter_table *filter; /* NULL: box */
-    void *cache;                  /* data of the integrator */
     koksma_scene *replaced;       /* the scene that the integrator made, to which `scene` then points; or NULL */
 } koksma__frame;
 

@@ -11,10 +11,10 @@ TEST_CASE(same_bits_for_any_number_of_threads)
         int spp;
         bool splat;
     } cases[] = {
-        {"ball", "distribution", "random", 1, false},         {"ball", "distribution", "jittered", 4, false},
-        {"ball", "distribution", "n-rooks", 25, false},       {"ball", "distribution", "regular", 100, false},
-        {"ball", "distribution", "random", 16, true},         {"fog", "path", "random", 4, false},
-        {"cornell", "irradiance-cache", "n-rooks", 1, false},
+        {"ball", "distribution", "random", 1, false},   {"ball", "distribution", "jittered", 4, false},
+        {"ball", "distribution", "n-rooks", 25, false}, {"ball", "distribution", "regular", 100, false},
+        {"ball", "distribution", "random", 16, true},   {"fog", "path", "random", 4, false},
+        {"cornell", "path", "n-rooks", 1, false},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         koksma_layers one, other;

@@ -20,7 +20,6 @@ TEST_CASE(white_furnaces_do_not_vary)
         {"'kind': 'mirror', 'reflectance': 1", "path"},
         {"'kind': 'dielectric', 'ior': 1.5", "path"},
         {"'kind': 'dielectric', 'ior': 2.4", "path"},
-        {"'kind': 'lambert', 'albedo': 1", "irradiance-cache"},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         char text[2048];

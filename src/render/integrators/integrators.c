@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The table of integrators. Each integrator is a row of flags that wavefront.c obeys, with a name, a default depth
- * and a source; an integrator that needs an algorithm beyond the flags has hooks in another file
- * (irradiance_cache.c). The comment above each row has the integrator's formula. In these formulas E is emission, f
+ * and a source. The comment above each row has the integrator's formula. In these formulas E is emission, f
  * the BSDF, cos and cos' are the cosines at the surface and at the light, and V is 1 where the light is visible and 0
  * elsewhere.
  */
@@ -104,16 +103,6 @@ static const koksma__integrator_flags path_balance = {PATH, .weight = KOKSMA__WE
 static const koksma__integrator_flags path_light = {PATH, .weight = KOKSMA__WEIGHT_ONE};
 static const koksma__integrator_flags path_bsdf = {PATH, .weight = KOKSMA__WEIGHT_ZERO};
 
-/* The integrator `irradiance-cache` is `distribution` that interpolates the light between diffuse surfaces from
-   cached records (irradiance_cache.c) instead of using ambient light. */
-static const koksma__integrator_flags irradiance_cache = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY,
-                                                          .areas = true,
-                                                          .shadows = true,
-                                                          .is_biased = true,
-                                                          .open = koksma__irradiance_cache_open,
-                                                          .close = koksma__irradiance_cache_close,
-                                                          .indirect = koksma__irradiance_cache_indirect};
-
 static const koksma_integrator rows[] = {
     {"utah", "local light and ambient light, no shadows", "phong1975 shirley1991", 0, &utah},
     {"whitted", "sharp shadows, mirrors and glass", "whitted1980", 6, &whitted},
@@ -127,8 +116,6 @@ static const koksma_integrator rows[] = {
     {"direct", "soft shadows, mirrors and glass; no ambient light", "shirley1996", 6, &direct},
     {"ambient-occlusion", "the fraction of a white sky that each surface point sees; depends on shapes only",
      "zhukov1998", 1, &ambient_occlusion},
-    {"irradiance-cache", "distribution, with light between diffuse surfaces interpolated from cached records",
-     "ward1988", 6, &irradiance_cache},
 };
 
 const koksma_integrator *koksma_integrator_at(size_t i)

@@ -21,14 +21,6 @@ typedef struct koksma__integrator_flags {
     bool media;                  /* rays are absorbed and scattered by the scene's medium */
     bool roulette;               /* paths of low weight end by Russian roulette */
     koksma__light_weight weight; /* how to weight light that both light sampling and a followed lobe can find */
-    /* true if the integrator is biased even without a depth limit: its result does not converge to its formula */
-    bool is_biased;
-    /* NULL, or three hooks: `open` computes what is needed before the image and stores it in frame->cache; `close`
-       frees that; `indirect` adds to `out` the light from other diffuse surfaces at surface s and the given time,
-       as irradiance / pi. */
-    koksma_status (*open)(struct koksma__frame *frame, const koksma_run *run);
-    void (*close)(struct koksma__frame *frame);
-    koksma_status (*indirect)(const struct koksma__frame *frame, const koksma__surface *s, float time, float out[3]);
     /* NULL, or two hooks: `replace_scene` makes the scene that is rendered in place of the caller's, with diffuse
        surfaces and without light from lights; `release_scene` frees its result, even after an error. */
     koksma_status (*replace_scene)(const koksma_scene *scene, koksma_scene **out);
@@ -39,12 +31,5 @@ typedef struct koksma__integrator_flags {
    error. */
 koksma_status koksma__ambient_occlusion_scene(const koksma_scene *scene, koksma_scene **out);
 void koksma__ambient_occlusion_release(koksma_scene *scene);
-
-/* Computes the records of the cache before the image. frame->cache remains NULL at depth 0, which needs no
-   records. */
-koksma_status koksma__irradiance_cache_open(struct koksma__frame *frame, const koksma_run *run);
-void koksma__irradiance_cache_close(struct koksma__frame *frame);
-koksma_status koksma__irradiance_cache_indirect(const struct koksma__frame *frame, const koksma__surface *s,
-                                                float time, float out[3]);
 
 #endif

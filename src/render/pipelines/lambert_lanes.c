@@ -37,8 +37,7 @@ static bool takes(const koksma__frame *frame)
     const koksma_scene *scene = frame->scene;
     bool can = scene->grey && !scene->moves && !(scene->camera.lens_radius > 0) && !(scene->camera.height > 0) &&
                !(scene->camera.near_clip > 0) && !(scene->camera.far_clip > 0) && !scene->hides_lights &&
-               frame->flags->areas && frame->flags->ambient && !frame->flags->indirect &&
-               frame->light_selection == KOKSMA_LIGHTS_ALL;
+               frame->flags->areas && frame->flags->ambient && frame->light_selection == KOKSMA_LIGHTS_ALL;
     for (size_t i = 0; can && i < scene->n_lights; i++) {
         can = scene->lights[i].kind->lanes && !scene->lights[i].visible;
     }

@@ -63,7 +63,7 @@ typedef struct koksma__trace {
     koksma__wavefront_scratch *scratch;
     const koksma__group *group;
     koksma__queue *next;
-    int bounce, first; /* `first` is the bounce at which the paths started: 0 for paths from the eye */
+    int bounce;
 } koksma__trace;
 
 koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out);
@@ -78,12 +78,6 @@ koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *p
 /* Returns the pairs of a use; pair i is for sample i. The pairs are drawn when a path first needs the use, for the
    pixels that have a path at this bounce. Errors: the sampler's, ARGUMENT (too many pairs), MEMORY. */
 koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, const float **pairs);
-
-/* ---- Tracing (wavefront.c) -------------------------------------------------------------------------------------- */
-
-/* Traces the paths in the first queue from trace->bounce until they end, and adds their light to the sums of their
-   samples. */
-koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *values);
 
 /* ---- Direct light (wavefront_lights.c) -------------------------------------------------------------------------- */
 

@@ -435,10 +435,6 @@ static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
     if (batch->weigh(v->paths, v->whole, &to) && flags->roulette && trace->bounce >= 4) {
         KOKSMA__TRY(play_roulette(trace, v, &to));
     }
-    /* paths that start on a diffuse surface (for a record of the irradiance cache) do not see lights in mirrors */
-    for (int i = 0; trace->first > 0 && i < v->n; i++) {
-        to.pdf[i] = to.pdf[i] > 0 ? to.pdf[i] : -1;
-    }
     KOKSMA__TRY(koksma__wavefront_reserve(queue));
     queue->n += (size_t)batch->close_up(v, &to, &queue->blocks[queue->n / KOKSMA__BLOCK], queue->n % KOKSMA__BLOCK);
     return KOKSMA_OK;
@@ -446,29 +442,17 @@ static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
 
 /* ---- One block -------------------------------------------------------------------------------------------- */
 
-/* Adds ambient light, and the light between diffuse surfaces that the integrator's hook `indirect` computes. */
-static koksma_status add_local(const koksma__frame *frame, koksma__vertices *v)
+static void add_ambient(const koksma__frame *frame, koksma__vertices *v)
 {
-    for (int i = 0; (frame->flags->ambient || frame->flags->indirect) && i < v->n; i++) {
-        float light[3] = {0, 0, 0};
-        if (v->surfaces.form[i] < 0) {
-            continue;
-        }
-        for (int k = 0; frame->flags->ambient && k < 3; k++) {
-            light[k] = (float)frame->scene->ambient[k];
-        }
-        if (frame->flags->indirect) {
-            const koksma__surface s = koksma__surface_at(&v->surfaces, i);
-            if (s.material->bsdf->lobes & KOKSMA__LOBE_DIFFUSE) {
-                KOKSMA__TRY(frame->flags->indirect(frame, &s, v->paths->rays.time[i], light));
-            }
-        }
+    for (int i = 0; frame->flags->ambient && i < v->n; i++) {
+        float light[3];
         for (int k = 0; k < 3; k++) {
-            light[k] *= v->surfaces.albedo[k][i];
+            light[k] = (float)frame->scene->ambient[k] * v->surfaces.albedo[k][i];
         }
-        add_scaled(v, i, light, 1);
+        if (v->surfaces.form[i] >= 0) {
+            add_scaled(v, i, light, 1);
+        }
     }
-    return KOKSMA_OK;
 }
 
 /* Fills the unused lanes with copies of the last path. */
@@ -543,11 +527,11 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
             add_glow(frame, v, i);
         }
     }
-    for (int i = 0; values->albedo && trace->bounce == trace->first && i < n; i++) {
+    for (int i = 0; values->albedo && !trace->bounce && i < n; i++) {
         note_first(frame, values, v, i);
     }
     koksma__wavefront_detach(frame->scene, v);
-    KOKSMA__TRY(add_local(frame, v));
+    add_ambient(frame, v);
     KOKSMA__TRY(koksma__wavefront_light(trace, v, values));
     KOKSMA__TRY(scatter(trace, v));
     for (int i = 0; i < n; i++) {
@@ -581,11 +565,13 @@ static void mark_alive(const koksma__group *group, koksma__wavefront_scratch *sc
     }
 }
 
-koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *values)
+/* Traces samples first .. end - 1 of the group through all their bounces. */
+static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t end, koksma__values *values)
 {
     koksma__wavefront_scratch *scratch = trace->scratch;
-    koksma_status status = KOKSMA_OK;
-    trace->first = trace->bounce;
+    scratch->queues[0].n = 0;
+    trace->bounce = 0;
+    koksma_status status = start_paths(trace, values, first, end);
     for (int now = 0; !status && scratch->queues[now].n; now = 1 - now) {
         const koksma__queue *queue = &scratch->queues[now];
         trace->next = &scratch->queues[1 - now];
@@ -599,15 +585,6 @@ koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *val
         trace->bounce++;
     }
     return status;
-}
-
-/* Traces samples first .. end - 1 of the group through all their bounces. */
-static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t end, koksma__values *values)
-{
-    trace->scratch->queues[0].n = 0;
-    trace->bounce = 0;
-    const koksma_status status = start_paths(trace, values, first, end);
-    return status ? status : koksma__wavefront_follow(trace, values);
 }
 
 static koksma_status trace_group(const koksma__frame *frame, void *opened, const koksma__group *group,

@@ -36,9 +36,7 @@ TEST_CASE(some_rows_need_the_others)
 {
     koksma_scene *scene;
     assert_ok(koksma_scene_open("ball", &scene));
-    koksma_render_options options = options_of(scene, "random", "irradiance-cache", 4, 8);
-    assert_false(koksma__rows_stand_alone(&options));
-    options.integrator = koksma_integrator_find("path");
+    koksma_render_options options = options_of(scene, "random", "path", 4, 8);
     assert_true(koksma__rows_stand_alone(&options));
     options.splat = true;
     assert_false(koksma__rows_stand_alone(&options));
