@@ -122,6 +122,9 @@ bool cli_choice(const cli_arguments *arguments, const char *name, int *choice);
 bool cli_refuse(const cli_arguments *arguments, const char *names, const char *why, ...) KOKSMA_PRINTF(3, 4);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
 
+/* Writes "did you mean --NAME? " for an option that a command lacks, or "", or what else would do; returns the text. */
+const char *cli_meant_option(const cli_option *options, const char *name, char text[128]);
+
 /* Writes "did you mean 'NAME'? " to `text` and returns it. NAME is the name in a table that is closest to `word`
    (koksma_closest_name()); if no name is close, or `word` is one, the text is empty. */
 const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96]);

@@ -430,7 +430,7 @@ static int parse_request(const cli_arguments *arguments, request *r)
         return CLI_USAGE;
     }
     if (arguments->n_operands != 1) {
-        return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
+        return cli_one_scene(arguments);
     }
     int code = parse_adaptive(arguments, r->adaptive, &o->adaptive);
     code = code ? code : parse_patterns(arguments, &r->p, &r->spp);

@@ -300,7 +300,7 @@ static int run(const cli_arguments *arguments)
     koksma_render_options options;
     cli_adaptive adaptive;
     if (arguments->n_operands != 1) {
-        return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
+        return cli_one_scene(arguments);
     }
     if (!cli_text(arguments, "output", NULL)) {
         return cli_usage_error(arguments, "-o FILE, the image, is missing");

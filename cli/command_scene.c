@@ -55,9 +55,9 @@ static int run(const cli_arguments *arguments)
 {
     koksma_scene *scene;
     if (arguments->n_operands != 2 || strcmp(arguments->operands[0], "check") != 0) {
-        char meant[96] = "";
-        return cli_usage_error(arguments, "%sit takes check FILE",
-                               arguments->n_operands ? cli_meant_of(arguments->operands[0], "check", meant) : "");
+        const char *given = arguments->n_operands == 1 ? arguments->operands[0] : "ball";
+        return cli_usage_error(arguments, "it takes check FILE, as in 'koksma scene check %s'",
+                               strcmp(given, "check") ? given : "ball");
     }
     const koksma_status status = koksma_scene_open(arguments->operands[1], &scene);
     if (status) {

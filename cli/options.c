@@ -72,40 +72,6 @@ void cli_print_help(const cli_command *command)
     }
 }
 
-const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96])
-{
-    const char *closest = koksma_closest_name(word, name, table);
-    closest = closest && strcmp(closest, word) ? closest : NULL; /* then something else is wrong */
-    snprintf(text, 96, closest ? "did you mean '%s'? " : "%.0s", closest ? closest : "");
-    return text;
-}
-
-enum { MAX_LISTED = 64 };
-
-static const char *listed_name(const void *names, size_t i)
-{
-    return i < MAX_LISTED ? ((const char *const *)names)[i] : NULL;
-}
-
-const char *cli_meant_of(const char *word, const char *list, char text[96])
-{
-    char words[1024];
-    const char *names[MAX_LISTED] = {NULL};
-    size_t n = 0;
-    snprintf(words, sizeof words, "%s", list);
-    for (char *at = strtok(words, ", |"); at && n < MAX_LISTED; at = strtok(NULL, ", |")) {
-        if (strcmp(at, "or") != 0) {
-            names[n++] = at;
-        }
-    }
-    return cli_meant(word, listed_name, names, text);
-}
-
-static const char *option_name(const void *options, size_t i)
-{
-    return i ? ((const cli_option *)options)[i - 1].name : "help";
-}
-
 static const cli_option *option_of(const cli_command *command, const char *name)
 {
     const cli_option *o = command->options;
@@ -123,19 +89,25 @@ static int unknown_option(const cli_arguments *arguments, const char *word)
     if (!strcmp(name, "help") || option_of(arguments->command, name)) {
         return cli_usage_error(arguments, "option --%s takes no argument", name);
     }
-    const char *closest = koksma_closest_name(name, option_name, arguments->command->options);
-    return cli_usage_error(arguments, "no option --%s; %s%s%s'koksma %s --help' names them", name,
-                           closest ? "did you mean --" : "", closest ? closest : "", closest ? "? " : "",
-                           arguments->command->name);
+    char meant[128];
+    return cli_usage_error(arguments, "no option --%s; %s'koksma %s --help' names them", name,
+                           cli_meant_option(arguments->command->options, name, meant), arguments->command->name);
 }
 
 static int parse_failure(const cli_arguments *arguments, int code, char **argv)
 {
     /* The faulty option is optopt if it is a short one; a long one is the word before optind. */
     if (optopt > 0 && optopt < LONG_BASE) {
+        const cli_option *o = arguments->command->options;
+        while (o->name && (!o->letter || (o->letter ^ optopt) != ('a' ^ 'A'))) { /* the other case of the letter */
+            o++;
+        }
+        char meant[32];
+        snprintf(meant, sizeof meant, "did you mean -%c? ", o->letter);
+        meant[0] = o->name ? meant[0] : '\0';
         return code == ':' ? cli_usage_error(arguments, "option -%c takes an argument", optopt)
-                           : cli_usage_error(arguments, "no option -%c; 'koksma %s --help' names them", optopt,
-                                             arguments->command->name);
+                           : cli_usage_error(arguments, "no option -%c; %s'koksma %s --help' names them", optopt,
+                                             meant, arguments->command->name);
     }
     const char *word = argv[optind - 1];
     return code == ':' ? cli_usage_error(arguments, "option %s takes an argument", word)

@@ -22,6 +22,16 @@ const char *cli_filter_name(const void *table, size_t i)
     return koksma_filter_at(i) ? koksma_filter_at(i)->name : NULL;
 }
 
+int cli_one_scene(const cli_arguments *arguments)
+{
+    return arguments->n_operands > 1
+               ? cli_usage_error(arguments,
+                                 "it takes one scene, and '%s' is one operand more; lists have commas, as in "
+                                 "--spp 4,16 or -p random,n-rooks",
+                                 arguments->operands[1])
+               : cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
+}
+
 bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_integrator **integrator,
                                const koksma_filter **filter)
 {

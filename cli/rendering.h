@@ -32,6 +32,8 @@
 
 /* Reads --integrator and --filter; on entry *integrator and *filter have the defaults. Returns false after an error
    that names the option. */
+int cli_one_scene(const cli_arguments *arguments);
+
 bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_integrator **integrator,
                                const koksma_filter **filter);
 

@@ -137,20 +137,27 @@ static const char *hint(const char *operand, char *text, size_t size)
         plausible = plausible && !iscntrl((unsigned char)*s); /* an error message is one line */
     }
     text[0] = 0;
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(operand, ":"), operand);
+    const bool list = plausible || strchr(operand, ',');
     if (plausible) {
         snprintf(text, size, "; did you mean %s@N?", operand);
+    } else if (list) {
+        snprintf(text, size, "; it takes one name, and is given again for another");
+    } else if (koksma_measure_find(name)) {
+        snprintf(text, size, "; measures follow -m, with commas between them");
     }
     return text;
 }
 
-/* The text of --scale; NULL: not given, or not an option of the command. */
-static const char *scale_of(const cli_arguments *arguments)
+/* The text of an option; NULL: not given, or not an option of the command. */
+static const char *option_text(const cli_arguments *arguments, const char *name)
 {
     const cli_option *option = arguments->command->options;
-    while (option->name && strcmp(option->name, "scale") != 0) {
+    while (option->name && strcmp(option->name, name) != 0) {
         option++;
     }
-    return option->name ? cli_text(arguments, "scale", NULL) : NULL;
+    return option->name ? cli_text(arguments, name, NULL) : NULL;
 }
 
 /* Reads a file and divides its coordinates by the numbers of --scale. Returns the exit code. */
@@ -197,7 +204,7 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
         return code;
     }
     koksma_status status;
-    const char *scale = scale_of(arguments);
+    const char *scale = option_text(arguments, "scale");
     if (scale && !source.is_pattern) {
         const int scaled = read_scaled(arguments, text, scale, points);
         if (scaled) {
@@ -220,6 +227,13 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
         !strstr(koksma_error_text(), "nan") && !strchr(koksma_error_text(), ';')) {
         cli_usage_error(arguments, "%s; --scale W,H divides coordinates, such as pixels", koksma_error_text());
         return koksma_status_exit_code(status);
+    }
+    if (!status && !source.is_pattern && points->dim > 3 && 2 * points->n < (size_t)points->dim &&
+        !option_text(arguments, "quiet")) {
+        cli_say(arguments->command->name,
+                "%s: warning: a point in %d dimensions on each of %zu lines; are rows and "
+                "columns swapped?",
+                text, points->dim, points->n);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
@@ -418,19 +432,23 @@ int cli_sources_expand(cli_arguments *arguments)
     if (!code && of.all && *of.left_out && !arguments->n_made) {
         code = cli_usage_error(arguments, "-p all: no pattern has such a set: %s", koksma_error_text());
     }
+    if (!code && of.list && !of.used && !arguments->n_made) {
+        code = cli_usage_error(arguments, "-n %s: the pattern is missing, as in sobol -n %s", of.list, of.list);
+    }
     if (!code && of.list && !of.used) {
         const char *last = arguments->n_made ? arguments->made[arguments->n_made - 1] : "-";
         koksma_spec unknown;
         code = strcmp(last, "-") && access(last, F_OK) && !cli_source_is_pattern(last) &&
                        koksma_pattern_spec(last, &unknown)
                    ? cli_fail(arguments, KOKSMA_ARGUMENT)
-                   : cli_usage_error(arguments, "-n %s: it needs a pattern without @N", of.list);
+                   : cli_usage_error(arguments, "-n %s: it needs a pattern without @N, and %s has its own number",
+                                     of.list, last);
     }
     bool any_file = false;
     for (int i = 0; i < arguments->n_made; i++) {
         any_file |= (i > 0 || !takes_name_first(arguments)) && !cli_source_is_pattern(arguments->made[i]);
     }
-    if (!code && scale_of(arguments) && arguments->n_made && !any_file) {
+    if (!code && option_text(arguments, "scale") && arguments->n_made && !any_file) {
         code = cli_usage_error(arguments, "--scale has no effect: no operand is a file");
     }
     const char *dim = cli_text(arguments, "dim", NULL);

@@ -109,6 +109,8 @@ def as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
         given = np.asanyarray(image)
     except (TypeError, ValueError):
         raise ArgumentError(f"an image must be an array of real numbers, not {quoted(image)}") from None
+    if isinstance(image, (str, bytes)):
+        raise ArgumentError(f"an image must be an array, not the text {quoted(image)}; read_image(path) reads a file")
     if given.dtype.kind not in "buifO":
         raise ArgumentError(f"pixels must be real numbers, not {given.dtype}")
     if has_masked(given):

@@ -15,6 +15,9 @@ _CALLS = {  # names of others, chiefly of scipy.stats.qmc
     "sample": 'generate("sobol:scramble=owen", n)', "points": 'generate("sobol:scramble=owen", n)',
     "scale": "scipy.stats.qmc.scale takes the points of generate; domain= makes some patterns in a rectangle",
     "integral": "integrate(function, pattern, n)", "load": "read(path)", "save": "write(path, points)",
+    "seed": "generate(pattern, n, seed=7): each call takes its seed", "warp": 'warp_points(points, "concentric-disk"); warps() names them',
+    "curve": "spectrum(points), pair_correlation(points) and convergence(pattern, measure)",
+    "draw": "plot(points)", "show": "plot(points)", "scrambled": 'generate("sobol:scramble=owen", n)', "owen": 'generate("sobol:scramble=owen", n)',
 }
 
 
@@ -35,5 +38,5 @@ def hint(name: str, known: Sequence[str]) -> str:
         return f'; koksma.generate("{words}", n) makes its points'
     if words in (m.name for m in measures()):
         return f'; koksma.measure(points, "{words}") computes it'
-    near = get_close_matches(british.replace("list_", ""), known, 1)
+    near = get_close_matches(british.replace("list_", ""), [k for k in known if k.islower() or not name.islower()], 1)
     return f"; did you mean koksma.{near[0]}?" if near else "; help(koksma) names all that there is"

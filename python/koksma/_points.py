@@ -335,6 +335,8 @@ def as_points(points: npt.ArrayLike) -> PointArray:
         array = np.ascontiguousarray(given, dtype=np.float64) if kind in "buifO" and not refused else given
     except (TypeError, ValueError):
         raise ArgumentError(f"points must be an array of real numbers, not {quoted(points)}") from None
+    if isinstance(points, (str, bytes)):
+        raise ArgumentError(f"points must be an array, not the text {quoted(points)}; read(path) reads a file, generate(pattern, n) makes points")
     if kind not in "buifO":
         raise ArgumentError(f"points must be real numbers, not {given.dtype}")
     if refused:

@@ -217,7 +217,8 @@ TEST_CASE(wrong_metrics)
         many, "plan 'p': line 1: images[0]: 44 metrics, with those of all studies; a block of images has at most 32");
     wrong_metric("\"questions\": [{\"id\": \"q\", \"title\": \"q\", \"kind\": \"table\", \"images\": \"i\",\n"
                  "\"metric\": \"flip\"}]",
-                 "plan 'p': line 3: questions[0].metric: no metric 'flip'; 'koksma list metrics' names them");
+                 "plan 'p': line 3: questions[0].metric: no metric 'flip'; did you mean 'ldr-flip'? or "
+                 "hdr-flip, over exposures");
     wrong_plan("{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], \"measures\": "
                "[\"star\"], \"n\": [4], \"trials\": 1}],\n\"metric\": \"relmse\"}",
                "plan 'p': line 2: metric: the plan has no 'images', whose error it would measure");

@@ -192,14 +192,37 @@ static bool take_header(reader *r, const char *s)
     return true;
 }
 
+/* What a field that is no number probably belongs to, by its first character. */
+static const char *field_hint(const char *field)
+{
+    static const struct {
+        const char *first, *hint;
+    } hints[] = {
+        {"[({\"'", "; write one point a line, bare numbers between blanks or commas"},
+        {"%/!", "; a comment begins with #"},
+    };
+    char *end;
+    koksma__strtod(field, &end);
+    if (end != field) {
+        return *end == '%' ? "; write 0.5 for 50%" : "; write bare numbers, without units or suffixes";
+    }
+    for (size_t i = 0; i < sizeof hints / sizeof *hints; i++) {
+        if (strchr(hints[i].first, *field)) {
+            return hints[i].hint;
+        }
+    }
+    const bool letter = (*field | 32) >= 'a' && (*field | 32) <= 'z';
+    return letter ? "; a column of names, or a second line of words, has to go" : "";
+}
+
 static koksma_status bad_number(const reader *r, const char *field)
 {
     int length = 0;
     while (length < SHOWN && field[length] && !is_separator(field[length])) {
         length++;
     }
-    return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: '%.*s' is not a number", r->name, r->line_number, length,
-                        field);
+    return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: '%.*s' is not a number%s", r->name, r->line_number, length,
+                        field, field_hint(field));
 }
 
 /* Whether a line has decimal commas: a comma between digits, and another separator of fields. */
@@ -285,13 +308,20 @@ static void cut_comment(char *s)
 
 static koksma_status take_line(reader *r)
 {
-    bool control = false;
+    bool control = false, high = false;
     for (size_t i = 0; i < r->length; i++) {
         const unsigned char c = (unsigned char)r->line[i];
         control |= (c < 0x20) & (c != '\t');
+        high |= c >= 0x80;
+    }
+    const unsigned char *head = (const unsigned char *)r->line;
+    if (r->line_number == 1 && ((head[0] == 0xff && head[1] == 0xfe) || (head[0] == 0xfe && head[1] == 0xff))) {
+        return malformed(r, "the text is UTF-16; save the file as UTF-8");
     }
     if (control) {
-        return malformed(r, "not text (a control character)");
+        return malformed(r, r->line_number == 1 && !strncmp(r->line, "PK", 2)
+                                ? "an archive, such as .npz or .xlsx; save one array as .npy, or points as text"
+                                : "not text (a control character); it takes text, or an array of numpy.save");
     }
     /* the byte order mark that Excel writes before UTF-8 */
     const bool marked = r->line_number == 1 && !strncmp(r->line, "\xef\xbb\xbf", 3);
@@ -318,7 +348,9 @@ static koksma_status take_line(reader *r)
     if (r->points->dim == 0 && !r->header_seen && take_header(r, s)) {
         return KOKSMA_OK;
     }
-    return read_row(r, s);
+    return high && strchr("+-.0123456789", *s) == NULL
+               ? malformed(r, "not text of numbers; it takes one point a line, or an array of numpy.save")
+               : read_row(r, s);
 }
 
 static koksma_status check_promises(const reader *r, size_t n)

@@ -89,6 +89,22 @@ static koksma_status fail_unknown_param(const char *member, const koksma_param *
                         koksma__meant(key, param_name, params, meant), *names ? names : "none");
 }
 
+/* Reports a word without '=': the name of a parameter, or a value without its name. */
+static koksma_status fail_no_value(const char *member, const koksma_param *params, const char *word)
+{
+    for (int i = 0; params && params[i].name; i++) {
+        const koksma_param *param = &params[i];
+        for (int k = 0; param->choices && param->choices[k]; k++) {
+            KOKSMA__FAIL_IF(!strcmp(word, param->choices[k]), KOKSMA_ARGUMENT, "%s: did you mean %s=%s?", member,
+                            param->name, word);
+        }
+    }
+    const int i = find_param(params, word);
+    KOKSMA__FAIL_IF(i >= 0, KOKSMA_ARGUMENT, "%s: '%s' takes a value, as in %s=%s", member, word, word,
+                    i >= 0 && params[i].choices ? params[i].choices[1] ? params[i].choices[1] : "" : "1");
+    return koksma__fail(KOKSMA_ARGUMENT, "%s: '%s' is not of the form key=value", member, word);
+}
+
 koksma_status koksma__params_parse(const char *member, const koksma_param *params, const char *text, double *values)
 {
     for (int i = 0; params && params[i].name; i++) {
@@ -106,7 +122,7 @@ koksma_status koksma__params_parse(const char *member, const koksma_param *param
         text += length + (text[length] == ',');
         char *equals = strchr(pair, '=');
         if (!equals) {
-            return koksma__fail(KOKSMA_ARGUMENT, "%s: '%s' is not of the form key=value", member, pair);
+            return fail_no_value(member, params, pair);
         }
         *equals = '\0';
         const int i = find_param(params, pair);

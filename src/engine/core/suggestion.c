@@ -3,12 +3,14 @@
  * Finds the name that a misspelt word probably means: the name that the fewest edits turn the word into. An edit
  * inserts, deletes or replaces a character or swaps two neighbours (Damerau 1964). No edit is made inside a swapped
  * pair (the "optimal string alignment" distance); the dynamic programme stores three rows of its table. A word that
- * is the beginning of a name counts as one edit away, so that `jitter` means jittered. Among equally close names the
- * one with the longer common beginning wins, and among these the first in the table.
+ * is the beginning of a name counts as one edit away, so that `jitter` means jittered, and one that begins with a name as
+ * at most two: `ranking` means rank. Among equally close names the one with the longer common beginning wins, and among
+ * these the first in the table.
  */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "core/lookup.h"
 
@@ -68,7 +70,8 @@ const char *koksma_closest_name(const char *word, koksma_name_at *name, const vo
         if (size > MAX_WORD) {
             continue;
         }
-        const size_t distance = length >= 3 && beginning == length ? 1 : edits(word, length, candidate, size);
+        size_t distance = length >= 3 && beginning == length ? 1 : edits(word, length, candidate, size);
+        distance = size >= 4 && beginning == size ? least(distance, 2) : distance;
         if (distance < fewest || (distance == fewest && closest && beginning > common_beginning(word, closest))) {
             fewest = distance;
             closest = candidate;
@@ -84,10 +87,65 @@ const char *koksma__meant(const char *word, koksma_name_at *name, const void *ta
     return text;
 }
 
+/* Names that others use for a member of a family, ours, and what differs or why. */
+static const struct {
+    const char *what, *name, *ours, *there;
+} foreign[] = {
+    {"measure", "CD", "l2-centered", "scipy's CD is its square"},
+    {"measure", "WD", "l2-wraparound", "scipy's WD is its square"},
+    {"measure", "MD", "l2-mixture", "scipy's MD is its square"},
+    {"measure", "L2-star", "l2-star", "scipy's L2-star is the same"},
+    {"measure", "discrepancy", "star", "l2-centered has scipy's default CD as its square"},
+    {"pattern", "independent", "random", "pbrt and Mitsuba call it so"},
+    {"pattern", "mt19937", "random", "its numbers are hashes of seed and index"},
+    {"pattern", "stratified", "jittered", "pbrt and Mitsuba call it so"},
+    {"pattern", "grid", "regular", "'jittered' has a random point in each cell"},
+    {"pattern", "multijitter", "correlated-multi-jittered", "Mitsuba calls it so"},
+    {"pattern", "cmj", "correlated-multi-jittered", "Kensler 2013"},
+    {"pattern", "ldsampler", "sobol:scramble=digital-shift",
+     "Mitsuba's is a (0,2)-sequence, shifted digitally in each pixel"},
+    {"pattern", "paddedsobol", "sobol:scramble=owen", "pbrt pads two-dimensional sets of it, as renders here do"},
+    {"pattern", "zsobol", "z-sampler", "pbrt calls it so"},
+    {"pattern", "owen", "sobol:scramble=owen", "Owen's scrambling is a parameter of 'sobol'"},
+    {"pattern", "owen-sobol", "sobol:scramble=owen", "Owen's scrambling is a parameter of 'sobol'"},
+    {"pattern", "pmj", "pmj02", "its prefixes are multi-jittered, too"},
+    {"pattern", "bluenoise", "sample-elimination", "or poisson-disk, void-and-cluster, gaussian-blue-noise"},
+    {"pattern", "blue-noise", "sample-elimination", "or poisson-disk, void-and-cluster, gaussian-blue-noise"},
+    {"pattern", "poisson", "poisson-disk", "'sample-elimination' makes n points with a distance near the largest"},
+    {"pattern", "mitchell", "best-candidate", "Mitchell 1991"},
+    {"pattern", "lhs", "latin-hypercube", "another name for n-rooks"},
+    {"pattern", "latin", "latin-hypercube", "another name for n-rooks"},
+    {"pattern", "rank1", "lattice-rank1", "or korobov, fibonacci, lattice-sequence"},
+    {"pattern", "lattice", "lattice-rank1", "or korobov, fibonacci, lattice-sequence"},
+    {"pattern", "ga", "golden", "the golden ratio; 'r-sequence' has more dimensions"},
+    {"pattern", "r2", "r-sequence", "Roberts' R2 is its case of two dimensions"},
+    {"pattern", "niederreiter", "net-file", "read its matrices from a file; 'faure' and 'sobol' are nets that ship"},
+    {"pattern", "uniform", "random", "independent uniform points"},
+    {"pattern", "blue", "sample-elimination", "or poisson-disk, void-and-cluster, gaussian-blue-noise"},
+    {"pattern", "rng", "random", "independent uniform points"},
+    {"pattern", "prng", "random", "independent uniform points"},
+    {"pattern", "white-noise", "random", "independent uniform points"},
+    {"pattern", "lds", "sobol:scramble=owen", "or halton, r-sequence, lattice-sequence"},
+    {"pattern", "low-discrepancy", "sobol:scramble=owen", "or halton, r-sequence, lattice-sequence"},
+    {"pattern", "qmc", "sobol:scramble=owen", "or halton, r-sequence, lattice-sequence"},
+    {"pattern", "orthogonal", "orthogonal-array", "Mitsuba calls it so"},
+    {"metric", "mse", "rmse", "its square is the mean squared error"},
+    {"metric", "l2", "rmse", "the root of the mean square"},
+    {"metric", "psnr", "rmse", "it falls where PSNR rises, by the same numbers"},
+    {"metric", "l1", "mae", "the mean absolute error"},
+    {"metric", "flip", "ldr-flip", "or hdr-flip, over exposures"},
+    {"metric", "ssim", "ldr-flip", "there is no SSIM; FLIP, too, judges as eyes do"},
+    {"metric", "mape", "smape", "the symmetric one; relmse divides by the square of the reference"},
+};
+
 koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_name_at *name, const void *table,
                                    const char *where)
 {
     char meant[KOKSMA__MEANT];
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
+        KOKSMA__FAIL_IF(!strcmp(what, foreign[i].what) && !strcasecmp(word, foreign[i].name), KOKSMA_UNKNOWN,
+                        "no %s '%s'; did you mean '%s'? %s", what, word, foreign[i].ours, foreign[i].there);
+    }
     return koksma__fail(KOKSMA_UNKNOWN, "no %s '%s'; %s%s", what, word, koksma__meant(word, name, table, meant),
                         where);
 }

@@ -178,6 +178,19 @@ static const char *reason_of(const json_error_t *error, char out[REASON])
             return out;
         }
     }
+    static const struct {
+        const char *near, *hint;
+    } hints[] = {{" near '/", "JSON has no comments"},
+                 {" near '#", "JSON has no comments"},
+                 {" near '''", "texts stand in double quotes"},
+                 {" near '}'", "a comma before it is one too many"},
+                 {" near ']'", "a comma before it is one too many"}};
+    for (size_t i = 0; i < sizeof hints / sizeof *hints; i++) {
+        if (strstr(error->text, hints[i].near)) {
+            snprintf(out, REASON, "%s; %s", error->text, hints[i].hint);
+            return out;
+        }
+    }
     return error->text;
 }
 
@@ -268,8 +281,15 @@ static const char *key_at(const void *keys, size_t i)
 static koksma_status fail_unknown_field(const koksma__json_node *member, const char *key, const char *const *keys)
 {
     const char *closest = koksma_closest_name(key, key_at, keys);
-    return closest ? koksma__json_fail(member, "unknown field; did you mean '%s'?", closest)
-                   : koksma__json_fail(member, "unknown field");
+    if (closest) {
+        return koksma__json_fail(member, "unknown field; did you mean '%s'?", closest);
+    }
+    char known[512] = "";
+    for (size_t i = 0; keys[i]; i++) {
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", keys[i]);
+    }
+    return koksma__json_fail(member, "unknown field; it has %s", known);
 }
 
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys)

@@ -153,6 +153,10 @@ static bool is_path(const char *text)
     return koksma__is_mesh_file(text) || is_import_file(text) || strchr(text, '/') || (dot && !strcmp(dot, ".json"));
 }
 
+/* Endings of scene files that other programs write as glTF, too. */
+static const char *const exported[] = {".blend", ".fbx", ".usd", ".usda", ".usdc", ".usdz", ".dae",
+                                       ".stl",   ".3ds", ".max", ".ma",   ".mb",   ".c4d",  ".hip"};
+
 koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, koksma_scene **out)
 {
     KOKSMA__REQUIRE(name_or_path, out);
@@ -164,6 +168,12 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
         }
     }
     if (!is_path(name_or_path)) {
+        const char *dot = strrchr(name_or_path, '.');
+        for (size_t i = 0; dot && i < sizeof exported / sizeof *exported; i++) {
+            KOKSMA__FAIL_IF(!strcmp(dot, exported[i]), KOKSMA_UNKNOWN,
+                            "no scene '%s': %s files are not read; export the scene as glTF (.glb, .gltf)",
+                            name_or_path, dot);
+        }
         return koksma__fail_unknown(
             "scene", name_or_path, shipped_name, NULL,
             "'koksma list scenes' names them, and a scene's file ends in .json, .pbrt, .xml or "

@@ -80,8 +80,8 @@ static koksma_status load_plan(const char *name, const char *label, const koksma
         const char *shipped = koksma__plan_shipped(name, &size);
         char meant[KOKSMA__MEANT];
         KOKSMA__FAIL_IF(!shipped, KOKSMA_UNKNOWN,
-                        "koksma has no built-in plan '%s'; %sgive your own plan as a file, such as ./%s.json", name,
-                        koksma__meant(name, plan_name_at, NULL, meant), name);
+                        "koksma has no built-in plan '%s'; %sgive your own plan as a JSON file, such as ./%.*s.json",
+                        name, koksma__meant(name, plan_name_at, NULL, meant), (int)strcspn(name, "."), name);
         text = (unsigned char *)strdup(shipped);
         status = text ? KOKSMA_OK : koksma__fail_memory(size);
     } else {
