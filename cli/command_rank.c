@@ -343,7 +343,8 @@ static int parse_adaptive(const cli_arguments *arguments, char text[KOKSMA_MAX_S
 /* What the options say, except the number of samples. */
 typedef struct request {
     patterns p;
-    uint64_t spp; /* N of a pattern SPEC@N, or 0 */
+    uint64_t spp;       /* N of a pattern SPEC@N, or 0 */
+    char scene_spp[24]; /* the default of --spp */
     char adaptive[KOKSMA_MAX_SPEC], variant[256];
     cli_metrics metric;
     koksma_image reference; /* without pixels: references are rendered */
@@ -421,6 +422,38 @@ static bool parse_process(const cli_arguments *arguments, request *r)
     return true;
 }
 
+enum { MOST_SCENE_SPP = 64 };
+
+/* Takes from the scene what the command line leaves open: the integrator, which is path where a medium asks for it, and
+   the number of samples. That is the number of the scene's own sampler, of which MOST_SCENE_SPP can be ranked within the
+   default time limit. Returns the exit code. */
+static int ask_scene(const cli_arguments *arguments, request *r)
+{
+    const bool with = cli_text(arguments, "with", NULL);
+    koksma_scene *scene = NULL;
+    size_t spp = 0;
+    strcpy(r->scene_spp, "16");
+    const koksma_status status = with ? KOKSMA_OK : koksma_scene_open(r->options.scene, &scene);
+    if (scene) {
+        const koksma_scene_counts counts = koksma_scene_count(scene);
+        koksma_scene_close(scene);
+        spp = counts.spp;
+        if (counts.media && !cli_text(arguments, "integrator", NULL)) {
+            r->options.integrator = koksma_integrator_find("path");
+        }
+    }
+    if (spp && !r->spp && !cli_text(arguments, "spp", NULL) && !cli_text(arguments, "target-error", NULL)) {
+        const size_t taken = spp < MOST_SCENE_SPP ? spp : MOST_SCENE_SPP;
+        snprintf(r->scene_spp, sizeof r->scene_spp, "%zu", taken);
+        if (!cli_flag(arguments, "quiet")) {
+            cli_say("rank",
+                    "%s: its sampler takes %zu samples a pixel: ranking at %zu; --spp N chooses another number",
+                    r->options.scene, spp, taken);
+        }
+    }
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
 /* Reads all options but --spp. Returns the exit code. */
 static int parse_request(const cli_arguments *arguments, request *r)
 {
@@ -454,7 +487,8 @@ static int parse_request(const cli_arguments *arguments, request *r)
         return CLI_USAGE;
     }
     o->max_trials = (long long)max_trials;
-    return parse_outside(arguments, r);
+    code = ask_scene(arguments, r);
+    return code ? code : parse_outside(arguments, r);
 }
 
 /* Makes a ranking for each number of samples. Returns the exit code. */
@@ -487,10 +521,10 @@ static int rank_all(const cli_arguments *arguments, request *r, const size_t *sp
 static int run(const cli_arguments *arguments)
 {
     request r = {.spp = 0};
-    const char *list = cli_text(arguments, "spp", "16");
     char counted[24];
     size_t spps[KOKSMA_MAX_SIZES], n_spp;
     int code = parse_request(arguments, &r);
+    const char *list = cli_text(arguments, "spp", r.scene_spp);
     if (!code && cli_text(arguments, "target-error", NULL)) {
         r.options.time_limit_s = r.time_limit_s;
         code = cli_rank_to_error(arguments, &r.options, r.spp);
@@ -513,7 +547,9 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'n', "spp", "N,..", "numbers of samples per pixel; each gets its own ranking (default: 16)"},
+    {'n', "spp", "N,..",
+     "numbers of samples per pixel; each gets its own ranking (default: that of "
+     "the scene's own sampler, at most 64, or 16)"},
     {'p', "patterns", "PATTERN,..|modern|thesis|later|all", "patterns to rank, also SPEC@N (default: modern)"},
     {0, "target-error", "ERROR", "print how many samples of each pattern leave this error, instead of a ranking"},
     {0, "size", "WxH", "image size (default: that of the scene, halved until it has at most 19,200 pixels)"},
@@ -525,7 +561,7 @@ static const cli_option options[] = {
      "process each image, not the reference: a Gaussian blur, or a shell command with {in} and {out}, such as a "
      "denoiser"},
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
-    CLI_INTEGRATOR_OPTION,
+    {0, "integrator", "INTEGRATOR", "see 'koksma list integrators' (default: distribution, or path in a medium)"},
     CLI_FILTER_OPTION,
     {0, "depth", "D", "the most bounces (default: the integrator's)"},
     {0, "lights", "all|one|power|uniform|auto", "lights that get a shadow ray, as in 'koksma render' (default: all)"},

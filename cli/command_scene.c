@@ -73,6 +73,12 @@ static int run(const cli_arguments *arguments)
     cli_row_whole(rows, "triangles", counts.triangles);
     cli_row_whole(rows, "materials", counts.materials);
     cli_row_whole(rows, "lights", counts.lights);
+    cli_row_whole(rows, "media", counts.media);
+    if (counts.spp) {
+        cli_row_whole(rows, "spp", counts.spp);
+    } else {
+        cli_row_json(rows, "spp", "null", "-");
+    }
     cli_row_end(rows);
     put_parts(arguments, rows, scene);
     koksma_scene_close(scene);
@@ -87,7 +93,8 @@ const cli_command cli_command_scene = {
     .synopsis = "check SCENE",
     .details = "SCENE is a name, a JSON file (docs/scenes.md), a mesh file, or a scene of pbrt-v4 (.pbrt) or "
                "Mitsuba (.xml). An error names file, line, field and reason (exit code 3). A warning reports "
-               "something odd that can still be rendered (exit code 1). stdout lists what the scene contains: the "
+               "something odd that can still be rendered (exit code 1). stdout lists what the scene contains (spp: "
+               "samples a pixel that its own sampler asks for): the "
                "bounding box of each part, and the largest region of the image that the part can cover, both while "
                "the shutter is open: with every motion, and through the whole lens. Text has the first 40 parts, "
                "with --long all.\n",

@@ -17,7 +17,7 @@ from ._frame import Framed, columns_of
 from ._library import (ArgumentError, Seed, call, flag, in_python, lab, pair, quoted, real, seconds_of, seed_of, text, texts,
                        whole)
 from ._points import canonical
-from ._render import _found, _scene_name
+from ._render import _found, _scene_name, check_scene
 
 MODERN = ("sobol:scramble=owen", "pmj02", "correlated-multi-jittered", "multi-jittered", "n-rooks", "jittered", "random")
 THESIS = ("n-rooks", "jittered", "half-jittered", "poisson-disk:d=0.2", "poisson-disk:d=0.1", "regular", "random")
@@ -275,7 +275,7 @@ class _Request:
             raise
 
 
-def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[str]] = "modern", spp: SupportsIndex = 16, *,
+def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[str]] = "modern", spp: Optional[SupportsIndex] = None, *,
          size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
          filter: Optional[str] = None, adaptive: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
          one_size: bool = False, threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
@@ -292,12 +292,12 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
         Each once. "modern", the default: those that the project's own studies put first, and plainer ones to compare with;
         "thesis": the seven of Shirley 1991. One that has no set of spp points is not ranked (`reason` of its row);
         one whose file is missing or malformed, or whose program may not run, raises.
-    spp : int
-        Samples a pixel.
+    spp : int, optional
+        Samples a pixel. Left out, as many as the scene's own sampler takes (`check_scene`), 64 at most, else 16.
     size : (width, height), optional
         Without it the scene's own, halved until it has 19,200 pixels at most.
     integrator, filter : str, optional
-        As of `render`.
+        As of `render`; left out, distribution, or path in a scene with a medium.
     adaptive : str, optional
         A method of adaptive sampling, which renders the pictures of all patterns with a budget of spp samples a pixel and a quarter
         of it in the first round (koksma.adaptive() names them). One that places its own samples takes one pattern.
@@ -340,7 +340,11 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
     >>> ranking.best
     'jittered'
     """
-    asked = _Request(scene, patterns, spp, size, integrator, filter, adaptive, metric, time_limit, renderer, reference, seed, depth, lights,
+    if renderer is None and (spp is None or integrator is None):
+        found = check_scene(scene)
+        integrator = "path" if integrator is None and found.media else integrator
+        spp = min(found.spp or 16, 64) if spp is None else spp
+    asked = _Request(scene, patterns, 16 if spp is None else spp, size, integrator, filter, adaptive, metric, time_limit, renderer, reference, seed, depth, lights,
                      scope, process)
     asked.options.one_size = flag("one_size", one_size)
     asked.options.max_trials = whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS)

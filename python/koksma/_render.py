@@ -65,6 +65,8 @@ class SceneCheck:
     warnings: Tuple[str, ...]
     unknown: Tuple[str, ...]
     parts: Tuple[ScenePart, ...]
+    media: int  #: 1 if the scene has a medium, which only path and its variants render
+    spp: Optional[int]  #: samples a pixel that the sampler of a pbrt or Mitsuba scene asks for
 
     def __bool__(self) -> bool:
         return not self.warnings
@@ -110,7 +112,8 @@ def check_scene(scene: Union[str, "os.PathLike[str]"]) -> SceneCheck:
             parts.append(ScenePart(part.name.decode(errors="replace"), tuple(part.low), tuple(part.high),
                                    tuple(part.frame) if part.in_frame else None))
         return SceneCheck(lab().koksma_scene_title(handle).decode(errors="replace"), counts.shapes, counts.meshes, counts.placements,
-                          counts.triangles, counts.materials, counts.lights, lines("warning"), lines("unknown"), tuple(parts))
+                          counts.triangles, counts.materials, counts.lights, lines("warning"), lines("unknown"), tuple(parts),
+                          counts.media, counts.spp or None)
     finally:
         lab().koksma_scene_close(handle)
 

@@ -162,6 +162,7 @@ struct koksma_scene {
     size_t n_mesh_files; /* the number of meshes in mesh_order */
     char title[128];
     int width, height;
+    int spp; /* samples a pixel that the sampler of a foreign scene asks for; 0: none */
     koksma__camera camera;
     double background[3]; /* radiance of a ray that hits nothing */
     double ambient[3];    /* ambient light: irradiance / pi, without shadows */

@@ -1141,6 +1141,10 @@ static koksma_status plain(reader *r, const node *n)
                        type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}));
     }
     pass(r, n);
+    if (is(n, "sampler") && property(r, n, "sample_count")) { /* `koksma rank` takes the number from here */
+        const double count = number(r, n, "sample_count");
+        r->im->scene->spp = count >= 1 && count <= KOKSMA_MAX_SPP ? (int)count : 0;
+    }
     EACH_CHILD(r, n, c, "sampler")
     {
         KOKSMA__TRY(plain(r, resolve(r, c)));

@@ -5,7 +5,7 @@
  * pbrt_values.c converts parameters to colours, materials and meshes. There are two current matrices, for the start and
  * for the end of the motion; where they differ, a shape or the camera moves; a camera that turns is not supported.
  * Curves are not read; the only medium read is a homogeneous one that contains the camera. Directives that do not
- * describe the scene (Sampler, Integrator, ...) are ignored, because the program's own options choose them. The file
+ * describe the scene (Integrator, ...; of a Sampler all but its number) are ignored, because the program's own options choose them. The file
  * is long because all of pbrt's directives are in one place.
  */
 #include "scene/pbrt.h"
@@ -561,6 +561,17 @@ static koksma_status take_integrator(reader *r)
                                         "integrator '%s' is ignored: the picture shows the scene's light", type);
 }
 
+/* The points are those of the program's own options; `koksma rank` takes their number from here. */
+static koksma_status take_sampler(reader *r)
+{
+    const koksma__pbrt_parameters *p = r->parameters;
+    const double n = !strcmp(r->texts[0], "stratified")
+                         ? koksma__pbrt_whole(p, "xsamples") * koksma__pbrt_whole(p, "ysamples")
+                         : koksma__pbrt_whole(p, "pixelsamples");
+    r->im->scene->spp = n >= 1 && n <= KOKSMA_MAX_SPP ? (int)n : 0;
+    return KOKSMA_OK;
+}
+
 static koksma_status take_option(reader *r)
 {
     return koksma__import_unknown_if(koksma__pbrt_flag(r->parameters, "forcediffuse"), r->im, r->place,
@@ -737,7 +748,7 @@ static const directive directives[] = {
     {"PixelFilter", NULL, 0, 1, true, FIRST, false, NULL},
     {"ReverseOrientation", take_reverse, 0, 0, false, NONE, false, NULL},
     {"Rotate", take_rotate, 4, 0, false, NONE, false, NULL},
-    {"Sampler", NULL, 0, 1, true, FIRST, false, NULL},
+    {"Sampler", take_sampler, 0, 1, true, FIRST, false, NULL},
     {"Scale", take_scale, 3, 0, false, NONE, false, NULL},
     {"Shape", take_shape, 0, 1, true, FIRST, true, "shape"},
     {"Texture", take_texture, 0, 3, true, THIRD, true, "texture"},
