@@ -464,7 +464,8 @@ const cli_command cli_command_integrate = {
     .summary = "integrate functions with known integrals; print errors against n",
     .synopsis =
         "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]\n"
-        "INTEGRAND,..|--with PROGRAM --tolerance ERROR [--relative] [--confidence C] [-p PATTERN,..] [-d DIM]",
+        "INTEGRAND,..|--with PROGRAM --tolerance ERROR [--relative] [--confidence C] [--resume FILE] [-p PATTERN,..] "
+        "[-d DIM]",
     .details =
         "rmse is the root mean square, over the trials, of the estimate minus the integral, with its 95 % "
         "interval. With a single set, which is all that deterministic patterns have, it is the absolute error. "
@@ -498,8 +499,12 @@ const cli_command cli_command_integrate = {
         "Student's where the sets differ by 0.7 of one point's share of the range of values or more, as with "
         "jumps. error is the larger distance of its ends from the estimate, points the number of function values. "
         "Where the integral is known, off is estimate minus integral, and holds tells whether the interval has it. "
-        "--tolerance doubles n, from 256 or from -n, until the error is within the tolerance or the next step "
-        "exceeds --max-points; the pattern is by default sobol:scramble=lms,digital-shift=1. The last interval "
+        "--tolerance doubles n, from -n on, until the error is within the tolerance or the next step exceeds "
+        "--max-points; the pattern is by default sobol:scramble=lms,digital-shift=1. Without --estimator, --interval "
+        "and --replicates, sequences of nets in base 2 have one set of points, whose 8 consecutive parts give "
+        "Student's interval: fewest points for a tolerance (docs/findings/coverage.md). --resume FILE keeps each "
+        "step "
+        "in FILE: after an interrupt or a limit the same command continues, to the same result. The last interval "
         "holds with the confidence whenever the search ends, if the estimates are about normal and their error "
         "falls at least as n^-1/2; with fewer than 6 replicates, a confidence below 0.9 or a proved interval all "
         "steps share it. rate is the slope of log error against log points over the last five steps, needed the "

@@ -25,6 +25,7 @@ typedef struct estimating {
     cli_rows *rows;
     cli_source source; /* of the present rows */
     koksma_tolerance_options options;
+    size_t searches; /* that were begun */
     bool to_tolerance, has_range;
     koksma_values_command command; /* command.command: NULL without --with */
     bool missed;                   /* a tolerance was not reached */
@@ -32,7 +33,8 @@ typedef struct estimating {
 
 bool cli_estimates(const cli_arguments *arguments)
 {
-    bool any = cli_flag(arguments, "relative") || cli_text(arguments, "max-points", NULL);
+    bool any = cli_flag(arguments, "relative") || cli_text(arguments, "max-points", NULL) ||
+               cli_text(arguments, "resume", NULL);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         any = any || cli_text(arguments, names[i], NULL);
     }
@@ -74,7 +76,8 @@ static bool read_options(estimating *e)
     e->command = (koksma_values_command){.command = cli_text(arguments, "with", NULL), .run = &e->work.run};
     o->estimate.estimator = cli_text(arguments, "estimator", NULL);
     o->estimate.interval = cli_text(arguments, "interval", NULL);
-    if (!e->to_tolerance && !cli_refuse(arguments, "relative max-points", "has an effect only with --tolerance")) {
+    if (!e->to_tolerance &&
+        !cli_refuse(arguments, "relative max-points resume", "has an effect only with --tolerance")) {
         return false;
     }
     if (!cli_refuse(arguments, "anova trials", "has no effect on estimates; their number of sets is --replicates") ||
@@ -82,12 +85,13 @@ static bool read_options(estimating *e)
         !cli_real(arguments, "tolerance", 0, 1e-300, 1e300, &tolerance) ||
         !cli_real(arguments, "confidence", 0.95, 1e-9, 1 - 1e-12, &o->estimate.confidence) ||
         !cli_real(arguments, "exec-seconds", 60, 1e-3, 86400, &e->command.seconds) ||
-        !cli_whole(arguments, "replicates", REPLICATES, 2, MOST_REPLICATES, &replicates) ||
+        !cli_whole(arguments, "replicates", e->to_tolerance ? 0 : REPLICATES, 2, MOST_REPLICATES, &replicates) ||
         !cli_whole(arguments, "max-points", 0, 2, UINT64_C(1) << 40, &o->most_points) || !read_range(e) ||
         (replicates > 1 && !cli_seeds_fit(arguments, o->seed, replicates))) {
         return false;
     }
     o->replicates = (size_t)replicates;
+    o->resume = cli_text(arguments, "resume", NULL);
     if (!cli_text(arguments, "digits", NULL)) { /* those of an estimate, which has more than its error */
         cli_set_style(DIGITS, cli_flag(arguments, "long"));
     }
@@ -130,15 +134,17 @@ static koksma_status values_of(void *context, const koksma_points *points, doubl
     return koksma_integral_values(all[0], points, all[1], values);
 }
 
-static void put_step(const estimating *e, const printed *p, const koksma_tolerance_step *step)
+static void put_step(const estimating *e, const printed *p, const koksma_tolerance *t, size_t k)
 {
+    const koksma_tolerance_step *step = &t->steps[k];
     cli_rows *rows = e->rows;
     const koksma_integral_estimate *found = &step->estimate;
     cli_row_text(rows, "integrand", p->name);
     cli_row_text(rows, "source", p->pattern);
     cli_row_whole(rows, "n", step->n);
     cli_row_whole(rows, "dim", (uint64_t)e->source.dim);
-    cli_row_whole(rows, "replicates", e->options.replicates);
+    cli_row_whole(rows, "replicates", t->replicates);
+    cli_row_flag(rows, "parts", t->parts);
     cli_row_whole(rows, "points", step->points);
     cli_row_number(rows, "estimate", found->value);
     cli_row_number(rows, "error", found->error);
@@ -206,6 +212,10 @@ static int put_estimate(const koksma_integral *integral, void *context)
     if (!e->has_range) {
         take_bounds(&o.estimate, &facts);
     }
+    if (o.resume && e->searches++) {
+        return cli_usage_error(e->arguments, "--resume %s: a file has one integrand with one pattern", o.resume);
+    }
+    o.function = p.name;
     o.first_n = source->n;
     o.most_points = e->to_tolerance ? o.most_points : (uint64_t)o.replicates * source->n;
     koksma_tolerance *t = malloc(sizeof *t);
@@ -217,7 +227,7 @@ static int put_estimate(const koksma_integral *integral, void *context)
         koksma_integrate_to(integral ? values_of : koksma_values_by_command, integral ? (void *)both : &e->command,
                             source->dim, &source->spec, &o, &e->work.run, t);
     for (size_t i = 0; i < t->n_steps && !status; i++) {
-        put_step(e, &p, &t->steps[i]);
+        put_step(e, &p, t, i);
     }
     if (!status && e->to_tolerance) {
         put_end(e, &p, t);

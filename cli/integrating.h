@@ -13,10 +13,12 @@
      "double the points until the error is at most ERROR; exit code 1 if the limit ends it"},                        \
         {0, "relative", NULL, "with --tolerance: ERROR is relative to the integral"},                                \
         {0, "max-points", "N", "with --tolerance: limit of the points of all sets together (default: 16777216)"},    \
+        {0, "resume", "FILE", "with --tolerance: keep the steps in FILE, and continue those that are there"},        \
         {0, "estimator", "ESTIMATOR", "print an estimate; see 'koksma list estimators' (default: the interval's)"},  \
         {0, "interval", "INTERVAL",                                                                                  \
          "of an estimate; see 'koksma list intervals' (default: the estimator's, or auto)"},                         \
-        {0, "replicates", "R", "independent sets of an estimate (default: 15)"},                                     \
+        {0, "replicates", "R",                                                                                       \
+         "independent sets of an estimate (default: 15, or the 8 parts of one set; see below)"},                     \
         {0, "confidence", "C", "of the interval, above 0 and below 1 (default: 0.95)"},                              \
         {0, "range", "LOW,HIGH", "bounds of the function's values, for intervals that need them"},                   \
     {                                                                                                                \

@@ -90,10 +90,12 @@ typedef struct koksma_tolerance_options {
     koksma_estimate_options estimate;
     double absolute, relative; /* the tolerance is the larger of `absolute` and `relative` times the least size of the
                                   integral in its interval; both are 0 or more */
-    size_t replicates;         /* number R of sets, 2 to 100000; 0: 15 */
-    size_t first_n;            /* points of each set in the first step; 0: 256 */
+    size_t replicates;         /* number R of independent sets, 2 to 100000; 0: see koksma_integrate_to */
+    size_t first_n;            /* points of each set in the first step; 0: 64 of parts of one set, else 256 */
     uint64_t most_points;      /* limit of R n, the points of all sets together; 0: 2^24 */
-    uint64_t seed;             /* set r has the seed `seed` + r */
+    uint64_t seed;             /* set r has the seed `seed` + r; parts are of the set with this seed */
+    const char *resume;        /* file that keeps the steps; NULL: none */
+    const char *function;      /* what the function is called in that file; NULL: - */
 } koksma_tolerance_options;
 
 /* A step: R sets of n points each. */
@@ -104,8 +106,10 @@ typedef struct koksma_tolerance_step {
 } koksma_tolerance_step;
 
 typedef struct koksma_tolerance {
-    bool reached;   /* whether the last step's error is within the tolerance */
-    size_t n_steps; /* steps done, at least 1 */
+    bool reached;      /* whether the last step's error is within the tolerance */
+    bool parts;        /* whether the R sets are parts of one set */
+    size_t replicates; /* R */
+    size_t n_steps;    /* steps done, at least 1 */
     koksma_tolerance_step steps[KOKSMA_MAX_STEPS];
     /* Slope of log error against log R n over the last steps, at most 5, with its standard error, and the number R n
        of points at which this line meets the tolerance, with its 95 % interval; NaN with fewer than three steps whose
@@ -117,6 +121,16 @@ typedef struct koksma_tolerance {
 /* Integrates a function over [0,1)^dim: R sets of first_n points, twice as many in each further step, until the error
    is within the tolerance, or the next step exceeds most_points or what one set may have. Sequences with ranges are
    extended, so that no value is computed twice; the sets of other patterns are made anew for each step.
+
+   Where replicates is 0, no estimator or interval is named, and the pattern is a sequence of nets in base 2
+   (NET2_PREFIXES), the R = 8 sets are the consecutive parts of one set, with the mean and Student's interval: the error
+   of the mean is that of one net of all points, the interval that of independent nets of n points, so that it is too wide
+   rather than too narrow. It may fail where a function resonates with the digits of the net, as with kinks at 1/2 and 1/4
+   under linear scrambling. In all other cases the sets are independent, 15 where replicates is 0.
+
+   With `resume` the steps are written to this file, each when it is done, and taken from it if it exists: a search that
+   was interrupted or ended by its limit continues, with the result of one search bit for bit, and another tolerance,
+   confidence, estimator or limit may be given. Its first value is computed again, to tell another function.
 
    The last interval holds with the stated confidence no matter when the search ends. Each step has this confidence if it is
    at least .9, with 6 replicates or more and an interval that is not `proved`: for normal estimates whose standard
@@ -131,7 +145,8 @@ typedef struct koksma_tolerance {
      values, context  the function
      pattern          one whose sets are random and unbiased (koksma_is_unbiased)
    Errors: those of koksma_generate and koksma_estimate_integral; what `values` returns; ARGUMENT (a pattern with one
-   set or not known to be unbiased; a value that is not finite, or outside the given bounds). */
+   set or not known to be unbiased; a value that is not finite, or outside the given bounds; a file of another search);
+   MALFORMED (no file of a search), IO. */
 KOKSMA_API koksma_status koksma_integrate_to(koksma_values_of *values, void *context, int dim,
                                              const koksma_spec *pattern, const koksma_tolerance_options *options,
                                              const koksma_run *run, koksma_tolerance *out);

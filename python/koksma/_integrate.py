@@ -372,18 +372,19 @@ def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[S
 @overload
 def integrate(function: Function, pattern: Union[str, SupportsIndex, None] = None, n: Optional[SupportsIndex] = None,
               dim: SupportsIndex = 2, *, tolerance: float, relative: bool = False, estimator: Optional[str] = None,
-              interval: Optional[str] = None, confidence: float = 0.95, replicates: SupportsIndex = 15,
+              interval: Optional[str] = None, confidence: float = 0.95, replicates: Optional[SupportsIndex] = None,
               max_points: SupportsIndex = 1 << 24, value_range: Optional[Sequence[float]] = None,
-              bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None, seed: Seed = 0,
-              threads: SupportsIndex = 0) -> Integral: ...
+              bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None,
+              resume: Union[str, "os.PathLike[str]", None] = None, seed: Seed = 0, threads: SupportsIndex = 0) -> Integral: ...
 
 
 def integrate(function: Function, pattern: Any = None, n: Any = None, dim: SupportsIndex = 2, *, trials: SupportsIndex = 32,
               seed: Seed = 0, integral: float = math.nan, variance: float = math.nan, anova: bool = False,
               samples: SupportsIndex = 0, threads: SupportsIndex = 0, tolerance: Optional[float] = None, relative: bool = False,
               estimator: Optional[str] = None, interval: Optional[str] = None, confidence: float = 0.95,
-              replicates: SupportsIndex = 15, max_points: SupportsIndex = 1 << 24, value_range: Optional[Sequence[float]] = None,
-              bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None) -> Any:
+              replicates: Optional[SupportsIndex] = None, max_points: SupportsIndex = 1 << 24,
+              value_range: Optional[Sequence[float]] = None, bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None,
+              resume: Union[str, "os.PathLike[str]", None] = None) -> Any:
     """Integrates a function by sets of a pattern, and measures the error; or, with a tolerance, to that tolerance.
 
     Parameters
@@ -395,7 +396,7 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
         for "sobol:scramble=lms,digital-shift=1", or a number of dimensions: integrate(f, 3, tolerance=1e-6).
     n : int or sequence of int
         Numbers of points of a pattern, each once; three or more give a slope. Points have their own. With a tolerance the
-        number of points of each set in the first step (256).
+        number of points of each set in the first step (64 of each part, 256 of independent sets).
     dim : int
         Of a pattern.
     trials, seed : int
@@ -415,12 +416,14 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
     relative : bool
         Whether the tolerance is relative to the integral.
     estimator, interval : str
-        Names of estimators() and intervals(); by default the interval "auto", which takes median or mean.
+        Names of estimators() and intervals(). By default the mean and "student" for parts of one set, else the interval "auto",
+        which takes median or mean.
     confidence : float
         Of the last interval, whenever the search ends, for about normal estimates whose error falls at least as n**-0.5. With
         fewer than 6 replicates, a confidence below 0.9 or a proved interval all steps that max_points allows share it.
     replicates, max_points : int
-        Number of independent sets; limit of their points together.
+        Number of independent sets; limit of their points together. None: with a tolerance, without estimator and interval, and
+        for sequences of nets in base 2, the 8 consecutive parts of one set, whose mean has the least error; else 15 sets.
     value_range : pair of float
         Least and largest value of the function, for the intervals that need them. A value outside is an error.
     bounds : array_like of shape (dim, 2)
@@ -429,6 +432,9 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
         A name of warps() that maps the first two coordinates to the disk, triangle, hemisphere or sphere: the function gets
         those points (of two or three coordinates) with the other coordinates behind, and the result is its mean over the
         domain, with the warp's density.
+    resume : path
+        File that keeps the steps. If it exists, its steps are taken from it, and the search continues as if it had never been
+        interrupted; tolerance, confidence, estimator, interval and max_points may differ.
 
     Returns
     -------
@@ -463,12 +469,12 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
             pattern, dim = None, pattern
         return integrate_to(_opened, function, pattern, n, dim, tolerance=tolerance, relative=relative, estimator=estimator,
                             interval=interval, confidence=confidence, replicates=replicates, max_points=max_points,
-                            value_range=value_range, bounds=bounds, warp=warp, seed=seed, threads=threads)
-    numbers_given = real("confidence", confidence), whole("replicates", replicates, 2, 100000), whole("max_points", max_points, 2, 1 << 40)
-    if flag("relative", relative) or numbers_given != (0.95, 15, 1 << 24) or any(
-            x is not None for x in (estimator, interval, value_range, bounds, warp)):
-        raise TypeError("relative, estimator, interval, confidence, replicates, max_points, value_range, bounds and warp have an effect "
-                        "only with a tolerance")
+                            value_range=value_range, bounds=bounds, warp=warp, resume=resume, seed=seed, threads=threads)
+    numbers_given = real("confidence", confidence), whole("max_points", max_points, 2, 1 << 40)
+    if flag("relative", relative) or numbers_given != (0.95, 1 << 24) or any(
+            x is not None for x in (estimator, interval, replicates, value_range, bounds, warp, resume)):
+        raise TypeError("relative, estimator, interval, confidence, replicates, max_points, value_range, bounds, warp and resume have "
+                        "an effect only with a tolerance")
     if pattern is None:
         raise TypeError("pattern must be a str or points, or tolerance a number")
     sizes: List[int]

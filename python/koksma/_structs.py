@@ -235,7 +235,7 @@ ValuesOf = CFUNCTYPE(c_int, c_void_p, POINTER(Points), POINTER(c_double))
 
 class ToleranceOptions(Structure):
     _fields_ = [("estimate", EstimateOptions), ("absolute", c_double), ("relative", c_double), ("replicates", c_size_t),
-                ("first_n", c_size_t), ("most_points", c_uint64), ("seed", c_uint64)]
+                ("first_n", c_size_t), ("most_points", c_uint64), ("seed", c_uint64), ("resume", c_char_p), ("function", c_char_p)]
 
 
 class ToleranceStep(Structure):
@@ -243,7 +243,7 @@ class ToleranceStep(Structure):
 
 
 class Tolerance(Structure):
-    _fields_ = [("reached", c_bool), ("n_steps", c_size_t), ("steps", ToleranceStep * MAX_STEPS), ("rate", c_double),
+    _fields_ = [("reached", c_bool), ("parts", c_bool), ("replicates", c_size_t), ("n_steps", c_size_t), ("steps", ToleranceStep * MAX_STEPS), ("rate", c_double),
                 ("rate_error", c_double), ("needed", c_double), ("needed_low", c_double), ("needed_high", c_double)]
 
 

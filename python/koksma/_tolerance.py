@@ -18,6 +18,8 @@ from ._points import Named, PointArray, canonical, named, numbers, warp_points
 
 #: The digital shift makes random the digits below the 32 of the sequence, whose truncation is a bias of 2^-33.
 DEFAULT_PATTERN = "sobol:scramble=lms,digital-shift=1"
+#: Independent sets, where the default is not parts of one.
+REPLICATES = 15
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,8 @@ class Integral(Framed):
         Whether the error is within the tolerance.
     points, replicates, dim : int
         Function values in all; sets; dimensions.
+    parts : bool
+        Whether the sets are consecutive parts of one set.
     path : tuple of Step
     rate, rate_error : float
         Slope of log error against log points over the last five steps, and its standard error; NaN with fewer than three.
@@ -85,6 +89,7 @@ class Integral(Framed):
     needed_low: float
     needed_high: float
     pattern: str
+    parts: bool
 
     def __float__(self) -> float:
         return self.value
@@ -101,7 +106,7 @@ class Integral(Framed):
 
         return table(("n", "points", "value", "low", "high", "error", "interval"),
                      [(p.n, p.points, p.value, p.low, p.high, p.error, p.interval) for p in self.path],
-                     f"{self.replicates} sets of {self.pattern}; {'reached' if self.reached else 'not reached'}")
+                     f"{self.replicates} {'parts' if self.parts else 'sets'} of {self.pattern}; {'reached' if self.reached else 'not reached'}")
 
 
 def estimators() -> List[Named]:
@@ -202,18 +207,21 @@ def _name(name: str, value: Optional[str]) -> Optional[bytes]:
 
 
 def integrate_to(opened: Any, function: Any, pattern: Optional[str], n: Optional[SupportsIndex], dim: SupportsIndex, *, tolerance: float,
-                 relative: bool, estimator: Optional[str], interval: Optional[str], confidence: float, replicates: SupportsIndex,
-                 max_points: SupportsIndex, value_range: Optional[Sequence[float]], bounds: Any, warp: Optional[str], seed: Seed,
-                 threads: SupportsIndex) -> Integral:
+                 relative: bool, estimator: Optional[str], interval: Optional[str], confidence: float,
+                 replicates: Optional[SupportsIndex], max_points: SupportsIndex, value_range: Optional[Sequence[float]], bounds: Any,
+                 warp: Optional[str], resume: Any, seed: Seed, threads: SupportsIndex) -> Integral:
     """Opened: opens a spec of an integrand. See koksma.integrate."""
     pattern = DEFAULT_PATTERN if pattern is None else pattern
     dim, size = whole("dim", dim, 1, s.MAX_DIM), 0 if n is None else whole("n", n, 1, s.MAX_INDEX)
-    replicates, most = whole("replicates", replicates, 2, 100000), whole("max_points", max_points, 2, 1 << 40)
+    most = whole("max_points", max_points, 2, 1 << 40)
     tolerance = real("tolerance", tolerance)
     if not tolerance >= 0 or (tolerance == 0 and not size):
         raise ArgumentError(f"tolerance must be above 0, or 0 with n for one estimate, not {quoted(tolerance)}")
-    options = s.ToleranceOptions(replicates=replicates, first_n=size, most_points=most if tolerance else replicates * size,
-                                 seed=first_seed(seed, replicates))
+    sets = whole("replicates", replicates, 2, 100000) if replicates is not None else 0 if tolerance else REPLICATES
+    options = s.ToleranceOptions(replicates=sets, first_n=size, most_points=most if tolerance else sets * size,
+                                 seed=first_seed(seed, sets or REPLICATES))
+    if resume is not None:
+        options.resume, options.function = text(resume, "resume"), text(getattr(function, "__qualname__", str(function)), "function")
     options.relative, options.absolute = (tolerance, 0) if flag("relative", relative) else (0, tolerance)
     options.estimate.estimator, options.estimate.interval = _name("estimator", estimator), _name("interval", interval)
     options.estimate.confidence = real("confidence", confidence)
@@ -238,6 +246,6 @@ def integrate_to(opened: Any, function: Any, pattern: Optional[str], n: Optional
     path = tuple(Step(step.n, step.points, e.value, e.low, e.high, e.error, e.confidence, e.estimator.decode(), e.interval.decode())
                  for step in result.steps[:result.n_steps] for e in (step.estimate,))
     last = path[-1]
-    return Integral(last.value, last.low, last.high, last.error, result.reached, last.points, replicates, dim, path, result.rate,
+    return Integral(last.value, last.low, last.high, last.error, result.reached, last.points, result.replicates, dim, path, result.rate,
                     result.rate_error, math.nan if result.reached else result.needed, result.needed_low, result.needed_high,
-                    canonical(pattern))
+                    canonical(pattern), result.parts)

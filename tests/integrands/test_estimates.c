@@ -278,6 +278,114 @@ TEST_CASE(searches_hold_whenever_they_end)
     }
 }
 
+/* By default the sets are the parts of one: the estimate is the mean of all its points, the interval Student's of the means
+   of eight runs of consecutive points; t of 7 degrees is 2.364624. Named estimators have independent sets. */
+TEST_CASE(parts_of_one_set_are_the_default)
+{
+    enum { N = 8 * 256, SEED = 5 };
+    const char *const patterns[] = {"sobol:scramble=lms,digital-shift=1", "sobol:scramble=owen"};
+    for (size_t p = 0; p < 2; p++) {
+        koksma_tolerance t;
+        koksma_tolerance_options o = {.seed = SEED, .most_points = N};
+        call c = {.at = kink};
+        assert_ok(integrate(&c, patterns[p], &o, NULL, &t));
+        assert_true(t.parts && t.replicates == 8 && t.n_steps == 3 && c.points == N);
+        koksma_points points = test_points(patterns[p], N, 2, SEED);
+        double means[8] = {0}, all = 0, squares = 0;
+        for (size_t i = 0; i < N; i++) {
+            means[i / 256] += kink(points.xs + 2 * i, 2) / 256;
+            all += kink(points.xs + 2 * i, 2) / N;
+        }
+        for (size_t r = 0; r < 8; r++) {
+            squares += (means[r] - all) * (means[r] - all);
+        }
+        const koksma_integral_estimate *e = &t.steps[2].estimate;
+        assert_near(e->value, all, 1e-13);
+        assert_near(e->error / (2.3646242510 * sqrt(squares / 7 / 8)), 1, 1e-6);
+        koksma_points_fini(&points);
+        o.estimate.interval = "student";
+        o.most_points = 0;
+        o.absolute = 1;
+        assert_ok(integrate(&c, patterns[p], &o, NULL, &t));
+        assert_true(!t.parts && t.replicates == 15);
+    }
+    koksma_tolerance t;
+    assert_ok(integrate(&(call){.at = kink}, "random", &(koksma_tolerance_options){.absolute = 1}, NULL, &t));
+    assert_true(!t.parts && t.replicates == 15);
+}
+
+/* Of one scrambled net of eight parts: the true error is within the interval in 95 % of the runs or more, for a function
+   that is smooth, one with a kink, one with a jump. */
+TEST_CASE(parts_cover)
+{
+    const int runs = test_repeats(1000, 20);
+    const struct {
+        double (*at)(const double *x, int dim);
+        double truth;
+    } functions[] = {{exponential, 2.9524924420125598}, {kink, 0.79}, {step_at_a_third, 1.0 / 3}};
+    for (size_t f = 0; f < 3; f++) {
+        int held = 0;
+        for (int run = 0; run < runs; run++) {
+            koksma_tolerance t;
+            const koksma_tolerance_options o = {.seed = (uint64_t)run, .most_points = 512};
+            assert_ok(integrate(&(call){.at = functions[f].at}, "sobol:scramble=lms,digital-shift=1", &o, NULL, &t));
+            const koksma_integral_estimate *e = &t.steps[0].estimate;
+            held += fabs(e->value - functions[f].truth) <= e->error;
+        }
+        assert_true(held >= 0.95 * runs - 3 * sqrt(0.0475 * runs));
+    }
+}
+
+static bool stops(void *context, double fraction)
+{
+    (void)fraction;
+    return --*(int *)context > 0;
+}
+
+/* Ended by its limit or interrupted, a search continues bit for bit; another function, seed or text is refused. */
+TEST_CASE(searches_resume)
+{
+    const char *const patterns[] = {"sobol:scramble=owen", "n-rooks"}, *const estimators[] = {NULL, "median"};
+    const char *file = "search.txt"; /* tests run in a folder of their own */
+    for (size_t p = 0; p < 4; p++) {
+        koksma_tolerance whole, part, rest;
+        koksma_tolerance_options o = {
+            .absolute = p % 2 ? 2e-3 : 1e-5, .seed = 9, .estimate.estimator = estimators[p / 2]};
+        remove(file);
+        assert_ok(integrate(&(call){.at = exponential}, patterns[p % 2], &o, NULL, &whole));
+        assert_true(whole.reached && whole.n_steps > 2);
+        o.resume = file;
+        o.most_points = whole.replicates * whole.steps[1].n;
+        assert_ok(integrate(&(call){.at = exponential}, patterns[p % 2], &o, NULL, &part));
+        assert_true(!part.reached && part.n_steps == 2);
+        o.most_points = 0;
+        int calls = 25;
+        const koksma_status status = integrate(&(call){.at = exponential}, patterns[p % 2], &o,
+                                               &(koksma_run){.keep_going = stops, .context = &calls}, &part);
+        assert_true(status == KOKSMA_OK || status == KOKSMA_INTERRUPTED);
+        call c = {.at = exponential};
+        assert_ok(integrate(&c, patterns[p % 2], &o, NULL, &rest));
+        assert_int_equal(rest.n_steps, whole.n_steps);
+        assert_memory_equal(rest.steps, whole.steps, whole.n_steps * sizeof *whole.steps);
+        assert_near(rest.rate, whole.rate, 0);
+        assert_true(c.points < whole.steps[whole.n_steps - 1].points);
+        c.points = 0;
+        assert_ok(integrate(&c, patterns[p % 2], &o, NULL, &rest));
+        assert_int_equal(c.points, 1);
+        assert_int_equal(integrate(&(call){.at = kink}, patterns[p % 2], &o, NULL, &rest), KOKSMA_ARGUMENT);
+        assert_non_null(strstr(koksma_error_text(), "search.txt:5: the search in this file has 'first value"));
+        o.seed++;
+        assert_int_equal(integrate(&c, patterns[p % 2], &o, NULL, &rest), KOKSMA_ARGUMENT);
+        o.seed--;
+        FILE *stream = fopen(file, "r+");
+        fseek(stream, -3, SEEK_END);
+        fputc('x', stream);
+        fclose(stream);
+        assert_int_equal(integrate(&c, patterns[p % 2], &o, NULL, &rest), KOKSMA_MALFORMED);
+        remove(file);
+    }
+}
+
 /* Without a tolerance all steps are done; the rate of the mean over Owen's scrambling
    of a function with a kink in a coordinate is near -3/2, and the prediction of what a smaller error needs follows it. */
 TEST_CASE(a_limit_ends_the_search)

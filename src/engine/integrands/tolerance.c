@@ -1,9 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Integrates to a tolerance: R independent random sets, whose number of points doubles until the interval for the integral
- * is narrow enough. The points of several sets are put into batches of up to BATCH points or COORDINATES coordinates, so
- * that functions of other programs and languages are called seldom. The sums of each set are compensated and in the order
- * of its points, so that batches and threads change no bit.
+ * Integrates to a tolerance: R sets, whose number of points doubles until the interval for the integral is narrow enough.
+ * They are independent random sets, or by default the PARTS consecutive parts of one scrambled net of N = PARTS n points.
+ * The mean of R independent nets has the error of one net of N points times R^(a - 1/2), if that falls as N^-a; parts of
+ * one net cost no such factor. Their spread is that of nets of n points, and Student's interval from it as wide as that
+ * of independent ones, since the mean of the parts errs by the Walsh coefficients that N points don't integrate, while the
+ * parts differ by those that n points don't, which come first (Hickernell & Jimenez Rugama 2016 bound the former by some
+ * of the latter). docs/findings/coverage.md has how often it holds.
+ *
+ * The points of several sets are put into batches of up to BATCH points or COORDINATES coordinates, so that functions of
+ * other programs and languages are called seldom. The sums of each set are compensated and in the order of its points,
+ * so that batches and threads change no bit.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -12,14 +19,18 @@
 #include <koksma/series.h>
 
 #include "core/parallel.h"
+#include "core/spec.h"
 #include "core/status.h"
 #include "core/sum.h"
+#include "integrands/tolerance_path.h"
 #include "stats/stats.h"
 
 enum {
     REPLICATES = 15,
+    PARTS = 8,
     MOST_REPLICATES = 100000,
     FIRST_N = 256,
+    FIRST_PART = 64,
     BATCH = 1 << 16,
     COORDINATES = 1 << 22,
     ENOUGH = 1 << 16,
@@ -38,10 +49,10 @@ typedef struct job {
     koksma_run in_step;
     double done;          /* fraction of the steps */
     bool extends;         /* the sets of a step begin with those of the step before */
+    bool parts;           /* the sets are parts of one set, which extends */
     size_t replicates, n; /* n: of the present step */
     int dim;
-    koksma__sum *sums; /* of the values of each set */
-    double *means;
+    koksma__search path; /* the steps so far; its sums are those of the values of each set */
     uint64_t points;
     double least, largest; /* of all values so far */
 } job;
@@ -51,11 +62,22 @@ typedef struct piece {
     size_t replicate, first, count;
 } piece;
 
+static uint64_t seed_of(const job *j, const piece *p)
+{
+    return j->options->seed + (j->parts ? 0 : p->replicate);
+}
+
+/* The index of a piece's first point in the set of its seed. */
+static uint64_t index_of(const job *j, const piece *p)
+{
+    return p->first + (j->parts ? (uint64_t)p->replicate * j->n : 0);
+}
+
 static koksma_status make(const job *j, const piece *p, koksma_points *out)
 {
-    const uint64_t seed = j->options->seed + p->replicate;
-    return j->extends ? koksma_generate_range(j->pattern, seed, j->n, p->first, &j->in_step, out)
-                      : koksma_generate(j->pattern, seed, &j->in_step, out);
+    const size_t n = j->parts ? j->replicates * j->n : j->n;
+    return j->extends ? koksma_generate_range(j->pattern, seed_of(j, p), n, index_of(j, p), &j->in_step, out)
+                      : koksma_generate(j->pattern, seed_of(j, p), &j->in_step, out);
 }
 
 static koksma_status add(job *j, const piece *p, const double *values)
@@ -64,12 +86,12 @@ static koksma_status add(job *j, const piece *p, const double *values)
     const bool bounded = o->lowest != 0 || o->highest != 0;
     for (size_t i = 0; i < p->count; i++) {
         KOKSMA__FAIL_IF(!isfinite(values[i]), KOKSMA_ARGUMENT,
-                        "the value of the function is %g at point %zu of the set with seed %llu", values[i],
-                        p->first + i, (unsigned long long)(j->options->seed + p->replicate));
+                        "the value of the function is %g at point %llu of the set with seed %llu", values[i],
+                        (unsigned long long)(index_of(j, p) + i), (unsigned long long)seed_of(j, p));
         KOKSMA__FAIL_IF(bounded && !(values[i] >= o->lowest && values[i] <= o->highest), KOKSMA_ARGUMENT,
                         "the value of the function is %.17g, outside the bounds %g and %g", values[i], o->lowest,
                         o->highest);
-        koksma__sum_add(&j->sums[p->replicate], values[i]);
+        koksma__sum_add(&j->path.sums[p->replicate], values[i]);
         j->least = fmin(j->least, values[i]);
         j->largest = fmax(j->largest, values[i]);
     }
@@ -96,10 +118,24 @@ static koksma_status evaluate(job *j, const piece *pieces, size_t count, double 
     return KOKSMA_OK;
 }
 
-/* Adds points from .. n - 1 to all sets, or makes them anew. */
+/* Two parts of the step before are one of this step. */
+static void join_parts(job *j)
+{
+    koksma__sum *sums = j->path.sums;
+    for (size_t r = 0; r < PARTS; r++) {
+        const koksma__sum *second = &sums[2 * r + 1];
+        sums[r] = r < PARTS / 2 ? sums[2 * r] : (koksma__sum){0};
+        if (r < PARTS / 2) {
+            koksma__sum_add(&sums[r], second->total);
+            koksma__sum_add(&sums[r], second->lost);
+        }
+    }
+}
+
+/* Adds points from .. n - 1 to all sets, or makes them anew; or the second half of the parts. */
 static koksma_status extend(job *j, size_t from)
 {
-    const size_t begin = j->extends ? from : 0, fresh = j->n - begin;
+    const size_t begin = j->extends && !j->parts ? from : 0, fresh = j->n - begin;
     const size_t most = COORDINATES / j->dim < BATCH ? (size_t)(COORDINATES / j->dim) : BATCH;
     const size_t length = j->extends && fresh > most ? most : fresh, at_once = length < most ? most / length : 1;
     piece *pieces = calloc(at_once, sizeof *pieces);
@@ -109,8 +145,12 @@ static koksma_status extend(job *j, size_t from)
     double *values = status ? NULL : malloc(batch.n * sizeof *values);
     status = status || values ? status : koksma__fail_memory(batch.n * sizeof *values);
     size_t count = 0;
-    for (size_t r = 0; r < j->replicates && !status; r++) {
-        j->sums[r] = j->extends ? j->sums[r] : (koksma__sum){0};
+    const bool join = j->parts && from;
+    if (join) {
+        join_parts(j);
+    }
+    for (size_t r = join ? PARTS / 2 : 0; r < j->replicates && !status; r++) {
+        j->path.sums[r] = j->extends ? j->path.sums[r] : (koksma__sum){0};
         for (size_t first = begin; first < j->n && !status; first += length) {
             pieces[count++] = (piece){r, first, j->n - first < length ? j->n - first : length};
             if (count == at_once) {
@@ -166,7 +206,8 @@ static koksma_status count_steps(const job *j, size_t first_n, size_t *steps)
 {
     const uint64_t most = j->options->most_points ? j->options->most_points : MOST_POINTS,
                    most_n = most / j->replicates,
-                   capacity = j->extends ? KOKSMA_MAX_INDEX : KOKSMA_MAX_COORDINATES / (unsigned)j->dim;
+                   capacity = j->extends ? KOKSMA_MAX_INDEX / (j->parts ? PARTS : 1)
+                                         : KOKSMA_MAX_COORDINATES / (unsigned)j->dim;
     KOKSMA__FAIL_IF(first_n > most_n || first_n > capacity, KOKSMA_ARGUMENT,
                     "first_n: %zu sets of %zu points are more than most_points, %llu, or than one set may have",
                     j->replicates, first_n, (unsigned long long)most);
@@ -175,6 +216,13 @@ static koksma_status count_steps(const job *j, size_t first_n, size_t *steps)
         ++*steps;
     }
     return KOKSMA_OK;
+}
+
+/* Whether parts of one set are the default: of nets in base 2 each part is a net, too. */
+static bool takes_parts(const koksma_spec *pattern, const koksma_tolerance_options *o)
+{
+    return !o->replicates && !o->estimate.estimator && !o->estimate.interval && koksma_is_sequence(pattern) &&
+           koksma_has_ranges(pattern) && koksma__claims_left(pattern, 1) & KOKSMA_CLAIM_NET2_PREFIXES;
 }
 
 static koksma_status check(const koksma_spec *pattern, const koksma_tolerance_options *o, int dim)
@@ -240,27 +288,81 @@ static double step_confidence(const job *j, size_t steps)
     return each ? confidence : 1 - (1 - confidence) / (double)steps;
 }
 
-static koksma_status run_steps(job *j, size_t n, size_t steps, koksma_tolerance *t)
+/* Makes step k, or takes it from the file of an earlier search. */
+static koksma_status take_step(job *j, size_t k)
+{
+    const size_t before = j->n;
+    j->n = k ? 2 * before : j->path.first_n;
+    if (k < j->path.n_steps) {
+        const koksma__search_step *step = &j->path.steps[k];
+        const koksma_estimate_options *o = &j->options->estimate;
+        KOKSMA__FAIL_IF(
+            (o->lowest != 0 || o->highest != 0) && !(step->least >= o->lowest && step->largest <= o->highest),
+            KOKSMA_ARGUMENT, "the values of the function, %.17g to %.17g, are outside the bounds %g and %g",
+            step->least, step->largest, o->lowest, o->highest);
+        j->points = step->points;
+        j->least = step->least;
+        j->largest = step->largest;
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(extend(j, before));
+    koksma__search_step *step = &j->path.steps[k];
+    *step = (koksma__search_step){.points = j->points, .least = j->least, .largest = j->largest};
+    step->means = malloc(j->replicates * sizeof *step->means);
+    KOKSMA__REQUIRE_MEMORY(step->means, j->replicates * sizeof *step->means);
+    j->path.n_steps = k + 1;
+    for (size_t r = 0; r < j->replicates; r++) {
+        step->means[r] = koksma__sum_value(&j->path.sums[r]) / (double)j->n;
+    }
+    return j->options->resume ? koksma__search_write(j->options->resume, &j->path) : KOKSMA_OK;
+}
+
+static koksma_status run_steps(job *j, size_t steps, koksma_tolerance *t)
 {
     koksma_estimate_options estimate = j->options->estimate;
     estimate.confidence = step_confidence(j, steps);
+    estimate.interval = j->parts ? "student" : estimate.interval;
     for (size_t k = 0; k < steps && !t->reached; k++) {
-        const size_t before = j->n;
-        j->n = k ? 2 * before : n;
-        KOKSMA__TRY(extend(j, before));
-        for (size_t r = 0; r < j->replicates; r++) {
-            j->means[r] = koksma__sum_value(&j->sums[r]) / (double)j->n;
-        }
+        KOKSMA__TRY(take_step(j, k));
         estimate.share = share_of(j);
         koksma_tolerance_step *step = &t->steps[t->n_steps++];
         *step = (koksma_tolerance_step){.n = j->n, .points = j->points};
-        KOKSMA__TRY(koksma_estimate_integral(&estimate, j->means, j->replicates, &j->in_step, &step->estimate));
+        KOKSMA__TRY(
+            koksma_estimate_integral(&estimate, j->path.steps[k].means, j->replicates, &j->in_step, &step->estimate));
         widen(j, &step->estimate);
         t->reached = is_reached(j, &step->estimate);
         j->done = (double)(k + 1) / (double)steps;
     }
     predict(j, t);
     return KOKSMA_OK;
+}
+
+/* Opens the path: what identifies the search, with the value at its first point, and the steps of the file `resume`. */
+static koksma_status open_path(job *j)
+{
+    const koksma_tolerance_options *o = j->options;
+    j->path.sums = calloc(j->replicates, sizeof *j->path.sums);
+    KOKSMA__REQUIRE_MEMORY(j->path.sums, j->replicates * sizeof *j->path.sums);
+    if (!o->resume) {
+        return KOKSMA_OK;
+    }
+    koksma_points points;
+    double value;
+    KOKSMA__TRY(koksma_points_init(&points, j->extends ? 1 : j->path.first_n, j->dim));
+    j->n = j->path.first_n;
+    koksma_status status = make(j, &(piece){0, 0, 1}, &points);
+    j->n = 0;
+    points.n = 1;
+    if (!status) {
+        const char kept = koksma__call_begin();
+        status = koksma__call_end(kept, j->values(j->context, &points, &value), "values");
+    }
+    koksma_points_fini(&points);
+    KOKSMA__TRY(status);
+    char pattern[KOKSMA_MAX_SPEC];
+    koksma_spec_text(j->pattern, pattern);
+    koksma__search_head(&j->path, o->function ? o->function : "-", pattern, j->dim, o->seed, j->parts, value);
+    return koksma__search_read(o->resume, &j->path);
 }
 
 koksma_status koksma_integrate_to(koksma_values_of *values, void *context, int dim, const koksma_spec *pattern,
@@ -271,30 +373,35 @@ koksma_status koksma_integrate_to(koksma_values_of *values, void *context, int d
     KOKSMA__REQUIRE_RUN(run);
     KOKSMA__FAIL_IF(!values, KOKSMA_ARGUMENT, "koksma_integrate_to: values is NULL");
     KOKSMA__TRY(check(pattern, options, dim));
+    const bool parts = takes_parts(pattern, options);
+    const size_t replicates = options->replicates ? options->replicates : parts ? PARTS : REPLICATES;
     job j = {.values = values,
              .context = context,
              .pattern = pattern,
              .options = options,
              .run = run,
              .extends = koksma_is_sequence(pattern) && koksma_has_ranges(pattern),
-             .replicates = options->replicates ? options->replicates : REPLICATES,
+             .parts = parts,
+             .replicates = replicates,
+             .path = {.replicates = replicates,
+                      .first_n = options->first_n ? options->first_n
+                                 : parts          ? FIRST_PART
+                                                  : FIRST_N},
              .dim = dim,
              .least = HUGE_VAL,
              .largest = -HUGE_VAL};
     j.in_step = (koksma_run){.threads = run ? run->threads : 0, .keep_going = go_on, .context = &j};
-    const size_t n = options->first_n ? options->first_n : FIRST_N;
     size_t steps;
-    KOKSMA__TRY(count_steps(&j, n, &steps));
+    KOKSMA__TRY(count_steps(&j, j.path.first_n, &steps));
     koksma_tolerance *t = calloc(1, sizeof *t);
-    j.sums = calloc(j.replicates, sizeof *j.sums);
-    j.means = calloc(j.replicates, sizeof *j.means);
-    koksma_status status =
-        t && j.sums && j.means ? run_steps(&j, n, steps, t) : koksma__fail_memory(j.replicates * sizeof *j.sums);
+    koksma_status status = t ? open_path(&j) : koksma__fail_memory(sizeof *t);
+    status = status ? status : run_steps(&j, steps, t);
     if (!status) {
+        t->replicates = replicates;
+        t->parts = parts;
         *out = *t;
     }
     free(t);
-    free(j.sums);
-    free(j.means);
+    koksma__search_fini(&j.path);
     return status;
 }
