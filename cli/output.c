@@ -26,6 +26,7 @@ void cli_begin_output(void)
 #ifdef _WIN32
     _setmode(_fileno(stdin), _O_BINARY);
     _setmode(STDOUT_FILENO, _O_BINARY);
+    _setmode(STDERR_FILENO, _O_BINARY);
 #endif
 }
 

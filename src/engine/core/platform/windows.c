@@ -294,6 +294,23 @@ long koksma__sysconf(int name)
     return name == _SC_PAGESIZE ? PAGE : (long)GetActiveProcessorCount(ALL_PROCESSOR_GROUPS);
 }
 
+int koksma__getentropy(void *bytes, size_t size)
+{
+    unsigned word;
+    for (size_t i = 0; i < size; i++) {
+        if (rand_s(&word)) {
+            return -1;
+        }
+        ((unsigned char *)bytes)[i] = (unsigned char)word;
+    }
+    return 0;
+}
+
+struct tm *koksma__gmtime_r(const time_t *when, struct tm *out)
+{
+    return gmtime_s(out, when) ? NULL : out;
+}
+
 /* ---- Streams and texts --------------------------------------------------------------------------------- */
 
 static FILE *temporary_file(void)

@@ -15,6 +15,7 @@
 #define open koksma__io_open
 #include <direct.h>
 #include <io.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -80,7 +81,13 @@ KOKSMA__LAB intptr_t koksma__pread(int descriptor, void *bytes, size_t size, int
 #define readlink koksma__readlink
 #define pread koksma__pread
 #define putc_unlocked _putc_nolock
-#define fcntl(descriptor, command, ...) 0 /* there are no flags to set */
+#define fcntl(descriptor, command, ...) koksma__no_flags()
+
+/* Of what fcntl sets elsewhere. */
+static inline int koksma__no_flags(void)
+{
+    return 0;
+}
 
 #undef X_OK
 #define X_OK 0
@@ -92,8 +99,12 @@ KOKSMA__LAB intptr_t koksma__pread(int descriptor, void *bytes, size_t size, int
 enum { _SC_NPROCESSORS_ONLN, _SC_PHYS_PAGES, _SC_PAGESIZE };
 
 KOKSMA__LAB long koksma__sysconf(int name);
+KOKSMA__LAB int koksma__getentropy(void *bytes, size_t size);
+KOKSMA__LAB struct tm *koksma__gmtime_r(const time_t *when, struct tm *out);
 
 #define sysconf koksma__sysconf
+#define getentropy koksma__getentropy
+#define gmtime_r koksma__gmtime_r
 
 /* ---- Streams and texts ---- */
 
@@ -107,6 +118,12 @@ KOKSMA__LAB char *koksma__stpcpy(char *to, const char *from);
 #define fmemopen koksma__fmemopen
 #define strndup koksma__strndup
 #define stpcpy koksma__stpcpy
+
+/* Of mingw's these are -1 for true, and the sources count with them. */
+#undef isnan
+#undef isfinite
+#define isnan(x) (!!__builtin_isnan(x))
+#define isfinite(x) (!!__builtin_isfinite(x))
 
 /* ---- Libraries ---- */
 
