@@ -2,7 +2,7 @@
 # leanest program reads and writes.
 file(GLOB_RECURSE tests CONFIGURE_DEPENDS test_*.c)
 foreach(test ${tests})
-  file(STRINGS ${test} of_lab REGEX "include.*((image|scene|render|rendering|study|plot|adaptive|json|meshes)[/.]|stats/statistics)")
+  file(STRINGS ${test} of_lab REGEX "include.*((image|scene|scene_files|render|rendering|study|plot|adaptive|json|meshes|density|datasheet)[/.]|stats/stats[.])")
   if(NOT of_lab)
     koksma_test(${test} koksma)
   endif()
