@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * `koksma render`: renders a scene into an image file and prints one row with the options, the number of rays and the
- * time. Before it starts it computes how much memory the image takes, and refuses an image that takes more than the machine has. When it is
- * interrupted it writes the image with the pixels that are done.
+ * time. Before it starts it computes how much memory the image takes, and refuses an image that takes more than the
+ * machine has. When it is interrupted it writes the image with the pixels that are done.
  */
 #include <stdio.h>
 #include <string.h>

@@ -52,7 +52,8 @@ KOKSMA__LAB const char *koksma__meant(const char *word, koksma_name_at *name, co
                                       char text[KOKSMA__MEANT]);
 
 /* Fails with KOKSMA_UNKNOWN and "no WHAT 'WORD'; did you mean 'NAME'? WHERE", where WHERE says how to list the known
-   names. Names of other programs, a table in suggestion.c, get their counterpart here in its place. `name` and `table` are those of koksma_closest_name(). */
+   names. Names of other programs, a table in suggestion.c, get their counterpart here in its place. `name` and
+   `table` are those of koksma_closest_name(). */
 KOKSMA__LAB koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_name_at *name,
                                                const void *table, const char *where);
 

@@ -5,8 +5,8 @@
  * pbrt_values.c converts parameters to colours, materials and meshes. There are two current matrices, for the start and
  * for the end of the motion; where they differ, a shape or the camera moves; a camera that turns is not supported.
  * Curves are not read; the only medium read is a homogeneous one that contains the camera. Directives that do not
- * describe the scene (Integrator, ...; of a Sampler all but its number) are ignored, because the program's own options choose them. The file
- * is long because all of pbrt's directives are in one place.
+ * describe the scene (Integrator, ...; of a Sampler all but its number) are ignored, because the program's own
+ * options choose them. The file is long because all of pbrt's directives are in one place.
  */
 #include "scene/pbrt.h"
 
