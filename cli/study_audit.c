@@ -39,8 +39,6 @@ static void put_audit_row(cli_rows *rows, const koksma_audit *a, uint64_t seed)
     cli_row_whole(rows, "references", a->references);
     cli_row_whole(rows, "references_agree", a->references_agree);
     cli_row_whole(rows, "references_missing", a->references_missing);
-    cli_row_whole(rows, "references_failed", a->references_failed);
-    cli_row_whole(rows, "references_other", a->references_other);
     cli_row_whole(rows, "rows_missing", (uint64_t)a->rows_missing);
     cli_row_whole(rows, "differences", a->differences);
     cli_row_end(rows);
@@ -59,17 +57,15 @@ static void print_audit(const koksma_audit *a, uint64_t seed)
     }
     printf("%zu reference images rendered again, of which %zu agree", a->references, a->references_agree);
     printf(a->references_missing ? "; the files of %zu are missing" : "", a->references_missing);
-    printf(a->references_failed ? "; %zu can't be rendered again\n" : "\n", a->references_failed);
+    puts("");
     if (a->rows_missing) {
         printf(
             "not there: %lld rows of earlier trials: a run was cut short, jobs failed, or somebody removed them; the "
             "next run makes them\n",
             a->rows_missing);
     }
-    if (a->other_rows || a->references_other) {
-        printf("not compared: %lld rows", a->other_rows);
-        printf(a->references_other ? " and %zu reference images" : "", a->references_other);
-        printf(" made by other revisions, such as %s\n", a->other);
+    if (a->other_rows) {
+        printf("not compared: %lld rows of other plans, files or revisions\n", a->other_rows);
     }
 }
 

@@ -187,10 +187,9 @@ typedef struct koksma_audit_options {
 
 /* The result of an audit. A row is a line that koksma_study_export writes. */
 typedef struct koksma_audit {
-    long long rows;         /* number of rows that this version's generators made, according to their revisions
-                               (koksma_pattern.revision) */
-    long long other_rows;   /* number of rows made by versions whose revisions differ, which this program cannot
-                               compare */
+    long long rows;         /* number of rows that the stored plan, the files of now and this version's revisions
+                               (koksma_pattern.revision) make */
+    long long other_rows;   /* number of all other rows, which are not compared */
     long long drawn, agree; /* number of rows drawn from `rows`; number of these whose recomputed values are equal
                                bit for bit */
     double bound;           /* upper 95 % confidence bound of the fraction of `rows` that is wrong (Clopper &
@@ -199,19 +198,14 @@ typedef struct koksma_audit {
                                             equal */
     size_t references_missing;           /* number of reference images whose files are missing; only the hashes of
                                             their pixels were compared */
-    size_t references_failed;            /* number of reference images that can't be rendered again, such as those of
-                                            a scene whose file is missing; these are differences */
-    size_t references_other;             /* number of reference images made by versions whose revisions differ */
     size_t differences;                  /* number of differences found */
     /* Number of rows of this version that are not there, of trials before the last of their series. A run that is
-       killed and a job that fails leave such gaps, and nothing tells them from rows that somebody removed with a forged
-       seal: they are no differences. Rows that were removed behind the last trial leave none. */
+       killed and a job that fails leave such gaps, and nothing tells them from rows that somebody removed: they are
+       no differences. Rows that were removed behind the last trial leave none. */
     long long rows_missing;
-    char other[128]; /* revisions of one of the other_rows or references_other and of this
-                                            program, with "of a newer version" if any is; empty if there are none */
 } koksma_audit;
 
-/* Audits a study: computes rows again from their keys, renders all reference images again, whichever rows are drawn,
+/* Audits a study: computes rows again by the plan in the store, renders all its reference images again, whichever rows are drawn,
    and compares them with the stored results. The choice of rows depends on the seed and the stored results, not on the
    number of threads. If the plan's paths are relative, the current folder must be that of the run. Under mpirun all ranks
    work and must be able to read the folder; rank 0 gets the result.

@@ -316,8 +316,8 @@ class AuditOptions(Structure):
 class Audit(Structure):
     _fields_ = [("rows", c_longlong), ("other_rows", c_longlong), ("drawn", c_longlong), ("agree", c_longlong),
                 ("bound", c_double), ("references", c_size_t), ("references_agree", c_size_t),
-                ("references_missing", c_size_t), ("references_failed", c_size_t), ("references_other", c_size_t),
-                ("differences", c_size_t), ("rows_missing", c_longlong), ("other", c_char * 128)]
+                ("references_missing", c_size_t),
+                ("differences", c_size_t), ("rows_missing", c_longlong)]
 
 
 class UseGroup(Structure):

@@ -65,12 +65,11 @@ class TableRow:
 class Audit:
     """What an audit of a study's folder found; true if nothing differs.
 
-    Of `rows`, which the generators of this version made, `drawn` were drawn by `seed` and made again, and `agree` were
+    Of `rows`, which the stored plan, the files of now and this version make, `drawn` were drawn by `seed` and made again, and `agree` were
     equal, bit for bit. With 95 % confidence a smaller part of `rows` than `bound` is wrong (Clopper & Pearson 1934); if all
-    were drawn, it is the part that differs. `other_rows` are of other versions and cannot be compared; `other` names one.
+    were drawn, it is the part that differs. `other_rows` are not compared.
     Of `references`, the reference images, all of which are rendered again, `references_agree` were equal, and
-    `references_missing` have no file; `references_failed` more cannot be rendered again, and `references_other` are of
-    other versions. `differences` is a line for each thing that differs. `rows_missing` rows before the last trials of their
+    `references_missing` have no file. `differences` is a line for each thing that differs. `rows_missing` rows before the last trials of their
     series are not there: killed runs and failed jobs leave such gaps, as do rows that somebody removed.
     """
 
@@ -83,11 +82,8 @@ class Audit:
     references: int
     references_agree: int
     references_missing: int
-    references_failed: int
-    references_other: int
     differences: tuple[str, ...]
     rows_missing: int
-    other: str
 
     def __bool__(self) -> bool:
         return not self.differences
@@ -268,7 +264,7 @@ class Study:
 def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] = 200, *,
           seed: Optional[SupportsIndex] = None, threads: SupportsIndex = 0,
           progress: Optional[Callable[[float], object]] = None) -> Audit:
-    """Makes rows of a study again from their keys, and all its reference images, and compares them bit for bit.
+    """Makes rows of a study again by its stored plan, and all its reference images, and compares them bit for bit.
 
     Parameters
     ----------
@@ -311,8 +307,7 @@ def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] 
     raw = s.Audit()
     call(lab().koksma_study_audit, byref(options), byref(raw), threads=threads, run_at=1, progress=progress)
     return Audit(raw.rows, raw.other_rows, used, raw.drawn, raw.agree, raw.bound, raw.references, raw.references_agree,
-                 raw.references_missing, raw.references_failed, raw.references_other, tuple(lines), raw.rows_missing,
-                 raw.other.decode(errors="replace"))
+                 raw.references_missing, tuple(lines), raw.rows_missing)
 
 
 def plans() -> List[str]:

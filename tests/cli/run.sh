@@ -17,7 +17,6 @@ trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin" "$work/run"
 ln -s "$program" "$work/bin/koksma"
 ln -s "$(dirname "$test")/../study/report/text.py" "$work/bin/report-text" # the report of a study as lines of text
-ln -s "$(dirname "$test")/../study/reseal.py" "$work/bin/reseal" # makes a store's rows, changed by hand, its rows
 printf '#!/bin/sh\n[ "${KOKSMA_SANITIZED:-0}" = 1 ] && echo "$1" || echo "$2"\n' >"$work/bin/few"
 chmod +x "$work/bin/few"
 PATH="$work/bin:$PATH"

@@ -140,10 +140,6 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
                                      .height = t->height,
                                      .seed = seed};
     const size_t last = t->image->n_references;
-    for (size_t r = 0; r <= last; r++) {
-        KOKSMA__FAIL_IF(study->references[t->references[r]].failed, KOKSMA_IMPOSSIBLE,
-                        "its reference can't be rendered");
-    }
     KOKSMA__TRY(koksma__study_render(t->scene, &picture, run, &image));
     koksma_status status = KOKSMA_OK;
     const koksma_image *const reference = &study->references[t->references[last]].image;

@@ -50,12 +50,10 @@ static void send_pixels(server *s, int to)
     }
     const koksma__reference_image *reference = &s->phase->tasks->study->references[index];
     const koksma_image *image = &reference->image;
-    const koksma__image_head head = {image->width, image->height, image->channels, reference->failed};
+    const koksma__image_head head = {image->width, image->height, image->channels};
     const size_t pixels = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
     s->mpi->send(to, KOKSMA__TAG_PIXELS, &head, sizeof head);
-    if (!head.failed) {
-        s->mpi->send(to, KOKSMA__TAG_PIXELS, image->pixels, pixels * sizeof *image->pixels);
-    }
+    s->mpi->send(to, KOKSMA__TAG_PIXELS, image->pixels, pixels * sizeof *image->pixels);
 }
 
 static void receive_results(server *s, int from, size_t bytes)

@@ -46,16 +46,12 @@ static koksma_status get_reference(worker *w, size_t index)
     koksma__reference_image *r = &w->study->references[index];
     const unsigned long long number = index;
     koksma__image_head head;
-    if (r->image.pixels || r->failed) {
+    if (r->image.pixels) {
         return KOKSMA_OK;
     }
     if (!w->mpi->send(0, KOKSMA__TAG_NEED, &number, sizeof number) ||
         !receive(w, KOKSMA__TAG_PIXELS, &head, sizeof head, NULL)) {
         return lost(w);
-    }
-    if (head.failed) {
-        r->failed = true;
-        return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma_image_init(&r->image, head.width, head.height, head.channels));
     const size_t pixels = (size_t)head.width * (size_t)head.height * (size_t)head.channels;

@@ -173,10 +173,9 @@ size_t koksma__run_state_take_batch(koksma__run_state *state, double job_s, int 
 
 /* What came of an assignment, as it is sent between ranks: this head, and then so many bytes. */
 typedef enum koksma__outcome_kind {
-    KOKSMA__OUTCOME_RESULTS,     /* of job `number` */
-    KOKSMA__OUTCOME_TILE,        /* the sums of tile `number` */
-    KOKSMA__OUTCOME_FAILURE,     /* a text of KOKSMA__FAILURE_TEXT bytes: why job `number` is impossible */
-    KOKSMA__OUTCOME_NO_REFERENCE /* the same of reference `number`, in an audit */
+    KOKSMA__OUTCOME_RESULTS, /* of job `number` */
+    KOKSMA__OUTCOME_TILE,    /* the sums of tile `number` */
+    KOKSMA__OUTCOME_FAILURE  /* a text of KOKSMA__FAILURE_TEXT bytes: why job `number` is impossible */
 } koksma__outcome_kind;
 
 typedef struct koksma__outcome {
@@ -221,7 +220,7 @@ koksma_status koksma__work_threads(koksma__phase *phase);
  *     PIECES   this rank's pieces of a shared search (koksma_study_mpi_processes)
  * Messages from rank 0:
  *     ASSIGNMENTS  jobs or tiles to do, or the end of the phase or of the run; if empty, the rank requests again
- *     PIXELS       a reference image: koksma__image_head; its pixels follow in a second message, unless it failed
+ *     PIXELS       a reference image: koksma__image_head; its pixels follow in a second message
  *     PIECES       the pieces of all ranks
  */
 enum { KOKSMA__PHASES = 2 };
@@ -237,11 +236,9 @@ typedef struct koksma__request {
     double processor_s; /* this rank's processor time in this phase so far */
 } koksma__request;
 
-/* The first message about a reference image. A rank that has rendered no tile of a reference learns here that an audit
-   can't render it; the rows that need it then fail on every rank. */
+/* The first message about a reference image. */
 typedef struct koksma__image_head {
     int width, height, channels;
-    int failed; /* 1: koksma__reference_image.failed; no pixels follow, because no row is compared with them */
 } koksma__image_head;
 
 /* Rank 0's part of a phase: sends assignments to the other ranks, receives their results, and does some assignments

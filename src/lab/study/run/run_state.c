@@ -114,24 +114,6 @@ static koksma_status fail_reference(const koksma__reference_image *r, koksma_sta
     return koksma__fail_in(status, text);
 }
 
-/* Renders a tile of another picture of the same scene in place of one that cannot be rendered. So a reference that fails
-   in an audit ends neither the audit of the others nor that of images which do not need it. */
-static koksma_status do_substitute(const koksma__reference_image *r, const koksma__reference_tile *tile,
-                                   const koksma_run *run, koksma__replicates *out)
-{
-    char name[] = "substitute", pattern[] = "random";
-    const koksma__reference plain = {name, pattern, 1, 1};
-    koksma__reference_image other = *r;
-    koksma_image image;
-    other.reference = &plain;
-    KOKSMA__TRY(koksma__reference_replicate(&other, 0, (int)tile->first_row, (int)tile->rows, run, &image));
-    const koksma_status status = image.height == tile->rows
-                                     ? koksma__replicates_add(out, &image)
-                                     : koksma__fail(KOKSMA_UNSUPPORTED, "its rows can't be rendered alone");
-    koksma_image_fini(&image);
-    return status;
-}
-
 /* Renders a tile into *out, the sums of its rows. The caller frees out->sum. */
 static koksma_status render_tile(const koksma_study *study, const koksma__reference_tile *tile, const koksma_run *run,
                                  koksma__replicates *out)
@@ -150,11 +132,6 @@ static koksma_status render_tile(const koksma_study *study, const koksma__refere
     if (status) {
         free(out->sum);
         *out = (koksma__replicates){0};
-    }
-    if (status && study->sink && !koksma__ends_all(status)) {
-        fail_reference(r, status);
-        study->sink->fail_reference(study->sink->context, r, koksma_error_text());
-        return do_substitute(r, tile, run, out);
     }
     return koksma__is_impossible(status) ? fail_reference(r, KOKSMA_IMPOSSIBLE) : status;
 }
@@ -328,8 +305,6 @@ static void put_one(koksma__run_state *state, const koksma__outcome *head, void 
         const size_t pixels = (size_t)study->references[tile->reference].width * (size_t)tile->rows;
         const koksma__replicates sums = koksma__replicates_over(payload, head->size / sizeof(double), pixels);
         put_tile(state, head->number, &sums);
-    } else if (head->kind == KOKSMA__OUTCOME_NO_REFERENCE && study->sink && head->number < study->n_references) {
-        study->sink->fail_reference(study->sink->context, &study->references[head->number], payload);
     }
 }
 
@@ -424,11 +399,11 @@ static koksma_status append(koksma__outcomes *to, koksma__outcome_kind kind, siz
     return KOKSMA_OK;
 }
 
-static koksma_status append_failure(koksma__outcomes *to, koksma__outcome_kind kind, size_t number)
+static koksma_status append_failure(koksma__outcomes *to, size_t number)
 {
     char text[KOKSMA__FAILURE_TEXT] = "";
     snprintf(text, sizeof text, "%s", koksma_error_text());
-    return append(to, kind, number, text, sizeof text);
+    return append(to, KOKSMA__OUTCOME_FAILURE, number, text, sizeof text);
 }
 
 static koksma_status do_job(const koksma__tasks *tasks, size_t job, const koksma_run *run, koksma__outcomes *to)
@@ -440,7 +415,7 @@ static koksma_status do_job(const koksma__tasks *tasks, size_t job, const koksma
     KOKSMA__REQUIRE_MEMORY(results, size);
     koksma_status status = koksma__task_do(tasks->study, task, trial, run, results);
     if (koksma__task_failed_alone(tasks->study, status)) {
-        status = append_failure(to, KOKSMA__OUTCOME_FAILURE, job);
+        status = append_failure(to, job);
     } else if (!status) {
         status = append(to, KOKSMA__OUTCOME_RESULTS, job, results, size);
     }
@@ -452,12 +427,7 @@ static koksma_status do_tile(const koksma__tasks *tasks, const koksma__assignmen
                              koksma__outcomes *to)
 {
     koksma__replicates sums = {0};
-    const koksma__reference_image *reference = &tasks->study->references[assignment->tile.reference];
-    const bool failed = reference->failed;
     koksma_status status = render_tile(tasks->study, &assignment->tile, run, &sums);
-    if (!status && reference->failed && !failed) {
-        status = append_failure(to, KOKSMA__OUTCOME_NO_REFERENCE, assignment->tile.reference);
-    }
     if (!status) {
         status = append(to, KOKSMA__OUTCOME_TILE, assignment->number, sums.sum,
                         koksma__replicates_numbers(&sums) * sizeof *sums.sum);

@@ -103,7 +103,8 @@ const koksma__study_scene *koksma__study_scene_of(const koksma_study *study, con
     return found ? *found : NULL;
 }
 
-koksma_status koksma__study_open_scene(koksma_study *study, const char *name)
+/* Opens a scene unless it is open already. `name` must remain valid as long as the study. */
+static koksma_status open_scene(koksma_study *study, const char *name)
 {
     koksma_scene *scene;
     koksma_render_options options;
@@ -128,12 +129,12 @@ static koksma_status open_scenes(koksma_study *study)
     koksma_status status = KOKSMA_OK;
     for (size_t b = 0; b < study->plan.n_images; b++) {
         for (size_t i = 0; !status && i < study->plan.images[b].scenes.n; i++) {
-            status = koksma__study_open_scene(study, study->plan.images[b].scenes.at[i]);
+            status = open_scene(study, study->plan.images[b].scenes.at[i]);
         }
     }
     for (size_t f = 0; !status && f < study->plan.n_figures; f++) {
         if (study->plan.figures[f].scene) {
-            status = koksma__study_open_scene(study, study->plan.figures[f].scene);
+            status = open_scene(study, study->plan.figures[f].scene);
         }
     }
     return status;
@@ -328,7 +329,6 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
 static koksma_status open_folder(koksma_study *study, const char *folder)
 {
     char path[KOKSMA__PATH];
-    koksma__mpi_release();
     KOKSMA__TRY(koksma__results_path(folder, path));
     study->folder = strdup(folder);
     KOKSMA__REQUIRE_MEMORY(study->folder, strlen(folder));
@@ -355,14 +355,17 @@ static koksma_status check_options(const koksma_study_options *options)
     return status;
 }
 
-koksma_status koksma_study_open(const koksma_study_options *options, koksma_study **out)
+/* keeps_ranks: whether the ranks of an MPI run stay, which only runs and audits use. */
+static koksma_status open_study(const koksma_study_options *options, bool keeps_ranks, koksma_study **out)
 {
-    KOKSMA__REQUIRE(options, out);
     *out = NULL;
     KOKSMA__TRY(check_options(options));
     koksma_study *study = calloc(1, sizeof *study);
     KOKSMA__REQUIRE_MEMORY(study, sizeof *study);
     koksma_status status = koksma__mpi_check();
+    if (!status && !keeps_ranks) {
+        koksma__mpi_release();
+    }
     status = status             ? status
              : options->n_plans ? open_with_plans(study, options)
                                 : open_folder(study, options->folder);
@@ -372,6 +375,17 @@ koksma_status koksma_study_open(const koksma_study_options *options, koksma_stud
     }
     *out = study;
     return KOKSMA_OK;
+}
+
+koksma_status koksma_study_open(const koksma_study_options *options, koksma_study **out)
+{
+    KOKSMA__REQUIRE(options, out);
+    return open_study(options, options->n_plans > 0, out);
+}
+
+koksma_status koksma__study_open_stored(const char *folder, koksma_study **out)
+{
+    return open_study(&(koksma_study_options){.folder = folder}, true, out);
 }
 
 const char *koksma_study_left_out_at(const koksma_study *study, size_t i)

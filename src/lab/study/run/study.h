@@ -61,7 +61,6 @@ typedef struct koksma__reference_image {
     char options[KOKSMA__VARIANT_TEXT];
     int width, height;
     koksma_image image; /* its pixels are NULL until a job needs them */
-    bool failed;        /* whether an audit could not render it; the pixels are then those of another picture */
     uint64_t hash;      /* of all members above `image` */
     size_t next[2];     /* a tree of the study's references by their hashes (references.c) */
 } koksma__reference_image;
@@ -78,8 +77,6 @@ typedef struct koksma__sink {
     koksma_status (*put_job)(void *context, const struct koksma__task *task, const koksma__result *results);
     koksma_status (*put_reference)(void *context, const koksma__reference_image *reference,
                                    const koksma__reference_row *row);
-    /* sets reference->failed; text: the reason why it cannot be rendered */
-    void (*fail_reference)(void *context, koksma__reference_image *reference, const char *text);
 } koksma__sink;
 
 struct koksma_study {
@@ -96,9 +93,8 @@ struct koksma_study {
     const koksma__sink *sink; /* NULL: results go into the store */
 };
 
-/* Opens a scene unless it is open already. `name` must remain valid as long as the study. Errors: those of
-   koksma_scene_open.  */
-koksma_status koksma__study_open_scene(koksma_study *study, const char *name);
+/* Opens the study of a folder by the plan in its store, for an audit. Errors: those of koksma_study_open. */
+koksma_status koksma__study_open_stored(const char *folder, koksma_study **out);
 
 /* Adds to the text of an error of a file that the study needs: if the current folder is not that of the study's last run,
    the folder of that run, because relative paths start there. Returns the status. */

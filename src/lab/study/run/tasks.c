@@ -29,8 +29,7 @@
 static const long long MOST_TASKS = 1 << 18, MOST_SERIES = 1 << 21, MOST_REFERENCES = 1 << 16;
 
 /* Checks the sums over all blocks from the lengths of their lists: of tasks, of series, and of references. The sums have
-   what a block leaves out, and what blocks share once for each. The plan of an audit is not checked: rows of the store are
-   behind each of its tasks, series and references, so that it is at most some times as long as the store. */
+   what a block leaves out, and what blocks share once for each. */
 static koksma_status check_limits(const koksma_study *study)
 {
     const koksma__plan *plan = &study->plan;
@@ -49,14 +48,13 @@ static koksma_status check_limits(const koksma_study *study)
         series += images * (n + 1 + (double)b->metrics.n);
         references += views * n;
     }
-    const bool checked = !study->sink;
-    KOKSMA__FAIL_IF(checked && tasks > (double)MOST_TASKS, KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF(tasks > (double)MOST_TASKS, KOKSMA_ARGUMENT,
                     "plan '%s': more than %lld combinations of patterns, sizes, warps, scenes and options",
                     plan->name, MOST_TASKS);
-    KOKSMA__FAIL_IF(checked && series > (double)MOST_SERIES, KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF(series > (double)MOST_SERIES, KOKSMA_ARGUMENT,
                     "plan '%s': more than %lld combinations of these with measures, references and metrics",
                     plan->name, MOST_SERIES);
-    KOKSMA__FAIL_IF(checked && references > (double)MOST_REFERENCES, KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF(references > (double)MOST_REFERENCES, KOKSMA_ARGUMENT,
                     "plan '%s': more than %lld images for reference", plan->name, MOST_REFERENCES);
     return KOKSMA_OK;
 }

@@ -4,9 +4,9 @@
 -- the texts 'failed' and 'left-out', where a run had jobs that failed (study/run/failed_jobs.c), and 'run-folder', the
 -- folder in which the last run was started.
 
-CREATE TABLE meta (          -- the file's 'plan', 'plan-texts', 'plan-text-0', 'plan-name-0', ..., and 'seal'
-  key TEXT PRIMARY KEY,                    -- of seal "N SUM": how many rows meta (but seal), series,
-  value TEXT NOT NULL                      -- result and reference have, and the sum of their checksums (store_tables.c)
+CREATE TABLE meta (          -- the file's 'plan', 'plan-texts', 'plan-text-0', 'plan-name-0', ...
+  key TEXT PRIMARY KEY,
+  value TEXT NOT NULL
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE series (        -- the key of results without the trial; each series is one mean in a table

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The lock and transactions of a store, and its tables of texts, references and runs. Statements are gathered in
-   one transaction until KOKSMA__WRITE_AFTER_S seconds have passed; each transaction ends by writing the seal. */
-#include <inttypes.h>
+   one transaction until KOKSMA__WRITE_AFTER_S seconds have passed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,28 +45,13 @@ koksma_status koksma__store_begin(koksma__store *store)
     return status;
 }
 
-/* Writes the seal to table meta, within the open transaction. */
-static koksma_status write_seal(koksma__store *store)
-{
-    koksma__statement *s = store->queries[KOKSMA__PUT_TEXT];
-    char text[64];
-    if (store->seal.rows == store->sealed.rows && store->seal.sum == store->sealed.sum) {
-        return KOKSMA_OK;
-    }
-    snprintf(text, sizeof text, "%lld %" PRIu64, store->seal.rows, store->seal.sum);
-    koksma__bind(s, 1, "tt", "seal", text);
-    store->sealed = store->seal;
-    return koksma__statement_run(store->database, s);
-}
-
 koksma_status koksma__store_end(koksma__store *store)
 {
     if (!store->in_transaction) {
         return KOKSMA_OK;
     }
     store->in_transaction = false;
-    const koksma_status status = koksma__store_wrote(store, write_seal(store));
-    return status ? status : koksma__store_wrote(store, koksma__database_execute(store->database, "COMMIT"));
+    return koksma__store_wrote(store, koksma__database_execute(store->database, "COMMIT"));
 }
 
 koksma_status koksma__store_wrote(koksma__store *store, koksma_status status)
@@ -96,14 +80,6 @@ koksma_status koksma__store_write(koksma__store *store, koksma__query query)
 koksma_status koksma__store_put_text(koksma__store *store, const char *key, const char *value)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_TEXT];
-    char *old;
-    koksma_status status = koksma__store_find_text(store, key, &old);
-    if (!status && old) {
-        koksma__seal_add(&store->seal, -1, koksma__checksum_of_text(key, old));
-    }
-    free(old);
-    KOKSMA__TRY(status);
-    koksma__seal_add(&store->seal, 1, koksma__checksum_of_text(key, value));
     koksma__bind(s, 1, "tt", key, value);
     return koksma__store_write(store, KOKSMA__PUT_TEXT);
 }
@@ -133,23 +109,6 @@ koksma_status koksma__store_get_text(koksma__store *store, const char *key, char
 {
     koksma__store_enter(store);
     return koksma__store_leave(store, koksma__store_find_text(store, key, value));
-}
-
-/* ---- The seal ------------------------------------------------------------------------------------------ */
-
-koksma_status koksma__seal_read(koksma__store *store)
-{
-    char *text;
-    int end = 0;
-    koksma_status status = koksma__store_find_text(store, "seal", &text);
-    if (!status &&
-        (!text || sscanf(text, "%lld %" SCNu64 "%n", &store->seal.rows, &store->seal.sum, &end) != 2 || text[end])) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s: the database has no seal; move it away to begin anew",
-                              koksma__database_path(store->database));
-    }
-    store->sealed = store->seal;
-    free(text);
-    return status;
 }
 
 /* ---- References and runs ------------------------------------------------------------------------------- */
@@ -207,20 +166,10 @@ koksma_status koksma__store_put_reference(koksma__store *store, const koksma__se
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_REFERENCE];
     koksma__series key;
-    koksma__reference_row old;
-    bool found;
     koksma__store_enter(store);
-    koksma_status status = find_reference(store, series, &key, &old, &found);
-    if (!status && found) {
-        koksma__seal_add(&store->seal, -1, koksma__checksum_of_reference(&key, old.standard_error, old.pixels));
-    }
-    if (!status) {
-        koksma__seal_add(&store->seal, 1, koksma__checksum_of_reference(&key, row->standard_error, row->pixels));
-        bind_reference(store, s, series, &key);
-        koksma__bind(s, 8, "nt", row->standard_error, row->pixels);
-        status = koksma__store_write(store, KOKSMA__PUT_REFERENCE);
-    }
-    return koksma__store_leave(store, status);
+    bind_reference(store, s, series, &key);
+    koksma__bind(s, 8, "nt", row->standard_error, row->pixels);
+    return koksma__store_leave(store, koksma__store_write(store, KOKSMA__PUT_REFERENCE));
 }
 
 koksma_status koksma__store_reference(koksma__store *store, const koksma__series *series, koksma__reference_row *row)

@@ -48,8 +48,7 @@ typedef struct koksma__run_record {
 
 typedef enum koksma__store_mode {
     KOKSMA__STORE_WRITE, /* opens a store to write, or creates it */
-    KOKSMA__STORE_READ,  /* opens an existing store; changes no byte of the folder, which need not be writable */
-    KOKSMA__STORE_AUDIT  /* like KOKSMA__STORE_READ, but rows that no run wrote are not an error */
+    KOKSMA__STORE_READ   /* opens an existing store; changes no byte of the folder, which need not be writable */
 } koksma__store_mode;
 
 /* Opens a store; if plan_name is NULL, the store may belong to any plan. Errors: MISSING (to read), IO (can't
@@ -94,19 +93,6 @@ koksma_status koksma__store_scan_rows(koksma__store *store,
    a row. */
 koksma_status koksma__store_row(koksma__store *store, long long group, long long trial, uint64_t *seed,
                                 double values[KOKSMA__RESULT_VALUES], bool *found);
-
-/* Whether the rows that the last scan read match the seal, so that they are those that runs wrote. */
-bool koksma__store_is_sealed(const koksma__store *store);
-
-/* The first function calls `visit` for all series, the second for all references; key.made_by is set. */
-koksma_status koksma__store_visit_series(koksma__store *store,
-                                         koksma_status (*visit)(void *context, const koksma__series *key,
-                                                                long long id),
-                                         void *context);
-koksma_status koksma__store_visit_references(koksma__store *store,
-                                             koksma_status (*visit)(void *context, const koksma__series *key,
-                                                                    const koksma__reference_row *row),
-                                             void *context);
 
 /* Reads the results of a series with trials below `trials`, in order; the caller frees *results. Series 0 has
    none. */

@@ -79,29 +79,12 @@ void koksma__statement_reset(koksma__statement *statement);
    whether every column has its type: a text; a whole number; a finite number or NULL. */
 bool koksma__read(koksma__statement *statement, int first, const char *types, ...);
 
-/* Checksums of a store's rows and their sum, the seal, which shows whether the store holds exactly what runs
-   wrote. */
-
 /* A row of table result: the results of one trial in up to four series. */
 typedef struct koksma__row {
     long long id;
     uint64_t seed;
     double values[KOKSMA__RESULT_VALUES];
 } koksma__row;
-
-/* The number of rows in the tables and the sum of their checksums. */
-typedef struct koksma__seal {
-    long long rows;
-    uint64_t sum;
-} koksma__seal;
-
-uint64_t koksma__checksum_of_row(const koksma__row *row);
-uint64_t koksma__checksum_of_series(const koksma__series *key, long long id);
-uint64_t koksma__checksum_of_reference(const koksma__series *key, double standard_error, const char *pixels);
-uint64_t koksma__checksum_of_text(const char *key, const char *value);
-
-/* Adds a row to the seal (sign 1) or removes it (sign -1). */
-void koksma__seal_add(koksma__seal *seal, int sign, uint64_t checksum);
 
 /* The prepared statements, whose SQL is in store_open.c. */
 typedef enum koksma__query {
@@ -118,10 +101,8 @@ typedef enum koksma__query {
     KOKSMA__LAST_SERIES,
     KOKSMA__PUT_REFERENCE,
     KOKSMA__GET_REFERENCE,
-    KOKSMA__GET_REFERENCES,
     KOKSMA__PUT_TEXT,
     KOKSMA__GET_TEXT,
-    KOKSMA__GET_TEXTS,
     KOKSMA__PUT_RUN,
     KOKSMA__GET_RUN,
     KOKSMA__N_QUERIES
@@ -156,7 +137,6 @@ typedef struct koksma__kept_rows {
     bool all; /* whether `rows` has all rows of the table */
     koksma__rows rows;
     size_t capacity;
-    koksma__seal seal; /* of the rows */
     /* The indices of the rows by group and trial; the group of series g * GROUP has order[first[g]] up to
        order[first[g + 1] - 1]. */
     unsigned *order, *first;
@@ -173,11 +153,9 @@ struct koksma__store {
     koksma__statement *queries[KOKSMA__N_QUERIES];
     pthread_mutex_t lock; /* guards the database and the members below */
     bool in_transaction;
-    koksma_status failed;      /* status of the first write that failed, after which nothing more is written */
-    char reason[512];          /* its error text */
-    koksma__seal seal, sealed; /* seal: seal of all rows written so far; sealed: the seal in table meta */
-    koksma__seal found;        /* seal of the rows that the last scan read */
-    bool for_audit;            /* whether `found` may differ from `seal` without an error */
+    koksma_status failed; /* status of the first write that failed, after which nothing more is written */
+    char reason[512];     /* its error text */
+    long long rows;       /* of table result, which the last scan read */
     double began_s, entered_s, seconds;
     koksma__rows spare;
     size_t n_known;              /* length of `known`, which is indexed by the ids of series */
@@ -204,12 +182,8 @@ koksma_status koksma__store_leave(koksma__store *store, koksma_status status);
    and the revisions of this program. *key is valid until the next call. */
 void koksma__store_bind_key(koksma__store *store, const koksma__series *series, koksma__series *key);
 
-/* Records the status of a statement that writes, and returns it. After a failure nothing more is written, because
-   rows counted in the seal may not be in the file. */
+/* Records the status of a statement that writes, and returns it. After a failure nothing more is written. */
 koksma_status koksma__store_wrote(koksma__store *store, koksma_status status);
-
-/* Reads the seal from table meta. */
-koksma_status koksma__seal_read(koksma__store *store);
 
 /* Begin a transaction unless one is open; end the open transaction if there is one. */
 koksma_status koksma__store_begin(koksma__store *store);
@@ -222,12 +196,6 @@ koksma_status koksma__store_put_text(koksma__store *store, const char *key, cons
 koksma_status koksma__store_find_text(koksma__store *store, const char *key, char **value);
 
 /* ---- store_tables.c ------------------------------------------------------------------------------------------- */
-
-/* Adds the rows of all tables except `result` to the seal. */
-koksma_status koksma__seal_rest(koksma__store *store, koksma__seal *seal);
-
-/* Fails with MALFORMED: the rows in the file are not those that runs wrote. */
-koksma_status koksma__seal_fail(const koksma__store *store);
 
 /* Reads the current row of the statement GET_SERIES, a row of table series. */
 koksma_status koksma__store_read_series(koksma__store *store, koksma__statement *s, koksma__series *key,

@@ -156,10 +156,8 @@ static const char *const queries[KOKSMA__N_QUERIES] = {
     [KOKSMA__PUT_REFERENCE] = "INSERT OR REPLACE INTO reference VALUES (?,?,?,?,?,?,?,?,?)",
     [KOKSMA__GET_REFERENCE] = "SELECT standard_error, pixels FROM reference WHERE scene=? AND scene_hash=? AND "
                               "options=? AND width=? AND height=? AND reference=? AND made_by=?",
-    [KOKSMA__GET_REFERENCES] = "SELECT * FROM reference",
     [KOKSMA__PUT_TEXT] = "INSERT OR REPLACE INTO meta VALUES (?,?)",
     [KOKSMA__GET_TEXT] = "SELECT value FROM meta WHERE key=?",
-    [KOKSMA__GET_TEXTS] = "SELECT key, value FROM meta WHERE key <> 'seal'",
     [KOKSMA__PUT_RUN] = "INSERT INTO run (started, machine, version, workers, jobs, seconds, idle_seconds, "
                         "processor_seconds, store_seconds) VALUES (?,?,?,?,?,?,?,?,?)",
     [KOKSMA__GET_RUN] = "SELECT started, machine, version, workers, jobs, seconds, idle_seconds, processor_seconds, "
@@ -179,7 +177,6 @@ static koksma_status make_store(koksma__database *database, koksma__store **out)
         return koksma__fail_memory(sizeof *store);
     }
     store->database = database;
-    store->sealed.rows = -1;
     pthread_mutex_init(&store->lock, NULL);
     return koksma__store_rows_init(store);
 }
@@ -272,7 +269,7 @@ static koksma_status look(const char *path, bool *exists, koksma__database **out
 }
 
 /* Checks the structure of all pages. A damaged one that is still readable may hide rows from one query and not from
-   another, so that an audit would see all of them and an export would not. */
+   another. */
 static koksma_status check_pages(koksma__database *database)
 {
     koksma__statement *check;
@@ -302,8 +299,7 @@ static koksma_status open_to_read(const char *path, koksma__store **out)
         return status;
     }
     status = make_store(database, out);
-    status = status ? status : open_queries(*out);
-    return status ? status : koksma__seal_read(*out);
+    return status ? status : open_queries(*out);
 }
 
 /* Makes a new store where there was none. A log beside it belongs to a database that is gone, and SQLite would write its
@@ -319,13 +315,6 @@ static koksma_status make_new(const char *path)
                         "%s: the database that it belongs to is gone; remove it, or choose another folder", beside);
     }
     return put_in_place(path);
-}
-
-static void pass(void *context, long long series, long long trial)
-{
-    (void)context;
-    (void)series;
-    (void)trial;
 }
 
 /* Opens a store for the only run that may write it; a second run on the same folder fails instead of doing the
@@ -352,12 +341,7 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     status = status ? status : koksma__database_look(path, &header);
     status = status ? status : check_schema(database, &header);
     status = status ? status : open_queries(*out);
-    status = status ? status : koksma__seal_read(*out);
-    if (!status) {                      /* damage must be reported before any byte is written */
-        (*out)->in_transaction = false; /* else the scan would end the open transaction */
-        status = koksma__store_scan(*out, pass, NULL);
-        (*out)->in_transaction = true;
-    }
+    status = status ? status : check_pages(database); /* damage must be reported before any byte is written */
     if (!status && plan_name) {
         status = check_plan(*out, plan_name);
     }
@@ -380,7 +364,6 @@ koksma_status koksma__store_open(const char *path, koksma__store_mode mode, cons
         *out = NULL;
         return status;
     }
-    store->for_audit = mode == KOKSMA__STORE_AUDIT;
     return KOKSMA_OK;
 }
 

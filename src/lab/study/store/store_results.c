@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads results from the store. A scan reads all rows, compares them with the seal, finds the number of trials of
+/* Reads results from the store. A scan reads all rows, finds the number of trials of
    each series, and keeps up to MOST_KEPT rows in memory, ordered by series. Of larger stores the results of a series are
    looked up trial by trial in the database, or filtered from all rows where that is faster. */
 #include <math.h>
@@ -79,7 +79,7 @@ static void see_row(const koksma__store *store, const koksma__row *row, const vi
 }
 
 /* Reads all rows from the database, in the order of their ids. */
-static koksma_status read_rows(koksma__store *store, const visitor *v, koksma__seal *found)
+static koksma_status read_rows(koksma__store *store, const visitor *v)
 {
     koksma__statement *s = store->queries[KOKSMA__GET_IDS];
     koksma_status status = KOKSMA_OK;
@@ -88,14 +88,13 @@ static koksma_status read_rows(koksma__store *store, const visitor *v, koksma__s
         koksma__row row;
         koksma__read(s, 0, "w", &row.id);
         status = koksma__store_read_row(store, s, 1, &row);
-        koksma__seal_add(found, 1, koksma__checksum_of_row(&row));
+        store->rows++;
         kept.all = kept.all && keep(&kept, &row);
         if (!status) {
             see_row(store, &row, v);
         }
     }
     koksma__statement_reset(s);
-    kept.seal = *found;
     kept.all = kept.all && !status && group_rows(&kept, store->n_known);
     if (!kept.all) {
         KOKSMA__FREE(kept.rows.at, kept.order, kept.first);
@@ -105,23 +104,20 @@ static koksma_status read_rows(koksma__store *store, const visitor *v, koksma__s
     return status;
 }
 
-/* Calls v->see for each result in the order of the rows' ids, and compares the rows with the store's seal. */
+/* Calls v->see for each result in the order of the rows' ids. */
 static koksma_status scan(koksma__store *store, const visitor *v)
 {
-    koksma__seal found = {0};
     koksma_status status = koksma__store_write_rows(store);
     status = status ? status : koksma__store_know_series(store);
     if (!status && store->kept.all) {
-        found = store->kept.seal;
         for (size_t i = 0; i < store->kept.rows.n; i++) {
             see_row(store, &store->kept.rows.at[i], v);
         }
     } else if (!status) {
-        status = read_rows(store, v, &found);
+        store->rows = 0;
+        status = read_rows(store, v);
     }
-    status = status ? status : koksma__seal_rest(store, &found);
-    store->found = found;
-    return status || store->for_audit || koksma__store_is_sealed(store) ? status : koksma__seal_fail(store);
+    return status;
 }
 
 koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
@@ -186,7 +182,7 @@ static koksma_status pass_result(const koksma__store *store, const wanted *w, co
 /* Trials are looked up one by one, or filtered from all rows if that is faster. */
 static koksma_status each_in_database(koksma__store *store, const wanted *w)
 {
-    const bool filter = store->found.rows / ROWS_A_LOOKUP <= w->end;
+    const bool filter = store->rows / ROWS_A_LOOKUP <= w->end;
     koksma__statement *s = store->queries[filter ? KOKSMA__FILTER_RESULTS : KOKSMA__GET_RESULTS];
     koksma_status status = KOKSMA_OK;
     koksma__bind(s, 1, "ww", koksma__group_of(w->series), w->end);
@@ -261,9 +257,4 @@ koksma_status koksma__store_visit(koksma__store *store, koksma__row_visitor visi
     }
     koksma__statement_reset(s);
     return koksma__store_leave(store, status);
-}
-
-bool koksma__store_is_sealed(const koksma__store *store)
-{
-    return store->found.rows == store->seal.rows && store->found.sum == store->seal.sum;
 }

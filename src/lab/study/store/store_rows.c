@@ -35,11 +35,6 @@ static void bind_row(koksma__statement *s, int k, const koksma__row *from)
                  from->values[2], from->values[3]);
 }
 
-static void add_checksum(koksma__store *store, int sign, const koksma__row *row)
-{
-    koksma__seal_add(&store->seal, sign, koksma__checksum_of_row(row));
-}
-
 static koksma_status find_row(koksma__store *store, koksma__row *row, bool *found)
 {
     koksma__statement *s = store->queries[KOKSMA__GET_ROW];
@@ -59,15 +54,10 @@ static koksma_status put_one(koksma__store *store, const koksma__row *from)
     koksma__row row = {.id = from->id};
     bool found;
     KOKSMA__TRY(find_row(store, &row, &found));
-    if (found) {
-        add_checksum(store, -1, &row);
-    } else {
-        row = *from;
-    }
+    row = found ? row : *from;
     for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
         row.values[k] = isnan(row.values[k]) ? from->values[k] : row.values[k];
     }
-    add_checksum(store, 1, &row);
     bind_row(store->queries[KOKSMA__PUT_ROW], 0, &row);
     return koksma__statement_run(store->database, store->queries[KOKSMA__PUT_ROW]);
 }
@@ -86,9 +76,6 @@ static koksma_status put_many(koksma__store *store, const koksma__row *from, siz
         return status;
     }
     *done = (size_t)koksma__database_changes(store->database);
-    for (size_t k = 0; k < *done; k++) {
-        add_checksum(store, 1, &from[k]);
-    }
     return conflict ? put_one(store, &from[(*done)++]) : KOKSMA_OK;
 }
 
