@@ -422,28 +422,29 @@ static bool parse_process(const cli_arguments *arguments, request *r)
     return true;
 }
 
-enum { MOST_SCENE_SPP = 64 };
+enum { MOST_SCENE_SPP = 64, MOST_MEDIUM_SPP = 16 };
 
 /* Takes from the scene what the command line leaves open: the integrator, which is path where a medium asks for it, and
-   the number of samples. That is the number of the scene's own sampler, of which MOST_SCENE_SPP can be ranked within the
-   default time limit. Returns the exit code. */
+   the number of samples. That is the number of the scene's own sampler, up to what can be ranked within the default time
+   limit. Returns the exit code. */
 static int ask_scene(const cli_arguments *arguments, request *r)
 {
     const bool with = cli_text(arguments, "with", NULL);
     koksma_scene *scene = NULL;
-    size_t spp = 0;
+    size_t spp = 0, most = MOST_SCENE_SPP;
     strcpy(r->scene_spp, "16");
     const koksma_status status = with ? KOKSMA_OK : koksma_scene_open(r->options.scene, &scene);
     if (scene) {
         const koksma_scene_counts counts = koksma_scene_count(scene);
         koksma_scene_close(scene);
         spp = counts.spp;
+        most = counts.media ? MOST_MEDIUM_SPP : MOST_SCENE_SPP;
         if (counts.media && !cli_text(arguments, "integrator", NULL)) {
             r->options.integrator = koksma_integrator_find("path");
         }
     }
     if (spp && !r->spp && !cli_text(arguments, "spp", NULL) && !cli_text(arguments, "target-error", NULL)) {
-        const size_t taken = spp < MOST_SCENE_SPP ? spp : MOST_SCENE_SPP;
+        const size_t taken = spp < most ? spp : most;
         snprintf(r->scene_spp, sizeof r->scene_spp, "%zu", taken);
         if (!cli_flag(arguments, "quiet")) {
             cli_say("rank",
@@ -549,7 +550,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'n', "spp", "N,..",
      "numbers of samples per pixel; each gets its own ranking (default: that of "
-     "the scene's own sampler, at most 64, or 16)"},
+     "the scene's own sampler, at most 64 or in a medium 16; else 16)"},
     {'p', "patterns", "PATTERN,..|modern|thesis|later|all", "patterns to rank, also SPEC@N (default: modern)"},
     {0, "target-error", "ERROR", "print how many samples of each pattern leave this error, instead of a ranking"},
     {0, "size", "WxH", "image size (default: that of the scene, halved until it has at most 19,200 pixels)"},

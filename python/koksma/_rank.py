@@ -293,7 +293,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
         "thesis": the seven of Shirley 1991. One that has no set of spp points is not ranked (`reason` of its row);
         one whose file is missing or malformed, or whose program may not run, raises.
     spp : int, optional
-        Samples a pixel. Left out, as many as the scene's own sampler takes (`check_scene`), 64 at most, else 16.
+        Samples a pixel. Left out, as many as the scene's own sampler takes (`check_scene`), 64 at most, or 16 in a medium; else 16.
     size : (width, height), optional
         Without it the scene's own, halved until it has 19,200 pixels at most.
     integrator, filter : str, optional
@@ -343,7 +343,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
     if renderer is None and (spp is None or integrator is None):
         found = check_scene(scene)
         integrator = "path" if integrator is None and found.media else integrator
-        spp = min(found.spp or 16, 64) if spp is None else spp
+        spp = min(found.spp or 16, 16 if found.media else 64) if spp is None else spp
     asked = _Request(scene, patterns, 16 if spp is None else spp, size, integrator, filter, adaptive, metric, time_limit, renderer, reference, seed, depth, lights,
                      scope, process)
     asked.options.one_size = flag("one_size", one_size)

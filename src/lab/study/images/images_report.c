@@ -157,7 +157,7 @@ static void put_chart(koksma__document *d, const koksma__images *all)
         koksma_metric_text(all->metric, metric);
     }
     koksma__doc_chart_begin(
-        d, &(koksma__chart){"Error against samples a pixel", "samples a pixel", metric, true, true, -1});
+        d, &(koksma__chart){"Error against samples a pixel", "samples a pixel", metric, true, true, -1, NULL});
     for (size_t i = 0; i < all->n; i++) {
         const koksma_images_row *row = &all->rows[i];
         if (i == 0 || !same_group(row, row - 1)) {

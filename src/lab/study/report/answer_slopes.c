@@ -370,7 +370,7 @@ static void add_subject(koksma__report *r, koksma__document *d, const char *id, 
     snprintf(title, sizeof title, "%.200s against N", of->name);
     koksma__doc_chart_begin(&chart, &(koksma__chart){title, of->images ? "samples a pixel" : "points",
                                                      of->images ? of->metric : of->measure, true, true,
-                                                     s.sense == LARGER ? 1 : -1});
+                                                     s.sense == LARGER ? 1 : -1, NULL});
     koksma__doc_sorted_table_begin(&rows, "slope", true, false, "slopes-%.32s-%zu", id, number);
     koksma__doc_columns(&rows, "t pattern;i3 slope##%s;t power law?", of->metric);
     for (size_t i = 0; i < of->n->n; i++) {

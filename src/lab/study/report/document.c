@@ -548,13 +548,21 @@ void koksma__doc_table_end(koksma__document *d)
 
 /* ---- Charts ------------------------------------------------------------------------------------------------ */
 
-static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log, int better)
+static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log, int better,
+                     const char *const *names)
 {
     koksma__json_begin_object(&d->json, key);
     koksma__json_write_text(&d->json, "title", title);
     koksma__json_write_flag(&d->json, "log", is_log);
     if (better) {
         koksma__json_write_text(&d->json, "better", better > 0 ? "larger" : "smaller");
+    }
+    if (names) {
+        koksma__json_begin_array(&d->json, "names");
+        for (; *names; names++) {
+            koksma__json_write_text(&d->json, NULL, *names);
+        }
+        koksma__json_end(&d->json);
     }
     koksma__json_end(&d->json);
 }
@@ -563,8 +571,8 @@ void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *c)
 {
     begin_block(d, "chart", NULL);
     koksma__json_write_text(&d->json, "title", c->title);
-    put_axis(d, "x", c->x_title, c->log_x, 0);
-    put_axis(d, "y", c->y_title, c->log_y, c->better);
+    put_axis(d, "x", c->x_title, c->log_x, 0, NULL);
+    put_axis(d, "y", c->y_title, c->log_y, c->better, c->names);
     koksma__json_begin_array(&d->json, "series");
     memset(d->curves, 0, sizeof d->curves);
 }
@@ -740,6 +748,53 @@ static void put_page(FILE *f, koksma__page_kind kind, const char *json)
     fputs(then + sizeof numbers - 1, f);
     fputs(json, f);
     fputs(koksma__page_foot, f);
+}
+
+void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *path)
+{
+    const char *name = strrchr(path, '/');
+    const size_t length = name ? (size_t)(name + 1 - path) : 0;
+    size_t same = 0;
+    if (*path != '/' || length >= KOKSMA__FOLDER) {
+        return;
+    }
+    if (!*folder) {
+        memcpy(folder, path, length);
+        folder[length] = '\0';
+        return;
+    }
+    while (same < length && folder[same] == path[same]) {
+        same++;
+    }
+    while (folder[same - 1] != '/') { /* both begin with one */
+        same--;
+    }
+    folder[same] = '\0';
+}
+
+void koksma__doc_hide_folder(koksma__document *d, const char folder[KOKSMA__FOLDER])
+{
+    koksma__json_writer w = {.in_html = d->json.in_html};
+    if (strlen(folder) > 1 && d->json.text) {
+        koksma__json_write_text(&w, NULL, folder);
+        const size_t length = w.status ? 0 : w.size - 2; /* without its quotes */
+        if (length) {
+            w.text[length + 1] = '\0';
+        }
+        char *to = d->json.text;
+        for (const char *at = to, *next; length; at = next + length) {
+            next = strstr(at, w.text + 1);
+            const size_t kept = next ? (size_t)(next - at) : strlen(at);
+            memmove(to, at, kept);
+            to += kept;
+            if (!next) {
+                d->json.size = (size_t)(to - d->json.text);
+                *to = '\0';
+                break;
+            }
+        }
+    }
+    koksma__json_writer_fini(&w);
 }
 
 char *koksma__page_text(koksma__page_kind kind, const char *json)

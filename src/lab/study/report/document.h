@@ -128,6 +128,7 @@ typedef struct koksma__chart {
     bool log_x, log_y;
     /* which y is better: -1 smaller, 1 larger, 0 neither; of too many lines, the page first draws the best */
     int better;
+    const char *const *names; /* names of y = 1, 2, ..., ended by NULL, in place of ticks; NULL: numbers */
 } koksma__chart;
 
 /* How a series is drawn: LINE: marks joined by lines; MARKS: marks alone; THEORY: a dashed line without marks;
@@ -172,6 +173,13 @@ void koksma__doc_picture(koksma__document *d, const koksma_image *image, const c
 
 /* What a page is about: a browser without JavaScript shows only that and where the numbers are. */
 typedef enum koksma__page_kind { KOKSMA__PAGE_STUDY, KOKSMA__PAGE_IMAGES, KOKSMA__PAGE_DATASHEET } koksma__page_kind;
+
+/* A page that is published does not show where its author keeps files. koksma__folder_join makes `folder`, at first empty,
+   the folder that it and an absolute path have in common, with a slash at its end; koksma__doc_hide_folder removes it from
+   all texts of a finished document, unless it is the root. */
+enum { KOKSMA__FOLDER = 4096 };
+void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *path);
+void koksma__doc_hide_folder(koksma__document *d, const char folder[KOKSMA__FOLDER]);
 
 /* Returns the page with the JSON text in it, which the caller frees; NULL: out of memory. */
 char *koksma__page_text(koksma__page_kind kind, const char *json);

@@ -279,7 +279,7 @@ static void add_spectra(koksma__report *r, koksma__document *d, const koksma__ta
     snprintf(title, sizeof title,
              "Spectrum of the image error: %.200s, %lld sample%s a pixel, mean over rings and %d trial%s", name,
              first->n, koksma__plural((double)first->n), (int)averaged(first), koksma__plural((double)first->trials));
-    koksma__doc_chart_begin(d, &(koksma__chart){title, "cycles a pixel", "power", false, true, 0});
+    koksma__doc_chart_begin(d, &(koksma__chart){title, "cycles a pixel", "power", false, true, 0, NULL});
     for (size_t p = 0; !r->status && p < n; p++) {
         const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
         koksma__error_spectrum spectrum = {0};

@@ -280,7 +280,7 @@ static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma
     sizes_table s = {.report = r, .document = d, .table = t};
     snprintf(title, sizeof title, "Table %.60s: %.110s%s", t->id, t->title,
              t->rows[0].n_published ? ". Hollow: printed" : "");
-    koksma__doc_chart_begin(&s.chart, &(koksma__chart){title, "points", t->measure, true, true, 0});
+    koksma__doc_chart_begin(&s.chart, &(koksma__chart){title, "points", t->measure, true, true, 0, NULL});
     begin_table(d, t);
     add_size_columns(d, t);
     for (size_t i = 0; i < t->n_rows; i++) {

@@ -6,6 +6,7 @@
  * differ. sections.def lists the sections, of which the three on the study's runs are here. Each file is replaced as a
  * whole, report.json first.
  */
+#include <stdio.h>
 #include <string.h>
 
 #include "core/parallel.h"
@@ -102,6 +103,35 @@ static koksma_status build(koksma__report *r, const koksma_run *run, koksma__doc
     return r->status ? r->status : d->json.status;
 }
 
+/* Adds the paths of a pattern's text, of one use or of several. */
+static void join_paths(char folder[KOKSMA__FOLDER], const char *pattern)
+{
+    char path[KOKSMA_MAX_PATTERNS_TEXT];
+    for (size_t at = 0; (at = koksma_plan_path(pattern, at)) > 0;) {
+        snprintf(path, sizeof path, "%.*s", (int)strcspn(pattern + at, ";,"), pattern + at);
+        koksma__folder_join(folder, path);
+    }
+}
+
+static void hide_folders(const koksma__plan *plan, koksma__document *d)
+{
+    char folder[KOKSMA__FOLDER] = "";
+    for (size_t i = 0; i < plan->n_discrepancies; i++) {
+        for (size_t k = 0; k < plan->discrepancies[i].patterns.n; k++) {
+            join_paths(folder, plan->discrepancies[i].patterns.at[k]);
+        }
+    }
+    for (size_t i = 0; i < plan->n_images; i++) {
+        for (size_t k = 0; k < plan->images[i].patterns.n; k++) {
+            join_paths(folder, plan->images[i].patterns.at[k]);
+        }
+        for (size_t k = 0; k < plan->images[i].scenes.n; k++) {
+            koksma__folder_join(folder, plan->images[i].scenes.at[k]);
+        }
+    }
+    koksma__doc_hide_folder(d, folder);
+}
+
 koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
 {
     KOKSMA__REQUIRE(study);
@@ -112,6 +142,7 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
     koksma__study_forget_files(study);
     koksma_status status = build(&r, run, &d);
     koksma__mean_coherence_forget(&r);
+    hide_folders(&study->plan, &d);
     status = status ? status : koksma__page_write(study->folder, KOKSMA__PAGE_STUDY, d.json.text);
     koksma__json_writer_fini(&d.json);
     return status;

@@ -76,6 +76,16 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
     status = status ? status : koksma__sheet_projections(sheet, d);
     put_origin(sheet, d);
     koksma__json_end(&d->json);
+    char folder[KOKSMA__FOLDER] = "";
+    for (size_t i = 0; i < sheet->n_samplers; i++) {
+        const char *text = sheet->samplers[i]->text;
+        const size_t at = koksma_plan_path(text, 0);
+        koksma__folder_join(folder, at ? text + at : "");
+    }
+    for (size_t i = 0; sheet->options->scenes && i < sheet->options->n_scenes; i++) {
+        koksma__folder_join(folder, sheet->options->scenes[i]);
+    }
+    koksma__doc_hide_folder(d, folder);
     return status;
 }
 

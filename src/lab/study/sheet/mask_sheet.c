@@ -464,7 +464,7 @@ static koksma_status put_curve(const mask_sheet *s, const curve *c, koksma__docu
 {
     double x[RINGS + BINS], y[RINGS + BINS];
     koksma_status status = KOKSMA_OK;
-    koksma__doc_chart_begin(d, &(koksma__chart){c->title, c->x, c->y, false, false, 0});
+    koksma__doc_chart_begin(d, &(koksma__chart){c->title, c->x, c->y, false, false, 0, NULL});
     for (size_t i = 0; i < s->n && !status; i++) {
         status = c->make(&s->masks[i], x, y);
         koksma__doc_series_begin(d, s->names[i], NULL, KOKSMA__SERIES_LINE);

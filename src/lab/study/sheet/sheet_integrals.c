@@ -41,9 +41,10 @@ static koksma_status compute(const koksma__sheet *sheet, const koksma_run *run, 
     return status;
 }
 
-static koksma__estimate rmse_of(const koksma_integration_row *row)
+/* A sampler with one set has one error, without an interval. */
+static koksma__estimate rmse_of(const koksma_integration_row *row, const koksma__sheet_sampler *sampler)
 {
-    return (koksma__estimate){row->rmse, row->low, row->high};
+    return (koksma__estimate){row->rmse, sampler->same ? row->rmse : row->low, sampler->same ? row->rmse : row->high};
 }
 
 static void put_chart(const koksma__sheet *sheet, const char *name, const koksma_integration *results,
@@ -53,7 +54,7 @@ static void put_chart(const koksma__sheet *sheet, const char *name, const koksma
     for (size_t k = 0; k < sheet->n_samplers * sheet->n_sizes; k++) {
         positive = positive && results[k / sheet->n_sizes].rows[k % sheet->n_sizes].rmse > 0;
     }
-    koksma__doc_chart_begin(d, &(koksma__chart){name, "points n", "RMSE", true, positive, -1});
+    koksma__doc_chart_begin(d, &(koksma__chart){name, "points n", "RMSE", true, positive, -1, NULL});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__doc_series_begin(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < sheet->n_sizes; i++) {
@@ -75,8 +76,8 @@ static void put_table(const koksma__sheet *sheet, const koksma_integration *resu
         const koksma_integration_row *last = &r->rows[sheet->n_sizes - 1];
         const bool biased = sheet->bias.biased && k % sheet->n_samplers == 0;
         koksma__doc_row(d);
-        koksma__doc_cells(d, "ttiinn", integrands[k / sheet->n_samplers],
-                          sheet->samplers[k % sheet->n_samplers]->text, rmse_of(last),
+        const koksma__sheet_sampler *sampler = sheet->samplers[k % sheet->n_samplers];
+        koksma__doc_cells(d, "ttiinn", integrands[k / sheet->n_samplers], sampler->text, rmse_of(last, sampler),
                           (koksma__estimate){r->slope.value, r->slope.low, r->slope.high},
                           biased ? (double)NAN : last->gain, (double)last->trials);
         approximate += last->approximate || r->slope.approximate;
@@ -131,7 +132,14 @@ koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d)
                               "sampler has none. For a sampler that has only one set, the error is that of this set.",
                               sheet->sizes[sheet->n_sizes - 1]);
         put_table(sheet, results, d);
-        for (size_t i = 0; i < N_INTEGRANDS; i++) {
+        double errors[N_INTEGRANDS * KOKSMA__SHEET_SAMPLERS];
+        for (size_t i = 0; i < count; i++) {
+            errors[i] = results[i].rows[0].rmse;
+        }
+        if (sheet->n_sizes == 1 && sheet->n_samplers > 1) {
+            koksma__sheet_put_dots(sheet, "Errors", integrands, N_INTEGRANDS, errors, d);
+        }
+        for (size_t i = 0; i < N_INTEGRANDS && sheet->n_sizes > 1; i++) {
             put_chart(sheet, integrands[i], results + i * sheet->n_samplers, d);
         }
         put_commands(sheet, d);

@@ -188,10 +188,11 @@ koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet)
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
 
-/* A mean and its interval, which begins at 0 or above, because no measure is negative. */
-static koksma__estimate mean_of(const koksma_tally *t)
+/* A mean and its interval, which begins at 0 or above, because no measure is negative, and is empty for an exact value. */
+static koksma__estimate mean_of(const koksma__sheet_values *v, size_t s, size_t m, size_t i)
 {
-    const double half = koksma_tally_interval(t), low = t->mean - half;
+    const koksma_tally *t = koksma__sheet_tally(v, s, m, i);
+    const double half = v->samplers[s]->same ? 0 : koksma_tally_interval(t), low = t->mean - half;
     return (koksma__estimate){t->mean, low < 0 ? 0 : low, t->mean + half};
 }
 
@@ -229,18 +230,23 @@ static void put_summary(const koksma__sheet_values *v, koksma__document *d)
 {
     const size_t last = v->n_sizes - 1;
     koksma__doc_table_begin(d, "measures");
-    koksma__doc_columns(d, v->n_samplers > 1 ? "t measure;i3 mean;i2f slope;t best of the others;i3 its mean"
-                                             : "t measure;i3 mean;i2f slope");
+    const bool one = v->n_sizes == 1, others = v->n_samplers > 1; /* one size has no slope */
+    koksma__doc_columns(d, one && others ? "t measure;i3 mean;t best of the others;i3 its mean"
+                           : one         ? "t measure;i3 mean"
+                           : others      ? "t measure;i3 mean;i2f slope;t best of the others;i3 its mean"
+                                         : "t measure;i3 mean;i2f slope");
     for (size_t m = 0; m < v->n_measures; m++) {
         if (v->measures[m].left_out) {
             continue;
         }
         koksma__doc_row(d);
-        koksma__doc_cells(d, "tii", v->measures[m].name, mean_of(koksma__sheet_tally(v, 0, m, last)),
-                          slope_of(v, 0, m));
-        if (v->n_samplers > 1) {
+        koksma__doc_cells(d, "ti", v->measures[m].name, mean_of(v, 0, m, last));
+        if (!one) {
+            koksma__doc_cells(d, "i", slope_of(v, 0, m));
+        }
+        if (others) {
             const size_t best = best_beside(v, m);
-            koksma__doc_cells(d, "ti", v->samplers[best]->text, mean_of(koksma__sheet_tally(v, best, m, last)));
+            koksma__doc_cells(d, "ti", v->samplers[best]->text, mean_of(v, best, m, last));
         }
     }
     koksma__doc_table_end(d);
@@ -257,16 +263,63 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
         positive &= koksma__sheet_tally(v, k / v->n_sizes, m, k % v->n_sizes)->mean > 0;
     }
     koksma__doc_chart_begin(d, &(koksma__chart){title, "points n", v->measures[m].name, true, positive,
-                                                measure->larger_is_better ? 1 : -1});
+                                                measure->larger_is_better ? 1 : -1, NULL});
     for (size_t s = 0; s < v->n_samplers; s++) {
         koksma__doc_series_begin(d, v->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < v->n_sizes; i++) {
-            const koksma__estimate e = mean_of(koksma__sheet_tally(v, s, m, i));
+            const koksma__estimate e = mean_of(v, s, m, i);
             koksma__doc_point(d, (double)v->sizes[i], e.value, e.low, e.high);
         }
         koksma__doc_end(d);
     }
     koksma__doc_end(d);
+}
+
+void koksma__sheet_put_dots(const koksma__sheet *sheet, const char *what, const char *const *names, size_t n,
+                            const double *values, koksma__document *d)
+{
+    const char *upwards[KOKSMA__SHEET_MEASURES + 1] = {NULL}, *other = sheet->samplers[1]->text;
+    char title[KOKSMA_MAX_SPEC + 128], axis[KOKSMA_MAX_SPEC + 64];
+    snprintf(title, sizeof title, "%s, as multiples of those of %s: further left is better", what, other);
+    snprintf(axis, sizeof axis, "multiple of %s", other);
+    for (size_t i = 0; i < n; i++) {
+        upwards[n - 1 - i] = names[i];
+    }
+    koksma__doc_chart_begin(d, &(koksma__chart){title, axis, "", .log_x = true, .names = upwards});
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        koksma__doc_series_begin(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_MARKS);
+        for (size_t i = 0; i < n; i++) {
+            const double ratio = values[i * sheet->n_samplers + s] / values[i * sheet->n_samplers + 1];
+            koksma__doc_point(d, ratio > 0 ? ratio : (double)NAN, (double)(n - i), NAN, NAN);
+        }
+        koksma__doc_end(d);
+    }
+    koksma__doc_end(d);
+}
+
+/* A dot for each measure and sampler: what a sheet of one size has in place of lines against n. */
+static void put_dots(const koksma__sheet *sheet, const koksma__sheet_values *v, koksma__document *d)
+{
+    char text[KOKSMA__SHEET_MEASURES][KOKSMA_MAX_SPEC + 16];
+    const char *names[KOKSMA__SHEET_MEASURES];
+    double values[KOKSMA__SHEET_MEASURES * KOKSMA__SHEET_SAMPLERS];
+    size_t n = 0;
+    for (size_t m = 0; m < v->n_measures; m++) {
+        if (v->measures[m].left_out) {
+            continue;
+        }
+        const bool larger = v->measures[m].spec.measure->larger_is_better;
+        snprintf(text[n], sizeof text[n], "%s%s", larger ? "1 / " : "", v->measures[m].name);
+        names[n] = text[n];
+        for (size_t s = 0; s < v->n_samplers; s++) {
+            const double mean = koksma__sheet_tally(v, s, m, 0)->mean;
+            values[n * v->n_samplers + s] = larger ? 1 / mean : mean;
+        }
+        n++;
+    }
+    if (n && v->n_samplers > 1) {
+        koksma__sheet_put_dots(sheet, "Measures", names, n, values, d);
+    }
 }
 
 /* Writes a table with every number in its own row. */
@@ -280,7 +333,7 @@ static void put_values(const koksma__sheet_values *v, const char *name, koksma__
                 const koksma_tally *t = koksma__sheet_tally(v, s, m, i);
                 koksma__doc_row(d);
                 koksma__doc_cells(d, "ttninn", v->measures[m].name, v->samplers[s]->text, (double)v->sizes[i],
-                                  mean_of(t), koksma_tally_sd(t), t->count);
+                                  mean_of(v, s, m, i), koksma_tally_sd(t), t->count);
             }
         }
     }
@@ -332,18 +385,22 @@ void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
     koksma__doc_section(d, "measures", "Discrepancies and distances");
     koksma__doc_paragraph(
         d,
-        "Means over sets at n = %zu, and slopes of log mean over log n. Intervals are " KOKSMA__MEAN_INTERVALS
+        "Means over sets at n = %zu%s. Intervals are " KOKSMA__MEAN_INTERVALS
         ". A deterministic sampler has one set of each size; its values are exact and have no interval.",
-        v->sizes[v->n_sizes - 1]);
+        v->sizes[v->n_sizes - 1], v->n_sizes > 1 ? ", and slopes of log mean over log n" : "");
     put_summary(v, d);
-    for (size_t m = 0; m < v->n_measures; m++) {
-        if (!v->measures[m].left_out) {
-            put_chart(v, m, d);
+    if (v->n_sizes == 1) {
+        put_dots(sheet, v, d);
+    } else {
+        for (size_t m = 0; m < v->n_measures; m++) {
+            if (!v->measures[m].left_out) {
+                put_chart(v, m, d);
+            }
         }
+        koksma__doc_collapsed_section(d, "slopes", "Slopes of all samplers");
+        put_slopes(v, d);
+        koksma__doc_end(d);
     }
-    koksma__doc_collapsed_section(d, "slopes", "Slopes of all samplers");
-    put_slopes(v, d);
-    koksma__doc_end(d);
     koksma__doc_collapsed_section(d, "values", "All values, and the commands that give them");
     koksma__sheet_put_values(sheet, v, "values", d);
     koksma__doc_end(d);

@@ -137,8 +137,8 @@ static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document
 {
     char title[128];
     snprintf(title, sizeof title, "Error in %s", sheet->scenes[scene]);
-    koksma__doc_chart_begin(d,
-                            &(koksma__chart){title, "samples a pixel", sheet->metric.metric->title, true, true, -1});
+    koksma__doc_chart_begin(
+        d, &(koksma__chart){title, "samples a pixel", sheet->metric.metric->title, true, true, -1, NULL});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__doc_series_begin(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t k = 0; k < sheet->n_spp; k++) {

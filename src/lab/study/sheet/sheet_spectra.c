@@ -100,7 +100,7 @@ static koksma_status put_radial(const spectra *all, size_t n, koksma__document *
     koksma_ring *rings = malloc((size_t)half * sizeof *rings);
     koksma_status status = rings ? KOKSMA_OK : koksma__fail_memory((size_t)half * sizeof *rings);
     koksma__doc_chart_begin(
-        d, &(koksma__chart){"Radial mean of the power", "frequency / sqrt(n)", "power", false, false, 0});
+        d, &(koksma__chart){"Radial mean of the power", "frequency / sqrt(n)", "power", false, false, 0, NULL});
     for (size_t s = 0; s < n && !status; s++) {
         status = koksma_spectrum_rings(&all[s].radial, rings);
         koksma__doc_series_begin(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
@@ -118,7 +118,7 @@ static koksma_status put_radial(const spectra *all, size_t n, koksma__document *
 static void put_pairs(const spectra *all, size_t n, koksma__document *d)
 {
     koksma__doc_chart_begin(d, &(koksma__chart){"Pair correlation", "distance on the torus × sqrt(n)",
-                                                "pairs, relative to random points", false, false, 0});
+                                                "pairs, relative to random points", false, false, 0, NULL});
     for (size_t s = 0; s < n; s++) {
         koksma__doc_series_begin(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t b = 0; b < BINS; b++) {
