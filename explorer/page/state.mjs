@@ -67,8 +67,11 @@ export function toHash(state) {
 }
 
 // The state of a hash; what it lacks or has wrong is as in a new one.
+// What a page without an address of its own opens with: the two sets of README's picture.
+const opening = "a=random@16&a.seed=3&b=sobol:scramble%3Dowen@16&strata=none&witness=star";
+
 export function fromHash(text) {
-  const query = new URLSearchParams(text.replace(/^#/, "")), state = newState();
+  const query = new URLSearchParams(text.replace(/^#/, "") || opening), state = newState();
   for (const name of ["a", "b"]) {
     const set = parseSource(query.get(name) || "");
     if (!set) continue;

@@ -58,7 +58,7 @@ async function until(page, condition) {
   }
 }
 
-async function open(browser, { hash = "", colorScheme = "light", width = 1280, before, limit_s } = {}) {
+async function open(browser, { hash = "#a=n-rooks@16", colorScheme = "light", width = 1280, before, limit_s } = {}) {
   const context = await browser.newContext({ colorScheme, viewport: { width, height: 900 }, acceptDownloads: true });
   const page = await context.newPage();
   page.on("console", m => check(!["error", "warning"].includes(m.type()), "console: " + m.text()));

@@ -380,6 +380,18 @@ async function narrow(browser) {
   await page.context().close();
 }
 
+// The page opens with random points beside Sobol's; the first control is that of the pattern; on a phone points are seen at once.
+async function opening(browser) {
+  const page = await open(browser, { hash: "", width: 390 });
+  await page.setViewportSize({ width: 390, height: 844 });
+  const hash = await page.evaluate(() => koksmaExplorer.hash());
+  check(hash.includes("a=random@16") && hash.includes("b=sobol"), "the opening is " + hash);
+  check(await page.evaluate(() => document.querySelector("main select:not(#chosen)").id) === "a-pattern", "the first control is not the pattern's");
+  const bottom = await page.locator(".set-a svg.plane").evaluate(node => node.getBoundingClientRect().bottom);
+  check(bottom <= 844, `at 390 px the points end at ${bottom} of 844`);
+  await page.context().close();
+}
+
 // The ten steps by keyboard alone: each sets the state, points at something that is seen, and can be left.
 async function tour(browser) {
   for (const [width, colorScheme] of [[1280, "dark"], [400, "light"]]) {
@@ -395,6 +407,13 @@ async function tour(browser) {
         const box = document.querySelector(".pointed")?.getBoundingClientRect(), card = document.getElementById("tour").getBoundingClientRect();
         return box && box.top < innerHeight && box.bottom > 0 && card.bottom <= innerHeight + 1 && card.top >= 0;
       });
+      // Steps 6 and 8 are about set B, which is seen above the text.
+      const ofB = { 6: "#inequality-heads > :last-child", 8: "#spectra > :nth-child(2) canvas" }[step];
+      const seenB = !ofB || await page.evaluate(selector => {
+        const box = document.querySelector(selector).getBoundingClientRect();
+        return box.top >= 0 && box.top < document.getElementById("tour").getBoundingClientRect().top && box.left >= 0 && box.right <= innerWidth + 1;
+      }, ofB);
+      check(width > 700 || seenB, `${width} px, step ${step}: set B is not seen`);
       check(seen, `${width} px, step ${step}: what it points at, or its text, is not seen`);
       // What a step asks to choose or to move is on top at its place in the window, and the text says what came of it.
       const asked = { 4: "#strata", 5: "#split" }[step];
@@ -485,6 +504,7 @@ async function looks(browser) {
     await waiting(browser);
     await searching(browser);
     await narrow(browser);
+    await opening(browser);
     await tour(browser);
     await looks(browser);
   } catch (error) {
