@@ -5,6 +5,7 @@
  * as arrays; a NULL or a status other than 0 means that koksma_error_text() has the reason.
  * Long because all functions share one set of points and one text.
  */
+#include <koksma/estimate.h>
 #include <koksma/integrate.h>
 #include <koksma/koksma.h>
 #include <koksma/mask.h>
@@ -40,6 +41,7 @@ EXPLORER_API const char *explorer_line(uint32_t n, int dim);
 EXPLORER_API double *explorer_spectrum(int half, int x, int y);
 EXPLORER_API const char *explorer_rings(void);
 EXPLORER_API const char *explorer_inequality(int x, int y);
+EXPLORER_API const char *explorer_replicates(uint32_t n, int dim, uint32_t seed_low, uint32_t seed_high);
 EXPLORER_API const char *explorer_optimise(uint32_t steps, int brief, uint32_t seed_low, uint32_t seed_high);
 
 /* A function of the page: takes the best points after each step, and returns whether to go on. */
@@ -185,6 +187,15 @@ const char *explorer_tables(void)
         put(",");
         put_params(m->params);
         put("}");
+    }
+    put("],\"integrands\":[");
+    const koksma_integrand *f;
+    for (size_t i = 0, known = 0; (f = koksma_integrand_at(i)); i++) {
+        if (f->axes == 2) {
+            put("%s{\"name\":\"%s\",\"title\":", known++ ? "," : "", f->name);
+            put_text(f->title);
+            put("}");
+        }
     }
     put("]}");
     return finish();
@@ -517,6 +528,65 @@ const char *explorer_inequality(int x, int y)
     koksma_points_fini(&of[1]);
     const char *text = finish();
     return good ? text : NULL;
+}
+
+/* ---- Replicates ----------------------------------------------------------------------------------------- */
+
+enum { REPLICATES = 15 }; /* as many as `koksma integrate` takes */
+
+static void put_estimate(const char *estimator, const double *values)
+{
+    koksma_integral_estimate e;
+    const koksma_estimate_options o = {.estimator = estimator};
+    if (koksma_estimate_integral(&o, values, REPLICATES, &one_thread, &e)) {
+        out.failed = true;
+        return;
+    }
+    put("{\"estimator\":\"%s\",\"interval\":\"%s\",\"value\":%.17g,\"low\":%.17g,\"high\":%.17g}", e.estimator,
+        e.interval, e.value, e.low, e.high);
+}
+
+/* Estimates of an integral by sets with the seeds from this one on; the text in is the integrand's spec, a newline and the
+   pattern's. Mean and median with their intervals are those of koksma_integrate_to. */
+const char *explorer_replicates(uint32_t n, int dim, uint32_t seed_low, uint32_t seed_high)
+{
+    char *border = strchr(text_in, '\n');
+    koksma_spec spec;
+    koksma_integral *integral = NULL;
+    koksma_integral_facts facts;
+    double values[REPLICATES];
+    koksma_status status = border && dim > 1 ? KOKSMA_OK : KOKSMA_ARGUMENT;
+    if (border) {
+        *border = '\0';
+    }
+    status = status ? status : koksma_pattern_spec(border + 1, &spec);
+    if (!status && (koksma_has_one_set(&spec) || !koksma_is_unbiased(&spec))) {
+        put("{\"error\":\"%s\"}",
+            koksma_has_one_set(&spec)
+                ? "The pattern has one set, whose error no interval knows; shift or scramble it."
+                : "The pattern is not known to be unbiased: its estimates may be around another value.");
+        return finish();
+    }
+    status = status ? status : koksma_integral_open(text_in, dim, &integral);
+    for (uint32_t r = 0; r < REPLICATES && !status; r++) {
+        const uint64_t seed = ((uint64_t)seed_high << 32 | seed_low) + r;
+        status = explorer_room(n, dim) ? koksma_generate(&spec, seed, &one_thread, &points) : KOKSMA_MEMORY;
+        status = status ? status : koksma_integrate(integral, &points, &one_thread, &values[r]);
+    }
+    if (!status) {
+        koksma_integral_about(integral, &facts);
+        put("{\"truth\":%.17g,\"values\":[", facts.value);
+        for (int r = 0; r < REPLICATES; r++) {
+            put("%s%.17g", r ? "," : "", values[r]);
+        }
+        put("],\"estimates\":[");
+        put_estimate("mean", values);
+        put(",");
+        put_estimate("median", values);
+        put("]}");
+    }
+    koksma_integral_close(integral);
+    return status ? NULL : finish();
 }
 
 /* ---- Optimisation --------------------------------------------------------------------------------------- */

@@ -88,7 +88,7 @@ export type Key = number | bigint;
 
 /** Every function throws a KoksmaError. None shares state with another instance; a worker opens its own. */
 export interface Koksma {
-  tables(): { version: string; max_spec: number; patterns: PatternInfo[]; measures: MeasureInfo[] };
+  tables(): { version: string; max_spec: number; patterns: PatternInfo[]; measures: MeasureInfo[]; integrands: { name: string; title: string }[] };
   /** The points of a pattern, such as "sobol:scramble=owen": bit for bit those of the program. */
   generate(spec: string, options: { n: number; dim?: number; seed?: Key }): GeneratedPoints;
   /** A measure of points, such as "star" or "disk:r=0.1". */

@@ -7,6 +7,7 @@ import { Inequality } from "./inequality.mjs";
 import { Jobs } from "./jobs.mjs";
 import { Measures } from "./measures.mjs";
 import { Pictures } from "./pictures.mjs";
+import { Replicates } from "./replicates.mjs";
 import { sizeFor } from "./scenes.mjs";
 import { search_s } from "./search.mjs";
 import { SetView } from "./set_view.mjs";
@@ -16,9 +17,9 @@ import { fromHash, limits, movesFit, newSet, sourceOf, toHash } from "./state.mj
 import { exponent, strataOf } from "./strata.mjs";
 import { Tour } from "./tour.mjs";
 
-const ranks = { points: 0, search: 1.5, picture: 2, spectrum: 12, inequality: 22, quality: 25, decay: 30 };
+const ranks = { points: 0, search: 1.5, picture: 2, spectrum: 12, inequality: 22, replicates: 23, quality: 25, decay: 30 };
 const names = ["a", "b"];
-const inequality = new Inequality();
+const inequality = new Inequality(), replicates = new Replicates();
 let state = fromHash(location.hash), tables, jobs, measures, decay, pictures, tour, shown = [], hashTimer = 0;
 const views = {}, spectra = {}, frames = new Set();
 
@@ -179,6 +180,18 @@ function choosePictures() {
   pictures.choose(names, names.length ? "" : "Pictures take two coordinates.");
 }
 
+// The integral from sets of the pattern; points that were moved have no part in it.
+function integrate(name) {
+  const { spec, n, dim, seed } = state[name];
+  jobs.drop(dim < 2 ? `${name}/replicates` : "none");
+  if (dim < 2) {
+    replicates.show(name, { error: "The functions take two coordinates." });
+    return;
+  }
+  jobs.ask(`${name}/replicates`, ranks.replicates, { kind: "replicates", integrand: state.integrand, spec, n, dim, seed: BigInt(seed) },
+    answer => replicates.show(name, answer));
+}
+
 function measureOne(name, measure, fresh = false) {
   const key = `${name}/measure/${measure}/`, { min_dim, max_dim } = measures.rows.get(measure).member;
   if (!measures.serves(measure, state[name].dim)) {
@@ -206,6 +219,7 @@ function refresh(name) {
   for (const measure of shown) measures.wait(measure, name);
   for (const scene of pictures.names) pictures.show(scene, name, null);
   inequality.show(name, null);
+  replicates.show(name, null);
   spectra[name].wait(titleOf(name));
   choosePictures();
   jobs.ask(`${name}/points`, ranks.points, { kind: "generate", spec, n, dim, seed: BigInt(seed) }, answer => {
@@ -222,6 +236,7 @@ function refresh(name) {
       for (const [i, xs] of state[name].edits) view.points.xs.set(xs, i * dim);
       measureAll(name, true);
       decay.ask(name);
+      integrate(name);
       view.search.enable(!jobs.inPage, jobs.inPage ? "A search needs workers, which this browser gives the page none of." : "");
       const other = name === "a" ? "b" : "a"; // its pictures may have another size now
       if (state[other] && views[other].current) drawPictures(other, false);
@@ -352,12 +367,14 @@ function showAll() {
       views[name].points = null;
       measures.clear(name);
       inequality.show(name, null);
+      replicates.show(name, null);
       spectra[name].say("");
       decay.forget(name);
     }
   }
   choosePictures();
   chooseRows();
+  byId("integrand").value = state.integrand;
   byId("decay-measure").value = state.decay.measure;
   byId("decay-of").value = state.decay.of;
   soon(drawSpectra);
@@ -401,9 +418,14 @@ function wire() {
     for (const name of shownNames()) drawPictures(name, true);
     keepHash();
   };
+  byId("integrand").onchange = event => {
+    state.integrand = event.target.value;
+    for (const name of shownNames()) if (views[name].points) integrate(name);
+    keepHash();
+  };
   byId("decay-measure").onchange = event => { state.decay.measure = event.target.value; decay.askAll(); keepHash(); };
   byId("decay-of").onchange = event => { state.decay.of = event.target.value; decay.askAll(); keepHash(); };
-  addEventListener("resize", () => { soon(drawSpectra); decay.draw(); });
+  addEventListener("resize", () => { soon(drawSpectra); decay.draw(); replicates.draw(); });
   addEventListener("hashchange", event => {
     const { hash } = new URL(event.newURL); // keepHash may have put an older one into the address since
     if (hash.slice(1) !== toHash(state)) go(hash);
@@ -420,6 +442,7 @@ function go(hash) {
 function takeMeasures() {
   for (const name of Object.keys(state.measures)) if (!measures.rows.has(name)) delete state.measures[name];
   if (state.witness && !measures.rows.has(state.witness)) state.witness = "star";
+  if (!tables.integrands.some(f => f.name === state.integrand)) state.integrand = "exp";
   if (!measures.rows.has(state.decay.measure)) state.decay.measure = "l2-star";
   for (const [name, row] of measures.rows) row.setSpec(state.measures[name] || name);
 }
@@ -454,6 +477,7 @@ async function start() {
   tour = new Tour(go, (measure, name) => state[name] ? measures.text(measure, name) : "");
   const options = () => tables.measures.map(m => element("option", { value: m.name }, m.name));
   byId("decay-measure").replaceChildren(...options());
+  byId("integrand").replaceChildren(...tables.integrands.map(f => element("option", { value: f.name }, f.title)));
   byId("chosen").replaceChildren(element("option", { value: "" }, "no witness"), ...options());
   byId("version").textContent = tables.version;
   takeMeasures();

@@ -116,6 +116,13 @@ export async function openKoksma(module) {
       return json(c.explorer_inequality(...axes));
     },
 
+    // Estimates by 15 sets with the seeds from `seed` on: { truth, values, estimates: [{ estimator, interval, value, low, high }, ..] },
+    // or { error } where they have no interval.
+    replicates({ integrand, spec, n, dim, seed }) {
+      say(integrand + "\n" + spec);
+      return json(c.explorer_replicates(n, dim, Number(seed & 0xffffffffn), Number(seed >> 32n)));
+    },
+
     // Searches for better points: report({ points, value, lower, steps, last_gain, method }) is called with the first set
     // and after each step, and returns whether to go on. steps: at most so many; 0: without end. brief: a few steps a second.
     optimise({ points, measure, steps = 0, seed, brief = false }, report) {

@@ -15,6 +15,7 @@ export const newState = () => ({
   shifted: true, // whether each pixel of the pictures has the points shifted at random
   all: { measures: false, digits: false }, // what is shown of the table
   decay: { measure: "l2-star", of: "sets" },
+  integrand: "exp", // of the estimates by independent sets
 });
 
 // A set as the program writes it, SPEC@N@DIM, with @DIM left out for 2.
@@ -58,6 +59,7 @@ export function toHash(state) {
   query.set("witness", state.witness || "none");
   if (String(state.axes) !== "0,1") query.set("axes", state.axes.join(","));
   query.set("decay", `${state.decay.measure}:${state.decay.of}`);
+  if (state.integrand !== "exp") query.set("integrand", state.integrand);
   if (!state.shifted) query.set("pixels", "equal");
   const all = Object.keys(state.all).filter(what => state.all[what]);
   if (all.length) query.set("all", all.join(","));
@@ -92,6 +94,7 @@ export function fromHash(text) {
   if (axes.length === 2 && axes.every(k => Number.isInteger(k) && k >= 0 && k < limits.dim)) state.axes = axes;
   const decay = /^([a-z0-9-]+):(sets|prefixes)$/.exec(query.get("decay") || "");
   if (decay) state.decay = { measure: decay[1], of: decay[2] };
+  state.integrand = query.get("integrand") || state.integrand;
   state.shifted = query.get("pixels") !== "equal";
   for (const what of (query.get("all") || "").split(",")) if (what in state.all) state.all[what] = true;
   for (const spec of (query.get("measures") || "").split("|").filter(Boolean)) state.measures[spec.split(":")[0]] = spec;

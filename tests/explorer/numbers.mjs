@@ -100,6 +100,18 @@ for (const [spec, n, dim, axes] of [["random", 64, 2, [0, 1]], ["halton", 50, 3,
   }
 }
 
+// Estimates by independent sets: the program's.
+for (const [integrand, spec, n, dim] of [["exp", "sobol:scramble=lms", 64, 2], ["disk", "n-rooks", 30, 3]]) {
+  const { truth, values, estimates } = koksma.replicates({ integrand, spec, n, dim, seed: 5n });
+  check(values.length === 15 && values.every(Number.isFinite), `${integrand}: ${values}`);
+  for (const { estimator, interval, value, low, high } of estimates) {
+    const [said] = jsonLines(run("integrate", integrand, "-p", spec, "-n", n, "-d", dim, "--seed", 5, "--estimator", estimator, "--json").out);
+    check(said.interval === interval && [[value, said.estimate], [low, said.low], [high, said.high], [truth, said.integral]]
+      .every(([ours, theirs]) => Math.abs(ours - theirs) < 1e-13), `${integrand}, ${estimator}: ${[value, low, high]}, not ${JSON.stringify(said)}`);
+  }
+}
+check(koksma.replicates({ integrand: "exp", spec: "hammersley", n: 8, dim: 2, seed: 0n }).error?.includes("one set"), "an interval of one set");
+
 // Searches: the program's steps, with its values and points.
 for (const [measure, n, dim, steps] of [["star", 16, 2, 2], ["l2-star", 24, 3, 2], ["edge", 12, 2, 4], ["min-distance", 32, 2, 30], ["diaphony", 16, 1, 2]]) {
   const { points } = koksma.generate({ spec: "n-rooks", n, dim, seed: 7n }), seen = [], file = path.join(folder, "best.csv");

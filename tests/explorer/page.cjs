@@ -203,6 +203,13 @@ async function comparing(page) {
   const inequality = await page.locator("#inequality tr").evaluateAll(rows => rows.map(row => [...row.cells].map(cell => cell.innerText)));
   check(inequality.length === 17 && inequality.every(row => row.length === 6), "the inequality has other rows: " + JSON.stringify(inequality));
   check(inequality.filter(row => row[1] === "infinite" && row[3] === "none" && row[5] === "none").length === 5, "bounds of infinite variation");
+  // Estimates by independent sets: the program's, and a mark with its bar for each.
+  await choose(page, "#integrand", "disk");
+  const [median] = records("integrate", "disk", "-p", "jittered", "-n", 64, "--seed", 2, "--estimator", "median");
+  const rows = await page.locator("#replicates tr").evaluateAll(lines => lines.map(line => [...line.cells].map(cell => cell.title || cell.innerText)));
+  check(rows[1]?.[0] === "A: median" && +rows[1][1] === median.estimate && +rows[1][2] === median.low && +rows[1][3] === median.high,
+    `estimates: ${JSON.stringify(rows)}, not ${JSON.stringify(median)}`);
+  check(await page.locator("#replicates-chart .bar").count() === rows.length, "the intervals are not drawn");
   await page.locator(".set-b button", { hasText: "Remove" }).click();
   await idle(page);
   check(!(await page.evaluate(() => koksmaExplorer.hash())).includes("&b="), "set B is not removed");
