@@ -4,11 +4,9 @@
  * and report, the same without the plan's file, or audit. The second chooses the kind of change, of which the other bytes
  * are a list:
  *   bytes    3 bytes of offset, one of length, the bytes that are put there; length 0 cuts the file off
- *   values   table, row, column, one byte each, and the kind of the new value, its length and its bytes; the seal is then
- *            that of the changed rows
+ *   values   table, row, column, one byte each, and the kind of the new value, its length and its bytes
  */
 #include <dirent.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,7 +148,7 @@ static void damage(const uint8_t *bytes, size_t size)
     write_file(database, damaged, left);
 }
 
-/* The tables that the seal covers, and the columns that lead to one row. */
+/* The tables with values, and the columns that lead to one row. */
 static const struct {
     const char *name, *key;
 } tables[] = {{"meta", "key"},
@@ -168,78 +166,12 @@ static const char *text_at(sqlite3_stmt *row, int column)
     return text ? text : "";
 }
 
-static double number_at(sqlite3_stmt *row, int column)
-{
-    return sqlite3_column_type(row, column) == SQLITE_NULL ? (double)NAN : sqlite3_column_double(row, column);
-}
-
 /* NULL: SQLite refuses the statement. */
 static sqlite3_stmt *prepare(sqlite3 *store, const char *sql)
 {
     sqlite3_stmt *row = NULL;
     sqlite3_prepare_v2(store, sql, -1, &row, NULL);
     return row;
-}
-
-/* Makes the seal that of the rows as they are now (store_tables.c). */
-static void seal_again(sqlite3 *store)
-{
-    koksma__seal seal = {0};
-    sqlite3_stmt *row = prepare(store, "SELECT key, value FROM meta WHERE key <> 'seal'");
-    while (row && sqlite3_step(row) == SQLITE_ROW) {
-        koksma__seal_add(&seal, 1, koksma__checksum_of_text(text_at(row, 0), text_at(row, 1)));
-    }
-    sqlite3_finalize(row);
-    row = prepare(store,
-                  "SELECT id, kind, scene, scene_hash, options, pattern, what, made_by, measured_by, n, dim, width, "
-                  "height, metric FROM series");
-    while (row && sqlite3_step(row) == SQLITE_ROW) {
-        const koksma__series key = {.kind = text_at(row, 1),
-                                    .scene = text_at(row, 2),
-                                    .scene_hash = text_at(row, 3),
-                                    .options = text_at(row, 4),
-                                    .pattern = text_at(row, 5),
-                                    .what = text_at(row, 6),
-                                    .made_by = text_at(row, 7),
-                                    .measured_by = text_at(row, 8),
-                                    .n = sqlite3_column_int64(row, 9),
-                                    .dim = sqlite3_column_int64(row, 10),
-                                    .width = sqlite3_column_int64(row, 11),
-                                    .height = sqlite3_column_int64(row, 12),
-                                    .metric = text_at(row, 13)};
-        koksma__seal_add(&seal, 1, koksma__checksum_of_series(&key, sqlite3_column_int64(row, 0)));
-    }
-    sqlite3_finalize(row);
-    row = prepare(store, "SELECT id, seed, v0, v1, v2, v3 FROM result");
-    while (row && sqlite3_step(row) == SQLITE_ROW) {
-        koksma__row result = {.id = sqlite3_column_int64(row, 0), .seed = (uint64_t)sqlite3_column_int64(row, 1)};
-        for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-            result.values[k] = number_at(row, 2 + k);
-        }
-        koksma__seal_add(&seal, 1, koksma__checksum_of_row(&result));
-    }
-    sqlite3_finalize(row);
-    row =
-        prepare(store, "SELECT scene, scene_hash, options, reference, made_by, width, height, standard_error, pixels "
-                       "FROM reference");
-    while (row && sqlite3_step(row) == SQLITE_ROW) {
-        const koksma__series key = {.scene = text_at(row, 0),
-                                    .scene_hash = text_at(row, 1),
-                                    .options = text_at(row, 2),
-                                    .what = text_at(row, 3),
-                                    .made_by = text_at(row, 4),
-                                    .width = sqlite3_column_int64(row, 5),
-                                    .height = sqlite3_column_int64(row, 6)};
-        koksma__seal_add(&seal, 1, koksma__checksum_of_reference(&key, number_at(row, 7), text_at(row, 8)));
-    }
-    sqlite3_finalize(row);
-    row = prepare(store, "UPDATE meta SET value = ? || ' ' || ? WHERE key = 'seal'");
-    char sum[32];
-    snprintf(sum, sizeof sum, "%llu", (unsigned long long)seal.sum);
-    sqlite3_bind_int64(row, 1, seal.rows);
-    sqlite3_bind_text(row, 2, sum, -1, SQLITE_TRANSIENT);
-    sqlite3_step(row);
-    sqlite3_finalize(row);
 }
 
 static void bind_value(sqlite3_stmt *row, int kind, const uint8_t *bytes, size_t size)
@@ -257,7 +189,7 @@ static void bind_value(sqlite3_stmt *row, int kind, const uint8_t *bytes, size_t
     } /* else NULL */
 }
 
-/* Writes the file with values of its tables changed as the input says, and a seal that fits. What SQLite refuses (a value
+/* Writes the file with values of its tables changed as the input says. What SQLite refuses (a value
    of another type, a key that is there) is left out. */
 static void forge(const uint8_t *bytes, size_t size)
 {
@@ -297,7 +229,6 @@ static void forge(const uint8_t *bytes, size_t size)
         }
         i += 5 + length;
     }
-    seal_again(store);
     if (sqlite3_exec(store, "COMMIT", NULL, NULL, NULL) || sqlite3_close(store)) {
         abort();
     }
