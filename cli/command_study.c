@@ -409,8 +409,8 @@ static int images(const cli_arguments *arguments)
     if (!cli_one_metric(arguments, &metric) || !cli_work_begin(arguments, "comparing", &work)) {
         return CLI_USAGE;
     }
-    const koksma_status status = koksma_study_images(arguments->operands[1], reference, metric.specs,
-                                                     cli_text(arguments, "output", NULL), &work.run, &rows, &n);
+    const koksma_status status =
+        koksma_study_images(arguments->operands[1], reference, metric.specs, &work.run, &rows, &n);
     cli_work_end();
     if (status) {
         return cli_fail(arguments, status);
@@ -457,7 +457,7 @@ static int run(const cli_arguments *arguments)
         {"export", export_rows, " output format "},
         {"report", report, " "},
         {"audit", cli_study_audit, " rows seed json digits long "},
-        {"images", images, " output reference metric json digits long "}};
+        {"images", images, " reference metric json digits long "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
@@ -480,7 +480,7 @@ static const cli_option options[] = {
     {0, "scene", "SCENE,..", "quick: scenes to render as well (default: none)"},
     CLI_UNKNOWN_OPTION,
     {0, "spp", "N,..", "quick: samples a pixel in the scenes (default: 4,16,64)"},
-    {'o', "output", "PATH", "run, quick, images: the folder; new, export: the file (default: -, standard output)"},
+    {'o', "output", "PATH", "run, quick: the folder; new, export: the file (default: -, standard output)"},
     {0, "trials", "T", "run, quick, estimate: number of trials, instead of the numbers in the plan"},
     {0, "quick", NULL, "run, quick, estimate: use the 'quick' number of trials of each block"},
     {0, "time-limit", "S",
@@ -510,7 +510,7 @@ const cli_command cli_command_study = {
         "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
         "report DIR\n"
         "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
-        "images 'PLACES' --reference FILE [-o DIR] [--json]",
+        "images 'PLACES' --reference FILE [--json]",
     .details =
         "PLAN is the name of a plan in the library, a JSON file (./plan.json), or the plan itself, which begins "
         "with '{\"'. Paths in a plan are relative to the plan's file, or without a file to the current folder. If "
@@ -541,8 +541,7 @@ const cli_command cli_command_study = {
         "braces; images that differ only in {trial} form a group. 'behind' is the relative excess of a group's "
         "error over the smallest error of a group with the same spp. It has an interval if both groups have the "
         "same trials, from the differences of images with equal {trial}. 'koksma compare --help' explains "
-        "coherence. With -o DIR it writes DIR/report.html, a page with these numbers, charts and pictures, and "
-        "DIR/report.json.\n",
+        "coherence.\n",
     .examples = "koksma study quick -p random,sobol -m star -n 16,64 --quick -o quick\n"
                 "koksma study new plan.json\n"
                 "koksma study estimate ./plan.json\n"
@@ -550,7 +549,7 @@ const cli_command cli_command_study = {
                 "koksma study export results --format csv -o rows.csv\n"
                 "koksma study report results\n"
                 "koksma study audit results --rows all\n"
-                "koksma study images 'mine_{p}_{spp}_{trial}.exr' --reference truth.exr -o mine\n",
+                "koksma study images 'mine_{p}_{spp}_{trial}.exr' --reference truth.exr\n",
     .options = options,
     .run = run,
 };

@@ -205,10 +205,10 @@ typedef struct koksma_audit {
     long long rows_missing;
 } koksma_audit;
 
-/* Audits a study: computes rows again by the plan in the store, renders all its reference images again, whichever rows are drawn,
-   and compares them with the stored results. The choice of rows depends on the seed and the stored results, not on the
-   number of threads. If the plan's paths are relative, the current folder must be that of the run. Under mpirun all ranks
-   work and must be able to read the folder; rank 0 gets the result.
+/* Audits a study: computes rows again by the plan in the store, renders all its reference images again, whichever rows
+   are drawn, and compares them with the stored results. The choice of rows depends on the seed and the stored results,
+   not on the number of threads. If the plan's paths are relative, the current folder must be that of the run. Under
+   mpirun all ranks work and must be able to read the folder; rank 0 gets the result.
    Errors: ARGUMENT (rows below 0, or the folder's name is longer than 1000 bytes), MISSING, MALFORMED (the folder has
    no results of a study, or they are too damaged to read), IO, MEMORY, INTERRUPTED. A difference between stored and
    recomputed results is not an error. */
@@ -297,15 +297,13 @@ typedef struct koksma_images_row {
                 match any text without '/'
      reference  path of the reference image
      metric     metric of the image error; NULL: mae
-     folder     folder to which report.json and report.html, a page with all numbers, are written
-                (docs/report-format.md); NULL: write no files
      rows, n    receive the rows, sorted by group and spp; the caller frees *rows with free()
    Each image is read twice: for its error and for the coherence of its row.
    Errors: ARGUMENT (a brace that is not closed), MISSING (no file matches), MALFORMED (a pixel that is not a finite
    number), those of koksma_image_read, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_study_images(const char *places, const char *reference,
-                                             const koksma_metric_spec *metric, const char *folder,
-                                             const koksma_run *run, koksma_images_row **rows, size_t *n);
+                                             const koksma_metric_spec *metric, const koksma_run *run,
+                                             koksma_images_row **rows, size_t *n);
 
 /* ---- Ranking patterns for a scene ------------------------------------------------------------------------- */
 

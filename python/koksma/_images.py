@@ -37,7 +37,7 @@ class ImageGroup:
 
 
 def study_images(places: Union[str, "os.PathLike[str]"], reference: Union[str, "os.PathLike[str]"], *, metric: str = "mae",
-                 folder: Union[str, "os.PathLike[str]", None] = None, threads: SupportsIndex = 0) -> List[ImageGroup]:
+                 threads: SupportsIndex = 0) -> List[ImageGroup]:
     """Compares all images whose paths match a template with a reference image.
 
     Parameters
@@ -47,8 +47,6 @@ def study_images(places: Union[str, "os.PathLike[str]"], reference: Union[str, "
     reference : str or path
     metric : str
         Of the error (koksma.metrics() names them).
-    folder : path, optional
-        Where report.html and report.json are written.
     threads : int
         0: one for each processor.
 
@@ -76,7 +74,7 @@ def study_images(places: Union[str, "os.PathLike[str]"], reference: Union[str, "
     rows, count = POINTER(s.ImagesRow)(), c_size_t()
     try:
         call(lab().koksma_study_images, text(places, "places"), text(reference, "reference"), byref(spec),
-             None if folder is None else text(folder, "folder"), byref(rows), byref(count), threads=threads, run_at=4)
+             byref(rows), byref(count), threads=threads, run_at=3)
         return [ImageGroup(os.fsdecode(r.group), r.spp or None, r.trials, r.mean, (r.low, r.high), r.robust, r.top_share, r.sd, r.max,
                            r.rmse, r.slope, (r.slope_low, r.slope_high), r.coherence.coherence, r.coherence.coherent, r.position,
                            r.behind, (r.behind_low, r.behind_high)) for r in rows[:count.value]]

@@ -228,7 +228,7 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_bool, "koksma_scene_part_at", c_void_p, c_size_t, POINTER(s.ScenePart))
     for name in ("warning", "unknown"):
         _declare(library, c_bool, f"koksma_scene_{name}", c_void_p, c_size_t, c_char_p, c_size_t)
-    _declare(library, c_int, "koksma_study_images", c_char_p, c_char_p, POINTER(s.MetricSpec), c_char_p, POINTER(s.Run),
+    _declare(library, c_int, "koksma_study_images", c_char_p, c_char_p, POINTER(s.MetricSpec), POINTER(s.Run),
              POINTER(POINTER(s.ImagesRow)), POINTER(c_size_t))
     _declare(library, c_char_p, "koksma_plan_name_at", c_size_t)
     _declare(library, c_int, "koksma_study_open", POINTER(s.StudyOptions), POINTER(c_void_p))

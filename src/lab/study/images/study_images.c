@@ -237,28 +237,8 @@ static koksma_status add_coherence(const pictures *all, const koksma_run *run, k
     return status;
 }
 
-static koksma_status write_report(const char *places, const char *reference, const char *folder, const pictures *all,
-                                  const koksma_images_row *rows, size_t n)
-{
-    const char **first = calloc(n, sizeof *first);
-    KOKSMA__REQUIRE_MEMORY(first, n * sizeof *first);
-    for (size_t i = 0, image = 0; i < n; image += rows[i++].trials) {
-        first[i] = all->at[image].path;
-    }
-    const koksma__images images = {.places = places,
-                                   .reference_path = reference,
-                                   .reference = &all->reference,
-                                   .metric = all->metric,
-                                   .rows = rows,
-                                   .first = first,
-                                   .n = n};
-    const koksma_status status = koksma__images_report(&images, folder);
-    free(first);
-    return status;
-}
-
 koksma_status koksma_study_images(const char *places, const char *reference, const koksma_metric_spec *metric,
-                                  const char *folder, const koksma_run *run, koksma_images_row **rows, size_t *n)
+                                  const koksma_run *run, koksma_images_row **rows, size_t *n)
 {
     KOKSMA__REQUIRE(places, reference, rows, n);
     KOKSMA__REQUIRE_RUN(run);
@@ -268,7 +248,6 @@ koksma_status koksma_study_images(const char *places, const char *reference, con
     *rows = NULL;
     *n = 0;
     KOKSMA__TRY(koksma__image_names_pattern(places, pattern, sizeof pattern));
-    KOKSMA__TRY(folder ? koksma__atomic_folder(folder) : KOKSMA_OK);
     koksma_status status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE ? koksma__fail_memory(sizeof pattern)
                                                                           : collect(places, pattern, &found, &all);
     status = status ? status : koksma_image_read(reference, &all.reference);
@@ -277,9 +256,6 @@ koksma_status koksma_study_images(const char *places, const char *reference, con
     status = status ? status : make_rows(&all, rows, n);
     status = status ? status : add_positions(&all, *rows, *n);
     status = status ? status : add_coherence(&all, run, *rows, *n);
-    if (!status && folder) {
-        status = write_report(places, reference, folder, &all, *rows, *n);
-    }
     if (status) {
         free(*rows);
         *rows = NULL;

@@ -283,24 +283,6 @@ void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash
     }
 }
 
-koksma_status koksma__points_can_be_read(const koksma__row_texts *row)
-{
-    char path[KOKSMA_MAX_SPEC];
-    const koksma_spec *spec;
-    walk w = begin_walk(row);
-    koksma_status status = KOKSMA_OK;
-    while (!status && (spec = next_operand(&w))) {
-        koksma__file_set *sets = NULL;
-        size_t count = 0;
-        uint64_t hash;
-        if (find_path(spec, path)) {
-            status = is_family(spec) ? koksma__file_sets(path, &sets, &count) : koksma__hash_file(path, &hash);
-            free(sets);
-        }
-    }
-    return status;
-}
-
 /* Finding one of a family's files takes as long as reading so many bytes for each of them. */
 enum { LOOK_UP = 4096 };
 
@@ -346,15 +328,6 @@ bool koksma__points_read_files(const koksma__row_texts *row)
     const koksma_spec *spec;
     walk w = begin_walk(row);
     while ((spec = next_operand(&w)) && (spec->pattern->runs_code || !find_path(spec, path))) {
-    }
-    return spec;
-}
-
-bool koksma__points_have_family(const koksma__row_texts *row)
-{
-    const koksma_spec *spec;
-    walk w = begin_walk(row);
-    while ((spec = next_operand(&w)) && !is_family(spec)) {
     }
     return spec;
 }

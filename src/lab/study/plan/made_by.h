@@ -57,12 +57,9 @@ typedef struct koksma__row_texts {
 
 /* Writes the hash of a scene to out, followed by one hash of all files that the texts of a row name: those of its patterns,
    then those of its reference. Of a sampler in a library it is the hash of the library. A file that can't be read has the
-   hash 0; koksma__points_can_be_read tells why. known may be NULL. */
+   hash 0. known may be NULL. */
 void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash, const koksma__row_texts *row,
                               char out[KOKSMA__HASH_TEXT]);
-
-/* Fails if a file that a row names can't be read, with the reason; OK also if it names none. */
-koksma_status koksma__points_can_be_read(const koksma__row_texts *row);
 
 /* Whether a row names any files but programs and libraries. */
 bool koksma__points_read_files(const koksma__row_texts *row);
@@ -70,9 +67,6 @@ bool koksma__points_read_files(const koksma__row_texts *row);
 /* The length in bytes of these files together, as a measure of the time to read one set; of a family, that of its longest
    file and 4096 for each of its files, whose names are looked at. */
 uint64_t koksma__points_files_length(const koksma__row_texts *row);
-
-/* Whether a row names a family of files (file_names.h). */
-bool koksma__points_have_family(const koksma__row_texts *row);
 
 void koksma__point_files_fini(koksma__point_files *known);
 
