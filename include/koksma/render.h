@@ -94,20 +94,6 @@ typedef struct koksma_scene_counts {
 /* Counts the objects of a scene. */
 KOKSMA_API koksma_scene_counts koksma_scene_count(const koksma_scene *scene);
 
-/* The position of a shape or placed mesh in a scene and in the image, with all places that it has while the shutter is
-   open. */
-typedef struct koksma_scene_part {
-    char name[80];          /* the kind of a shape, or "mesh" and the name of a placed mesh */
-    double low[3], high[3]; /* bounding box of all these places; infinite for a plane */
-    bool in_frame;          /* false: the camera sees at most reflections and shadows of the part */
-    double frame[4];        /* rectangle of the image, in the scene's size, outside which no camera ray meets the box,
-                               wherever the camera and through whatever point of the lens: left, right, top, bottom,
-                               from 0 to 1 */
-} koksma_scene_part;
-
-/* Finds part i of a scene: first the shapes, then the placed meshes. Returns false past the last part. */
-KOKSMA_API bool koksma_scene_part_at(const koksma_scene *scene, size_t i, koksma_scene_part *out);
-
 /* Sets the environment light of a scene that has not been rendered yet. It replaces the scene's environment and,
    for a mesh file, the default key light, sky and ground. `image` is the path of an environment map in latitude and
    longitude, which is multiplied by `radiance` (NULL: light with this radiance, 0 to 1e6, from all directions). The

@@ -30,7 +30,7 @@ from ._points import (Finding, Identity, Member, Modifier, Named, Value, Witness
                       modifiers, patterns, read, verify, verify_sets, warp_points, warps, write)
 from ._plot import Picture, plot, plot_compare, plot_convergence
 from ._rank import Asked, Ranked, Ranking, SizeCheck, Target, rank, rank_to_error
-from ._render import (Layers, Replicates, SceneCheck, ScenePart, adaptive, check_scene, filters, integrators, read_image, render, render_replicates, scenes,
+from ._render import (Layers, Replicates, SceneCheck, adaptive, check_scene, filters, integrators, read_image, render, render_replicates, scenes,
                       version, write_image)
 from ._screen import ScreenError, screen_errors
 from ._series import Convergence, Trials, convergence, trials
@@ -44,7 +44,7 @@ __all__ = [
     "Error", "Finding", "ForbiddenError", "Identity", "ImageGroup", "Integral", "Integrand", "Integration",
     "Interval", "Layers", "MalformedError", "MaskQuality", "Member", "MetricValue", "MissingError", "Modifier",
     "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "Replicates",
-    "SceneCheck", "ScenePart", "ScreenError", "Sensitivity", "Share", "SizeCheck",
+    "SceneCheck", "ScreenError", "Sensitivity", "Share", "SizeCheck",
     "Spectrum", "Step", "Study", "Summary", "TableRow", "Target", "Trials", "UnsupportedError", "Value", "Witness",
     "adaptive", "allow_exec", "audit", "canonical", "check_scene", "compare", "convergence", "datasheet",
     "estimators", "filters", "generate", "has_ranges", "identify", "integrand", "integrands", "integrate",

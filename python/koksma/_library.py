@@ -225,7 +225,6 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_rank_to_error", POINTER(s.RankOptions), c_double, POINTER(s.Run), POINTER(s.TargetRow),
              POINTER(s.TargetRanking))
     _declare(library, s.SceneCounts, "koksma_scene_count", c_void_p)
-    _declare(library, c_bool, "koksma_scene_part_at", c_void_p, c_size_t, POINTER(s.ScenePart))
     for name in ("warning", "unknown"):
         _declare(library, c_bool, f"koksma_scene_{name}", c_void_p, c_size_t, c_char_p, c_size_t)
     _declare(library, c_int, "koksma_study_images", c_char_p, c_char_p, POINTER(s.MetricSpec), POINTER(s.Run),

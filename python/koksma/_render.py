@@ -39,18 +39,6 @@ def scenes() -> List[str]:
 
 
 @dataclass(frozen=True)
-class ScenePart:
-    """A shape of a scene, or a placed mesh. low and high are the corners of its bounding box, infinite for a plane; frame is the
-    part of the image that the box covers at most (left, right, top, bottom, from 0 to 1), or None where the camera does not see it.
-    Both are for the whole time while the shutter is open, and for the whole lens."""
-
-    name: str
-    low: Tuple[float, float, float]
-    high: Tuple[float, float, float]
-    frame: Optional[Tuple[float, float, float, float]]
-
-
-@dataclass(frozen=True)
 class SceneCheck:
     """What a scene contains, and what looks odd in it. warnings: what can be rendered but looks like a mistake; unknown: those of
     them for parts of pbrt's and Mitsuba's scenes that Koksma does not know, each with what replaces it. True without warnings."""
@@ -64,7 +52,6 @@ class SceneCheck:
     lights: int
     warnings: Tuple[str, ...]
     unknown: Tuple[str, ...]
-    parts: Tuple[ScenePart, ...]
     media: int  #: 1 if the scene has a medium, which only path and its variants render
     spp: Optional[int]  #: samples a pixel that the sampler of a pbrt or Mitsuba scene asks for
 
@@ -106,13 +93,9 @@ def check_scene(scene: Union[str, "os.PathLike[str]"]) -> SceneCheck:
 
     check(lab().koksma_scene_open(text(_scene_name(scene), "scene"), byref(handle)))
     try:
-        counts, part = lab().koksma_scene_count(handle), s.ScenePart()
-        parts: List[ScenePart] = []
-        while lab().koksma_scene_part_at(handle, len(parts), byref(part)):
-            parts.append(ScenePart(part.name.decode(errors="replace"), tuple(part.low), tuple(part.high),
-                                   tuple(part.frame) if part.in_frame else None))
+        counts = lab().koksma_scene_count(handle)
         return SceneCheck(lab().koksma_scene_title(handle).decode(errors="replace"), counts.shapes, counts.meshes, counts.placements,
-                          counts.triangles, counts.materials, counts.lights, lines("warning"), lines("unknown"), tuple(parts),
+                          counts.triangles, counts.materials, counts.lights, lines("warning"), lines("unknown"),
                           counts.media, counts.spp or None)
     finally:
         lab().koksma_scene_close(handle)

@@ -380,11 +380,6 @@ class SceneCounts(Structure):
                 ("materials", c_size_t), ("lights", c_size_t), ("media", c_size_t), ("spp", c_size_t)]
 
 
-class ScenePart(Structure):
-    _fields_ = [("name", c_char * 80), ("low", c_double * 3), ("high", c_double * 3), ("in_frame", c_bool),
-                ("frame", c_double * 4)]
-
-
 class Record(Structure):
     _fields_ = [("measure", c_char_p), ("n", c_size_t), ("dim", c_int), ("value", c_double), ("published", c_double),
                 ("source", c_char_p), ("seed", c_uint64), ("steps", c_uint64)]
@@ -495,6 +490,6 @@ LAYOUTS = [
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),
     ("study.h", "koksma_target_row", TargetRow), ("study.h", "koksma_target_ranking", TargetRanking),
     ("study.h", "koksma_images_row", ImagesRow),
-    ("render.h", "koksma_scene_counts", SceneCounts), ("render.h", "koksma_scene_part", ScenePart),
+    ("render.h", "koksma_scene_counts", SceneCounts),
     ("optimise.h", "koksma_record", Record),
 ]

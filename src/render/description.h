@@ -87,12 +87,6 @@ typedef struct koksma__material {
     char dark[256]; /* why the emission is ignored */
 } koksma__material;
 
-/* The name of a placement of a mesh that has another name, because its file was named before. */
-typedef struct koksma__part_name {
-    size_t placement;
-    char name[64];
-} koksma__part_name;
-
 /* A homogeneous medium in the box from low to high, which may be infinite; if it is in_shape, only where inverse maps to
    the unit ball, or to the cube from -1 to 1 if it is not is_ball, which the box bounds. Coefficients are per unit of
    length; `phase` is the material of the medium's points: its parameter 0 is the mean cosine g, its albedo the
@@ -175,8 +169,6 @@ struct koksma_scene {
     koksma__light *lights;
     koksma__mesh *meshes;
     koksma__placement *placements; /* of meshes */
-    koksma__part_name *part_names; /* in the order of their placements */
-    size_t n_part_names;
     koksma__names mesh_names;      /* finds the meshes of scene files (shapes/shape_compound.c) */
     koksma__file_sizes mesh_files; /* the files that meshes are from */
     uint64_t mesh_bytes;           /* of the meshes from files, as koksma__scene_limit_mesh counts */

@@ -119,14 +119,6 @@ TEST_CASE(a_file_is_one_mesh)
     assert_int_equal(symlink("cube.obj", "same.obj"), 0);
     assert_int_equal(count_meshes(THREE("same.obj")), 1);
     assert_near(difference(THREE("copy.obj"), THREE("./same.obj")), 0, 0);
-    const char *const names[] = {"mesh", "mesh b", "light mesh", "mesh b"};
-    koksma_scene *scene = scene_of(THREE("same.obj"));
-    koksma_scene_part part;
-    for (size_t i = 0; i < 4; i++) {
-        assert_true(koksma_scene_part_at(scene, i, &part));
-        assert_string_equal(part.name, names[i]);
-    }
-    koksma_scene_close(scene);
     unlink("same.obj");
     unlink("copy.obj");
     unlink("cube.obj");

@@ -228,7 +228,6 @@ TEST_CASE(bare_files_without_light_get_a_studio)
 {
     need_meshes();
     koksma_scene *scene;
-    koksma_scene_part part;
     koksma_render_options options;
     koksma_image image;
     write_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
@@ -236,7 +235,6 @@ TEST_CASE(bare_files_without_light_get_a_studio)
     koksma_scene_counts counts = koksma_scene_count(scene);
     assert_true(counts.lights == 2 && counts.shapes == 1 && counts.placements == 1 && counts.materials == 2);
     const uint64_t hash = koksma_scene_hash(scene);
-    assert_true(koksma_scene_part_at(scene, 0, &part) && part.low[1] == -1 - 1e-4 * sqrt(2) && isinf(part.high[0]));
     assert_int_equal(koksma_scene_set_sky(scene, NULL, -1), KOKSMA_ARGUMENT);
     assert_int_equal(koksma_scene_set_sky(scene, "no.pfm", 1), KOKSMA_MISSING);
     assert_ok(koksma_scene_set_sky(scene, NULL, 1));

@@ -208,7 +208,6 @@ void koksma__scene_fini(koksma_scene *scene)
     }
     free(scene->meshes);
     koksma__names_fini(&scene->mesh_names);
-    free(scene->part_names);
     koksma__names_fini(&scene->mesh_files.known);
     free(scene->placements);
     free(scene->notes);

@@ -145,21 +145,7 @@ static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma_
     return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
 }
 
-/* Keeps the name of the last placement if the mesh has another one. */
-static koksma_status name_placement(koksma_scene *scene, int mesh, const char *name)
-{
-    if (!strcmp(scene->meshes[mesh].name, name)) {
-        return KOKSMA_OK;
-    }
-    koksma__part_name *to = koksma__add_one(&scene->part_names, &scene->n_part_names, sizeof *to);
-    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-    to->placement = scene->n_placements - 1;
-    snprintf(to->name, sizeof to->name, "%s", name);
-    return KOKSMA_OK;
-}
-
-/* name: that of the shape, or of the one of which it is an instance. */
-static koksma_status add_placement(const field *f, koksma_scene *scene, int mesh, int material, const char *name)
+static koksma_status add_placement(const field *f, koksma_scene *scene, int mesh, int material)
 {
     koksma__placement *p = NULL;
     koksma_status status = koksma__scene_add_placement(scene, &p);
@@ -168,7 +154,6 @@ static koksma_status add_placement(const field *f, koksma_scene *scene, int mesh
     }
     p->mesh = mesh;
     p->material = material;
-    KOKSMA__TRY(name_placement(scene, mesh, name));
     status = parse_placement(f, &scene->meshes[mesh], p);
     status = status ? status : koksma__json_get_flag(f, "smooth", false, &p->smooth);
     if (!status && material < 0) {
@@ -244,7 +229,7 @@ static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_s
     if (scene->n_meshes > before) { /* the mesh has the name of the first shape of its file */
         strcpy(scene->meshes[mesh].name, name);
     }
-    return add_placement(f, scene, mesh, shape->material, name);
+    return add_placement(f, scene, mesh, shape->material);
 }
 
 static koksma_status parse_instance(const char *scene_name, const field *f, koksma_scene *scene, koksma__shape *shape)
@@ -257,7 +242,7 @@ static koksma_status parse_instance(const char *scene_name, const field *f, koks
     }
     const int mesh = find_mesh(scene, "name", of);
     return mesh < 0 ? koksma__json_fail(f, "no mesh named '%s' before it", of)
-                    : add_placement(f, scene, mesh, shape->material, of);
+                    : add_placement(f, scene, mesh, shape->material);
 }
 
 #define PLACEMENT "emission", "translate", "rotate_deg", "scale", "motion", "to", "smooth"
