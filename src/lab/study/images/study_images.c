@@ -2,7 +2,7 @@
 /*
  * Makes the tables of a study for images that another renderer made, identified by their file names. All images
  * are compared with the reference in parallel; the coherence of the errors, which takes 16 bytes per pixel, is
- * computed for one row of the table at a time. images_report.c writes the page.
+ * computed for one row of the table at a time.
  */
 #include <glob.h>
 #include <math.h>
