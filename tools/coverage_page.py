@@ -12,7 +12,8 @@ import sys
 
 LOW = 0.90
 with open(sys.argv[1], encoding="utf-8") as file:
-    ROWS = [json.loads(line) for line in file]
+    ALL = [json.loads(line) for line in file]
+ROWS = [r for r in ALL if r["kind"] != "other"]
 DIMS = sorted({r["dim"] for r in ROWS})
 MOST = max(r["n"] for r in ROWS)
 INTERVALS = ("auto", "quantile", "student", "bootstrap", "empirical-bernstein", "betting")
@@ -55,3 +56,9 @@ for i in INTERVALS:
     bad = sorted((r for r in ROWS if r[i] is not None and r[i] < LOW), key=lambda r: r[i])
     print(f"{i}: {len(bad)} of {len(ROWS)} cells below {LOW}; the lowest: " + "; ".join(
         f"`{r['integrand']}` d = {r['dim']}, n = {r['n']}, {r['pattern']}: {r[i]:.3f}" for r in bad[:5]))
+
+print("\nCoverage of proved intervals, over all integrands with bounds, and its standard error if it were 95 %:\n")
+table(["pattern", "n", "runs", "empirical-bernstein", "betting"],
+      [[f"`{p}`", str(n), f"{runs:,} ({(0.95 * 0.05 / runs) ** 0.5:.4f})"] + [f"{min(v):.4f} to {max(v):.4f} ({len(v)})" for i in
+        ("empirical-bernstein", "betting") for v in ([r[i] for r in ALL if (r["pattern"], r["n"], r["runs"]) == (p, n, runs) and r[i] is not None],)]
+       for p, n, runs in dict.fromkeys((r["pattern"], r["n"], r["runs"]) for r in ALL)])

@@ -92,10 +92,10 @@ typedef struct koksma_tolerance_options {
                                   integral in its interval; both are 0 or more */
     size_t replicates;         /* number R of independent sets, 2 to 100000; 0: see koksma_integrate_to */
     size_t first_n;            /* points of each set in the first step; 0: 64 of parts of one set, else 256 */
-    uint64_t most_points;      /* limit of R n, the points of all sets together; 0: 2^24 */
-    uint64_t seed;             /* set r has the seed `seed` + r; parts are of the set with this seed */
-    const char *resume;        /* file that keeps the steps; NULL: none */
-    const char *function;      /* what the function is called in that file; NULL: - */
+    uint64_t most_points;      /* limit of the points of all sets together; 0: 2^24 */
+    uint64_t seed; /* set r has the seed `seed` + r; parts are of the set with this seed, their check of the next */
+    const char *resume;   /* file that keeps the steps; NULL: none */
+    const char *function; /* what the function is called in that file; NULL: - */
 } koksma_tolerance_options;
 
 /* A step: R sets of n points each. */
@@ -111,7 +111,7 @@ typedef struct koksma_tolerance {
     size_t replicates; /* R */
     size_t n_steps;    /* steps done, at least 1 */
     koksma_tolerance_step steps[KOKSMA_MAX_STEPS];
-    /* Slope of log error against log R n over the last steps, at most 5, with its standard error, and the number R n
+    /* Slope of log error against log R n over the last steps, at most 5, with its standard error, and the number of points
        of points at which this line meets the tolerance, with its 95 % interval; NaN with fewer than three steps whose
        error is above 0, for errors that do not fall, and `needed` without a tolerance. Errors of successive steps
        depend on each other, so that the interval is approximate. */
@@ -125,8 +125,8 @@ typedef struct koksma_tolerance {
    Where replicates is 0, no estimator or interval is named, and the pattern is a sequence of nets in base 2
    (NET2_PREFIXES), the R = 8 sets are the consecutive parts of one set, with the mean and Student's interval: the error
    of the mean is that of one net of all points, the interval that of independent nets of n points, so that it is too wide
-   rather than too narrow. It may fail where a function resonates with the digits of the net, as with kinks at 1/2 and 1/4
-   under linear scrambling. In all other cases the sets are independent, 15 where replicates is 0.
+   rather than too narrow. One more set of n points, with the seed `seed` + 1, finds what all parts have alike: the error
+   is at least what this check differs from the mean beyond its prediction interval. In all other cases the sets are independent, 15 where replicates is 0.
 
    With `resume` the steps are written to this file, each when it is done, and taken from it if it exists: a search that
    was interrupted or ended by its limit continues, with the result of one search bit for bit, and another tolerance,

@@ -6,7 +6,10 @@
  * one net cost no such factor. Their spread is that of nets of n points, and Student's interval from it as wide as that
  * of independent ones, since the mean of the parts errs by the Walsh coefficients that N points don't integrate, while the
  * parts differ by those that n points don't, which come first (Hickernell & Jimenez Rugama 2016 bound the former by some
- * of the latter). docs/findings/coverage.md has how often it holds.
+ * of the latter). What one net can't show is a coefficient that all its points have alike, as products of |x - 1/2| get from
+ * one linear scrambling of some fifteen: a CHECK beside the parts, an independent set of n points, finds it. The error
+ * is at least what that differs from the mean of the parts beyond its prediction interval of the same confidence.
+ * docs/findings/coverage.md has how often all this holds.
  *
  * The points of several sets are put into batches of up to BATCH points or COORDINATES coordinates, so that functions of
  * other programs and languages are called seldom. The sums of each set are compensated and in the order of its points,
@@ -51,6 +54,7 @@ typedef struct job {
     bool extends;         /* the sets of a step begin with those of the step before */
     bool parts;           /* the sets are parts of one set, which extends */
     size_t replicates, n; /* n: of the present step */
+    size_t sets;          /* replicates, and the check of parts */
     int dim;
     koksma__search path; /* the steps so far; its sums are those of the values of each set */
     uint64_t points;
@@ -64,13 +68,13 @@ typedef struct piece {
 
 static uint64_t seed_of(const job *j, const piece *p)
 {
-    return j->options->seed + (j->parts ? 0 : p->replicate);
+    return j->options->seed + (j->parts ? p->replicate == PARTS : p->replicate);
 }
 
 /* The index of a piece's first point in the set of its seed. */
 static uint64_t index_of(const job *j, const piece *p)
 {
-    return p->first + (j->parts ? (uint64_t)p->replicate * j->n : 0);
+    return p->first + (j->parts && p->replicate < PARTS ? (uint64_t)p->replicate * j->n : 0);
 }
 
 static koksma_status make(const job *j, const piece *p, koksma_points *out)
@@ -135,7 +139,7 @@ static void join_parts(job *j)
 /* Adds points from .. n - 1 to all sets, or makes them anew; or the second half of the parts. */
 static koksma_status extend(job *j, size_t from)
 {
-    const size_t begin = j->extends && !j->parts ? from : 0, fresh = j->n - begin;
+    const size_t fresh = j->n - (j->extends && !j->parts ? from : 0);
     const size_t most = COORDINATES / j->dim < BATCH ? (size_t)(COORDINATES / j->dim) : BATCH;
     const size_t length = j->extends && fresh > most ? most : fresh, at_once = length < most ? most / length : 1;
     piece *pieces = calloc(at_once, sizeof *pieces);
@@ -149,7 +153,8 @@ static koksma_status extend(job *j, size_t from)
     if (join) {
         join_parts(j);
     }
-    for (size_t r = join ? PARTS / 2 : 0; r < j->replicates && !status; r++) {
+    for (size_t r = join ? PARTS / 2 : 0; r < j->sets && !status; r++) {
+        const size_t begin = j->extends && !(j->parts && r < PARTS) ? from : 0;
         j->path.sums[r] = j->extends ? j->path.sums[r] : (koksma__sum){0};
         for (size_t first = begin; first < j->n && !status; first += length) {
             pieces[count++] = (piece){r, first, j->n - first < length ? j->n - first : length};
@@ -186,7 +191,7 @@ static void predict(const job *j, koksma_tolerance *t)
     koksma_line line;
     t->rate = t->rate_error = t->needed = t->needed_low = t->needed_high = NAN;
     for (size_t i = 0; i < count; i++) {
-        points[i] = (double)j->replicates * (double)t->steps[first + i].n;
+        points[i] = (double)j->sets * (double)t->steps[first + i].n;
         errors[i] = t->steps[first + i].estimate.error;
     }
     if (!koksma_log_line(count, points, errors, &line)) {
@@ -204,13 +209,12 @@ static void predict(const job *j, koksma_tolerance *t)
 /* The number of steps that the limits allow, or 0 after an error. */
 static koksma_status count_steps(const job *j, size_t first_n, size_t *steps)
 {
-    const uint64_t most = j->options->most_points ? j->options->most_points : MOST_POINTS,
-                   most_n = most / j->replicates,
+    const uint64_t most = j->options->most_points ? j->options->most_points : MOST_POINTS, most_n = most / j->sets,
                    capacity = j->extends ? KOKSMA_MAX_INDEX / (j->parts ? PARTS : 1)
                                          : KOKSMA_MAX_COORDINATES / (unsigned)j->dim;
     KOKSMA__FAIL_IF(first_n > most_n || first_n > capacity, KOKSMA_ARGUMENT,
                     "first_n: %zu sets of %zu points are more than most_points, %llu, or than one set may have",
-                    j->replicates, first_n, (unsigned long long)most);
+                    j->sets, first_n, (unsigned long long)most);
     *steps = 1;
     for (uint64_t n = first_n; 2 * n <= most_n && 2 * n <= capacity && *steps < KOKSMA_MAX_STEPS; n *= 2) {
         ++*steps;
@@ -257,9 +261,16 @@ static double share_of(const job *j)
     return (j->largest - j->least) / (double)j->n;
 }
 
-/* Widens an interval of width 0. */
-static void widen(const job *j, koksma_integral_estimate *e)
+/* Widens the interval of parts to what their check tells: Student's t sd sqrt(1 + 1 / PARTS) of its prediction is 3 times
+   its t sd / sqrt PARTS. Then an interval of width 0. */
+static void widen(const job *j, double check, koksma_integral_estimate *e)
 {
+    const double apart = j->parts ? fabs(check - e->value) - sqrt(PARTS + 1) * e->error : 0;
+    if (apart > e->error) {
+        e->error = apart;
+        e->low = e->value - apart;
+        e->high = e->value + apart;
+    }
     const double share = e->low < e->high ? 0 : share_of(j);
     e->low -= share;
     e->high += share;
@@ -308,10 +319,10 @@ static koksma_status take_step(job *j, size_t k)
     KOKSMA__TRY(extend(j, before));
     koksma__search_step *step = &j->path.steps[k];
     *step = (koksma__search_step){.points = j->points, .least = j->least, .largest = j->largest};
-    step->means = malloc(j->replicates * sizeof *step->means);
-    KOKSMA__REQUIRE_MEMORY(step->means, j->replicates * sizeof *step->means);
+    step->means = malloc(j->sets * sizeof *step->means);
+    KOKSMA__REQUIRE_MEMORY(step->means, j->sets * sizeof *step->means);
     j->path.n_steps = k + 1;
-    for (size_t r = 0; r < j->replicates; r++) {
+    for (size_t r = 0; r < j->sets; r++) {
         step->means[r] = koksma__sum_value(&j->path.sums[r]) / (double)j->n;
     }
     return j->options->resume ? koksma__search_write(j->options->resume, &j->path) : KOKSMA_OK;
@@ -329,7 +340,7 @@ static koksma_status run_steps(job *j, size_t steps, koksma_tolerance *t)
         *step = (koksma_tolerance_step){.n = j->n, .points = j->points};
         KOKSMA__TRY(
             koksma_estimate_integral(&estimate, j->path.steps[k].means, j->replicates, &j->in_step, &step->estimate));
-        widen(j, &step->estimate);
+        widen(j, j->path.steps[k].means[j->sets - 1], &step->estimate);
         t->reached = is_reached(j, &step->estimate);
         j->done = (double)(k + 1) / (double)steps;
     }
@@ -341,8 +352,8 @@ static koksma_status run_steps(job *j, size_t steps, koksma_tolerance *t)
 static koksma_status open_path(job *j)
 {
     const koksma_tolerance_options *o = j->options;
-    j->path.sums = calloc(j->replicates, sizeof *j->path.sums);
-    KOKSMA__REQUIRE_MEMORY(j->path.sums, j->replicates * sizeof *j->path.sums);
+    j->path.sums = calloc(j->sets, sizeof *j->path.sums);
+    KOKSMA__REQUIRE_MEMORY(j->path.sums, j->sets * sizeof *j->path.sums);
     if (!o->resume) {
         return KOKSMA_OK;
     }
@@ -383,7 +394,8 @@ koksma_status koksma_integrate_to(koksma_values_of *values, void *context, int d
              .extends = koksma_is_sequence(pattern) && koksma_has_ranges(pattern),
              .parts = parts,
              .replicates = replicates,
-             .path = {.replicates = replicates,
+             .sets = replicates + parts,
+             .path = {.sets = replicates + parts,
                       .first_n = options->first_n ? options->first_n
                                  : parts          ? FIRST_PART
                                                   : FIRST_N},

@@ -7,7 +7,7 @@
  *     koksma integral 1
  *     function exp
  *     pattern sobol:scramble=lms,digital-shift=1
- *     dim 2, seed 0, 8 parts, first n 64
+ *     dim 2, seed 0, 9 parts with check, first n 64
  *     first value 1.7
  *     step 512 1.1 7.3 2.95 2.96 ..
  *     sums 188.9 0 189.1 -1e-15 ..
@@ -35,7 +35,7 @@ void koksma__search_head(koksma__search *path, const char *function, const char 
         path->head, sizeof path->head,
         "koksma integral 1\nfunction %s\npattern %s\ndim %d, seed %llu, %zu %s, first n %zu\nfirst value "
         "%.17g\n",
-        line, pattern, dim, (unsigned long long)seed, path->replicates, parts ? "parts" : "sets", path->first_n,
+        line, pattern, dim, (unsigned long long)seed, path->sets, parts ? "parts with check" : "sets", path->first_n,
         first);
 }
 
@@ -80,13 +80,13 @@ static koksma_status read_step(koksma__search *path, const char **text, bool *go
 {
     koksma__search_step *step = &path->steps[path->n_steps];
     double points = 0;
-    step->means = malloc(path->replicates * sizeof *step->means);
-    KOKSMA__REQUIRE_MEMORY(step->means, path->replicates * sizeof *step->means);
+    step->means = malloc(path->sets * sizeof *step->means);
+    KOKSMA__REQUIRE_MEMORY(step->means, path->sets * sizeof *step->means);
     path->n_steps++;
     *good = take(text, &points) && points >= 1 && points < 0x1p53 && take(text, &step->least) &&
             take(text, &step->largest);
     step->points = *good ? (uint64_t)points : 0;
-    for (size_t r = 0; r < path->replicates && *good; r++) {
+    for (size_t r = 0; r < path->sets && *good; r++) {
         *good = take(text, &step->means[r]);
     }
     *good = *good && take_word(text, "\n");
@@ -100,7 +100,7 @@ static koksma_status read_steps(const char *file, koksma__search *path, const ch
         KOKSMA__TRY(read_step(path, &text, &good));
     }
     good = good && path->n_steps && take_word(&text, "sums");
-    for (size_t r = 0; r < path->replicates && good; r++) {
+    for (size_t r = 0; r < path->sets && good; r++) {
         good = take(&text, &path->sums[r].total) && take(&text, &path->sums[r].lost);
     }
     KOKSMA__FAIL_IF(!good || strcmp(text, "\n") != 0, KOKSMA_MALFORMED,
@@ -141,13 +141,13 @@ koksma_status koksma__search_write(const char *file, const koksma__search *path)
         put(out.stream, (double)step->points);
         put(out.stream, step->least);
         put(out.stream, step->largest);
-        for (size_t r = 0; r < path->replicates; r++) {
+        for (size_t r = 0; r < path->sets; r++) {
             put(out.stream, step->means[r]);
         }
         fputc('\n', out.stream);
     }
     fputs("sums", out.stream);
-    for (size_t r = 0; r < path->replicates; r++) {
+    for (size_t r = 0; r < path->sets; r++) {
         put(out.stream, path->sums[r].total);
         put(out.stream, path->sums[r].lost);
     }

@@ -14,7 +14,7 @@ typedef struct koksma__search_step {
 } koksma__search_step;
 
 typedef struct koksma__search {
-    size_t replicates, first_n, n_steps;
+    size_t sets, first_n, n_steps;
     koksma__search_step steps[KOKSMA_MAX_STEPS];
     koksma__sum *sums;              /* of the values of each set, after the last step */
     char head[4 * KOKSMA_MAX_SPEC]; /* what identifies the search: the first lines of its file */
