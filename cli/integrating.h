@@ -17,8 +17,7 @@
         {0, "estimator", "ESTIMATOR", "print an estimate; see 'koksma list estimators' (default: the interval's)"},  \
         {0, "interval", "INTERVAL",                                                                                  \
          "of an estimate; see 'koksma list intervals' (default: the estimator's, or auto)"},                         \
-        {0, "replicates", "R",                                                                                       \
-         "independent sets of an estimate (default: 15, or the 8 parts of one set; see below)"},                     \
+        {0, "replicates", "R", "independent sets of an estimate (default: 15, or 8 parts of one set; see below)"},   \
         {0, "confidence", "C", "of the interval, above 0 and below 1 (default: 0.95)"},                              \
         {0, "range", "LOW,HIGH", "bounds of the function's values, for intervals that need them"},                   \
     {                                                                                                                \

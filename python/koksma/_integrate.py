@@ -423,7 +423,8 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
         fewer than 6 replicates, a confidence below 0.9 or a proved interval all steps that max_points allows share it.
     replicates, max_points : int
         Number of independent sets; limit of their points together. None: with a tolerance, without estimator and interval, and
-        for sequences of nets in base 2, the 8 consecutive parts of one set, whose mean has the least error; else 15 sets.
+        for sequences of nets in base 2, the 8 consecutive parts of one set, whose mean has the least error, and a ninth of another set as a check; else 15
+        sets.
     value_range : pair of float
         Least and largest value of the function, for the intervals that need them. A value outside is an error.
     bounds : array_like of shape (dim, 2)
