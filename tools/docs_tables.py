@@ -3,16 +3,29 @@
 import html
 import re
 
-from docs_site import ROOT
+from docs_site import ROOT, slug
 
 GALLERY = ("random", "jittered", "n-rooks", "multi-jittered", "sobol:scramble=owen")  # the patterns of the page `gallery`
+FIGURES = (  # of the page `figures`: the title, and the command without its output
+    ("The samples of a pixel, and their worst box", "plot pattern:random@16 pattern:sobol:scramble=owen@16 -s 3 --witness star"),
+    ("One point in each row and column, or not", "plot pattern:jittered@16 pattern:n-rooks@16 pattern:multi-jittered@16 --rooks"),
+    ("Where too many points lie, and too few", "plot pattern:random@64 pattern:hammersley@64 --local-discrepancy"),
+    ("White noise beside blue noise", "plot pattern:random@256 pattern:gaussian-blue-noise@256"),
+    ("Power spectra", "plot --curve power pattern:random@1024 pattern:poisson-disk-maximal@1024 --trials 4"),
+    ("Power by rings of frequencies", "plot --curve rings pattern:random@256 pattern:jittered@256 pattern:sample-elimination@256 --trials 10"),
+    ("Distances between points", "plot --curve pairs pattern:poisson-disk-maximal@256 pattern:jittered@256 --trials 10"),
+    ("How fast a discrepancy falls", "plot --curve convergence pattern:random@1024 pattern:jittered@1024 pattern:sobol:scramble=owen@1024 --trials 10"),
+    ("Sets side by side, for a paper", "plot --compare pattern:random@64 pattern:halton:scramble=owen@64 pattern:pmj02@64"),
+    ("Points on a disk", "plot pattern:sobol:scramble=owen@256 --warp concentric-disk"),
+)
 PATH_TRACED = ("mirror-block", "cornell", "cornell-glossy", "veach-plates", "ajar", "fog")  # scenes made for the integrator `path`
 
 def sections(site, kind, title, what, members):
     """One page for the members of a small table: (name, line, source keys, path, picture or "")."""
     body = ""
     for name, line, keys, path, picture in members:
-        body += f"<h2 id='{name}'>{name}</h2><p>{html.escape(line)}</p>"
+        at = slug(name) if " " in name else name
+        body += f"<h2 id='{at}'>{name}</h2><p>{html.escape(line)}</p>"
         body += site.comment(path, name) if path else ""
         body += f"<p><b>Source.</b> {site.cite(keys, name, kind)}</p>" if keys not in ("", "-") else ""
         body += site.parameters(name) + picture
@@ -53,6 +66,8 @@ def small_tables(site):
         lambda: [(n, r["what"], "", "", render(f"scene-{n}", n)) for r, n in of("scenes", "scene")])
     add("gallery", "Gallery", "every scene by five patterns at 16 samples a pixel",
         lambda: [(n, r["what"], "", "", gallery(n)) for r, n in of("scenes", "scene")])
+    add("figures", "Figures", "and the commands that draw them",
+        lambda: [(title, "", "", "", program.picture(f"figure-{i}.svg", *command.split(), alt=title)) for i, (title, command) in enumerate(FIGURES)])
     add("integrators", "Integrators", "how light is followed: <code>koksma render --integrator</code>",
         lambda: [(n, r["what"], r["source"], integrator_source(n),
           render(f"integrator-{n}", "cornell", "--integrator", n)) for r, n in of("integrators", "integrator")])

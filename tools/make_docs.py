@@ -253,7 +253,7 @@ def index_pages(site):
             (f"{len(site.lists['patterns'])} patterns", "patterns/index.html", "each with its definition, spectrum, values and tested claims"),
             (f"{len(site.lists['measures'])} measures", "measures/index.html",
              ", ".join(f"<a href='measures/{name}.html'>{name}</a> {what}" for name, what in shown) + " ..."),
-            ("Scenes", "scenes/index.html", ""), ("Gallery", "gallery/index.html", "every scene by five patterns"), ("Integrators", "integrators/index.html", ""), ("Pixel filters", "filters/index.html", ""),
+            ("Scenes", "scenes/index.html", ""), ("Gallery", "gallery/index.html", "every scene by five patterns"), ("Figures", "figures/index.html", "with their commands"), ("Integrators", "integrators/index.html", ""), ("Pixel filters", "filters/index.html", ""),
             ("Adaptive sampling", "adaptive/index.html", ""), ("Warps", "warps/index.html", ""), ("Integrands", "integrands/index.html", ""), ("Materials", "materials/index.html", ""),
             ("Lights", "lights/index.html", ""), ("Uses of a sample", "uses/index.html", ""), ("References", "references.html", "")]) +
         "<h2>What was found</h2>" + links([("Findings", "findings/index.html", "studies with their numbers")]))
