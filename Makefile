@@ -6,6 +6,8 @@
 #   make install     install the release build; PREFIX=/usr/local, DESTDIR= as usual
 #   make explorer    build the page for a browser: build/explorer/koksma-explorer.html
 #   make masks       make blue-noise masks for common filters, 64 to 256 pixels, with their errors: build/masks (10 minutes)
+#   make experiment  search sets for 15 targets, render them, and compare what they win: docs/findings/optimised.md (half an hour of
+#                    one core); SEED=R: another one; QUICK=1: 8 minutes, no page. Interrupted, it continues
 #   make docs        write the documents to build/docs: tutorial, commands, C and Python reference, a page for every pattern,
 #                    measure, scene, ..., findings; with the explorer if it is built
 #
@@ -36,8 +38,10 @@ DEMO ?= demo
 TRIALS ?=
 BASE ?= main
 MACHINES ?= aarch64
+SEED ?= 1
+QUICK ?=
 
-.PHONY: help demo check test test-all bench install masks docs explorer wheel npm deb dist dist-test cross release clean
+.PHONY: help experiment demo check test test-all bench install masks docs explorer wheel npm deb dist dist-test cross release clean
 
 help:
 	@sed -n 's/^#   //p; s/^#$$//p' Makefile | sed '1{/^$$/d}'
@@ -72,6 +76,10 @@ bench: release
 
 masks: release
 	@scripts/masks build/release/koksma build/masks
+
+experiment: release
+	python3 tools/optimised.py --koksma build/release/koksma -o build/experiment --seed $(SEED) $(if $(QUICK),--quick,--keep)
+	$(if $(QUICK),,python3 tools/optimised_models.py -o docs/findings/optimised.json)
 
 install: release
 	cmake --install build/release
