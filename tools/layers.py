@@ -54,8 +54,9 @@ MAY_USE = {
                     "api",
     "study/sheet": "core stats patterns measures integrands verify api image masks maskfiles scene render study/plan study/run study/ranking "
                    "study/report",
+    "study/atlas": "core json patterns measures warps integrands image optimise api study/plan study/run study/report study/sheet",
     "cli": "core kernels stats masks maskfiles patterns measures warps integrands api verify identify optimise image domains scene plot render "
-           "study/plan study/run study/ranking study/images study/report study/sheet",
+           "study/plan study/run study/ranking study/images study/report study/sheet study/atlas",
 }
 
 

@@ -797,6 +797,13 @@ void koksma__doc_hide_folder(koksma__document *d, const char folder[KOKSMA__FOLD
     koksma__json_writer_fini(&w);
 }
 
+void koksma__page_style(FILE *f)
+{
+    static const char end[] = "</style>\n";
+    const char *style = strstr(koksma__page_head, "<style>");
+    fwrite(style, 1, (size_t)(strstr(style, end) - style) + sizeof end - 1, f);
+}
+
 char *koksma__page_text(koksma__page_kind kind, const char *json)
 {
     char *text = NULL;

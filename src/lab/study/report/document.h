@@ -184,6 +184,9 @@ void koksma__doc_hide_folder(koksma__document *d, const char folder[KOKSMA__FOLD
 /* Returns the page with the JSON text in it, which the caller frees; NULL: out of memory. */
 char *koksma__page_text(koksma__page_kind kind, const char *json);
 
+/* Writes the style of the pages, an element <style>. */
+void koksma__page_style(FILE *f);
+
 /* Writes the JSON text as report.json, and the page that shows it as report.html, into a folder. */
 koksma_status koksma__page_write(const char *folder, koksma__page_kind kind, const char *json);
 

@@ -1,0 +1,403 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Entries: point sets submitted as records, one JSON file each, and their check. The points are decimal numbers of 17
+ * digits, which read back to the same doubles. The digest is the SHA-256 of the measure's spec, the author, the dimension
+ * and the bits of the coordinates; the value is left out, so that a wrong claim is found by measuring, not by the digest.
+ *
+ * Two sets are the same if a map of the cube takes one to the other: a permutation and reflections of the axes (2^d d! maps,
+ * up to four dimensions), then a shift on the torus. A shift is found by trying, for the first point of one set, every point
+ * of the other: n shifts, each of which the first point without a partner ends. Only sets of the same measure and number of
+ * points whose values agree to 1e-9 are compared, so that a map which changes the value is never the reason.
+ */
+#include <koksma/atlas.h>
+#include <koksma/optimise.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/json_writer.h"
+#include "core/status.h"
+#include "json/json.h"
+
+enum { MAX_MAPPED = 4, NUMBER = 32 };
+static const double near = 1e-9, clear = 1e-11, digits = 1e-13;
+
+typedef struct entry {
+    koksma_points points;
+    koksma_spec measure;
+    const char *author, *digest; /* in the document */
+    double value;
+    koksma__json *document;
+} entry;
+
+static void find_digest(const koksma_points *points, const char *measure, const char *author,
+                        char digest[KOKSMA__SHA256_TEXT])
+{
+    koksma__sha256 hash;
+    char text[NUMBER];
+    koksma__sha256_init(&hash);
+    koksma__sha256_add(&hash, measure, strlen(measure) + 1);
+    koksma__sha256_add(&hash, author, strlen(author) + 1);
+    koksma__sha256_add(&hash, text, (size_t)snprintf(text, sizeof text, "%d", points->dim));
+    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
+        uint64_t bits;
+        memcpy(&bits, &points->xs[i], sizeof bits);
+        koksma__sha256_add(&hash, text, (size_t)snprintf(text, sizeof text, " %016llx", (unsigned long long)bits));
+    }
+    koksma__sha256_finish(&hash, digest);
+}
+
+static koksma_status measure_exactly(const koksma_spec *measure, const koksma_points *points, const koksma_run *run,
+                                     double *out)
+{
+    koksma_value value;
+    KOKSMA__FAIL_IF(measure->measure->answer != KOKSMA_ANSWER_EXACT, KOKSMA_ARGUMENT,
+                    "%s: an entry's measure has exact values, such as star or l2-star", measure->measure->name);
+    KOKSMA__TRY(koksma_evaluate(measure, points, run, &value));
+    KOKSMA__FAIL_IF(!value.exact, KOKSMA_UNSUPPORTED, "%s: only bounds are known for these points",
+                    measure->measure->name);
+    *out = value.value;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_entry_text(const koksma_points *points, const koksma_spec *measure, const char *author,
+                                const koksma_run *run, char **json)
+{
+    KOKSMA__REQUIRE(points, measure, author, json);
+    KOKSMA__REQUIRE_RUN(run);
+    char name[KOKSMA_MAX_SPEC], digest[KOKSMA__SHA256_TEXT];
+    koksma__json_writer w = {0};
+    double value;
+    size_t size;
+    KOKSMA__FAIL_IF(!measure->measure, KOKSMA_ARGUMENT, "measure: it must be the spec of a measure");
+    KOKSMA__FAIL_IF(!*author, KOKSMA_ARGUMENT, "author: it must not be empty");
+    KOKSMA__TRY(measure_exactly(measure, points, run, &value));
+    koksma_spec_text(measure, name);
+    find_digest(points, name, author, digest);
+    koksma__json_begin_object(&w, NULL);
+    koksma__json_write_text(&w, "format", "koksma-entry");
+    koksma__json_write_whole(&w, "version", 1);
+    koksma__json_write_text(&w, "author", author);
+    koksma__json_write_text(&w, "measure", name);
+    koksma__json_write_whole(&w, "n", (int64_t)points->n);
+    koksma__json_write_whole(&w, "dim", points->dim);
+    koksma__json_write_number(&w, "value", value);
+    koksma__json_write_text(&w, "digest", digest);
+    koksma__json_begin_array(&w, "points");
+    for (size_t i = 0; i < points->n; i++) {
+        koksma__json_break(&w);
+        koksma__json_begin_array(&w, NULL);
+        for (int k = 0; k < points->dim; k++) {
+            koksma__json_write_number(&w, NULL, points->xs[i * (size_t)points->dim + (size_t)k]);
+        }
+        koksma__json_end(&w);
+    }
+    koksma__json_end(&w);
+    koksma__json_end(&w);
+    return koksma__json_finish(&w, json, &size);
+}
+
+/* ---- Reading --------------------------------------------------------------------------------------------------- */
+
+static koksma_status read_points(const koksma__json_node *root, entry *e)
+{
+    koksma__json_node list;
+    long long n, dim;
+    size_t length;
+    KOKSMA__TRY(koksma__json_get_whole(root, "n", true, 1, (long long)KOKSMA_MAX_COORDINATES, &n));
+    KOKSMA__TRY(koksma__json_get_whole(root, "dim", true, 1, KOKSMA_MAX_DIM, &dim));
+    KOKSMA__TRY(koksma__json_member(root, "points", &list));
+    KOKSMA__TRY(koksma__json_length(&list, KOKSMA_MAX_COORDINATES, &length));
+    KOKSMA__JSON_FAIL_IF(length != (size_t)n, &list, "it has %zu points, and n is %lld", length, n);
+    KOKSMA__TRY(koksma_points_init(&e->points, length, (int)dim));
+    for (size_t i = 0; i < length; i++) {
+        const koksma__json_node point = koksma__json_item(&list, i);
+        KOKSMA__TRY(koksma__json_numbers(&point, 0, 1, (size_t)dim, e->points.xs + i * (size_t)dim));
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status read_entry(const char *path, entry *e)
+{
+    static const char *const keys[] = {"format", "version", "author", "measure", "n",
+                                       "dim",    "value",   "digest", "points",  NULL};
+    unsigned char *bytes;
+    size_t size;
+    const char *format, *measure;
+    long long version;
+    *e = (entry){0};
+    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_PARAMETERS, KOKSMA__BY_USER, koksma__check_text, &bytes, &size));
+    const koksma_status status = koksma__json_open("entry", path, (char *)bytes, size, &e->document);
+    free(bytes);
+    KOKSMA__TRY(status);
+    const koksma__json_node root = koksma__json_root(e->document);
+    KOKSMA__TRY(koksma__json_get_text(&root, "format", true, &format));
+    KOKSMA__JSON_FAIL_IF(strcmp(format, "koksma-entry") != 0, &root, "format is '%s', not 'koksma-entry'", format);
+    KOKSMA__TRY(koksma__json_only(&root, keys));
+    KOKSMA__TRY(koksma__json_get_whole(&root, "version", true, 1, 1, &version));
+    KOKSMA__TRY(koksma__json_get_text(&root, "author", true, &e->author));
+    KOKSMA__TRY(koksma__json_get_text(&root, "digest", true, &e->digest));
+    KOKSMA__TRY(koksma__json_get_number(&root, "value", true, 0, HUGE_VAL, &e->value));
+    KOKSMA__TRY(koksma__json_get_text(&root, "measure", true, &measure));
+    koksma__json_node node;
+    KOKSMA__TRY(koksma__json_member(&root, "measure", &node));
+    if (koksma_measure_spec(measure, &e->measure)) {
+        return koksma__json_fail_in(&node, KOKSMA_MALFORMED);
+    }
+    KOKSMA__JSON_FAIL_IF(e->measure.measure->answer != KOKSMA_ANSWER_EXACT, &node,
+                         "'%s' has no exact values; an entry's measure does, such as star", measure);
+    return read_points(&root, e);
+}
+
+static void entry_fini(entry *e)
+{
+    koksma_points_fini(&e->points);
+    koksma__json_close(e->document);
+}
+
+/* ---- Sets that are the same ------------------------------------------------------------------------------------ */
+
+static double apart(double x, double y)
+{
+    const double d = fabs(x - y);
+    return fabs(d - nearbyint(d)); /* on the torus */
+}
+
+/* Whether the set, sorted by the first coordinate, has a point near x on the torus. */
+static bool has_point(const koksma_points *sorted, const double *x)
+{
+    const size_t dim = (size_t)sorted->dim;
+    for (int turn = -1; turn <= 1; turn++) { /* copies of the first coordinate beyond both ends */
+        size_t low = 0, high = sorted->n;
+        while (low < high) {
+            const size_t middle = (low + high) / 2;
+            if (sorted->xs[middle * dim] < x[0] + turn - near) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        for (; low < sorted->n && sorted->xs[low * dim] <= x[0] + turn + near; low++) {
+            size_t k = 1;
+            while (k < dim && apart(sorted->xs[low * dim + k], x[k]) <= near) {
+                k++;
+            }
+            if (k == dim) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* Writes point i of `points` under a map: coordinate k is coordinate axis[k], reflected if bit k of `mirror` is set. */
+static void map_point(const koksma_points *points, size_t i, const int *axis, unsigned mirror, double *out)
+{
+    for (int k = 0; k < points->dim; k++) {
+        const double x = points->xs[i * (size_t)points->dim + (size_t)(axis ? axis[k] : k)];
+        out[k] = mirror >> k & 1 ? 1 - x : x;
+    }
+}
+
+static bool same_under(const koksma_points *a, const koksma_points *sorted, const int *axis, unsigned mirror,
+                       double *x)
+{
+    const size_t dim = (size_t)a->dim;
+    double *shift = x + dim;
+    for (size_t i = 0; i < sorted->n; i++) {
+        map_point(a, 0, axis, mirror, x);
+        for (size_t k = 0; k < dim; k++) {
+            shift[k] = sorted->xs[i * dim + k] - x[k];
+        }
+        size_t found = 0;
+        for (; found < a->n; found++) {
+            map_point(a, found, axis, mirror, x);
+            for (size_t k = 0; k < dim; k++) {
+                x[k] += shift[k];
+                x[k] -= floor(x[k]);
+            }
+            if (!has_point(sorted, x)) {
+                break;
+            }
+        }
+        if (found == a->n) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void swap(int *values, int i, int j)
+{
+    const int kept = values[i];
+    values[i] = values[j];
+    values[j] = kept;
+}
+
+/* Makes the next permutation in the order of a dictionary. Returns false after the last one. */
+static bool next_permutation(int *axis, int n)
+{
+    int i = n - 2, j = n - 1;
+    while (i >= 0 && axis[i] > axis[i + 1]) {
+        i--;
+    }
+    while (i >= 0 && axis[j] < axis[i]) {
+        j--;
+    }
+    if (i < 0) {
+        return false;
+    }
+    swap(axis, i, j);
+    for (int k = i + 1, l = n - 1; k < l; k++, l--) {
+        swap(axis, k, l);
+    }
+    return true;
+}
+
+static int by_first(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static koksma_status are_same(const koksma_points *a, const koksma_points *b, bool *same)
+{
+    int axis[MAX_MAPPED] = {0, 1, 2, 3};
+    const size_t dim = (size_t)a->dim;
+    const bool mapped = a->dim <= MAX_MAPPED;
+    koksma_points sorted;
+    double *x = malloc(2 * dim * sizeof *x);
+    KOKSMA__REQUIRE_MEMORY(x, 2 * dim * sizeof *x);
+    const koksma_status status = koksma_points_init(&sorted, b->n, b->dim);
+    *same = false;
+    if (!status) {
+        memcpy(sorted.xs, b->xs, b->n * dim * sizeof *x);
+        qsort(sorted.xs, b->n, dim * sizeof *x, by_first);
+        do {
+            for (unsigned mirror = 0; !*same && mirror < (mapped ? 1u << a->dim : 1u); mirror++) {
+                *same = same_under(a, &sorted, mapped ? axis : NULL, mirror, x);
+            }
+        } while (!*same && mapped && next_permutation(axis, a->dim));
+        koksma_points_fini(&sorted);
+    }
+    free(x);
+    return status;
+}
+
+/* ---- The check ------------------------------------------------------------------------------------------------- */
+
+static bool is_rival(const entry *e, const koksma_entry_result *mine, const char *measure, size_t n, int dim)
+{
+    return e->points.n == n && e->points.dim == dim && !strcmp(mine->measure, measure);
+}
+
+static void refuse(koksma_entry_result *r, const char *verdict)
+{
+    r->verdict = verdict;
+}
+
+/* Compares an entry with a set of the same measure and size: duplicate, or the record that it must beat. */
+static koksma_status compare(const entry *e, koksma_entry_result *r, const koksma_points *points, double value,
+                             const char *name)
+{
+    const double sign = e->measure.measure->larger_is_better ? 1 : -1;
+    bool same = false;
+    if (fabs(value - r->value) <= near * fabs(value)) {
+        KOKSMA__TRY(are_same(&e->points, points, &same));
+    }
+    if (same && strcmp(r->verdict, "duplicate") != 0) {
+        refuse(r, "duplicate");
+        snprintf(r->reason, sizeof r->reason, "the points are those of %.200s", name);
+    }
+    if (isnan(r->record) || sign * value > sign * r->record) {
+        r->record = value;
+    }
+    if (!strcmp(r->verdict, "accepted") && !(sign * (r->value - value) > clear)) {
+        refuse(r, "worse");
+        snprintf(r->reason, sizeof r->reason, "%.17g is not better than %.17g, the value of %.150s", r->value, value,
+                 name);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status compare_record(const entry *e, koksma_entry_result *r, const koksma_run *run)
+{
+    const koksma_record *record;
+    for (size_t i = 0; (record = koksma_record_at(i)); i++) {
+        char text[KOKSMA_MAX_SPEC + 16];
+        koksma_spec spec;
+        koksma_points points;
+        if (!is_rival(e, r, record->measure, record->n, record->dim)) {
+            continue;
+        }
+        snprintf(text, sizeof text, "record:measure=%s", record->measure);
+        KOKSMA__TRY(koksma_pattern_spec(text, &spec));
+        KOKSMA__TRY(koksma_points_init(&points, record->n, record->dim));
+        snprintf(text, sizeof text, "record:measure=%s@%zu@%d", record->measure, record->n, record->dim);
+        koksma_status status = koksma_generate(&spec, 0, run, &points);
+        status = status ? status : compare(e, r, &points, record->value, text);
+        koksma_points_fini(&points);
+        KOKSMA__TRY(status);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status check(const entry *entries, const char *const *paths, koksma_entry_result *results, size_t i,
+                           const koksma_run *run)
+{
+    const entry *e = &entries[i];
+    koksma_entry_result *r = &results[i];
+    char digest[KOKSMA__SHA256_TEXT];
+    *r = (koksma_entry_result){.verdict = "accepted", .n = e->points.n, .dim = e->points.dim, .claimed = e->value};
+    r->value = r->record = NAN;
+    koksma_spec_text(&e->measure, r->measure);
+    find_digest(&e->points, r->measure, e->author, digest);
+    if (strcmp(digest, e->digest) != 0) {
+        refuse(r, "altered");
+        snprintf(r->reason, sizeof r->reason, "the points, the measure or the author are not those of the digest");
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(measure_exactly(&e->measure, &e->points, run, &r->value));
+    if (!(fabs(r->value - e->value) <= digits * fabs(r->value))) {
+        refuse(r, "false");
+        snprintf(r->reason, sizeof r->reason, "it claims %.17g, and the points have %.17g", e->value, r->value);
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(compare_record(e, r, run));
+    for (size_t k = 0; k < i; k++) {
+        const bool sound = !isnan(results[k].value) && strcmp(results[k].verdict, "false") != 0;
+        if (sound && is_rival(e, r, results[k].measure, results[k].n, results[k].dim)) {
+            KOKSMA__TRY(compare(e, r, &entries[k].points, results[k].value, paths[k]));
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_entries_check(const char *const *paths, size_t n, const koksma_run *run,
+                                   koksma_entry_result *results)
+{
+    KOKSMA__REQUIRE(paths, results);
+    KOKSMA__REQUIRE_RUN(run);
+    KOKSMA__FAIL_IF(!n, KOKSMA_ARGUMENT, "n: there must be at least one entry");
+    KOKSMA__TRY(koksma__array_check("paths", paths, n, sizeof *paths));
+    KOKSMA__FAIL_IF(n > SIZE_MAX / sizeof(entry) / 2, KOKSMA_ARGUMENT, "n: too many entries");
+    for (size_t i = 0; i < n; i++) {
+        KOKSMA__FAIL_IF(!paths[i], KOKSMA_ARGUMENT, "paths[%zu] is NULL", i);
+    }
+    entry *entries = calloc(n, sizeof *entries);
+    KOKSMA__REQUIRE_MEMORY(entries, n * sizeof *entries);
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < n && !status; i++) {
+        status = read_entry(paths[i], &entries[i]);
+        status = status ? status : check(entries, paths, results, i, run);
+    }
+    for (size_t i = 0; i < n; i++) {
+        entry_fini(&entries[i]);
+    }
+    free(entries);
+    return status;
+}
