@@ -51,8 +51,7 @@ const cli_command cli_command_scene = {
     .details = "SCENE is a name, a JSON file (docs/scenes.md), a mesh file, or a scene of pbrt-v4 (.pbrt) or "
                "Mitsuba (.xml). An error names file, line, field and reason (exit code 3). A warning reports "
                "something odd that can still be rendered (exit code 1). stdout lists what the scene contains (spp: "
-               "samples a pixel that its own sampler asks for).
-",
+               "samples a pixel that its own sampler asks for).\n",
     .examples = "koksma scene check ball\n",
     .options = options,
     .run = run,

@@ -66,7 +66,7 @@ enum { KOKSMA__MAX_PATH = 4096 };
 KOKSMA__LAB bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH]);
 
 /* Returns FOLDER/PATH, or a copy of the path if folder is NULL, to be freed; NULL without memory. */
-char *koksma__path_below(const char *folder, const char *path);
+KOKSMA__LAB char *koksma__path_below(const char *folder, const char *path);
 
 /* ---- Writing ---- */
 
