@@ -122,9 +122,8 @@ def table(head, rows):
     return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(map(str, row)) + " |" for row in rows]
 
 
-def in_text(interval, digits=3):
-    value, low, high = (f"{x:.{digits}f}" for x in interval)
-    return f"{value} ({low} to {high})"
+def in_text(interval, digits=2):
+    return "{:.{d}f} ({:.{d}f}..{:.{d}f})".format(*interval, d=digits)
 
 
 class Seed:
@@ -292,27 +291,31 @@ def analyse(seed, other):
     return found
 
 
+def listed(pairs, digits):
+    """Names with the values of both seeds, in one line."""
+    return "; ".join(f"{name} " + ", ".join(f"{v:.{digits}f}" for v in values) for name, values in pairs)
+
+
 def tables(results, design):
-    """The page's tables, as lines."""
-    first, second = (results["seeds"][k] for k in sorted(results["seeds"])[:2])
-    order = sorted(first["effects"]["shift"], key=lambda t: first["effects"]["shift"][t]["none"][0])
-    one = lambda r: f"{r[0]:.3f}"
-    out = table(["target", "shift / its start", "seed 2", "shift / Owen-Sobol'", "seed 2", "phase", "turned*", "fixed*"],
-                [[t, in_text(first["effects"]["shift"][t]["none"]), one(second["effects"]["shift"][t]["none"]),
-                  in_text(first["targets_against_sobol"][t]), one(second["targets_against_sobol"][t]),
-                  *(one(first["effects"][a][t]["none"]) for a in ("phase", "turned", "fixed"))] for t in order])
-    both = lambda part, key: [in_text(s[part][key]["ratio"]) + f" {s[part][key]['pattern']}" for s in (first, second)]
-    out += table(["n", "seed 1", "seed 2"], [[n, *both("gain_by_n", n)] for n in first["gain_by_n"]])
-    out += table(["scene", "seed 1", "seed 2"], [[c, *both("gain_by_scene", c)] for c in first["gain_by_scene"]])
-    percent = lambda x: f"{100 * x:.2f}"
+    """The page's tables, and its lines of numbers; of the first two seeds."""
+    one, two = (results["seeds"][k] for k in sorted(results["seeds"], key=int)[:2])
+    start = {t: e["none"] for t, e in one["effects"]["shift"].items()}
+    order = sorted(start, key=lambda t: start[t][0])
+    value = lambda r: f"{r[0]:.3f}"
+    out = table(["target", "to its start", "to Owen-Sobol'", "seed 2", "turned*", "fixed*"],
+                [[t, in_text(start[t], 3), in_text(one["targets_against_sobol"][t], 3), value(two["targets_against_sobol"][t]),
+                  *(value(one["effects"][a][t]["none"]) for a in ("turned", "fixed"))] for t in order])
+    out += table(["n", "best pattern", "seed 1", "seed 2"],
+                 [[n, " ".join(dict.fromkeys(s["gain_by_n"][n]["pattern"] for s in (one, two))), *(in_text(s["gain_by_n"][n]["ratio"]) for s in (one, two))]
+                  for n in one["gain_by_n"]])
+    measures = sorted(one["predictors"], key=lambda m: -one["predictors"][m]["rank"][0])
+    out += table(["measure", "rank", "partial"], [[m, in_text(one["predictors"][m]["rank"]), in_text(one["predictors"][m]["partial"])] for m in measures])
     for arm in ("shift", "phase"):
-        out += table([f"factor ({arm})", "share, %", "seed 2"], [[k, percent(v), percent(second["factors"][arm][k])] for k, v in first["factors"][arm].items()])
-    measures = sorted(first["predictors"], key=lambda m: -first["predictors"][m]["rank"][0])
-    out += table(["measure", "rank correlation", "seed 2", "partial", "seed 2"],
-                 [[m, in_text(first["predictors"][m]["rank"], 2), f"{second['predictors'][m]['rank'][0]:.2f}", in_text(first["predictors"][m]["partial"], 2),
-                   f"{second['predictors'][m]['partial'][0]:.2f}"] for m in measures])
-    out += table(["arm", *(f"n = {n}" for n in design["bias"]["n"])],
-                 [[arm, *(f"{100 * r[0]:.0f} ({100 * r[1]:.0f} to {100 * r[2]:.0f})" for r in by_n.values())] for arm, by_n in first["bias"].items()])
+        names = [k for k in one["factors"][arm] if "target" in k or "search" in k or "set" in k]
+        whole = [sum(s["factors"][arm][k] for k in names) for s in (one, two)]
+        out.append(listed([(k, [100 * s["factors"][arm][k] / w for s, w in zip((one, two), whole)]) for k in names], 1) + ".")
+    out.append(listed([(c, [s["gain_by_scene"][c]["ratio"][0] for s in (one, two)]) for c in one["gain_by_scene"]], 2) + ".")
+    out.append("; ".join(f"{arm} " + ", ".join(in_text([100 * x for x in r], 0) for r in by_n.values()) for arm, by_n in one["bias"].items()) + ".")
     return out
 
 

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The models of tools/optimised_models.py on simulated rows: they find planted effects, and where there is none they say so in
-95 % of the experiments; their parts against definitions; a whole file of rows."""
+95 % of the experiments; their parts against definitions; the stored rows still give the page."""
+import json
 import lzma
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -113,6 +115,18 @@ class Rows(unittest.TestCase):
         self.assertTrue(low <= 0.9 / 0.95 <= high)
         only = models.in_scene(seed, "good", "p", "s3")
         self.assertTrue(0 < only[1] <= only[0] <= only[2])
+
+    def test_page(self):
+        """The stored rows give every line of the page's tables, and the stored numbers."""
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder) / "o.json"
+            done = subprocess.run([sys.executable, "-B", str(TREE / "tools/optimised_models.py"), "-o", str(out), "--check",
+                                   str(TREE / "docs/findings/optimised.md")], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            stored, made = (json.loads(p.read_text(encoding="utf-8")) for p in (TREE / "docs/findings/optimised.json", out))
+            self.assertEqual(stored["images"], made["images"])
+            for seed in stored["seeds"]:
+                self.assertEqual(stored["seeds"][seed]["hypotheses"], made["seeds"][seed]["hypotheses"])
 
 
 if __name__ == "__main__":
