@@ -286,7 +286,7 @@ static int check_folder(const cli_arguments *arguments, const cli_quick *quick)
     koksma_spec spec;
     for (size_t i = 0; cli_pattern_item(quick->patterns, i, item); i++) {
         const size_t at = koksma_plan_path(item, 0);
-        if (!at || item[at] == '/' || koksma_pattern_spec(item, &spec) || !getcwd(here, sizeof here)) {
+        if (!at || !cli_is_relative(item + at) || koksma_pattern_spec(item, &spec) || !getcwd(here, sizeof here)) {
             continue;
         }
         snprintf(joined, sizeof joined, "%.*s%s/%s", (int)at, item, here, item + at);

@@ -263,6 +263,20 @@ char *koksma__realpath(const char *path, char *out)
     return real;
 }
 
+char *koksma__getcwd(char *out, size_t size)
+{
+    wchar_t *wide = _wgetcwd(NULL, 0);
+    char *here = wide ? utf8(wide) : NULL;
+    const bool fits = here && strlen(here) < size;
+    if (fits) {
+        strcpy(out, here);
+    }
+    free(wide);
+    free(here);
+    errno = here ? ERANGE : errno;
+    return fits ? out : NULL;
+}
+
 /* Windows follows its links itself. */
 intptr_t koksma__readlink(const char *path, char *out, size_t size)
 {

@@ -58,6 +58,7 @@ KOKSMA__LAB int koksma__unlink(const char *path);
 KOKSMA__LAB int koksma__rmdir(const char *path);
 KOKSMA__LAB int koksma__link(const char *from, const char *to);
 KOKSMA__LAB char *koksma__realpath(const char *path, char *out);
+KOKSMA__LAB char *koksma__getcwd(char *out, size_t size);
 KOKSMA__LAB intptr_t koksma__readlink(const char *path, char *out, size_t size);
 KOKSMA__LAB intptr_t koksma__pread(int descriptor, void *bytes, size_t size, int64_t offset);
 
@@ -78,6 +79,7 @@ KOKSMA__LAB intptr_t koksma__pread(int descriptor, void *bytes, size_t size, int
 #define rmdir koksma__rmdir
 #define link koksma__link
 #define realpath koksma__realpath
+#define getcwd koksma__getcwd
 #define readlink koksma__readlink
 #define pread koksma__pread
 #define putc_unlocked _putc_nolock

@@ -10,6 +10,7 @@
 #include <koksma/integrate.h>
 #include <koksma/study.h>
 
+#include "core/platform/system.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
 #include "render/samples/samples.h"
@@ -108,7 +109,7 @@ static bool reads_as_meant(const char *joined, const char *text, const char *fol
     const koksma_spec *a, *b;
     bool same = !read_patterns(text, kind, &before) && !read_patterns(joined, kind, &after);
     for (size_t i = 0; same && (a = koksma__image_pattern_at(&before, i)); i++) {
-        const bool relative = koksma__names_path(a->pattern) && *a->path != '/';
+        const bool relative = koksma__names_path(a->pattern) && !koksma__path_is_absolute(a->path);
         const size_t length = relative ? strlen(folder) : 0;
         b = koksma__image_pattern_at(&after, i);
         same = a->pattern == b->pattern && !strncmp(b->path, folder, length) && !strcmp(b->path + length, a->path) &&
@@ -140,7 +141,7 @@ static koksma_status from_plan(const koksma__json_node *node, text_kind kind, bo
     size_t path = is_scene ? 0 : koksma_plan_path(*text, 0);
     for (size_t i = 0; i < length; i++) {
         if (i == path && (is_scene || path)) {
-            if ((*text)[i] != '/') {
+            if (!koksma__path_is_absolute(*text + i)) {
                 memcpy(to, name, folder);
                 to += folder;
             }

@@ -127,8 +127,17 @@ koksma_status koksma__reference_replicate(const koksma__reference_image *referen
     return status ? status : koksma__render_rows(reference->scene->scene, &variant.render, first_row, rows, run, out);
 }
 
+static bool writes_exr(void)
+{
+    const char *left_out = NULL, *name;
+    for (size_t i = 0; (name = koksma_image_format(i, &left_out)) && strcmp(name, "exr") != 0; i++) {
+    }
+    return name && !left_out;
+}
+
 /* The file's name is a hash of everything that the picture and its own error depend on. "luminance" in the hashed
-   text separates these files from older ones, whose error was not of luminance. */
+   text separates these files from older ones, whose error was not of luminance. Its format is that of the file that is
+   there; of a new one PFM without OpenEXR, whose pixels are the same. */
 void koksma__reference_path(const koksma_study *study, const koksma__reference_image *reference, char *path,
                             size_t size)
 {
@@ -137,7 +146,15 @@ void koksma__reference_path(const koksma_study *study, const koksma__reference_i
     koksma__hash_with_points(NULL, reference->scene->hash, &(koksma__row_texts){true, "", name}, hash);
     const uint64_t key = koksma__job_seed("luminance|%s|%s|%s|%s|%dx%d|%s", reference->scene->name, hash, name,
                                           reference->options, reference->width, reference->height, koksma_version());
-    snprintf(path, size, "%s/references/%016llx.exr", study->folder, (unsigned long long)key);
+    static const char *const ends[] = {"exr", "pfm"};
+    struct stat info;
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, size, "%s/references/%016llx.%s", study->folder, (unsigned long long)key, ends[i]);
+        if (!stat(path, &info)) {
+            return;
+        }
+    }
+    snprintf(path, size, "%s/references/%016llx.%s", study->folder, (unsigned long long)key, ends[!writes_exr()]);
 }
 
 koksma_status koksma__references_folder(const koksma_study *study, bool *exists)
