@@ -42,7 +42,8 @@ static void put_item(FILE *out, const char *item, bool is_scene)
     const size_t at = is_scene ? 0 : koksma_plan_path(item, 0);
     fputc('"', out);
     put_characters(out, item, at);
-    if ((is_scene ? strpbrk(item, "/.") != NULL : at > 0) && cli_is_relative(item + at) && getcwd(here, sizeof here)) {
+    if ((is_scene ? strpbrk(item, "/.") != NULL : at > 0) && cli_is_relative(item + at) &&
+        getcwd(here, sizeof here)) {
         put_characters(out, here, SIZE_MAX);
         fputc('/', out);
     }
