@@ -99,7 +99,7 @@ static const cli_option options[] = {
     {'m', "measure", "MEASURE", "convergence, compare: the measure to draw (default: l2-star)"},
     {0, "sizes", "N,..",
      "convergence, compare: draw these n, as in 16,64,256 (default: powers of 4 up to the n of the source)"},
-    CLI_CURVE_OPTIONS("chart", "2 sqrt(n)", "radial and pairs have error bars"),
+    CLI_CURVE_OPTIONS("chart", "2 sqrt(n)", "rings and pairs have error bars"),
     CLI_RUN_OPTIONS,
     {0},
 };
@@ -119,7 +119,7 @@ const cli_command cli_command_plot = {
                 "koksma plot pattern:sobol@64@4 -o projections.svg --title 'Sobol points'\n"
                 "koksma plot pattern:jittered@64 --warp polar-disk --grid 8 -o disk.png\n"
                 "koksma plot --curve power pattern:jittered@256 --trials 10 -o power.svg\n"
-                "koksma plot --curve radial pattern:random@256 pattern:jittered@256 -o r.pdf\n"
+                "koksma plot --curve rings pattern:random@256 pattern:jittered@256 -o r.pdf\n"
                 "koksma plot --curve pairs pattern:jittered@256 -o pairs.svg --size 400x300\n"
                 "koksma plot --curve anisotropy pattern:n-rooks@256 -t 10 -o a.svg --theme dark\n"
                 "koksma plot --curve convergence pattern:random@256 pattern:sobol@256 -o c.svg\n"

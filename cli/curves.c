@@ -35,10 +35,7 @@ const cli_curve *cli_curve_find(cli_curve_list list, const char *name)
             return curve;
         }
     }
-    /* the mean power of rings is printed as rings and drawn as radial: either command takes both words */
-    static const char *const words[] = {"rings", "radial"};
-    const size_t own = list == CLI_PRINTED ? 0 : 1;
-    return !strcmp(name, words[1 - own]) ? cli_curve_find(list, words[own]) : NULL;
+    return !strcmp(name, "radial") ? cli_curve_find(list, "rings") : NULL; /* what others call it */
 }
 
 /* Returns whether `word` is one of the words in `words`, which have blanks between them. */

@@ -53,12 +53,12 @@ static int draw(cli_curves *c)
     koksma_cell cells[2 * CLI_MAX_PANELS + 2] = {{0}};
     c->trials = cli_flag(c->arguments, "trials") ? c->trials : TRIALS;
     int code = open_panels(c, &m);
-    code = code ? code : cli_chart_open(c, &cli_curve_radial, &rings, &radial);
+    code = code ? code : cli_chart_open(c, &cli_curve_rings, &rings, &radial);
     code = code ? code : cli_convergence_open(c, &v);
     for (size_t i = 0; i < 2 * n; i++) {
         cells[i] = (koksma_cell){.panel = &m.panels[i / n][i % n], .row = i / n};
     }
-    radial.title = cli_curve_radial.plot.title;
+    radial.title = cli_curve_rings.plot.title;
     v.chart.title = v.title;
     cells[2 * n] = (koksma_cell){.chart = &radial, .row = 2};
     cells[2 * n + 1] = (koksma_cell){.chart = &v.chart, .row = 2};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * rings: statistics of the power over rings of equal |k|, and two charts of them against |k|: radial draws the mean
+ * rings: statistics of the power over rings of equal |k|, and two charts of them against |k|: rings draws the mean
  * power, anisotropy the variance of the power along a ring divided by the square of its mean, in dB (Ulichney 1987).
  * For random points the mean power of T sets has relative variance 1/T, so that the anisotropy is -10 log10 T.
  */
@@ -50,19 +50,11 @@ const cli_curve cli_curve_rings = {
     .name = "rings",
     .meaning = "the mean of the power over rings of equal |k|, and the anisotropy: the variance of the power along "
                "the ring divided by the square of its mean, in dB (Ulichney 1987). Random points have an anisotropy "
-               "of -10 log10 T with T trials",
+               "of -10 log10 T with T trials; the picture has the mean, and dashed 1, as for random points",
     .cite = "ulichney1987",
     .compute = compute,
     .columns = COLUMNS,
     .print = {.options = "half exact trials"},
-};
-
-const cli_curve cli_curve_radial = {
-    .name = "radial",
-    .meaning = "the mean of the power over rings of equal |k|; dashed: 1, as for random points",
-    .cite = "ulichney1987",
-    .compute = compute,
-    .columns = COLUMNS,
     .plot = {.options = "half exact trials",
              .draw = cli_draw_chart,
              .title = "Radial mean of the power spectrum",

@@ -62,7 +62,7 @@ curve power x --half ^
 verify ^ FILES
 verify x -e ^ $properties
 verify x --expect latin,prog^ progressive
-plot x -c ^ points power radial anisotropy pairs prefix-ratios convergence compare filter filter-response
+plot x -c ^ points power rings anisotropy pairs prefix-ratios convergence compare filter filter-response
 plot x --witness ^ $(all measures)
 plot x -o ^ FILES
 render ^ $(all scenes) FILES

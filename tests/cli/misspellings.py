@@ -85,7 +85,7 @@ def main():
         "verb": (["estimate", "export", "report", "audit", "images"], lambda w: ["study", w]),
         "property": (names("properties", "property"), lambda w: ["verify", "random@4", "-e", w]),
         "curve": (["power", "rings", "quality", "screen", "pairs"], lambda w: ["curve", w, "random@4"]),
-        "drawn curve": (["radial", "anisotropy", "convergence"], lambda w: ["plot", "random@4", "-c", w, "-o", "x.svg"]),
+        "drawn curve": (["rings", "anisotropy", "convergence"], lambda w: ["plot", "random@4", "-c", w, "-o", "x.svg"]),
         "warp": (names("warps", "warp"), lambda w: ["measure", "random@4", "--warp", w]),
         "pairing": (["shuffled", "aligned", "native"], lambda w: ["render", "ball", "--pairing", w, "-o", "x.pfm"]),
         "use": (["pixel", "lens", "time", "light-choice", "roulette"], lambda w: ["render", "ball", "-p", f"{w}=random", "-o", "x.pfm"]),

@@ -157,7 +157,7 @@ def expected(arguments):
     return {
         "points": (of_points, sum(pairs), 0, ""),
         "power": (0, n, n, "Power spectrum" if n == 1 else "Power spectra"),
-        "radial": (0, 1, 0, "Radial mean of the power spectrum"),
+        "rings": (0, 1, 0, "Radial mean of the power spectrum"),
         "anisotropy": (alone, 1, 0, "Anisotropy of the power spectrum"),
         "pairs": (0, 1, 0, "Pair correlation"),
         "convergence": (of_sizes, 1, 0, "Convergence of " + option(arguments, "-m", "l2-star")),
