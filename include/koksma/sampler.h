@@ -81,6 +81,13 @@
 #define KOKSMA_INLINE static inline
 #endif
 
+/* The size of an array that a function fills: C compilers then warn about a shorter one (C99 6.7.5.3). */
+#if defined(__cplusplus) || defined(_MSC_VER)
+#define KOKSMA__N(n) n
+#else
+#define KOKSMA__N(n) static n
+#endif
+
 #if !defined(KOKSMA_ASSERT)
 #define KOKSMA_ASSERT(condition) ((void)0)
 #endif
@@ -631,17 +638,17 @@ KOKSMA_INLINE double koksma_sobol_1d(koksma_domain domain, uint32_t i)
     return x;
 }
 
-KOKSMA_INLINE void koksma_sobol_2d(koksma_domain domain, uint32_t i, double xy[2])
+KOKSMA_INLINE void koksma_sobol_2d(koksma_domain domain, uint32_t i, double xy[KOKSMA__N(2)])
 {
     koksma__to_doubles(koksma__sobol_words(domain, i), 2, xy);
 }
 
-KOKSMA_INLINE void koksma_sobol_3d(koksma_domain domain, uint32_t i, double xs[3])
+KOKSMA_INLINE void koksma_sobol_3d(koksma_domain domain, uint32_t i, double xs[KOKSMA__N(3)])
 {
     koksma__to_doubles(koksma__sobol_words(domain, i), 3, xs);
 }
 
-KOKSMA_INLINE void koksma_sobol_4d(koksma_domain domain, uint32_t i, double xs[4])
+KOKSMA_INLINE void koksma_sobol_4d(koksma_domain domain, uint32_t i, double xs[KOKSMA__N(4)])
 {
     koksma__to_doubles(koksma__sobol_words(domain, i), 4, xs);
 }
@@ -653,28 +660,28 @@ KOKSMA_INLINE float koksma_sobol_1f(koksma_domain domain, uint32_t i)
     return x;
 }
 
-KOKSMA_INLINE void koksma_sobol_2f(koksma_domain domain, uint32_t i, float xy[2])
+KOKSMA_INLINE void koksma_sobol_2f(koksma_domain domain, uint32_t i, float xy[KOKSMA__N(2)])
 {
     koksma__to_floats(koksma__sobol_words(domain, i), 2, xy);
 }
 
-KOKSMA_INLINE void koksma_sobol_3f(koksma_domain domain, uint32_t i, float xs[3])
+KOKSMA_INLINE void koksma_sobol_3f(koksma_domain domain, uint32_t i, float xs[KOKSMA__N(3)])
 {
     koksma__to_floats(koksma__sobol_words(domain, i), 3, xs);
 }
 
-KOKSMA_INLINE void koksma_sobol_4f(koksma_domain domain, uint32_t i, float xs[4])
+KOKSMA_INLINE void koksma_sobol_4f(koksma_domain domain, uint32_t i, float xs[KOKSMA__N(4)])
 {
     koksma__to_floats(koksma__sobol_words(domain, i), 4, xs);
 }
 
 /* Computes sample i of the Sobol' sequence whose seeds koksma_sobol_of returned. */
-KOKSMA_INLINE void koksma_sobol_at_2d(const koksma_sobol *sequence, uint32_t i, double xy[2])
+KOKSMA_INLINE void koksma_sobol_at_2d(const koksma_sobol *sequence, uint32_t i, double xy[KOKSMA__N(2)])
 {
     koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 2, xy);
 }
 
-KOKSMA_INLINE void koksma_sobol_at_4d(const koksma_sobol *sequence, uint32_t i, double xs[4])
+KOKSMA_INLINE void koksma_sobol_at_4d(const koksma_sobol *sequence, uint32_t i, double xs[KOKSMA__N(4)])
 {
     koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 4, xs);
 }
@@ -742,7 +749,7 @@ KOKSMA_INLINE double koksma_white_1d(koksma_domain domain, uint32_t i)
     return x;
 }
 
-KOKSMA_INLINE void koksma_white_4d(koksma_domain domain, uint32_t i, double xs[4])
+KOKSMA_INLINE void koksma_white_4d(koksma_domain domain, uint32_t i, double xs[KOKSMA__N(4)])
 {
     koksma__to_doubles(koksma__white_words(domain, i), 4, xs);
 }
@@ -754,7 +761,7 @@ KOKSMA_INLINE float koksma_white_1f(koksma_domain domain, uint32_t i)
     return x;
 }
 
-KOKSMA_INLINE void koksma_white_4f(koksma_domain domain, uint32_t i, float xs[4])
+KOKSMA_INLINE void koksma_white_4f(koksma_domain domain, uint32_t i, float xs[KOKSMA__N(4)])
 {
     koksma__to_floats(koksma__white_words(domain, i), 4, xs);
 }
@@ -764,7 +771,7 @@ KOKSMA_INLINE void koksma_white_4f(koksma_domain domain, uint32_t i, float xs[4]
 /* Computes sample i of the PMJ02 sequence as a digital sequence (Helmer, Christensen & Kensler 2021: the matrices
    are Stirling numbers modulo 2), scrambled and shuffled like koksma_sobol_2d. Every aligned block of 2^m samples
    is a (0,m,2)-net. */
-KOKSMA_INLINE void koksma_pmj02_2d(koksma_domain domain, uint32_t i, double xy[2])
+KOKSMA_INLINE void koksma_pmj02_2d(koksma_domain domain, uint32_t i, double xy[KOKSMA__N(2)])
 {
     static KOKSMA_ALIGNED const uint32_t table[256] = {
         0x00000000u, 0x00000000u, 0x0000000cu, 0x0000000au, 0x00000006u, 0x00000006u, 0x0000000au, 0x0000000cu,
@@ -851,7 +858,8 @@ KOKSMA_INLINE double koksma_place(double cell, double u, double cells)
 
 /* Computes sample i of a correlated multi-jittered set of columns * rows samples: one in each cell of the grid, and
    one in each of the columns * rows strata of each axis. i must be less than columns * rows <= 2^29. */
-KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t columns, uint32_t rows, double xy[2])
+KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t columns, uint32_t rows,
+                                 double xy[KOKSMA__N(2)])
 {
     uint32_t keys[4], more[4], w[4], s, c, r;
     const double cells = (double)columns * (double)rows;
@@ -880,7 +888,7 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
    discrepancy is 1.19 times that of one run in the mean over N = 1 to 1024, and at most 1.64 times (N = 98). The
    samples are shuffled nevertheless, because otherwise the same coordinate of two domains would differ by the same
    number, modulo 1, in all samples. */
-KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
+KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[KOKSMA__N(2)])
 {
     const uint64_t alpha[2] = {(uint64_t)0xC13FA9A9u << 32 | 0x02A6328Fu, (uint64_t)0x91E10DA5u << 32 | 0xC79E7B1Du};
     const uint32_t part = (uint32_t)(i >> 32), order = koksma_order(domain.key, part);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # macros.sh CC INCLUDE: the public headers define and undefine macros of their own prefix only, and leave a program's
-# macros alone, whatever they are called.
+# macros alone, whatever they are called; sampler.h has the sizes of arrays checked.
 set -u
 cc=$1 include=$2
 failed=0
@@ -19,6 +19,14 @@ for language in c c++; do
     for name in $names KOKSMA_VERSION; do printf '#ifndef %s\n#error %s is gone\n#endif\n' "$name" "$name"; done
     printf '#ifdef %s\n#error %s is left\n#endif\n' KOKSMA_STATUS KOKSMA_STATUS KOKSMA_CLAIM KOKSMA_CLAIM
   } | $cc -x $language -I"$include" -Wall -Wextra -Werror -Wno-unused -fsyntax-only - || failed=1
+done
+
+# A C compiler warns about an array that is shorter than what a function of sampler.h fills.
+for size in 2 3; do
+  printf '#include <koksma/sampler.h>\nfloat f(void) { float xs[%s]; koksma_sobol_3f(koksma_domain_of_pixel(1, 2, 3), 0, xs); return xs[0]; }\n' $size |
+    $cc -x c -I"$include" -O2 -Wall -Werror -c -o /dev/null - 2>/dev/null
+  [ $? -eq 0 ] && accepted=3 || accepted=2
+  [ $accepted = $size ] || { echo "an array of $size numbers for koksma_sobol_3f is wrongly judged"; failed=1; }
 done
 
 # What the preprocessor knows after all headers, less what it knew after those of the system that they include.
