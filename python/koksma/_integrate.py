@@ -183,7 +183,10 @@ class Integration(Framed):
     def __repr__(self) -> str:
         several = "" if len(self.sizes) == 1 else f"..{self.sizes[-1]}"
         slope = "" if math.isnan(self.slope) else f", slope {self.slope:.3f} ({self._slope_interval()})"
-        return f"Integration({self.integrand!r}, {self.pattern!r}, n={self.sizes[0]}{several}: rmse {self.rmse[-1]:.3g}{slope})"
+        error = f"rmse {self.rmse[-1]:.3g}"
+        if math.isnan(self.rmse[-1]):  # one set, of which a second trial is the same, and no integral
+            error = f"mean {self.mean[-1]:.6g}; its error takes integral=, or a pattern that depends on the seed"
+        return f"Integration({self.integrand!r}, {self.pattern!r}, n={self.sizes[0]}{several}: {error}{slope})"
 
 
 def integrands() -> List[Member]:

@@ -79,6 +79,8 @@ class Integrate(unittest.TestCase):
         ours = koksma.integrate(lambda x: x[:, 2]**2, points, integral=1/3)
         self.assertAlmostEqual(ours.rmse[0], abs(np.mean(points[:, 2]**2) - 1/3), places=15)
         self.assertEqual(repr(ours), f"Integration('<lambda>', 'points', n=32: rmse {ours.rmse[0]:.3g})")
+        one = koksma.integrate(lambda x: x[:, 0], "regular", 16)  # one set, an integral that nobody gave: a mean, no error
+        self.assertEqual(repr(one), "Integration('<lambda>', 'regular', n=16: mean 0.5; its error takes integral=, or a pattern that depends on the seed)")
         for wrong, named in (((points, 32), "^n must be None"), ((points + 1,), "outside"), ((points[0],), "^points must be")):
             with self.assertRaisesRegex(koksma.ArgumentError, named):
                 koksma.integrate("genz-gaussian", *wrong)
