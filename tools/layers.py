@@ -353,7 +353,7 @@ ABOUT = {
     "integrands": "functions, errors", "optimise": "searches for points", "image": "images, formats, spectra",
     "meshes": "mesh readers", "domains": "points by density, on models", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
     "study/plan": "what to run", "study/store": "results (SQLite)", "study/run": "jobs, threads, MPI",
-    "study/ranking": "order of patterns", "study/images": "images of a study", "study/report": "the report", "study/sheet": "the datasheet", "study/atlas": "the atlas",
+    "study/ranking": "order of patterns", "study/images": "images of a study", "study/report": "the report", "study/sheet": "the datasheet", "study/atlas": "the atlas, entries",
     "cli": "the program, one file a command; uses all by the public headers",
 }
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes src/engine/patterns/data/records.csv, the sets of the pattern record: make_records.py PROGRAM FOLDER
 
-FOLDER has sets that `koksma optimise MEASURE -n N [-d D] --from latin-hypercube --seed S --steps K -o FOLDER/ANY.txt` wrote.
+FOLDER has sets that `koksma optimise MEASURE -n N [-d D] --from latin-hypercube --seed S --steps K -o FOLDER/ANY.txt` wrote, and
+entries of `koksma atlas submit`, FOLDER/ANY.json, which PROGRAM must accept; these have no seed.
 Of each measure, dim and n the best is kept, with its seed and steps, from which that command makes it again. A set that is there
 already stays if it is not worse. Coordinates are rounded to whole numbers of units of 10^-12, and the values are those that PROGRAM measures of the rounded
 sets.
@@ -77,6 +78,14 @@ def main():
         value = measured(program, head["optimised for"], points)
         if key not in sets or value < sets[key][0]:
             sets[key] = (value, points, head["seed"], head["steps"])
+    for path in sorted(glob.glob(os.path.join(folder, "*.json"))):
+        subprocess.run([program, "atlas", "check", path], check=True)
+        entry = json.load(open(path, encoding="utf-8"))
+        points = [rounded(" ".join(map(repr, point))) for point in entry["points"]]
+        key = (MEASURES.index(entry["measure"]), entry["dim"], entry["n"])
+        value = measured(program, entry["measure"], points)
+        if key not in sets or value < sets[key][0]:
+            sets[key] = (value, points, "0", "0")
     with open(FILE, "w", encoding="utf-8") as out:
         out.write(HEAD)
         out.writelines(line(key, *sets[key]) for key in sorted(sets))

@@ -21,6 +21,7 @@ koksma generate n-rooks -n 16 -q -o points.txt &&
   cp ball.exr mine_regular_1_0.exr && printf '12.5 40\n320 240\n' >pixels.txt &&
   koksma mask --filter gaussian:sigma=1 --swaps 1 -q -o other.png >/dev/null || exit 1
 for seed in $(seq 0 31); do koksma generate random -n 4 -s "$seed" -q -o "my_4_$seed.npy" >/dev/null; done
+echo '{"questions": [{"id": "a", "title": "?", "answer": "{m|value}", "runs": [{"id": "m", "command": "koksma measure sobol@4 -m star --json"}]}]}' >one.json
 count=0 failed=0 sheets=0
 sed -n 's/^    \(koksma .*\)/\1/p' "$root/README.md" "$root/docs/commands.md" | sed 's/  *# .*//' | sed 's/-o DIR/-o dir/' >commands
 for command in $(koksma --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
@@ -47,6 +48,9 @@ while read -r command; do
     'koksma datasheet '*)
       case "$sheets $command" in 1*--scenes* | 0*) ;; *) command="$command --scenes ball" ;; esac
       sheets=1 ;;
+    'koksma atlas build '*) command="koksma atlas build one.json -o atlas" ;;
+    'koksma atlas submit best'*) command=$(echo "$command" | sed 's/best.txt/points.txt/; s/ e.json/ entry.json/') ;;
+    'koksma atlas check '*) command="$command || [ \$? -eq 1 ]" ;;
     'koksma manual '*) command -v man >/dev/null || command=true ;;
     'koksma optimise '*) command=$(echo "$command" | sed 's/--time-limit [0-9]*/--steps 1/; s/--steps [0-9]*/--steps 1/; s/ -n [0-9]*/ -n 16/') ;;
     'koksma render '*) command="$command --size 32x32 -q" ;;

@@ -4,10 +4,10 @@
  * digits, which read back to the same doubles. The digest is the SHA-256 of the measure's spec, the author, the dimension
  * and the bits of the coordinates; the value is left out, so that a wrong claim is found by measuring, not by the digest.
  *
- * Two sets are the same if a map of the cube takes one to the other: a permutation and reflections of the axes (2^d d! maps,
- * up to four dimensions), then a shift on the torus. A shift is found by trying, for the first point of one set, every point
- * of the other: n shifts, each of which the first point without a partner ends. Only sets of the same measure and number of
- * points whose values agree to 1e-9 are compared, so that a map which changes the value is never the reason.
+ * Two sets are the same if a map of the cube takes one to the other: a permutation and reflections of the axes (2^d d!
+ * maps, up to four dimensions), then a shift on the torus. A shift is found by trying, for the first point of one set,
+ * every point of the other: n shifts, each of which the first point without a partner ends. Only sets of the same measure
+ * and number of points whose values agree to 1e-9 are compared, so that a map which changes the value is never the reason.
  */
 #include <koksma/atlas.h>
 #include <koksma/optimise.h>
