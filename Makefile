@@ -10,6 +10,7 @@
 #                    one core); SEED=R: another one; QUICK=1: 8 minutes, no page. Interrupted, it continues
 #   make docs        write the documents to build/docs: tutorial, commands, C and Python reference, a page for every pattern,
 #                    measure, scene, ..., findings; with the explorer if it is built
+#   make paper       write the paper on optimised sets to build/paper/paper.pdf, from the stored rows
 #
 #   Develop
 #   make release     build the optimised program: build/release/koksma
@@ -41,7 +42,7 @@ MACHINES ?= aarch64
 SEED ?= 1
 QUICK ?=
 
-.PHONY: help experiment demo check test test-all bench install masks docs explorer wheel npm deb dist dist-test cross release clean
+.PHONY: help experiment demo check test test-all bench install masks docs paper explorer wheel npm deb dist dist-test cross release clean
 
 help:
 	@sed -n 's/^#   //p; s/^#$$//p' Makefile | sed '1{/^$$/d}'
@@ -89,6 +90,9 @@ install: release
 explorer:
 	@scripts/setup explorer
 	@scripts/explorer
+
+paper: release
+	@scripts/paper
 
 docs: release
 	@scripts/setup docs

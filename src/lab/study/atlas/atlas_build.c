@@ -362,7 +362,9 @@ static koksma_status do_job(const koksma__atlas *a, koksma__atlas_job *job, bool
     }
     koksma_status status = run_command(a, job, run, &text, &size);
     if (is_sheet && status && status != KOKSMA_INTERRUPTED && status != KOKSMA_MEMORY && status != KOKSMA_MISSING) {
-        snprintf(job->failure, sizeof job->failure, "%s", koksma_error_text());
+        const char *text_of_program = strstr(koksma_error_text(), ": koksma datasheet: ");
+        snprintf(job->failure, sizeof job->failure, "%s",
+                 text_of_program ? text_of_program + sizeof ": koksma datasheet: " - 1 : koksma_error_text());
         summary->failed++;
         return KOKSMA_OK;
     }
