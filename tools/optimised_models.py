@@ -302,14 +302,12 @@ def tables(results, design):
     start = {t: e["none"] for t, e in one["effects"]["shift"].items()}
     order = sorted(start, key=lambda t: start[t][0])
     value = lambda r: f"{r[0]:.3f}"
-    out = table(["target", "to its start", "to Owen-Sobol'", "seed 2", "turned*", "fixed*"],
+    out = table(["target", "to its start", "to Owen-Sobol'", "seed 2", "fixed*"],
                 [[t, in_text(start[t], 3), in_text(one["targets_against_sobol"][t], 3), value(two["targets_against_sobol"][t]),
-                  *(value(one["effects"][a][t]["none"]) for a in ("turned", "fixed"))] for t in order])
-    out += table(["n", "best pattern", "seed 1", "seed 2"],
-                 [[n, " ".join(dict.fromkeys(s["gain_by_n"][n]["pattern"] for s in (one, two))), *(in_text(s["gain_by_n"][n]["ratio"]) for s in (one, two))]
-                  for n in one["gain_by_n"]])
+                  value(one["effects"]["fixed"][t]["none"])] for t in order])
+    out.append("; ".join(f"{n}: " + ", ".join(in_text(s["gain_by_n"][n]["ratio"]) for s in (one, two)) for n in one["gain_by_n"]) + ".")
     measures = sorted(one["predictors"], key=lambda m: -one["predictors"][m]["rank"][0])
-    out += table(["measure", "rank", "partial"], [[m, in_text(one["predictors"][m]["rank"]), in_text(one["predictors"][m]["partial"])] for m in measures])
+    out.append("; ".join(f"{m} " + ", ".join(in_text(one["predictors"][m][kind]) for kind in ("rank", "partial")) for m in measures) + ".")
     for arm in ("shift", "phase"):
         names = [k for k in one["factors"][arm] if "target" in k or "search" in k or "set" in k]
         whole = [sum(s["factors"][arm][k] for k in names) for s in (one, two)]

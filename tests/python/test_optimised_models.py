@@ -57,13 +57,13 @@ class Parts(unittest.TestCase):
         """The means over experiments are the variances that were planted."""
         rng, planted = np.random.default_rng(5), {"target": 0.3, "target x n": 0.2, "target x scene": 0.25, "search": 0.15, "set x scene, noise": 0.1}
         found = []
-        for _ in range(60):
+        for _ in range(16):
             y = planted["target"] * rng.normal(size=(15, 1, 1, 1)) + planted["target x n"] * rng.normal(size=(15, 7, 1, 1))
             y = y + planted["target x scene"] * rng.normal(size=(15, 1, 1, 10)) + planted["search"] * rng.normal(size=(15, 7, 8, 1))
             found.append(models.components(y + planted["set x scene, noise"] * rng.normal(size=(15, 7, 8, 10))))
         for name, sd in planted.items():
             values = [f[name] for f in found]
-            self.assertLess(abs(np.mean(values) - sd**2), 4 * np.std(values) / 60**0.5 + 1e-9, name)
+            self.assertLess(abs(np.mean(values) - sd**2), 4 * np.std(values) / 16**0.5 + 1e-9, name)
 
 
 class Contrasts(unittest.TestCase):
@@ -72,7 +72,7 @@ class Contrasts(unittest.TestCase):
     def test_no_effect(self):
         """In at least 95 % of families of 15 contrasts none is wrong; 95 % here within four standard errors of a simulation."""
         for case in self.CASES:
-            rng, wrong, trials = np.random.default_rng(6), 0, 400
+            rng, wrong, trials = np.random.default_rng(6), 0, 120
             for _ in range(trials):
                 y = simulated(rng, 16, *case)
                 found = [models.contrast(y[k] - y[0], 15) for k in range(1, 16)]
@@ -84,10 +84,10 @@ class Contrasts(unittest.TestCase):
         for case in self.CASES:
             rng, search, scene, both = np.random.default_rng(7), *case
             size = 6 * (2 * (search**2 / 8 + scene**2 / 10 + both**2 / 80))**0.5
-            y = [simulated(rng, 2, *case) for _ in range(200)]
+            y = [simulated(rng, 2, *case) for _ in range(100)]
             found = [models.contrast(v[1] - v[0] - size) for v in y]
             self.assertGreater(np.mean([high < 0 for _, _, high in found]), 0.9, case)
-            self.assertGreater(np.mean([low <= -size <= high for _, low, high in found]), 0.95 - 4 * (0.05 * 0.95 / 200)**0.5, case)
+            self.assertGreater(np.mean([low <= -size <= high for _, low, high in found]), 0.95 - 4 * (0.05 * 0.95 / 100)**0.5, case)
 
 
 class Rows(unittest.TestCase):
