@@ -79,8 +79,9 @@ masks: release
 	@scripts/masks build/release/koksma build/masks
 
 experiment: release
-	python3 tools/optimised.py --koksma build/release/koksma -o build/experiment --seed $(SEED) $(if $(QUICK),--quick,--keep)
-	$(if $(QUICK),,python3 tools/optimised_models.py -o docs/findings/optimised.json)
+	@scripts/setup test
+	/usr/bin/python3 tools/optimised.py --koksma build/release/koksma -o build/experiment --seed $(SEED) $(if $(QUICK),--quick,--keep)
+	$(if $(QUICK),,/usr/bin/python3 tools/optimised_models.py -o docs/findings/optimised.json)
 
 install: release
 	cmake --install build/release
