@@ -7,7 +7,7 @@
 #   make explorer    build the page for a browser: build/explorer/koksma-explorer.html
 #   make masks       make blue-noise masks for common filters, 64 to 256 pixels, with their errors: build/masks (10 minutes)
 #   make experiment  search sets for 15 targets, render them, and compare what they win: docs/findings/optimised.md (half an hour of
-#                    one core); SEED=R: another one; QUICK=1: 8 minutes, no page. Interrupted, it continues
+#                    one core); SEED=R: another one; QUICK=1: 3 minutes, no page. Interrupted, it continues
 #   make docs        write the documents to build/docs: tutorial, commands, C and Python reference, a page for every pattern,
 #                    measure, scene, ..., findings; with the explorer if it is built
 #   make paper       write the paper on optimised sets to build/paper/paper.pdf, from the stored rows

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The models of docs/findings/optimised.md, from the rows of tools/optimised.py.
 
-    tools/optimised_models.py [--rows FOLDER] [-o FILE.json] [--check PAGE.md]
+    tools/optimised_models.py [--rows FOLDER] [--error mae|rmse] [-o FILE.json] [--check PAGE.md]
 
 It reads images-R, sets-R and bias-R.csv.xz of every seed R in FOLDER (default: studies/optimised) and design.json there, writes
 all numbers to FILE.json (default: standard output gets only the tables), and prints the page's tables. --check fails if the page
-lacks a line of them.
+lacks a line of them. --error rmse: of the root mean square error in place of the mean absolute one.
 
 Model. y is the log of the mean absolute error, averaged over the filters and trials of an arm. For a target t, a number of points
 n, a search s and a scene c,
@@ -129,14 +129,14 @@ def in_text(interval, digits=2):
 class Seed:
     """The rows of one seed."""
 
-    def __init__(self, folder, seed, design):
+    def __init__(self, folder, seed, design, error="mae"):
         self.design, self.ns, self.scenes = design, design["n"], [s["name"] for s in design["scenes"]]
         self.targets = [t["name"] for t in design["targets"]]
         self.errors, self.patterns = {}, {}
         for r in read(folder / f"images-{seed}.csv.xz"):
             key = (r["target"], int(r["n"]), int(r["search"]), r["scene"])
             where = self.patterns if r["arm"] == "pattern" else self.errors.setdefault(r["arm"], {})
-            where.setdefault(key, {})[r["filter"], int(r["trial"])] = math.log(float(r["mae"]))
+            where.setdefault(key, {})[r["filter"], int(r["trial"])] = math.log(float(r[error]))
         self.values = {(r["target"], int(r["n"]), int(r["search"])): [float(r[m]) for m in design["measures"]] for r in read(folder / f"sets-{seed}.csv.xz")}
         self.bias, self.cubes = read(folder / f"bias-{seed}.csv.xz"), {}
 
@@ -227,6 +227,17 @@ def predictors(seed, resamples=200):
             for j, m in enumerate(seed.design["measures"])}
 
 
+def reached(seed):
+    """How well each target that is a measure was searched: its sets' mean value over that of the best other target's sets; above 1
+    (below, for distances) another target's sets have more of it."""
+    found = {}
+    for k, measure in enumerate(seed.design["measures"]):
+        means = {t: float(np.mean([math.log(seed.values[t, n, s][k]) for n in seed.ns for s in range(seed.design["searches"])])) for t in seed.targets}
+        own, best = means.pop(measure), max if measure in SMALLER_IS_WORSE else min
+        found[measure] = math.exp(own - best(means.values()))
+    return found
+
+
 def biases(seed):
     """By arm and n: the share of the squared error that is bias, its mean over scenes with a 95 % interval."""
     found = {}
@@ -272,7 +283,7 @@ def verdicts(seed, other, scenes=None):
 def analyse(seed, other):
     design, best = seed.design, other.best_target()
     found = {"best_target": seed.best_target(), "best_target_of_other_seed": best,
-             "effects": {arm: effects(seed, arm) for arm in design["arms"]}, "bias": biases(seed), "factors": factors(seed), "predictors": predictors(seed),
+             "effects": {arm: effects(seed, arm) for arm in design["arms"]}, "bias": biases(seed), "factors": factors(seed), "predictors": predictors(seed), "reached": reached(seed),
              "best_against_targets": pairwise(seed, best, [t for t in seed.targets if t not in ("none", best)]),
              "periodic_against": pairwise(seed, "l2-periodic", ["star", "l2-star", "l2-centered", "relative-radius", "step"]),
              "best_against_patterns": {p: against(seed, best, p, tests=len(design["best-patterns"])) for p in design["patterns"]},
@@ -320,6 +331,7 @@ def tables(results, design):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rows", type=pathlib.Path, default=HOME)
+    parser.add_argument("--error", choices=["mae", "rmse"], default="mae")
     parser.add_argument("-o", "--output", type=pathlib.Path)
     parser.add_argument("--check", type=pathlib.Path)
     arguments = parser.parse_args()
@@ -327,7 +339,7 @@ def main():
     names = sorted(int(p.name[7:-7]) for p in arguments.rows.glob("images-*.csv.xz"))
     if len(names) < 2:
         parser.error(f"{arguments.rows}: rows of two seeds are needed (tools/optimised.py --seed 1, --seed 2)")
-    seeds = {k: Seed(arguments.rows, k, design) for k in names}
+    seeds = {k: Seed(arguments.rows, k, design, arguments.error) for k in names}
     results = {"images": {str(k): sum(len(v) for arm in s.errors.values() for v in arm.values()) + sum(map(len, s.patterns.values())) for k, s in seeds.items()},
                "seeds": {str(k): analyse(s, seeds[next(o for o in names if o != k)]) for k, s in seeds.items()}}
     first, second = (results["seeds"][str(k)] for k in names[:2])

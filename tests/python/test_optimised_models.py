@@ -94,13 +94,13 @@ class Rows(unittest.TestCase):
     def test_planted(self):
         """From files: one target is 10 % better in all scenes, the others differ by searches and scenes alone."""
         design = {"n": [4, 16], "searches": 8, "targets": [{"name": t} for t in ("none", "a", "b", "good")], "scenes": [{"name": f"s{c}"} for c in range(10)],
-                  "measures": ["star"], "patterns": ["p"], "best-patterns": ["p"]}
-        rng, rows, sets = np.random.default_rng(8), ["target,n,search,scene,filter,arm,trial,mae,rmse"], ["target,n,search,star"]
+                  "measures": ["good"], "patterns": ["p"], "best-patterns": ["p"]}
+        rng, rows, sets = np.random.default_rng(8), ["target,n,search,scene,filter,arm,trial,mae,rmse"], ["target,n,search,good"]
         for n in design["n"]:
             noise = simulated(rng, 4, 0.01, 0.01, 0.01) + np.log(1 / n)
             for t, target in enumerate(("none", "a", "b", "good")):
                 for s in range(8):
-                    sets.append(f"{target},{n},{s},{rng.uniform()}")
+                    sets.append(f"{target},{n},{s},{0.2 if target == 'good' else 0.5 + 0.1 * t}")
                     rows += [f"{target},{n},{s},s{c},box,shift,0,{np.exp(noise[t, s, c]) * (0.9 if target == 'good' else 1)},1" for c in range(10)]
             rows += [f"pattern:p,{n},-1,s{c},box,pattern,{k},{0.95 / n},1" for c in range(10) for k in range(4)]
         with tempfile.TemporaryDirectory() as folder:
@@ -111,6 +111,7 @@ class Rows(unittest.TestCase):
         self.assertTrue(found["good"][1] <= 0.9 <= found["good"][2] < 1, found)
         self.assertTrue(all(found[t][1] <= 1 <= found[t][2] for t in "ab"), found)
         self.assertEqual(seed.best_target(), "good")
+        self.assertAlmostEqual(models.reached(seed)["good"], 0.2 / 0.5)
         low, high = models.against(seed, "good", "p")[1:]
         self.assertTrue(low <= 0.9 / 0.95 <= high)
         only = models.in_scene(seed, "good", "p", "s3")
