@@ -6,7 +6,8 @@
  *
  * RUNS REPLICATES independent sets are made with the seeds 0, 1, ..; every REPLICATES of them in order are a run. An
  * interval covers if it holds the truth, or misses it by no more than rounding, 1e-14 of the root of the mean square of
- * the integrand; the bootstrap's are counted in the first 1,000 runs. The width is relative to this root; that of an interval that fails (too few replicates) is null.
+ * the integrand; the bootstrap's are counted in the first 1,000 runs. The width is relative to this root; that of an
+ * interval that fails (too few replicates) is null.
  */
 #include <koksma/estimate.h>
 #include <koksma/integrate.h>

@@ -126,27 +126,22 @@ typedef struct koksma_tolerance {
    (NET2_PREFIXES), the R = 8 sets are the consecutive parts of one set, with the mean and Student's interval: the error
    of the mean is that of one net of all points, the interval that of independent nets of n points, so that it is too wide
    rather than too narrow. One more set of n points, with the seed `seed` + 1, finds what all parts have alike: the error
-   is at least what this check differs from the mean beyond its prediction interval. In all other cases the sets are independent, 15 where replicates is 0.
-
-   With `resume` the steps are written to this file, each when it is done, and taken from it if it exists: a search that
-   was interrupted or ended by its limit continues, with the result of one search bit for bit, and another tolerance,
-   confidence, estimator or limit may be given. Its first value is computed again, to tell another function.
-
-   The last interval holds with the stated confidence no matter when the search ends. Each step has this confidence if it is
-   at least .9, with 6 replicates or more and an interval that is not `proved`: for normal estimates whose standard
-   deviation falls at least as n^-1/2, all steps together then err with a probability below 1 - confidence (for 15
-   replicates and 95 %, in 2.9 %). Else it is divided by Bonferroni: with K steps allowed each interval misses with a
-   probability of (1 - confidence) / K.
-
-   An interval of width 0 is widened by one point's share of the range of the values so far, (largest - least) / n, on
-   both sides: functions with jumps give equal estimates that are off by less than that. While all values of the function
-   have been equal, which tells nothing of rare peaks, no step but the last one ends the search before 2^16 points.
-
-     values, context  the function
-     pattern          one whose sets are random and unbiased (koksma_is_unbiased)
-   Errors: those of koksma_generate and koksma_estimate_integral; what `values` returns; ARGUMENT (a pattern with one
-   set or not known to be unbiased; a value that is not finite, or outside the given bounds; a file of another search);
-   MALFORMED (no file of a search), IO. */
+   is at least what this check differs from the mean beyond its prediction interval. In all other cases the sets are
+   independent, 15 where replicates is 0. With `resume` the steps are written to this file, each when it is done, and
+   taken from it if it exists: a search that was interrupted or ended by its limit continues, with the result of one
+   search bit for bit, and another tolerance, confidence, estimator or limit may be given. Its first value is computed
+   again, to tell another function. The last interval holds with the stated confidence no matter when the search
+   ends. Each step has this confidence if it is at least .9, with 6 replicates or more and an interval that is not
+   `proved`: for normal estimates whose standard deviation falls at least as n^-1/2, all steps together then err with
+   a probability below 1 - confidence (for 15 replicates and 95 %, in 2.9 %). Else it is divided by Bonferroni: with K
+   steps allowed each interval misses with a probability of (1 - confidence) / K.  An interval of width 0 is widened
+   by one point's share of the range of the values so far, (largest - least) / n, on both sides: functions with jumps
+   give equal estimates that are off by less than that. While all values of the function have been equal, which tells
+   nothing of rare peaks, no step but the last one ends the search before 2^16 points.  values, context  the function
+   pattern          one whose sets are random and unbiased (koksma_is_unbiased) Errors: those of koksma_generate and
+   koksma_estimate_integral; what `values` returns; ARGUMENT (a pattern with one set or not known to be unbiased; a
+   value that is not finite, or outside the given bounds; a file of another search); MALFORMED (no file of a search),
+   IO. */
 KOKSMA_API koksma_status koksma_integrate_to(koksma_values_of *values, void *context, int dim,
                                              const koksma_spec *pattern, const koksma_tolerance_options *options,
                                              const koksma_run *run, koksma_tolerance *out);

@@ -6,10 +6,10 @@
  * one net cost no such factor. Their spread is that of nets of n points, and Student's interval from it as wide as that
  * of independent ones, since the mean of the parts errs by the Walsh coefficients that N points don't integrate, while the
  * parts differ by those that n points don't, which come first (Hickernell & Jimenez Rugama 2016 bound the former by some
- * of the latter). What one net can't show is a coefficient that all its points have alike, as products of |x - 1/2| get from
- * one linear scrambling of some fifteen: a CHECK beside the parts, an independent set of n points, finds it. The error
- * is at least what that differs from the mean of the parts beyond its prediction interval of the same confidence.
- * docs/findings/coverage.md has how often all this holds.
+ * of the latter). What one net can't show is a coefficient that all its points have alike, as products of |x - 1/2|
+ * get from one linear scrambling of some fifteen: a CHECK beside the parts, an independent set of n points, finds it.
+ * The error is at least what that differs from the mean of the parts beyond its prediction interval of the same
+ * confidence. docs/findings/coverage.md has how often all this holds.
  *
  * The points of several sets are put into batches of up to BATCH points or COORDINATES coordinates, so that functions of
  * other programs and languages are called seldom. The sums of each set are compensated and in the order of its points,

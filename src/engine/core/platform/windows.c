@@ -2,7 +2,7 @@
 /*
  * POSIX on Windows: paths in UTF-8 become wide ones, made absolute and with the prefix \\?\ where they are long, which
  * lifts the limit of 260 characters. A file's st_dev and st_ino are its volume's number and its index there.
- * Streams into memory are temporary files that the system removes when they are closed.
+ * Streams into memory are temporary files that the system removes when they are closed. Long because it has every call.
  */
 #ifdef _WIN32
 #include "core/platform/windows.h"

@@ -17,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/files.h"
 #include "study/report/document.h"
 
@@ -62,8 +63,8 @@ static koksma_status read_value(const koksma__json_node *row, const char *key, c
         snprintf(text, TEXT, "%s", word);
     } else if (!koksma__json_number(&node, -INFINITY, INFINITY, number)) {
         const bool whole = *number == floor(*number) && fabs(*number) < 1e15;
-        snprintf(text, TEXT, whole ? "%.0f" : "%.4g", *number);
-        snprintf(full, TEXT, "%.17g", *number);
+        koksma__snprintf(text, TEXT, whole ? "%.0f" : "%.4g", *number);
+        koksma__snprintf(full, TEXT, "%.17g", *number);
         return KOKSMA_OK;
     } else {
         snprintf(text, TEXT, "%s", koksma__json_flag(&node, &flag) ? "-" : flag ? "yes" : "no");

@@ -17,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/files.h"
 #include "core/hash.h"
 #include "core/json_writer.h"
@@ -318,8 +319,8 @@ static koksma_status compare(const entry *e, koksma_entry_result *r, const koksm
     }
     if (!strcmp(r->verdict, "accepted") && !(sign * (r->value - value) > clear)) {
         refuse(r, "worse");
-        snprintf(r->reason, sizeof r->reason, "%.17g is not better than %.17g, the value of %.150s", r->value, value,
-                 name);
+        koksma__snprintf(r->reason, sizeof r->reason, "%.17g is not better than %.17g, the value of %.150s", r->value,
+                         value, name);
     }
     return KOKSMA_OK;
 }
@@ -364,7 +365,8 @@ static koksma_status check(const entry *entries, const char *const *paths, koksm
     KOKSMA__TRY(measure_exactly(&e->measure, &e->points, run, &r->value));
     if (!(fabs(r->value - e->value) <= digits * fabs(r->value))) {
         refuse(r, "false");
-        snprintf(r->reason, sizeof r->reason, "it claims %.17g, and the points have %.17g", e->value, r->value);
+        koksma__snprintf(r->reason, sizeof r->reason, "it claims %.17g, and the points have %.17g", e->value,
+                         r->value);
         return KOKSMA_OK;
     }
     KOKSMA__TRY(compare_record(e, r, run));
