@@ -42,12 +42,14 @@ def whole_package(folder):
         assert len(study.rows()) == 8
     assert os.path.getsize(report) > 1000
     points = koksma.generate("n-rooks", 64)
-    for format, mark in (("svg", b"<"), ("pdf", b"%PDF"), ("png", b"\x89PNG")):  # the last two by Cairo's module
+    version = subprocess.run([PROGRAM, "version"], capture_output=True, text=True, check=True).stdout
+    cairo, exr = "pdf and png: left out" not in version, "exr images: left out" not in version
+    for format, mark in [("svg", b"<")] + cairo * [("pdf", b"%PDF"), ("png", b"\x89PNG")]:
         assert koksma.plot(points).bytes(format).startswith(mark), format
     assert koksma.optimise("l2-star", n=16, steps=100).value > 0
     assert koksma.integrate("genz-gaussian", "n-rooks", 64).rmse[0] > 0
     image = koksma.render("ball", "n-rooks", spp=4, size=(32, 24))
-    for name, mark in (("a.exr", b"\x76\x2f\x31\x01"), ("a.png", b"\x89PNG"), ("a.pfm", b"P")):
+    for name, mark in [("a.png", b"\x89PNG"), ("a.pfm", b"P")] + exr * [("a.exr", b"\x76\x2f\x31\x01")]:
         koksma.write_image(os.path.join(folder, name), image)
         with open(os.path.join(folder, name), "rb") as file:
             assert file.read(4).startswith(mark), name
