@@ -12,6 +12,10 @@ if(SKBUILD) # pip: the libraries and the program go into the Python package, whe
   set_target_properties(${parts} PROPERTIES INSTALL_RPATH $ORIGIN)
   install(TARGETS ${parts} LIBRARY DESTINATION koksma/lib COMPONENT python NAMELINK_SKIP
           RUNTIME DESTINATION koksma/lib COMPONENT python)
+  set(KOKSMA_LICENCES "" CACHE PATH "pip: a folder of the licences of what is linked in statically")
+  if(KOKSMA_LICENCES)
+    install(DIRECTORY ${KOKSMA_LICENCES}/ DESTINATION koksma/lib/licences COMPONENT python)
+  endif()
   option(KOKSMA_BUNDLE "pip: the package holds all libraries that it needs but those of the C and C++ compilers" ON)
   if(KOKSMA_BUNDLE)
     find_program(KOKSMA_PATCHELF patchelf)
