@@ -139,7 +139,7 @@ def check_pages(work):
     expect(f"{rmse['rmse']:.4g}</data> <span class=\"pm\">({rmse['low']:.4g} to {rmse['high']:.4g})</span>" in text,
            "the error and its interval are not on the page")
     expect("Which is &lt;more&gt; even?" in text and "<more>" not in text, "a title is not escaped")
-    expect("<code>koksma measure random@16 -m star</code>" in text, "words with a row's values are not on the page")
+    expect('<code class="pm">koksma measure random@16 -m star</code>' in text, "words with a row's values are not on the page")
     expect("slope" not in text, "the table shows rows of another kind")
     check_links(folder)
     expect(made_again(folder, 10) == 9, "9 numbers in tables")
@@ -248,7 +248,7 @@ def check_shipped(work):
     expect(made_again(folder, 10) > 200, "numbers of the shipped questions")
     size = sum(p.stat().st_size for p in folder.rglob("*"))
     expect(size < 30e6 - 45 * 280e3, f"{size} bytes without the other datasheets")
-    for name in random.sample(sorted(re.findall(r"<code>(koksma measure record:[^<]*)</code>",
+    for name in random.sample(sorted(re.findall(r"<code class=.pm.>(koksma measure record:[^<]*)</code>",
                                                 (folder / "records.html").read_text(encoding="utf-8"))), 3):
         words = shlex.split(name)[1:]
         measure, n, dim = re.match(r"record:measure=([\w-]+)@(\d+)@(\d)", words[1]).groups()

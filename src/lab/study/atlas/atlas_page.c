@@ -216,7 +216,7 @@ static koksma_status put_cell(FILE *f, const koksma__json_node *row, const char 
     for (; *what; what++) {
         const char *end = strchr(what, '}');
         if (*what == '`') {
-            fputs(code ? "</code>" : "<code>", f);
+            fputs(code ? "</code>" : "<code class=\"pm\">", f);
             code = !code;
         } else if (*what == '{' && end) {
             char key[TEXT], shown[TEXT], full[TEXT];
@@ -445,9 +445,9 @@ static void put_sheets(FILE *f, const koksma__atlas *a)
         *job->failure ? 0 : fprintf(f, "<a href=\"%s\">", job->file);
         fprintf(f, "<code>%s</code>%s: ", job->id, *job->failure ? "" : "</a>");
         put(f, what);
-        fputs(*job->failure ? " <span class=\"pm\">No datasheet: " : "", f);
+        fputs(*job->failure ? " <small>No datasheet: " : "", f);
         put(f, job->failure);
-        fputs(*job->failure ? "</span></li>\n" : "</li>\n", f);
+        fputs(*job->failure ? "</small></li>\n" : "</li>\n", f);
     }
     fputs("</ul>\n", f);
 }
