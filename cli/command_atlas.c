@@ -70,6 +70,10 @@ static int submit(const cli_arguments *arguments)
         return cli_usage_error(arguments, *author ? "submit takes one set of points, a file or SPEC@N"
                                                   : "--author is missing: whom the table of records names");
     }
+    const char *slash = strrchr(output, '/'), *ending = strrchr(slash ? slash : output, '.');
+    if (ending && strcmp(ending, ".json") != 0) {
+        return cli_usage_error(arguments, "%s: an entry's name ends in .json", output);
+    }
     if (koksma_measure_spec(cli_text(arguments, "measure", "star"), &measure)) {
         return cli_fail(arguments, KOKSMA_ARGUMENT);
     }
@@ -165,25 +169,19 @@ const cli_command cli_command_atlas = {
                 "submit FILE|-|SPEC@N[@DIM] --author NAME [-m MEASURE] [-o ENTRY.json]\n"
                 "check ENTRY.json... [--json]",
     .details =
-        "build: writes DIR/index.html and a page for each of twenty questions that people ask about sampling, for "
-        "each "
-        "pattern, and for the records. Pages need no server, network or script. Each number stands below the "
-        "command that computed it, with its interval if it is random; DIR/rows has all digits. A result is kept for "
-        "the "
-        "next build while the command, the version and the revisions of the patterns and measures that it names are "
-        "the "
-        "same, so that a new pattern computes only its own datasheet. FILE.json has other questions "
-        "(studies/README.md). Under mpirun the ranks share the commands.\n"
+        "build: writes DIR/index.html and a page for each of twenty questions that people ask about sampling, for"
+        " each pattern, and for the records. Pages need no server, network or script. Each number stands below "
+        "the command that computed it, with its interval if it is random; DIR/rows has all digits. A result is "
+        "kept for the next build while the command, the version and the revisions of the patterns and measures "
+        "that it names are the same, so that a new pattern computes only its own datasheet. FILE.json has other "
+        "questions (studies/README.md). Under mpirun the ranks share the commands.\n"
         "submit: measures a set exactly and writes an entry: the points, the value, the author and a digest.\n"
-        "check: measures entries again, in their order. verdict: accepted, or why not. altered: the points, measure "
-        "or "
-        "author are not those of the digest. false: the points have another value than the entry claims. duplicate: "
-        "the set is that of the pattern record or of an entry before it, up to the order of the points, shifts on "
-        "the "
-        "torus, and in up to four dimensions reflections and permutations of the axes. worse: not better than the "
-        "record "
-        "or an entry before it by more than 1e-11. Exit codes: 0 all accepted; 1 one is refused; 2 for a wrong "
-        "command line; 3 for a file that is missing or no entry.\n",
+        "check: measures entries again, in their order. verdict: accepted, or why not. altered: the points, "
+        "measure or author are not those of the digest. false: the points have another value than the entry "
+        "claims. duplicate: the set is that of the pattern record or of an entry before it, up to the order of "
+        "the points, shifts on the torus, and in up to four dimensions reflections and permutations of the axes. "
+        "worse: not better than the record or an entry before it by more than 1e-11. Exit codes: 0 all accepted; "
+        "1 one is refused; 2 for a wrong command line; 3 for a file that is missing or no entry.\n",
     .examples = "koksma atlas build -o atlas --quick\n"
                 "koksma atlas submit points.txt --author 'A. Name' -o entry.json\n"
                 "koksma atlas check entry.json\n",
