@@ -158,6 +158,7 @@ PLACES = {
                ["ball", "-p", "{}", "-n", "2", "--size", "8x6", "--threads", "4", "--scope", "image", "-o", "o.pfm"]],
     "scene": [["check", "{}"]],
     "compare": [["{}", "{}"]],
+    "atlas": [["submit", "{}@4", "--author", "A", "-o", "e.json"], ["check", "{}"], ["build", "{}", "-o", "q"], ["build", "a.json", "-o", "q"]],
     "rank": [["ball", "-p", "{},random", "--spp", "2", "--size", "8x6"], ["ball", "-p", "{}", "--spp", "2", "--size", "8x6"], ["{}"]],
     "datasheet": [["{}", "--quick", "-o", "s.html"], ["random", "{}", "--quick", "-o", "s.html"]],
     "study": [["quick", "-p", "{}", "-n", "2", "--trials", "2", "-o", "q"], ["quick", "-p", "random", "-m", "{}", "-n", "2", "-o", "q"],

@@ -294,6 +294,26 @@ static const char *name_of(const koksma__table *t)
     return t->symbol ? t->symbol : t->scene ? t->scene : t->measure;
 }
 
+/* Names the pattern with the least mean of a table, ours and in print. */
+static void say_least(koksma__report *r, const koksma__conclusion *c, const koksma__table *t, koksma__document *d)
+{
+    for (size_t side = 0; side < 2; side++) {
+        const char *best = NULL;
+        double least = INFINITY;
+        for (size_t i = 0; i < c->patterns.n; i++) {
+            const pair means = means_of(r, t, c->patterns.at[i], 0);
+            const double mean = side ? means.printed : means.ours;
+            best = mean < least ? c->patterns.at[i] : best;
+            least = fmin(least, mean);
+        }
+        if (best) {
+            koksma__doc_say(d, side ? ", in print that of " : "Least %s: that of ", name_of(t));
+            say_label(d, r, c, best);
+        }
+    }
+    koksma__doc_say(d, ". ");
+}
+
 /* Writes what the correlations of the exact measure beside that of the printed numbers are. */
 static void say_exact(koksma__report *r, const koksma__conclusion *c, const koksma__table *by, koksma__document *d)
 {
@@ -367,6 +387,7 @@ static void conclude_predictor(koksma__report *r, koksma__document *d, const kok
         }
         say_correlations(to, c, rho, least);
         say_exact(r, c, of, &all->more);
+        say_least(r, c, of, &all->more);
     }
     koksma__doc_words_append(d, &means.words);
     if (c->by.n + c->than.n > 2) {
@@ -709,7 +730,10 @@ static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma
         }
         koksma__doc_say(&all->more, exact ? ". " : "");
         if (unsure) {
-            koksma__doc_say(d, "; by the printed procedure %zu of %zu not surely", unsure, said);
+            koksma__doc_say(d,
+                            by ? "; by the printed procedure the intervals overlap in %zu of %zu"
+                               : "; by the printed procedure not surely in %zu of %zu",
+                            unsure, said);
         }
         koksma__doc_say(to, other ? to == d ? "." : ". " : "");
     }

@@ -290,7 +290,7 @@ static void say_group(koksma__document *d, int group, const counts *all, size_t 
         koksma__doc_say(d, "of %s agree within %.0f %%%s",
                         group == IMAGES ? "images" : "images in scenes that were fitted to them",
                         100 * KOKSMA__IMAGE_TOLERANCE,
-                        group == IMAGES ? "" : ", so their agreement confirms nothing");
+                        group == IMAGES ? "" : ", so their agreement in size confirms nothing");
     }
     if (explained) {
         koksma__doc_say(d, "; %zu %s for a reason that a note below the table gives", explained, verb(explained));

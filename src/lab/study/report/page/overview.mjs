@@ -55,7 +55,7 @@ function tablesIn(content) {
 // What the words of a reproduction's answers mean, and where its tables are.
 function glossary(content) {
   return element("p", { class: "glossary" }, "Coherence: how far the spectrum of an error peaks; white noise leaves about 3, and more where all trials have the same points. A wave with less than two periods over the picture is a shade, no bands. grain: amplitude of slow errors. Scenes fitted: their cameras and lights were fitted to the printed errors, so that sizes agree in part by construction, and orders and ratios are what is tested. "
-    + "Slope: exponent of the number of points. z: printed mean minus ours, in standard errors with half of the last printed digit. V(f), D*: variation, star discrepancy. Names such as extreme:grid=20 are those of koksma's measures and patterns with their parameters. Tables:",
+    + "Slope: exponent of the number of points; faster: surely below -0.55. z: printed mean minus ours, in standard errors with half of the last printed digit. V(f), D*: variation, star discrepancy. Names such as extreme:grid=20 are those of koksma's measures and patterns with their parameters. Tables:",
     ...tablesIn(content).flatMap(t => [" ", element("a", { href: `#${t.anchor}` }, t.id.slice(6))]));
 }
 
