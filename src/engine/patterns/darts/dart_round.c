@@ -192,7 +192,7 @@ static inline bool must_wait(const koksma__disks *s, const koksma__tile *t, cons
     return false;
 }
 
-static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
+static koksma_status put_off(koksma__disks *s, queue *q, const koksma__dart *d)
 {
     KOKSMA__TRY(koksma__reserve(&s->waiting, &s->waiting_room, s->n_waiting + 1, sizeof *s->waiting));
     const uint32_t x = d->cell_x, y = d->cell_y;
@@ -271,7 +271,7 @@ static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, 
                 d.time = waits || timed
                              ? fmin((before[far[i]] - koksma__log(products[far[i]])) / clock.rate, 1 - 0x1p-53)
                              : 0;
-                status = waits ? wait(s, q, &d) : keep(s, &a.tile, &d);
+                status = waits ? put_off(s, q, &d) : keep(s, &a.tile, &d);
             }
         }
         s->used += some + !more;
