@@ -136,8 +136,8 @@ typedef struct koksma_mask_options {
     double first;      /* with done above 0: koksma_mask_result.first of that call. 0: the error of `from` */
     uint32_t
         *state; /* width * height numbers that a call writes at its end, and reads at its beginning if done is above
-                          0: where the search stands, which the returned mask does not tell if it is an earlier one or
-                          has equal numbers. NULL: the search stands at the mask */
+                          0: the state of the search, which the returned mask does not have if it is an earlier one or
+                          has equal numbers. NULL: the mask is the state */
     double target; /* end once the error is at most this number; 0: never */
 } koksma_mask_options;
 
@@ -159,7 +159,7 @@ typedef struct koksma_mask_result {
    measure (Crofton's formula), and so the generalised energy distance of Szekely & Rizzo (2013) after filtering.
 
    The search is simulated annealing by swaps of two pixels whose values are close. The error of the result is never above
-   that of the first arrangement: `from` is returned if the search stands at a larger one. Equal options give equal bits
+   that of the first arrangement: `from` is returned if the state has a larger one. Equal options give equal bits
    on every machine. With 4,000 swaps a pixel it takes about 5 s for 128 x 128 scalars and a filter of 5 x 5 pixels; the
    time is proportional to the number of pixels and of the filter's pixels.
      run     its time limit ends the search; the mask then is as good as it was by then, and options.done, first and state

@@ -287,7 +287,7 @@ static koksma_status stand_again(search *s, const koksma_run *run)
     return stand(s, run, &error);
 }
 
-/* Searches. kept: a copy of the first arrangement, which is the result if the search stands at a worse one. */
+/* Searches. kept: a copy of the first arrangement, which is the result if the state of the search is a worse one. */
 static koksma_status find_from(search *s, const uint32_t *kept, const koksma_run *run, koksma_mask_result *result)
 {
     const koksma_mask_options *o = s->options;

@@ -19,7 +19,7 @@ void koksma_mask_recipe_fini(koksma_mask_recipe *recipe)
     }
 }
 
-/* Writes where the search stands. */
+/* Writes the state of the search. */
 static void write_state(koksma__json_writer *w, const koksma_mask_options *o)
 {
     koksma__json_begin_array(w, "state");
@@ -122,7 +122,7 @@ static koksma_status read_text(const koksma__json_node *root, const char *key, c
     return KOKSMA_OK;
 }
 
-/* Reads where the search stands, if the text has it; koksma_mask_optimise checks that it is a permutation. */
+/* Reads the state of the search, if the text has it; koksma_mask_optimise checks that it is a permutation. */
 static koksma_status read_state(const koksma__json_node *root, koksma_mask_options *out)
 {
     const size_t n = (size_t)out->width * (size_t)out->height;

@@ -296,11 +296,6 @@ static bool is_rival(const entry *e, const koksma_entry_result *mine, const char
     return e->points.n == n && e->points.dim == dim && !strcmp(mine->measure, measure);
 }
 
-static void refuse(koksma_entry_result *r, const char *verdict)
-{
-    r->verdict = verdict;
-}
-
 /* Compares an entry with a set of the same measure and size: duplicate, or the record that it must beat. */
 static koksma_status compare(const entry *e, koksma_entry_result *r, const koksma_points *points, double value,
                              const char *name)
@@ -311,14 +306,14 @@ static koksma_status compare(const entry *e, koksma_entry_result *r, const koksm
         KOKSMA__TRY(are_same(&e->points, points, &same));
     }
     if (same && strcmp(r->verdict, "duplicate") != 0) {
-        refuse(r, "duplicate");
+        r->verdict = "duplicate";
         snprintf(r->reason, sizeof r->reason, "the points are those of %.200s", name);
     }
     if (isnan(r->record) || sign * value > sign * r->record) {
         r->record = value;
     }
     if (!strcmp(r->verdict, "accepted") && !(sign * (r->value - value) > clear)) {
-        refuse(r, "worse");
+        r->verdict = "worse";
         koksma__snprintf(r->reason, sizeof r->reason, "%.17g is not better than %.17g, the value of %.150s", r->value,
                          value, name);
     }
@@ -358,13 +353,13 @@ static koksma_status check(const entry *entries, const char *const *paths, koksm
     koksma_spec_text(&e->measure, r->measure);
     find_digest(&e->points, r->measure, e->author, digest);
     if (strcmp(digest, e->digest) != 0) {
-        refuse(r, "altered");
+        r->verdict = "altered";
         snprintf(r->reason, sizeof r->reason, "the points, the measure or the author are not those of the digest");
         return KOKSMA_OK;
     }
     KOKSMA__TRY(measure_exactly(&e->measure, &e->points, run, &r->value));
     if (!(fabs(r->value - e->value) <= digits * fabs(r->value))) {
-        refuse(r, "false");
+        r->verdict = "false";
         koksma__snprintf(r->reason, sizeof r->reason, "it claims %.17g, and the points have %.17g", e->value,
                          r->value);
         return KOKSMA_OK;
