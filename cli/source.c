@@ -347,24 +347,31 @@ typedef struct sizes {
     char left_out[1024];
 } sizes;
 
-/* Adds an operand as it is, or once for each size of -n if it is a pattern without a size. Returns the exit code. */
+/* Adds an operand as it is, or once for each size of -n if it is a pattern without a size or a family of files with {n}.
+   Returns the exit code. */
 static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
 {
     char item[32], operand[KOKSMA_MAX_SPEC + 64];
     const char *spec = cli_spec_in(text);
     const bool bare = (cli_names_pattern(spec) || spec != text) && !is_counted(text);
+    const char *place = !bare && cli_is_family(text) ? strstr(text, "{n}") : NULL;
+    const bool sized = of->list && (bare || place);
     of->any_bare |= bare;
     of->other = bare || of->other ? of->other : text;
     int code = is_miscounted(text) && (spec != text || access(text, F_OK)) ? fail_miscounted(arguments, text)
-               : bare && of->list                                          ? CLI_YES
+               : sized                                                     ? CLI_YES
                                                                            : add_operand(arguments, text);
-    for (size_t k = 0; bare && of->list && !code && cli_list_item(of->list, k, item, sizeof item); k++) {
+    for (size_t k = 0; sized && !code && cli_list_item(of->list, k, item, sizeof item); k++) {
         uint64_t n;
         of->used = true;
         if (!cli_is_whole(arguments, "n", item, 1, KOKSMA_MAX_INDEX, &n)) {
             return CLI_USAGE;
         }
-        snprintf(operand, sizeof operand, of->dim == 2 ? "%s@%s" : "%s@%s@%d", text, item, (int)of->dim);
+        if (place) {
+            snprintf(operand, sizeof operand, "%.*s%s%s", (int)(place - text), text, item, place + 3);
+        } else {
+            snprintf(operand, sizeof operand, of->dim == 2 ? "%s@%s" : "%s@%s@%d", text, item, (int)of->dim);
+        }
         if (!of->all || !koksma_plan_try(spec, (size_t)n, (int)of->dim)) {
             code = add_operand(arguments, operand);
         } else {
