@@ -5,6 +5,9 @@
  */
 #include "kernels/kernels.h"
 
+#ifdef KOKSMA_X86_KERNELS
+#include <cpuid.h>
+#endif
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +15,21 @@
 extern const koksma__kernel_table koksma__kernel_table_ref, koksma__kernel_table_baseline;
 #ifdef KOKSMA_X86_KERNELS
 extern const koksma__kernel_table koksma__kernel_table_avx2, koksma__kernel_table_avx512;
+#endif
+
+#ifdef KOKSMA_X86_KERNELS
+enum { YMM = 0x6, ZMM = 0xe6 }; /* the registers of XCR0 that the system saves */
+
+/* What __builtin_cpu_supports would tell, which needs a library of the compiler's that macOS and zig lack. */
+static bool processor_has(unsigned features, unsigned registers)
+{
+    unsigned a, b, c, d;
+    if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & bit_OSXSAVE)) {
+        return false;
+    }
+    __asm__ volatile("xgetbv" : "=a"(a), "=d"(d) : "c"(0));
+    return (a & registers) == registers && __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & features) == features;
+}
 #endif
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
@@ -26,11 +44,11 @@ const koksma__kernel_table *koksma__kernels_find(const char *isa)
         return &koksma__kernel_table_baseline;
     }
 #ifdef KOKSMA_X86_KERNELS
-    if (!strcmp(isa, "avx2") && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2")) {
+    if (!strcmp(isa, "avx2") && processor_has(bit_AVX2 | bit_BMI2, YMM)) {
         return &koksma__kernel_table_avx2;
     }
-    if (!strcmp(isa, "avx512") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("bmi2")) {
+    if (!strcmp(isa, "avx512") &&
+        processor_has(bit_AVX512F | bit_AVX512DQ | bit_AVX512VL | bit_AVX512BW | bit_BMI2, ZMM)) {
         return &koksma__kernel_table_avx512;
     }
 #endif
