@@ -10,7 +10,7 @@ endforeach()
 if(KOKSMA_LAB)
   set(names byte_order malformed_points lean/study)
   if(WIN32) # which has neither links nor devices with names
-    list(APPEND names compare density filters formats optimise_scene points_of_others)
+    list(APPEND names compare density filters formats points_of_others)
   else()
     list(APPEND names points_files generate)
   endif()
