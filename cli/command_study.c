@@ -3,8 +3,8 @@
  * `koksma study` has one function for each verb, and one table, `verbs`, of the options that each verb takes. The
  * verb `new` writes an example of a plan. `run` measures and renders what plans list, writes the results into a
  * folder, and continues an earlier run in that folder; `quick` does so for a plan made from the command line.
- * `estimate` predicts the cost of a run. `export` and `report` write the results of a run again, `audit` computes
- * results again and compares them, and `images` compares sets of images.
+ * `export` and `report` write the results of a run again, `audit` computes results again and compares them, and
+ * `images` compares sets of images.
  */
 #include <math.h>
 #include <stdio.h>
@@ -219,64 +219,6 @@ static int run_quick(const cli_arguments *arguments)
     return code;
 }
 
-/* ---- estimate ------------------------------------------------------------------------------------------ */
-
-static int print_cost(const koksma_study_cost *cost, int threads)
-{
-    char time[CLI_NUMBER], references[CLI_NUMBER], size[CLI_NUMBER];
-    const long online = sysconf(_SC_NPROCESSORS_ONLN);
-    const int n = threads > 0 ? threads : online > 1 ? (int)online : 1;
-    printf("about %s on %d thread%s, %s MB: %zu jobs, %llu rows", cli_duration(cost->seconds / n, time), n,
-           n == 1 ? "" : "s", cli_number(ceil(cost->bytes * 1e-6), size), cost->jobs, (unsigned long long)cost->rows);
-    if (cost->references) {
-        printf(", and %zu reference image%s (%s of this time)", cost->references, cost->references == 1 ? "" : "s",
-               cli_duration(cost->reference_seconds / n, references));
-    }
-    puts("");
-    return CLI_YES;
-}
-
-static int estimate(const cli_arguments *arguments)
-{
-    cli_work work;
-    koksma_study_options options;
-    koksma_study *study = NULL;
-    koksma_study_cost cost;
-    if (arguments->n_operands < 2) {
-        return cli_usage_error(arguments, "estimate takes a plan, as in estimate plan.json");
-    }
-    if (!study_options(arguments, &options, &work)) {
-        return CLI_USAGE;
-    }
-    if (cli_text(arguments, "time-limit", NULL) && work.run.time_limit_s == 0) {
-        return cli_usage_error(arguments, "--time-limit 0: without a limit an estimate would run the whole study; it "
-                                          "takes the seconds for sample jobs, such as 5");
-    }
-    if (koksma_study_mpi_rank() > 0) { /* under MPI only rank 0 estimates the time that the study takes */
-        return CLI_YES;
-    }
-    options.folder = NULL;
-    koksma_status status = koksma_study_open(&options, &study);
-    status = status ? status : koksma_study_estimate(study, &work.run, &cost);
-    cli_work_end();
-    koksma_study_close(study);
-    if (status) {
-        return cli_fail(arguments, status);
-    }
-    if (!cli_flag(arguments, "json")) {
-        return print_cost(&cost, work.run.threads);
-    }
-    cli_rows *rows = cli_rows_open(true);
-    cli_row_whole(rows, "jobs", cost.jobs);
-    cli_row_whole(rows, "references", cost.references);
-    cli_row_whole(rows, "rows", cost.rows);
-    cli_row_number(rows, "cpu_seconds", cost.seconds);
-    cli_row_number(rows, "reference_seconds", cost.reference_seconds);
-    cli_row_number(rows, "megabytes", cost.bytes * 1e-6);
-    cli_row_end(rows);
-    return cli_rows_close(rows, CLI_YES);
-}
-
 /* ---- export and report --------------------------------------------------------------------------------- */
 
 static int export_rows(const cli_arguments *arguments)
@@ -453,7 +395,6 @@ static int run(const cli_arguments *arguments)
         {"run", run_plans, " output trials quick time-limit "},
         {"quick", run_quick, " output trials quick time-limit patterns measures integrands points scene spp metric "},
         {"new", new_plan, " output "},
-        {"estimate", estimate, " trials quick time-limit json digits long "},
         {"export", export_rows, " output format "},
         {"report", report, " "},
         {"audit", cli_study_audit, " rows seed json digits long "},
@@ -463,7 +404,7 @@ static int run(const cli_arguments *arguments)
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
         }
     }
-    static const char names[] = "run, quick, new, estimate, export, report, audit or images";
+    static const char names[] = "run, quick, new, export, report, audit or images";
     char meant[96] = "";
     return cli_usage_error(arguments, "%sit takes %s",
                            arguments->n_operands ? cli_meant_of(arguments->operands[0], names, meant) : "", names);
@@ -481,11 +422,10 @@ static const cli_option options[] = {
     CLI_UNKNOWN_OPTION,
     {0, "spp", "N,..", "quick: samples a pixel in the scenes (default: 4,16,64)"},
     {'o', "output", "PATH", "run, quick: the folder; new, export: the file (default: -, standard output)"},
-    {0, "trials", "T", "run, quick, estimate: number of trials, instead of the numbers in the plan"},
-    {0, "quick", NULL, "run, quick, estimate: use the 'quick' number of trials of each block"},
+    {0, "trials", "T", "run, quick: number of trials, instead of the numbers in the plan"},
+    {0, "quick", NULL, "run, quick: use the 'quick' number of trials of each block"},
     {0, "time-limit", "S",
-     "run, quick: stop after S seconds, with exit code 1 if jobs remain (default: 0, no limit); estimate: time for "
-     "sample jobs, above 0 (default: 5)"},
+     "run, quick: stop after S seconds, with exit code 1 if jobs remain (default: 0, no limit)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
     {'s', "seed", "SEED", "audit: seed of the random draw (default: a random one, which is printed)"},
     {0, "reference", "FILE", "images: the reference image"},
@@ -506,7 +446,6 @@ const cli_command cli_command_study = {
         "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
         "quick [-p PATTERN,..|all] [-m MEASURE,..|all] [-n N,..] [--scene SCENE,.. [--metric METRIC,..]] -o DIR\n"
         "new [FILE]\n"
-        "estimate PLAN... [--json]\n"
         "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
         "report DIR\n"
         "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
@@ -525,7 +464,6 @@ const cli_command cli_command_study = {
         "ranks the patterns, and further ones, such as ldr-flip, which takes longer than many renders. In a plan "
         "these are the fields 'metric' and 'metrics'.\n"
         "new: writes an example plan; it overwrites no file.\n"
-        "estimate: times some jobs and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions. "
         "'json' is JSON Lines: one object per line, with a key for each column of the CSV. 'sha256' is the hash of "
         "the CSV, which report.json has, too. 'export' and 'report' change no byte of the results, fail while a "
@@ -544,7 +482,6 @@ const cli_command cli_command_study = {
         "coherence.\n",
     .examples = "koksma study quick -p random,sobol -m star -n 16,64 --quick -o quick\n"
                 "koksma study new plan.json\n"
-                "koksma study estimate ./plan.json\n"
                 "koksma study run ./plan.json -o results --quick\n"
                 "koksma study export results --format csv -o rows.csv\n"
                 "koksma study report results\n"

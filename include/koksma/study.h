@@ -86,8 +86,8 @@ typedef struct koksma_study_options {
     const char *const *plans;
     size_t n_plans;     /* number of plans; 0: use the plan stored in the folder, to which nothing is written before
                            a run. If its paths are relative, the current folder must be that of the run */
-    const char *folder; /* folder of the study, which is created if it does not exist; NULL: only
-                           koksma_study_estimate can be called */
+    const char *folder; /* folder of the study, which is created if it does not exist; NULL: the plan is
+                           checked, and nothing can be run, or under MPI by the other ranks only */
     long long trials;   /* number of trials to use instead of the numbers in the plan; 0: use the numbers in the
                            plan */
     bool quick;         /* true: use the `quick` number of trials of each block of the plan that has one */
@@ -136,20 +136,6 @@ typedef struct koksma_study_summary {
    such as file:my_{n}_{seed}.npy, has no file: each run counts them anew, and a plan with a relative path has its files
    in the process's present directory), IO, and those of koksma_generate, koksma_evaluate and koksma_render. */
 KOKSMA_API koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary);
-
-/* The estimated cost of a study. */
-typedef struct koksma_study_cost {
-    size_t jobs, references;  /* number of point sets and renderings; number of reference images */
-    uint64_t rows;            /* number of rows in the table of results */
-    double seconds;           /* time on one thread */
-    double reference_seconds; /* the part of `seconds` for the reference images */
-    double bytes;             /* size on disk */
-} koksma_study_cost;
-
-/* Estimates the cost of the whole study except the report. The function runs jobs for run->time_limit_s seconds (0:
-   5 s), first one job of every block and scene, then jobs whose cost is large and uncertain, and extrapolates by
-   the number of points or samples. It stores nothing. Errors: those of koksma_study_run. */
-KOKSMA_API koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, koksma_study_cost *out);
 
 /* Reads the list of koksma_study_left_out_at from a study's folder, as the last run wrote it.
      lines  receives one text, in which each line ends with a newline; empty if nothing is left out. The caller frees it

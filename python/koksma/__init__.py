@@ -35,12 +35,12 @@ from ._render import (Layers, Replicates, SceneCheck, adaptive, check_scene, fil
 from ._screen import ScreenError, screen_errors
 from ._series import Convergence, Trials, convergence, trials
 from ._spectrum import PairCorrelation, Spectrum, pair_correlation, spectrum
-from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
+from ._study import Audit, Study, Summary, TableRow, audit, plans
 from ._tolerance import Integral, Interval, Step, estimators, intervals
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Cost", "Datasheet", "Engine",
+    "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Datasheet", "Engine",
     "Error", "Finding", "ForbiddenError", "Identity", "ImageGroup", "Integral", "Integrand", "Integration",
     "Interval", "Layers", "MalformedError", "MaskQuality", "Member", "MetricValue", "MissingError", "Modifier",
     "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "Replicates",

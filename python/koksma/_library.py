@@ -233,7 +233,6 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_study_open", POINTER(s.StudyOptions), POINTER(c_void_p))
     _declare(library, c_int, "koksma_study_close", c_void_p)
     _declare(library, c_int, "koksma_study_run", c_void_p, POINTER(s.Run), POINTER(s.StudySummary))
-    _declare(library, c_int, "koksma_study_estimate", c_void_p, POINTER(s.Run), POINTER(s.StudyCost))
     _declare(library, c_int, "koksma_study_export", c_char_p, c_int, c_char_p)
     _declare(library, c_int, "koksma_study_audit", POINTER(s.AuditOptions), POINTER(s.Run), POINTER(s.Audit))
     _declare(library, c_int, "koksma_study_undone", c_void_p, POINTER(c_size_t), POINTER(c_size_t))

@@ -295,11 +295,6 @@ class StudySummary(Structure):
                 ("idle_seconds", c_double), ("processor_seconds", c_double), ("store_seconds", c_double), ("complete", c_bool)]
 
 
-class StudyCost(Structure):
-    _fields_ = [("jobs", c_size_t), ("references", c_size_t), ("rows", c_uint64), ("seconds", c_double),
-                ("reference_seconds", c_double), ("bytes", c_double)]
-
-
 class StudyRow(Structure):
     _fields_ = [("pattern", c_char_p), ("label", c_char_p), ("n", c_longlong), ("published", c_double * 3), ("mean", c_double),
                 ("low", c_double), ("high", c_double), ("sd", c_double), ("max", c_double), ("converged", c_double),
@@ -481,7 +476,7 @@ LAYOUTS = [
     ("series.h", "koksma_line", Line), ("plot.h", "koksma_scatter_options", ScatterOptions), ("plot.h", "koksma_panel", Panel),
     ("plot.h", "koksma_curve", Curve), ("plot.h", "koksma_chart", Chart), ("plot.h", "koksma_cell", Cell),
     ("plot.h", "koksma_figure", Figure), ("study.h", "koksma_study_options", StudyOptions),
-    ("study.h", "koksma_study_summary", StudySummary), ("study.h", "koksma_study_cost", StudyCost),
+    ("study.h", "koksma_study_summary", StudySummary),
     ("study.h", "koksma_study_row", StudyRow), ("study.h", "koksma_audit_options", AuditOptions),
     ("study.h", "koksma_audit", Audit),
     ("datasheet.h", "koksma_datasheet_options", DatasheetOptions),

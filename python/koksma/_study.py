@@ -34,18 +34,6 @@ class Summary:
 
 
 @dataclass(frozen=True)
-class Cost:
-    """What a study is estimated to cost: `seconds` on one thread, of them `reference_seconds` for references."""
-
-    jobs: int
-    references: int
-    rows: int
-    seconds: float
-    reference_seconds: float
-    bytes: float
-
-
-@dataclass(frozen=True)
 class TableRow:
     """A row of a published table beside our numbers. NaN: there is none. `published` is mean, sd and maximum."""
 
@@ -106,7 +94,7 @@ class Study:
         fields. Relative paths in a plan start at the folder of its file, those of a dict at the present directory.
         An empty sequence, as when left out: the plan that the folder has.
     folder : path, optional
-        Where results are kept; created if it does not exist. Without one only `estimate` can be called.
+        Where results are kept; created if it does not exist. Without one the plan is only checked.
     trials : int, optional
         Replaces the plan's numbers of trials.
     quick : bool
@@ -183,12 +171,6 @@ class Study:
         call(lab().koksma_study_run, self._open(), byref(raw), threads=threads, time_limit=time_limit, run_at=1,
              progress=progress)
         return Summary(raw.jobs, raw.done_before, raw.done_now, raw.workers, raw.seconds, raw.complete)
-
-    def estimate(self, *, time_limit: Optional[float] = None) -> Cost:
-        """The cost of the whole study, from jobs run for `time_limit` seconds (5)."""
-        raw = s.StudyCost()
-        call(lab().koksma_study_estimate, self._open(), byref(raw), time_limit=time_limit, run_at=1)
-        return Cost(raw.jobs, raw.references, raw.rows, raw.seconds, raw.reference_seconds, raw.bytes)
 
     def rows(self) -> npt.NDArray[np.void]:
         """All results, sorted by key, as a structured array (pandas.DataFrame takes it); texts are Unicode. Closes the

@@ -95,7 +95,7 @@ measure pattern:n-r^ n-rooks
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
 rank ball --with ^ mitsuba FILES
-study ^ run quick new estimate export report audit images
+study ^ run quick new export report audit images
 study quick -p ^ all $(all patterns)
 study quick --patterns random,n-r^ n-rooks
 study quick -p random,sobol:scr^ scramble=
@@ -105,7 +105,6 @@ study quick --scene ^ $(all scenes) FILES
 study quick -n ^
 study quick --spp ^
 study run ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
-study estimate ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 study export ^ FILES
 study export x --format ^ csv json npy sha256
 study export x --format=js^ json

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """misspelt.py KOKSMA SOURCE: a misspelt name in a file is named. Files that `scene check --unknown refuse` (plans:
-`study estimate`) accepts as they are get one misspelling each: a letter left out, doubled, replaced, or two neighbours
+`study run`) accepts as they are get one misspelling each: a letter left out, doubled, replaced, or two neighbours
 swapped, in a name that the format gives: of a directive, kind, parameter, type or value of a closed list (pbrt), a member
 or value (glTF, scenes and plans in JSON), a keyword (MTL). Each is refused with exit code 3 and a message that has the
 misspelt word. Of Mitsuba these are elements, attributes, parameters, types, files and ids of the corpus of fuzz/, which has
@@ -404,7 +404,7 @@ def main():
                     text = file.read()
                 places, known = json_places(text, set(), ("no_such_list",))
                 places = random.Random(SEED).sample(places, min(len(places), 12))
-                counts[plan] = bench.check_all(plan, "plan.json", ("study", "estimate", "plan.json"), text, places, known, draws=12)
+                counts[plan] = bench.check_all(plan, "plan.json", ("study", "run", "plan.json", "-o", plan + ".d", "--time-limit", "0.001", "-q"), text, places, known, draws=12)
         for failure in bench.failures:
             print(failure)
         print(f"{sum(counts.values())} misspellings ({', '.join(f'{k} {n}' for k, n in counts.items())}), {len(bench.failures)} not named")
