@@ -6,6 +6,7 @@ An entry that is altered, false, doubled or worse is refused with this reason, a
 all: the questions that ship, with ten numbers drawn at random and made again, in place of a small file of questions."""
 import html.parser
 import json
+import math
 import os
 import random
 import re
@@ -44,11 +45,14 @@ class Page(html.parser.HTMLParser):
     """The links, ids and commands of a page; its numbers with the command above them."""
     def __init__(self, path):
         super().__init__()
+        self.plain = []  # documents that are named outside a link
+        self.open = []
         self.links, self.ids, self.commands, self.numbers, self.in_code, self.tags = [], [], [], [], False, set()
         self.feed(path.read_text(encoding="utf-8"))
 
     def handle_starttag(self, tag, attributes):
         a = dict(attributes)
+        self.open += [tag] if tag in ("a", "pre") else []
         self.tags.add(tag)
         self.links += [a[k] for k in ("href", "src") if k in a]
         self.ids += [a["id"]] if "id" in a else []
@@ -63,20 +67,23 @@ class Page(html.parser.HTMLParser):
 
     def handle_endtag(self, tag):
         self.stack_pre = self.stack_pre and tag != "pre"
+        self.open = self.open[:-1] if tag in ("a", "pre") else self.open
 
     def handle_data(self, data):
+        self.plain += re.findall(r"[\w/-]+/[\w-]+\.md", data) if not self.open else []
         if self.stack_pre:
             self.commands[-1] += data
 
 
 def check_links(folder):
-    for path in folder.glob("*.html"):
+    for path in [*folder.glob("*.html"), *folder.glob("docs/*.html")]:
         page = Page(path)
+        expect(not page.plain, f"{path.name}: no link to {page.plain}")
         expect("script" not in page.tags, f"{path.name} has a script")
         expect(len(page.ids) == len(set(page.ids)), f"{path.name}: an id occurs twice")
         for link in page.links:
             name, _, part = link.partition("#")
-            target = folder / (name or path.name)
+            target = path.parent / (name or path.name)
             expect(":" not in link and not link.startswith("/"), f"{path.name}: {link} is not relative")
             expect(target.exists(), f"{path.name}: {link} leads nowhere")
             expect(not part or part in Page(target).ids, f"{path.name}: {link}: no such part")
@@ -97,7 +104,7 @@ def numbers_in(value):
 def made_again(folder, count):
     """Draws numbers from tables of all pages and runs the commands above them, in the folder of files, where they ran."""
     drawn = [(path.name, page.commands[i], number) for path in sorted(folder.glob("*.html")) for page in [Page(path)]
-             for i, number in page.numbers]
+             for i, number in page.numbers if page.commands[i].startswith("koksma ")]
     for name, command, number in random.sample(drawn, min(count, len(drawn))):
         words = shlex.split(command)
         result = subprocess.run([KOKSMA, *words[1:]], capture_output=True, text=True, cwd=folder / "files")
@@ -107,11 +114,12 @@ def made_again(folder, count):
 
 
 QUESTIONS = {
-    "title": "Test & atlas", "text": "One < two.",
+    "title": "Test & atlas", "text": "One < two.", "notes": {"measure": "Of `koksma`."},
     "questions": [{
         "id": "one", "title": "Which is <more> even?", "threads": ["a#1"],
-        "answer": "`{m|measure=star|least=value|source}` has {m|source=sobol@16|measure=star|value}; error {i|n=16|rmse low high}",
-        "text": "",
+        "answer": "`{m|measure=star|least=value|source}` has {m|source=sobol@16|measure=star|value}; error {i|n=16|rmse low high}; "
+                  "least {m|measure=star|source=sobol@16|list=source}; both {m|measure=star|list=source}; {i|n=16|rmse low high %}",
+        "text": "See `docs/findings/any-n.md`.",
         "runs": [{"id": "m", "command": "koksma measure sobol@16 random@16 -m star,l2-star --json"},
                  {"id": "i", "command": "koksma integrate exp -p n-rooks -n 16,64,256 -t {8|16} --json"},
                  {"id": "g", "command": "koksma generate sobol -n 4 -o four.txt"},
@@ -136,10 +144,16 @@ def check_pages(work):
     star = rows("measure", "sobol@16", "-m", "star")[0]["value"]
     rmse = rows("integrate", "exp", "-p", "n-rooks", "-n", "16", "-t", "8")[0]
     expect(f'value="{star!r}"' in text, "the star discrepancy is not on the page")
-    expect(f"{rmse['rmse']:.4g}</data> <span class=\"pm\">({rmse['low']:.4g} to {rmse['high']:.4g})</span>" in text,
-           "the error and its interval are not on the page")
+    for unit, scale in (("", 1), (" %", 100)):  # rmse is about 0.1 with an interval of about 0.1: two digits of its width are decimals
+        decimals = 1 - math.floor(math.log10(scale * (rmse["high"] - rmse["low"])))
+        value, low, high = (f"{scale * rmse[k]:.{max(decimals, 0)}f}" for k in ("rmse", "low", "high"))
+        expect(f"{value}</data>{unit} <span class=\"pm\">({low} to {high})</span>" in text, f"{value}{unit} ({low} to {high}) is not on the page")
+    expect("least <code>sobol@16</code>;" in text, "one name")
+    expect("both <code>sobol@16</code> and <code>random@16</code>, not told apart;" in text, "two names")
+    expect(text.count("Of <code>koksma</code>.") == 1, "a note is below the first run of its command")
+    expect("any-n" in text and (folder / "docs/any-n.html").read_text(encoding="utf-8").count("# ") > 1, "a copy of a document")
     expect("Which is &lt;more&gt; even?" in text and "<more>" not in text, "a title is not escaped")
-    expect('<code class="pm">koksma measure random@16 -m star</code>' in text, "words with a row's values are not on the page")
+    expect('<code>koksma measure random@16 -m star</code>' in text, "words with a row's values are not on the page")
     expect("slope" not in text, "the table shows rows of another kind")
     check_links(folder)
     expect(made_again(folder, 10) == 9, "9 numbers in tables")
@@ -153,7 +167,7 @@ def check_pages(work):
     expect((third["computed"], third["kept"], third["pages"]) == (1, 5, 3), f"a new question: {third}")
     full = json.loads(build().stdout)
     expect(full["computed"] == 1, f"without --quick one command differs: {full}")
-    for answer, reason in (("{m|value}", "finds 4"), ("{m|source=none|value}", "finds 0"), ("{x|value}", "no run 'x'"),
+    for answer, reason in (("{m|value}", "finds 4"), ("{m|source=none|value}", "finds 0"), ("{x|value}", "no run 'x'"), ("{m|source=none|list=source}", "finds none"),
                            ("{m|measure=star|least=value|nothing}", "nothing"), ("{m", "without '}'")):
         data["questions"][0]["answer"] = answer
         error = build(3).stderr
@@ -231,6 +245,24 @@ def check_entries(work):
     run("atlas", "submit", "sobol@16", "--author", "A", "-m", "edge-sampled", code=2)
 
 
+def check_ties(folder, data):
+    """The answer of a question about pictures names all patterns of each first position, and says where they are several."""
+    for q in data["questions"]:
+        text = (folder / f"{q['id']}.html").read_text(encoding="utf-8")
+        answer = re.search(r'<p class="decided">(.*?)</p>', text, re.S)[1]
+        ranked = [r for link in re.findall(r"rows/\w+\.json", text) for line in (folder / link).read_text(encoding="utf-8").splitlines()
+                  for r in [json.loads(line)] if "position" in r and r["state"] == "ranked"]
+        if any("--target-error" in r["command"] for r in q["runs"]):
+            continue
+        for case in {(r["scene"], r["spp"]) for r in ranked}:
+            first = [r["pattern"] for r in ranked if (r["scene"], r["spp"]) == case and r["position"] == 1]
+            names = [f"<code>{n}</code>" for n in first]
+            told = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}, not told apart"
+            expect(told in answer, f"{q['id']}: {case}: {told} is not in the answer")
+        for low, high in re.findall(r"\((\S+) to (\S+)\)</span>", text):
+            expect(low != high, f"{q['id']}: no digit of ({low} to {high}) shows its width")
+
+
 def check_shipped(work):
     """The twenty questions. Datasheets of three patterns stand for all, which take minutes."""
     data = json.loads((ROOT / "studies/atlas/questions.json").read_text(encoding="utf-8"))
@@ -239,16 +271,17 @@ def check_shipped(work):
         for r in q["runs"]:
             expect(not re.search(r"-[pm] all\b", r["command"]), f"{q['id']}: 'all' hides what the result depends on")
     names = [p["pattern"] for p in rows("list", "patterns")]
-    data["slow"] = [n for n in names if n not in ("sobol", "n-rooks", "fibonacci")]
+    data["slow"] = {n: "left out of this test" for n in names if n not in ("sobol", "n-rooks", "fibonacci")}
     file, folder = work / "shipped.json", work / "shipped"
     file.write_text(json.dumps(data), encoding="utf-8")
     summary = rows("atlas", "build", str(file), "-o", str(folder), "--quick")[0]
     expect(summary["pages"] == 23 and len(list(folder.glob("sheets/*.html"))) == 2, f"shipped questions: {summary}")
     check_links(folder)
+    check_ties(folder, data)
     expect(made_again(folder, 10) > 200, "numbers of the shipped questions")
     size = sum(p.stat().st_size for p in folder.rglob("*"))
     expect(size < 30e6 - 45 * 280e3, f"{size} bytes without the other datasheets")
-    for name in random.sample(sorted(re.findall(r"<code class=.pm.>(koksma measure record:[^<]*)</code>",
+    for name in random.sample(sorted(re.findall(r"<code>(koksma measure record:[^<]*)</code>",
                                                 (folder / "records.html").read_text(encoding="utf-8"))), 3):
         words = shlex.split(name)[1:]
         measure, n, dim = re.match(r"record:measure=([\w-]+)@(\d+)@(\d)", words[1]).groups()

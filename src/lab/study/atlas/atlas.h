@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The parts of the atlas: atlas_build.c runs the commands, atlas_page.c writes the pages. */
+/* The parts of the atlas: atlas_build.c runs the commands, atlas_page.c writes the pages, atlas_text.c their texts. */
 #ifndef KOKSMA_STUDY_ATLAS_ATLAS_H
 #define KOKSMA_STUDY_ATLAS_ATLAS_H
+
+#include <stdio.h>
 
 #include <koksma/atlas.h>
 
@@ -16,6 +18,7 @@ typedef struct koksma__atlas_job {
     char file[KOKSMA_MAX_SPEC + KOKSMA__SHA256_TEXT];
     const char *id;     /* of the command in its question; of a datasheet the pattern's name */
     const char *output; /* the word after -o in `command`: a file in files/ that it makes; NULL: none */
+    const char *stored; /* rows that the library carries: the command is shown, not run; NULL: none */
     char failure[256];  /* why the pattern of a datasheet has none; empty: it has one */
 } koksma__atlas_job;
 
@@ -36,6 +39,29 @@ typedef struct koksma__atlas {
     koksma__atlas_job *jobs; /* of all pages, then n_sheets of datasheets */
     size_t n_jobs, n_sheets;
 } koksma__atlas;
+
+/* ---- atlas_text.c ---- */
+
+/* Returns a text that the library carries, a document or stored rows, by its file's name without folder and ending;
+   NULL: there is none. */
+const char *koksma__atlas_text(const char *name, size_t *size);
+
+/* Writes text to a page: with a length, or to its end. */
+void koksma__atlas_put_text(FILE *f, const char *text, size_t length);
+void koksma__atlas_put(FILE *f, const char *text);
+
+/* Writes a page up to its content. */
+void koksma__atlas_put_head(FILE *f, const char *title);
+
+/* Writes the beginning of a link if the text up to a '`' is a page of the atlas, or a document that the library carries, of
+   which it writes a copy. Errors: IO, MEMORY. */
+koksma_status koksma__atlas_begin_link(FILE *out, const char *folder, const char *path, bool *is_link);
+
+/* Closes a page that was written to memory, and puts it into the folder unless `status` is an error, which it returns.
+   Frees the text. Errors: IO, MEMORY. */
+koksma_status koksma__atlas_close(FILE *f, const char *folder, const char *name, char **text, koksma_status status);
+
+/* ---- atlas_page.c ---- */
 
 /* Writes index.html and all pages from the results. Errors: MALFORMED (the questions ask for what the rows lack), IO,
    MEMORY. */

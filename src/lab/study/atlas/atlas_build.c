@@ -153,9 +153,9 @@ static koksma_status add_job(koksma__atlas *a, const koksma__json_node *node, co
 {
     char command[COMMAND], digest[KOKSMA__SHA256_TEXT];
     koksma__atlas_job *job = &a->jobs[a->n_jobs];
-    KOKSMA__JSON_FAIL_IF(strncmp(text, "koksma ", 7) != 0, node, "a command begins with 'koksma '");
+    KOKSMA__JSON_FAIL_IF(!job->stored && strncmp(text, "koksma ", 7) != 0, node, "a command begins with 'koksma '");
     KOKSMA__JSON_FAIL_IF(!choose(text, a->options->quick, pattern, command), node, "the command is too long");
-    find_digest(command, chain, digest);
+    find_digest(job->stored ? job->stored : command, chain, digest);
     const char *output = strstr(command, " -o ");
     job->command = strdup(command);
     KOKSMA__REQUIRE_MEMORY(job->command, strlen(command));
@@ -173,7 +173,7 @@ static koksma_status add_job(koksma__atlas *a, const koksma__json_node *node, co
 static koksma_status add_page(koksma__atlas *a, const koksma__json_node *list, size_t i, bool numbered)
 {
     koksma__json_node runs;
-    size_t n;
+    size_t n, size;
     char chain[KOKSMA__SHA256_TEXT] = "";
     koksma__atlas_page *page = &a->pages[a->n_pages++];
     page->node = koksma__json_item(list, i);
@@ -187,8 +187,11 @@ static koksma_status add_page(koksma__atlas *a, const koksma__json_node *list, s
     KOKSMA__TRY(koksma__json_length(&runs, KOKSMA__ATLAS_PAGE_JOBS, &n));
     for (size_t k = 0; k < n; k++) {
         const koksma__json_node node = koksma__json_item(&runs, k);
-        const char *command;
+        const char *command, *rows = NULL;
         KOKSMA__TRY(koksma__json_get_text(&node, "command", true, &command));
+        KOKSMA__TRY(koksma__json_get_text(&node, "rows", false, &rows));
+        a->jobs[a->n_jobs].stored = rows ? koksma__atlas_text(rows, &size) : NULL;
+        KOKSMA__JSON_FAIL_IF(rows && !a->jobs[a->n_jobs].stored, &node, "rows: the library has no rows '%s'", rows);
         KOKSMA__TRY(koksma__json_get_text(&node, "id", true, &a->jobs[a->n_jobs].id));
         KOKSMA__JSON_FAIL_IF(!is_name(a->jobs[a->n_jobs].id), &node, "id: it has letters, digits, '-', '_' and '.'");
         KOKSMA__TRY(add_job(a, &node, command, "", "rows", chain));
@@ -213,42 +216,26 @@ static koksma_status add_pages(koksma__atlas *a, const char *key, bool numbered)
     return KOKSMA_OK;
 }
 
-/* Whether the datasheet of a pattern takes minutes even with --quick: an item of the list "slow". */
-static koksma_status is_slow(const koksma__json_node *root, const char *pattern, bool *slow)
-{
-    koksma__json_node list;
-    const char *name;
-    size_t n = 0;
-    *slow = false;
-    if (koksma__json_has(root, "slow")) {
-        KOKSMA__TRY(koksma__json_member(root, "slow", &list));
-        KOKSMA__TRY(koksma__json_length(&list, MAX_PAGES, &n));
-    }
-    for (size_t i = 0; i < n; i++) {
-        const koksma__json_node item = koksma__json_item(&list, i);
-        KOKSMA__TRY(koksma__json_text(&item, &name));
-        *slow = *slow || !strcmp(name, pattern);
-    }
-    return KOKSMA_OK;
-}
-
 /* A datasheet for each pattern that needs no file and no code of others. */
 static koksma_status add_sheets(koksma__atlas *a)
 {
     const koksma__json_node root = koksma__json_root(a->document);
+    koksma__json_node slow;
     const char *command = NULL;
     const koksma_pattern *pattern;
+    const bool has_slow = a->options->quick && koksma__json_has(&root, "slow");
     KOKSMA__TRY(koksma__json_get_text(&root, "sheets", false, &command));
+    KOKSMA__TRY(has_slow ? koksma__json_member(&root, "slow", &slow) : KOKSMA_OK);
     for (size_t i = 0; command && (pattern = koksma_pattern_at(i)); i++) {
         char chain[KOKSMA__SHA256_TEXT] = "";
         if (!pattern->operand) {
+            const char *reason = NULL;
             a->jobs[a->n_jobs].id = pattern->name;
-            bool slow;
-            KOKSMA__TRY(is_slow(&root, pattern->name, &slow));
+            KOKSMA__TRY(has_slow ? koksma__json_get_text(&slow, pattern->name, false, &reason) : KOKSMA_OK);
             KOKSMA__TRY(add_job(a, &root, command, pattern->name, "sheets", chain));
-            if (slow && a->options->quick) {
+            if (reason) {
                 snprintf(a->jobs[a->n_jobs - 1].failure, sizeof a->jobs[0].failure,
-                         "it takes minutes; a build without --quick has it");
+                         "%s; a build without --quick has it", reason);
             }
             a->n_sheets++;
         }
@@ -258,7 +245,7 @@ static koksma_status add_sheets(koksma__atlas *a)
 
 static koksma_status read_questions(koksma__atlas *a)
 {
-    static const char *const keys[] = {"title", "text", "questions", "pages", "sheets", "slow", NULL};
+    static const char *const keys[] = {"title", "text", "notes", "questions", "pages", "sheets", "slow", NULL};
     const char *path = a->options->questions, *text = koksma__atlas_questions;
     unsigned char *bytes = NULL;
     size_t size = sizeof koksma__atlas_questions - 1, n_jobs = 2 * MAX_PAGES * KOKSMA__ATLAS_PAGE_JOBS;
@@ -356,6 +343,10 @@ static koksma_status do_job(const koksma__atlas *a, koksma__atlas_job *job, bool
         summary->kept++;
         return KOKSMA_OK;
     }
+    if (job->stored) {
+        summary->kept++;
+        return koksma__atomic_put(folder, job->file, job->stored, strlen(job->stored));
+    }
     if (*job->failure) {
         summary->failed++;
         return KOKSMA_OK;
@@ -396,7 +387,7 @@ static koksma_status do_jobs(const koksma__atlas *a, const koksma_run *run, koks
 
 static koksma_status make_folders(const char *folder)
 {
-    static const char *const below[] = {"rows", "sheets", "files"};
+    static const char *const below[] = {"rows", "sheets", "files", "docs"};
     KOKSMA__TRY(koksma__atomic_folder(folder));
     for (size_t i = 0; i < sizeof below / sizeof *below; i++) {
         char *path = koksma__path_below(folder, below[i]);

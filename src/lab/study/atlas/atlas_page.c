@@ -4,11 +4,13 @@
  * reports, without scripts. A page has the answer, a sentence with values of rows in it, then each command with its tables
  * and its picture. What a question shows is data (studies/README.md):
  *
- *     value     {ID|KEY=TEXT|..|least=KEY|KEY [LOW HIGH]}: KEY of the one row of command ID where the others hold, with its
- *               interval; least and most: the row where KEY is the least or the largest
- *     column    "KEY [LOW HIGH]", "HEAD: KEY [LOW HIGH]", or "HEAD: `text with {KEY}`"
+ *     value     {ID|KEY=TEXT|..|least=KEY|KEY [LOW HIGH [%]]}: KEY of the one row of command ID where the others hold, with
+ *               its interval; least and most: the row where KEY is the least or the largest
+ *     list      {ID|KEY=TEXT|..|list=KEY}: KEY of all rows that fit; several are "not told apart"
+ *     column    "KEY [LOW HIGH [%]]", "HEAD: KEY [LOW HIGH [%]]", or "HEAD: `text with {KEY}`"
  *
- * Numbers are shown with four digits, whole numbers with all; the element's title has all digits.
+ * Numbers are shown with four digits, whole numbers with all, those with an interval with two digits of its width; the
+ * element's title has all digits. A document that the text names is a link to a copy of it in docs/.
  */
 #include "study/atlas/atlas.h"
 
@@ -18,6 +20,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/elementary.h"
 #include "core/files.h"
 #include "study/report/document.h"
 
@@ -29,22 +32,6 @@ typedef struct page {
     const koksma__atlas_page *of;
     koksma__json *rows[KOKSMA__ATLAS_PAGE_JOBS]; /* of each job */
 } page;
-
-/* ---- Text ------------------------------------------------------------------------------------------------------ */
-
-static void put_text(FILE *f, const char *text, size_t length)
-{
-    for (size_t i = 0; i < length; i++) {
-        const char c = text[i];
-        const char *name = c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : NULL;
-        name ? fputs(name, f) : putc(c, f);
-    }
-}
-
-static void put(FILE *f, const char *text)
-{
-    put_text(f, text, strlen(text));
-}
 
 /* ---- Values ---------------------------------------------------------------------------------------------------- */
 
@@ -73,22 +60,41 @@ static koksma_status read_value(const koksma__json_node *row, const char *key, c
     return KOKSMA_OK;
 }
 
-/* Writes "KEY [LOW HIGH]" of a row. */
+/* Writes a number and the ends of its interval with as many decimals as give the interval's width two digits. */
+static void print_interval(char text[3][TEXT], const double number[3])
+{
+    const double width = number[2] - number[1], largest = fmax(fabs(number[1]), fabs(number[2]));
+    if (!(width > 0 && isfinite(width))) {
+        return;
+    }
+    const int last = (int)floor(koksma__log10(width)) - 1, first = (int)floor(koksma__log10(largest));
+    for (int i = 0; i < 3; i++) {
+        koksma__snprintf(text[i], TEXT, first < -3 ? "%.*e" : "%.*f",
+                         first < -3 ? first - last
+                         : last < 0 ? -last
+                                    : 0,
+                         number[i]);
+    }
+}
+
+/* Writes "KEY [LOW HIGH [%]]" of a row. */
 static koksma_status put_value(FILE *f, const koksma__json_node *row, const char *keys)
 {
-    char key[3][64] = {"", "", ""}, text[3][TEXT], full[3][TEXT];
-    double number[3];
-    const int n = sscanf(keys, "%63s %63s %63s", key[0], key[1], key[2]);
+    char key[3][64] = {"", "", ""}, text[3][TEXT], full[3][TEXT], percent[2] = "";
+    double number[3] = {NAN, NAN, NAN};
+    const int read = sscanf(keys, "%63s %63s %63s %1[%]", key[0], key[1], key[2], percent), n = read < 3 ? read : 3;
     KOKSMA__JSON_FAIL_IF(n != 1 && n != 3, row, "'%s' is not 'KEY' or 'KEY LOW HIGH'", keys);
     for (int i = 0; i < n; i++) {
         KOKSMA__TRY(read_value(row, key[i], text[i], full[i], &number[i]));
+        number[i] *= *percent ? 100 : 1;
     }
+    print_interval(text, number);
     if (isnan(number[0])) {
-        put(f, text[0]);
+        koksma__atlas_put(f, text[0]);
     } else {
-        fprintf(f, "<data value=\"%s\" title=\"%s\">%s</data>", full[0], full[0], text[0]);
+        fprintf(f, "<data value=\"%s\" title=\"%s\">%s</data>%s", full[0], full[0], text[0], *percent ? " %" : "");
     }
-    if (n == 3 && !isnan(number[1]) && !isnan(number[2])) {
+    if (n == 3 && number[1] < number[2]) {
         fprintf(f, " <span class=\"pm\">(%s to %s)</span>", text[1], text[2]);
     }
     return KOKSMA_OK;
@@ -115,6 +121,33 @@ static koksma_status find_job(const page *p, const char *id, const koksma__json_
     for (*job = 0; *job < p->of->n_jobs && strcmp(p->of->jobs[*job].id, id) != 0; ++*job) {
     }
     KOKSMA__JSON_FAIL_IF(*job == p->of->n_jobs, from, "there is no run '%s'", id);
+    return KOKSMA_OK;
+}
+
+/* Writes KEY of all rows that fit: "A", or "A, B and C, not told apart". */
+static koksma_status put_list(const page *p, size_t job, char *const *conditions, size_t n, const char *key)
+{
+    const koksma__json_node list = koksma__json_root(p->rows[job]);
+    char text[2][TEXT] = {"", ""}, full[TEXT];
+    size_t n_rows, count = 0;
+    double number;
+    KOKSMA__TRY(koksma__json_length(&list, MAX_ROWS, &n_rows));
+    for (size_t i = 0; i <= n_rows; i++) {
+        const koksma__json_node row = i < n_rows ? koksma__json_item(&list, i) : list;
+        if (i < n_rows && !fits(&row, conditions, n)) {
+            continue;
+        }
+        if (count) { /* the row before */
+            fputs(count == 1 ? "<code>" : i < n_rows ? ", <code>" : " and <code>", p->f);
+            koksma__atlas_put(p->f, text[count % 2]);
+            fputs("</code>", p->f);
+        }
+        count += i < n_rows;
+        KOKSMA__TRY(i < n_rows ? read_value(&row, key, text[count % 2], full, &number) : KOKSMA_OK);
+    }
+    KOKSMA__JSON_FAIL_IF(!count, &p->of->node, "an answer lists rows of run '%s', %s, and finds none",
+                         p->of->jobs[job].id, n ? conditions[0] : "*");
+    fputs(count > 1 ? ", not told apart" : "", p->f);
     return KOKSMA_OK;
 }
 
@@ -176,22 +209,26 @@ static koksma_status put_reference(page *p, const char *text, size_t length)
             parts[1 + n_conditions++] = parts[i];
         }
     }
+    if (!strncmp(parts[n - 1], "list=", 5)) {
+        return put_list(p, job, parts + 1, n_conditions, parts[n - 1] + 5);
+    }
     KOKSMA__TRY(find_row(p, job, parts + 1, n_conditions, by, sign, &row));
     return put_value(p->f, &row, parts[n - 1]);
 }
 
-/* Writes words with `code` and values. */
+/* Writes words with `code`, values, and links to documents. */
 static koksma_status put_words(page *p, const char *text)
 {
-    bool code = false;
+    bool code = false, is_link = false;
     while (*text) {
         const size_t length = strcspn(text, "`{");
-        put_text(p->f, text, length);
+        koksma__atlas_put_text(p->f, text, length);
         text += length;
         if (*text == '`') {
-            fputs(code ? "</code>" : "<code>", p->f);
-            code = !code;
             text++;
+            KOKSMA__TRY(code ? KOKSMA_OK : koksma__atlas_begin_link(p->f, p->atlas->options->folder, text, &is_link));
+            fputs(!code ? "<code>" : is_link ? "</code></a>" : "</code>", p->f);
+            code = !code;
         } else if (*text == '{') {
             const char *end = strchr(text, '}');
             KOKSMA__JSON_FAIL_IF(!end, &p->of->node, "'{' without '}' in '%.60s'", text);
@@ -216,17 +253,17 @@ static koksma_status put_cell(FILE *f, const koksma__json_node *row, const char 
     for (; *what; what++) {
         const char *end = strchr(what, '}');
         if (*what == '`') {
-            fputs(code ? "</code>" : "<code class=\"pm\">", f);
+            fputs(code ? "</code>" : "<code>", f);
             code = !code;
         } else if (*what == '{' && end) {
             char key[TEXT], shown[TEXT], full[TEXT];
             double number;
             snprintf(key, sizeof key, "%.*s", (int)(end - what - 1), what + 1);
             KOKSMA__TRY(read_value(row, key, shown, full, &number));
-            put(f, full);
+            koksma__atlas_put(f, full);
             what = end;
         } else {
-            put_text(f, what, 1);
+            koksma__atlas_put_text(f, what, 1);
         }
     }
     return KOKSMA_OK;
@@ -292,14 +329,14 @@ static koksma_status put_table(const page *p, const koksma__json_node *table, si
         snprintf(texts[i], TEXT, "%s", text);
         conditions[i] = texts[i];
     }
-    fputs("<div class=\"scroll\" tabindex=\"0\"><table>\n<thead><tr>", p->f);
+    fputs("<div class=\"scroll\" tabindex=\"0\"><table class=\"many\">\n<thead><tr>", p->f);
     for (size_t k = 0; k < n_columns; k++) {
         const koksma__json_node node = koksma__json_item(&columns, k);
         const char *text;
         KOKSMA__TRY(koksma__json_text(&node, &text));
         const char *colon = strstr(text, ": ");
         fputs("<th scope=\"col\">", p->f);
-        put_text(p->f, text, colon ? (size_t)(colon - text) : strcspn(text, " "));
+        koksma__atlas_put_text(p->f, text, colon ? (size_t)(colon - text) : strcspn(text, " "));
         fputs("</th>", p->f);
     }
     fputs("</tr></thead>\n<tbody>\n", p->f);
@@ -309,16 +346,43 @@ static koksma_status put_table(const page *p, const koksma__json_node *table, si
     return KOKSMA_OK;
 }
 
+/* The note on a command, such as what its columns mean, below its first run on the page. */
+static koksma_status put_note(page *p, size_t job)
+{
+    const koksma__json_node root = koksma__json_root(p->atlas->document);
+    const koksma__atlas_job *jobs = p->of->jobs;
+    koksma__json_node notes;
+    char word[64] = "", before[64];
+    const char *note = NULL;
+    sscanf(jobs[job].command, "%*s %63s", word);
+    for (size_t i = 0; i < job; i++) {
+        if (sscanf(jobs[i].command, "%*s %63s", before) == 1 && !strcmp(before, word)) {
+            return KOKSMA_OK;
+        }
+    }
+    if (koksma__json_has(&root, "notes")) {
+        KOKSMA__TRY(koksma__json_member(&root, "notes", &notes));
+        KOKSMA__TRY(koksma__json_get_text(&notes, word, false, &note));
+    }
+    if (note) {
+        fputs("<p class=\"csv\">", p->f);
+        KOKSMA__TRY(put_words(p, note));
+        fputs("</p>\n", p->f);
+    }
+    return KOKSMA_OK;
+}
+
 /* A command, the tables of its rows, and the picture that it draws. */
-static koksma_status put_run(const page *p, size_t job)
+static koksma_status put_run(page *p, size_t job)
 {
     const koksma__atlas_job *j = &p->of->jobs[job];
     koksma__json_node runs, tables;
     const char *alt = "", *id;
     size_t n = 0, k;
     fprintf(p->f, "<section id=\"%s\">\n<div class=\"commands\"><pre><code>", j->id);
-    put(p->f, j->command);
+    koksma__atlas_put(p->f, j->command);
     fputs("</code></pre></div>\n", p->f);
+    KOKSMA__TRY(put_note(p, job));
     if (koksma__json_has(&p->of->node, "tables")) {
         KOKSMA__TRY(koksma__json_member(&p->of->node, "tables", &tables));
         KOKSMA__TRY(koksma__json_length(&tables, MAX_TABLES, &n));
@@ -334,26 +398,21 @@ static koksma_status put_run(const page *p, size_t job)
     KOKSMA__TRY(koksma__json_get_text(&run, "alt", false, &alt));
     if (j->output && *alt) {
         fprintf(p->f, "<figure><img src=\"files/%s\" alt=\"", j->output);
-        put(p->f, alt);
+        koksma__atlas_put(p->f, alt);
         fputs("\"><figcaption>", p->f);
-        put(p->f, alt);
+        koksma__atlas_put(p->f, alt);
         fputs("</figcaption></figure>\n", p->f);
     }
-    fprintf(p->f, "<p class=\"csv\"><a href=\"%s\">all rows, all digits</a>%s%s%s</p>\n</section>\n", j->file,
-            j->output ? ", <a href=\"files/" : "", j->output ? j->output : "", j->output ? "\">the file</a>" : "");
+    const koksma__json_node list = koksma__json_root(p->rows[job]);
+    KOKSMA__TRY(koksma__json_length(&list, MAX_ROWS, &n));
+    fputs("<p class=\"csv\">", p->f);
+    n ? fprintf(p->f, "<a href=\"%s\">all rows, all digits</a>%s", j->file, j->output ? ", " : "") : 0;
+    j->output ? fprintf(p->f, "<a href=\"files/%s\">the file</a>", j->output) : 0;
+    fputs("</p>\n</section>\n", p->f);
     return KOKSMA_OK;
 }
 
 /* ---- Pages ----------------------------------------------------------------------------------------------------- */
-
-static void put_head(FILE *f, const char *title)
-{
-    fputs("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>", f);
-    put(f, title);
-    fputs("</title>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n", f);
-    koksma__page_style(f);
-    fputs("</head>\n<body>\n<main>\n", f);
-}
 
 /* Puts the rows of a page's jobs, JSON Lines, into one JSON list for each. */
 static koksma_status read_rows(page *p)
@@ -392,11 +451,11 @@ static koksma_status put_page(page *p)
     size_t n = 0;
     KOKSMA__TRY(koksma__json_get_text(&q->node, "text", false, &text));
     KOKSMA__TRY(koksma__json_get_text(&q->node, "answer", true, &answer));
-    put_head(p->f, q->title);
+    koksma__atlas_put_head(p->f, q->title);
     fputs("<p class=\"kicker\"><a href=\"index.html\">Atlas</a>", p->f);
     q->number ? fprintf(p->f, ", question %zu", q->number) : 0;
     fputs("</p>\n<h1>", p->f);
-    put(p->f, q->title);
+    koksma__atlas_put(p->f, q->title);
     fputs("</h1>\n<p class=\"decided\">", p->f);
     KOKSMA__TRY(put_words(p, answer));
     fputs("</p>\n<p>", p->f);
@@ -411,7 +470,7 @@ static koksma_status put_page(page *p)
         const char *thread;
         KOKSMA__TRY(koksma__json_text(&node, &thread));
         fputs(i ? ", " : "<p class=\"csv\">Asked in ", p->f);
-        put(p->f, thread);
+        koksma__atlas_put(p->f, thread);
     }
     fputs(n ? "</p>\n" : "", p->f);
     for (size_t i = 0; i < q->n_jobs; i++) {
@@ -428,7 +487,7 @@ static koksma_status put_item(page *p)
     KOKSMA__TRY(koksma__json_get_text(&p->of->node, "answer", true, &answer));
     fprintf(p->f, "<dt><a href=\"%s.html\">", p->of->id);
     p->of->number ? fprintf(p->f, "%zu. ", p->of->number) : 0;
-    put(p->f, p->of->title);
+    koksma__atlas_put(p->f, p->of->title);
     fputs("</a></dt>\n<dd>", p->f);
     KOKSMA__TRY(put_words(p, answer));
     fputs("</dd>\n", p->f);
@@ -444,21 +503,12 @@ static void put_sheets(FILE *f, const koksma__atlas *a)
         fputs("<li>", f);
         *job->failure ? 0 : fprintf(f, "<a href=\"%s\">", job->file);
         fprintf(f, "<code>%s</code>%s: ", job->id, *job->failure ? "" : "</a>");
-        put(f, what);
+        koksma__atlas_put(f, what);
         fputs(*job->failure ? " <small>No datasheet: " : "", f);
-        put(f, job->failure);
+        koksma__atlas_put(f, job->failure);
         fputs(*job->failure ? "</small></li>\n" : "</li>\n", f);
     }
     fputs("</ul>\n", f);
-}
-
-static koksma_status close_text(FILE *f, const char *folder, const char *name, char **text, koksma_status status)
-{
-    const bool failed = fclose(f) || !*text;
-    status = status || !failed ? status : koksma__fail_memory(TEXT);
-    status = status ? status : koksma__atomic_put(folder, name, *text, strlen(*text));
-    free(*text);
-    return status;
 }
 
 static koksma_status write_page(const koksma__atlas *a, const koksma__atlas_page *of, FILE *index)
@@ -470,7 +520,7 @@ static koksma_status write_page(const koksma__atlas *a, const koksma__atlas_page
     snprintf(name, sizeof name, "%s.html", of->id);
     koksma_status status = read_rows(&p);
     status = status ? status : put_page(&p);
-    status = close_text(p.f, a->options->folder, name, &text, status);
+    status = koksma__atlas_close(p.f, a->options->folder, name, &text, status);
     p.f = index;
     status = status ? status : put_item(&p);
     for (size_t i = 0; i < of->n_jobs; i++) {
@@ -489,11 +539,11 @@ koksma_status koksma__atlas_write(const koksma__atlas *a, size_t *written)
     KOKSMA__TRY(koksma__json_get_text(&root, "text", false, &about));
     FILE *f = open_memstream(&text, &size);
     KOKSMA__REQUIRE_MEMORY(f, (size_t)TEXT);
-    put_head(f, title);
+    koksma__atlas_put_head(f, title);
     fputs("<h1>", f);
-    put(f, title);
+    koksma__atlas_put(f, title);
     fputs("</h1>\n<p>", f);
-    put(f, about);
+    koksma__atlas_put(f, about);
     fprintf(f, "</p>\n<p class=\"csv\">koksma %s%s</p>\n<dl>\n", koksma_version(),
             a->options->quick ? ", built with --quick: fewer trials, wider intervals" : "");
     koksma_status status = KOKSMA_OK;
@@ -506,5 +556,5 @@ koksma_status koksma__atlas_write(const koksma__atlas *a, size_t *written)
     }
     fputs("</main>\n</body>\n</html>\n", f);
     *written = a->n_pages + 1;
-    return close_text(f, a->options->folder, "index.html", &text, status);
+    return koksma__atlas_close(f, a->options->folder, "index.html", &text, status);
 }
