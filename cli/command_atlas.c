@@ -111,14 +111,18 @@ static int check(const cli_arguments *arguments)
     const char **paths = (const char **)arguments->operands + 1;
     const koksma_status status = koksma_entries_check(paths, n, &work.run, results);
     cli_work_end();
-    bool all = true;
+    int code = CLI_YES;
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < n && results[i].verdict; i++) {
         const koksma_entry_result *r = &results[i];
-        all = all && !strcmp(r->verdict, "accepted");
+        const int one = r->status                         ? koksma_status_exit_code(r->status)
+                        : !strcmp(r->verdict, "accepted") ? CLI_YES
+                                                          : CLI_NO;
+        code = one > code ? one : code;
+        r->status ? cli_say(arguments->command->name, "%s", r->reason) : (void)0;
         cli_row_text(rows, "entry", paths[i]);
         cli_row_text(rows, "verdict", r->verdict);
-        cli_row_text(rows, "measure", r->measure);
+        cli_row_text(rows, "measure", *r->measure ? r->measure : "-");
         cli_row_whole(rows, "n", r->n);
         cli_row_whole(rows, "dim", (uint64_t)r->dim);
         cli_row_number(rows, "claimed", r->claimed);
@@ -128,8 +132,7 @@ static int check(const cli_arguments *arguments)
         cli_row_end(rows);
     }
     free(results);
-    const int code = status ? cli_fail(arguments, status) : all ? CLI_YES : CLI_NO;
-    return cli_rows_close(rows, code);
+    return cli_rows_close(rows, status ? cli_fail(arguments, status) : code);
 }
 
 static int run(const cli_arguments *arguments)
@@ -180,8 +183,11 @@ const cli_command cli_command_atlas = {
         "measure or author are not those of the digest. false: the points have another value than the entry "
         "claims. duplicate: the set is that of the pattern record or of an entry before it, up to the order of "
         "the points, shifts on the torus, and in up to four dimensions reflections and permutations of the axes. "
-        "worse: not better than the record or an entry before it by more than 1e-11. Exit codes: 0 all accepted; "
-        "1 one is refused; 2 for a wrong command line; 3 for a file that is missing or no entry.\n",
+        "worse: not better than the record or an entry before it by more than 1e-11; where no record is known, than "
+        "the "
+        "best listed pattern, up to 512 coordinates. invalid: the file is missing or no entry. Exit codes, the worst "
+        "of "
+        "all entries: 0 accepted; 1 refused; 2 for a wrong command line; 3 invalid.\n",
     .examples = "koksma atlas build -o atlas --quick\n"
                 "koksma atlas submit points.txt --author 'A. Name' -o entry.json\n"
                 "koksma atlas check entry.json\n",

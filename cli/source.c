@@ -150,14 +150,19 @@ static const char *hint(const char *operand, char *text, size_t size)
     return text;
 }
 
-/* The text of an option; NULL: not given, or not an option of the command. */
-static const char *option_text(const cli_arguments *arguments, const char *name)
+static bool has_option(const cli_arguments *arguments, const char *name)
 {
     const cli_option *option = arguments->command->options;
     while (option->name && strcmp(option->name, name) != 0) {
         option++;
     }
-    return option->name ? cli_text(arguments, name, NULL) : NULL;
+    return option->name != NULL;
+}
+
+/* The text of an option; NULL: not given, or not an option of the command. */
+static const char *option_text(const cli_arguments *arguments, const char *name)
+{
+    return has_option(arguments, name) ? cli_text(arguments, name, NULL) : NULL;
 }
 
 /* Reads a file and divides its coordinates by the numbers of --scale. Returns the exit code. */
@@ -223,8 +228,9 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
         cli_usage_error(arguments, "%s%s", koksma_error_text(), hint(text, meant, sizeof meant));
         return koksma_status_exit_code(status);
     }
-    if (status == KOKSMA_MALFORMED && strstr(koksma_error_text(), "outside [0,1]") &&
-        !strstr(koksma_error_text(), "nan") && !strchr(koksma_error_text(), ';')) {
+    if (status == KOKSMA_MALFORMED && has_option(arguments, "scale") &&
+        strstr(koksma_error_text(), "outside [0,1]") && !strstr(koksma_error_text(), "nan") &&
+        !strchr(koksma_error_text(), ';')) {
         cli_usage_error(arguments, "%s; --scale W,H divides coordinates, such as pixels", koksma_error_text());
         return koksma_status_exit_code(status);
     }

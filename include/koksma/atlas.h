@@ -56,27 +56,31 @@ KOKSMA_API koksma_status koksma_entry_text(const koksma_points *points, const ko
                                            const char *author, const koksma_run *run, char **json);
 
 /* What a check found: one of
-     accepted   better than the record, or no record is known for this measure, n and dimension
+     accepted   better than the record; where none is known for this measure, n and dimension, and up to 512 coordinates,
+                better than the listed patterns
      altered    the digest is not that of the points, measure and author
      false      the measure of the points is not the claimed value, to 13 digits
      duplicate  the points are those of the record or of an entry before it, up to order, shifts on the torus and, up to
                 four dimensions, permutations and reflections of the axes, to 1e-9
-     worse      not better than the record, or an accepted entry before it, by more than 1e-11 */
+     worse      not better than the record, the listed patterns where there is none, or an entry before it, by more than
+                1e-11
+     invalid    the file is missing or no entry, or its points cannot be measured */
 typedef struct koksma_entry_result {
-    const char *verdict;           /* one of these words; a constant */
-    char reason[256];              /* one line; empty if accepted */
-    char measure[KOKSMA_MAX_SPEC]; /* the measure's spec */
+    const char *verdict;  /* one of these words; a constant */
+    koksma_status status; /* of an invalid entry the error; otherwise OK */
+    char reason[512];     /* one line; of an accepted entry empty, or that it is the first of its measure and size */
+    char measure[KOKSMA_MAX_SPEC]; /* the measure's spec; empty if unknown */
     size_t n;
     int dim;
     double claimed, value; /* NaN for an altered entry's value */
-    double record;         /* value of the record, an accepted entry before it included; NaN: none is known */
+    double record; /* best value that it was compared with: of the record, entries before it, patterns; NaN: none */
 } koksma_entry_result;
 
 /* Checks entries in their order, each against the sets of the pattern `record` and the entries before it. Measures every
    set again.
      paths    n files, at least one
      results  receives n results
-   Errors: MISSING, MALFORMED (a file is no entry), those of koksma_evaluate, MEMORY. */
+   Errors: MEMORY, INTERRUPTED: the results so far have a verdict, the others NULL. */
 KOKSMA_API koksma_status koksma_entries_check(const char *const *paths, size_t n, const koksma_run *run,
                                               koksma_entry_result *results);
 

@@ -7,6 +7,7 @@
 #include <koksma/optimise.h>
 
 #include "core/random.h"
+#include "core/visibility.h"
 #include "measures/l2/l2.h"
 #include "measures/measures.h"
 
@@ -156,8 +157,9 @@ koksma_status koksma__search_default(const koksma_optimise_options *options, con
 
 /* Calls f with the set of each listed pattern that makes such sets with the structure which the search preserves: those
    of deterministic patterns, or those of random ones. Errors: MEMORY, INTERRUPTED, those of f. */
-koksma_status koksma__search_starts(const koksma_spec *measure, const koksma_optimise_options *options, bool random,
-                                    const koksma_run *run, koksma__start_function f, void *context);
+KOKSMA__LAB koksma_status koksma__search_starts(const koksma_spec *measure, const koksma_optimise_options *options,
+                                                bool random, const koksma_run *run, koksma__start_function f,
+                                                void *context);
 
 /* ---- Swaps ----------------------------------------------------------------------------------------------- */
 

@@ -199,7 +199,12 @@ def check_entries(work):
     entry = submit("good", points, "l2-centered")
     expect(entry["points"] == [list(p) for p in points] and (entry["n"], entry["dim"]) == (5, 2), f"an entry: {entry}")
     expect(entry["value"] == rows("measure", str(work / "good.txt"), "-m", "l2-centered")[0]["value"], "the claim")
-    expect(check("good", code=0) == [("accepted", "-")], "a good entry")
+    def best_listed(measure, n):
+        return min(r["value"] for r in rows("measure", "-p", "all", "-n", str(n), "-m", measure))
+    verdict, reason = check("good", code=0)[0]
+    least = best_listed("l2-centered", 5)
+    expect(verdict == "accepted" and entry["value"] < least and "first entry for l2-centered, n = 5, dim = 2" in reason
+           and f"{least:.17g}" in reason, f"a good entry: {verdict} {reason}, {least}")
     # altered: a point, the author, the measure
     change("point", points=[[.1, .5000001], *entry["points"][1:]])
     change("author", author="B. Other")
@@ -215,8 +220,13 @@ def check_entries(work):
     submit("mirror", [(1 - x, y) for x, y in points], "l2-centered")
     got = [v for v, _ in check("good", "good", "order", "swap", "mirror")]
     expect(got == ["accepted"] + ["duplicate"] * 4, f"duplicates of an entry: {got}")
-    submit("torus", points, "l2-periodic")
-    submit("shift", [((x + .25) % 1, (y + .4) % 1) for x, y in points], "l2-periodic")
+    submit("plain", points, "l2-periodic")  # which a listed pattern beats
+    verdict, reason = check("plain")[0]
+    expect(verdict == "worse" and f"{best_listed('l2-periodic', 5):.17g}" in reason, f"worse than a pattern: {verdict} {reason}")
+    run("optimise", "l2-periodic", "-n", "6", "--steps", "1", "-o", str(work / "six.txt"))
+    six = [tuple(map(float, line.split())) for line in (work / "six.txt").read_text().splitlines() if line[0] != "#"]
+    submit("torus", six, "l2-periodic")
+    submit("shift", [((x + .25) % 1, (y + .4) % 1) for x, y in six], "l2-periodic")
     expect([v for v, _ in check("torus", "shift")] == ["accepted", "duplicate"], "a shift on the torus")
     submit("other", [(.1, .1), (.3, .7), (.5, .3), (.7, .9), (.9, .5)], "l2-centered")
     expect(check("good", "other")[1][0] == "worse", "another set that is no better is no duplicate")
@@ -238,9 +248,19 @@ def check_entries(work):
     for name, members in (("n", {"n": 6}), ("range", {"points": [[1.5, 0]] * 5}), ("nan", {"value": None}), ("key", {"extra": 1}),
                           ("sampled", {"measure": "edge-sampled"}), ("empty", {"n": 0, "points": []})):
         change(name, **members)
-    for name in ("text", "n", "range", "nan", "key", "sampled", "empty", "missing"):
-        error = run("atlas", "check", str(work / name), code=3).stderr
-        expect(name in error and error.count("\n") == 1, f"{name}: {error}")
+    names = ("text", "n", "range", "nan", "key", "sampled", "empty", "missing")
+    for name in names:
+        result = run("atlas", "check", str(work / name), "--json", code=3)
+        row = json.loads(result.stdout)
+        expect(row["verdict"] == "invalid" and name in row["reason"] and result.stderr.endswith(f"{row['reason']}\n")
+               and result.stderr.count("\n") == 1, f"{name}: {result}")
+    # all entries have a verdict, also behind files that are none; the exit code is the worst
+    got = [v for v, _ in check("text", best[1], "missing", "lie", code=3)]
+    expect(got == ["invalid", "accepted", "invalid", "false"], f"entries behind invalid ones: {got}")
+    # the hint for pixels is not for a command without --scale
+    (work / "pixels.txt").write_text("0.1 0.2\n1.5 0.3\n", encoding="utf-8")
+    error = run("atlas", "submit", str(work / "pixels.txt"), "--author", "A", code=3).stderr
+    expect("1.5" in error and "--scale" not in error, f"pixels: {error}")
     run("atlas", "submit", "sobol@16", code=2)
     run("atlas", "submit", "sobol@16", "--author", "A", "-m", "edge-sampled", code=2)
 
