@@ -464,8 +464,8 @@ def held_out(entries, options):
             said = [x for x in identify(options.koksma, path) if x["relation"] not in UNNAMED]
             good = any(alike(x, row["identify"], call[1]) for x in said)
             done, named = done + 1, named + good
-            print("named" if good else "NOT NAMED", path.name, entry["name"], row["generator"], f"{len(points)} points, dimensions, seed",
-                  call[1], call[3], f"skip {skip}", how, "->", *[f"{x['relation']}: {x['what']};" for x in said[:2]], flush=True)
+            print("named" if good else "NOT NAMED", path.name, entry["name"], row["generator"], f"{len(points)} points, {call[1]} dimensions, seed {call[3]},",
+                  f"skip {skip}", how, "->", *[f"{x['relation']}: {x['what']};" for x in said[:2]], flush=True)
         package.close()
     print(f"{named} of {done} named")
     return False
