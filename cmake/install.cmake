@@ -9,7 +9,7 @@ if(SKBUILD) # pip: the libraries and the program go into the Python package, whe
     endif()
   endforeach()
   set_target_properties(koksma-shared koksma-lab-shared PROPERTIES VERSION ${KOKSMA_ABI}) # a wheel holds no links
-  set_target_properties(${parts} PROPERTIES INSTALL_RPATH $ORIGIN)
+  set_target_properties(${parts} PROPERTIES INSTALL_RPATH $<IF:$<PLATFORM_ID:Darwin>,@loader_path,$ORIGIN>)
   install(TARGETS ${parts} LIBRARY DESTINATION koksma/lib COMPONENT python NAMELINK_SKIP
           RUNTIME DESTINATION koksma/lib COMPONENT python)
   set(KOKSMA_LICENCES "" CACHE PATH "pip: a folder of the licences of what is linked in statically")

@@ -6,6 +6,7 @@ import ctypes
 import os
 import re
 import secrets
+import sys
 from contextlib import contextmanager
 from ctypes import POINTER, addressof, byref, c_bool, c_char_p, c_double, c_float, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
 from functools import lru_cache
@@ -89,7 +90,7 @@ def _places(name: str) -> Iterator[str]:
 
 
 def _load(name: str) -> ctypes.CDLL:
-    file = f"lib{name}.so.{ABI}"
+    file = {"win32": f"lib{name}.dll", "darwin": f"lib{name}.{ABI}.dylib"}.get(sys.platform, f"lib{name}.so.{ABI}")
     reason = ""
     for place in _places(file):
         try:

@@ -19,7 +19,7 @@ from ._series import Convergence, convergence
 from ._spectrum import spectrum
 
 _FORMATS = ("svg", "pdf", "png")
-_free = ctypes.CDLL(None).free
+_free = ctypes.CDLL("msvcrt" if os.name == "nt" else None).free  # the library's, by mingw-w64
 _free.argtypes = [c_void_p]
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import threading
 from functools import lru_cache
 from types import FrameType
-from typing import Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, List, Optional
 
 # What signal wraps: it looks at all signals in 3 us, signal in 300, a call takes 10.
 import _signal  # type: ignore[import-not-found]
@@ -14,8 +15,10 @@ import _signal  # type: ignore[import-not-found]
 _ALL = sorted(_signal.valid_signals())
 
 _Disposition = ctypes.c_char * 512  # room for a struct sigaction, whose members differ from system to system
-_sigaction = ctypes.PyDLL(None).sigaction  # CDLL would let other threads of Python run between two calls
-_sigaction.argtypes = [ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p]
+_sigaction: Any = lambda *_: 0  # Windows has nothing to keep beside the handler
+if os.name != "nt":
+    _sigaction = ctypes.PyDLL(None).sigaction  # CDLL would let other threads of Python run between two calls
+    _sigaction.argtypes = [ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p]
 _c_handler = ctypes.pythonapi.PyOS_getsig  # what the system calls
 _c_handler.argtypes, _c_handler.restype = [ctypes.c_int], ctypes.c_void_p
 
