@@ -28,7 +28,8 @@
 #   make npm         build the package @koksma/koksma for Node and browsers: build/npm
 #   make deb         write Debian packages to build/deb and check them with lintian
 #   make cross       build for aarch64 and run the tests of libkoksma under qemu; MACHINES="aarch64 s390x i686"
-#                    MACHINES=windows: by mingw-w64; compare all patterns, measures and warps under wine
+#                    MACHINES=windows: by mingw-w64, with the tests of commands, under wine
+#   make same-bits   compare all patterns, measures, warps and scenes on Linux, Windows, ARM, s390x and WebAssembly
 #
 #   make help        print this list
 #
@@ -42,7 +43,7 @@ MACHINES ?= aarch64
 SEED ?= 1
 QUICK ?=
 
-.PHONY: help experiment demo check test test-all bench install masks docs paper explorer wheel npm deb dist dist-test cross release clean
+.PHONY: help experiment demo check test test-all bench install masks docs paper explorer wheel npm deb dist dist-test cross same-bits release clean
 
 help:
 	@sed -n 's/^#   //p; s/^#$$//p' Makefile | sed '1{/^$$/d}'
@@ -120,6 +121,9 @@ deb:
 
 cross:
 	@scripts/cross $(MACHINES)
+
+same-bits: release
+	@scripts/same-bits
 
 clean:
 	rm -rf build demo

@@ -2,9 +2,7 @@
 /*
  * Prints what must have equal bits on every system: the hash of each pattern's set for several n and dimensions, the bits
  * of each measure of some of these sets, and the hash of each warp's points. Patterns without a set of such n or dim print
- * nothing. scripts/cross compares the lines of two systems:
- *
- *     print_results >here.txt; wine print_results.exe >there.txt; cmp here.txt there.txt
+ * nothing. scripts/same-bits compares the lines of many systems. The kernels that were used go to stderr.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -13,9 +11,9 @@
 #include <koksma/koksma.h>
 #include <koksma/warp.h>
 
-enum { EVERY = 5 };
+enum { EVERY = 5, LARGE = 256 };
 
-static const size_t sizes[] = {16, 49, 64, 256};
+static const size_t sizes[] = {16, 49, 64, LARGE};
 static const int dims[] = {2, 3, 5};
 
 /* FNV-1a of the bits. */
@@ -67,8 +65,8 @@ static void print_pattern(const koksma_pattern *pattern, bool measured)
     for (size_t i = 0; i < sizeof dims / sizeof *dims; i++) {
         for (size_t j = 0; j < sizeof sizes / sizeof *sizes; j++) {
             koksma_points points;
-            if (koksma_points_init(&points, sizes[j], dims[i])) {
-                continue;
+            if ((sizes[j] == LARGE && dims[i] > 2) || koksma_points_init(&points, sizes[j], dims[i])) {
+                continue; /* searches of large sets in many dimensions take long where a processor is emulated */
             }
             if (!koksma_generate(&spec, 7, NULL, &points)) {
                 printf("%s n=%zu dim=%d %016" PRIx64 "\n", pattern->name, points.n, points.dim, hash_of(&points));
@@ -86,6 +84,7 @@ int main(void)
     const koksma_pattern *pattern;
     koksma_spec spec;
     koksma_points points;
+    fprintf(stderr, "%s\n", koksma_instruction_set());
     for (size_t i = 0; (pattern = koksma_pattern_at(i)); i++) {
         print_pattern(pattern, i % EVERY == 0);
     }
