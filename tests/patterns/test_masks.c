@@ -385,36 +385,41 @@ TEST_CASE(masks_in_files_vary_the_pixels)
 TEST_CASE(vectors_in_files_are_the_samples)
 {
     enum { W = 5, H = 4, N = W * H };
-    float v[2 * N];
-    FILE *file = fopen("vectors.npy", "wb");
-    char head[119];
-    for (int i = 0; i < 2 * N; i++) {
-        v[i] = (float)((i * 11 % (2 * N) + 0.5) / (2 * N));
-    }
-    snprintf(head, sizeof head, "%-117s\n", "{'descr': '<f4', 'fortran_order': False, 'shape': (4, 5, 2), }");
-    fprintf(file, "%cNUMPY%c%c%c%c%s", 0x93, 1, 0, 118, 0, head);
-    fwrite(v, sizeof *v, 2 * N, file);
-    fclose(file);
-    for (uint64_t seed = 0; seed < 5; seed++) {
-        koksma_points points = test_points("mask-file:vectors.npy", N, 2, seed);
-        int shifts = 0;
-        for (int shift = 0; shift < N; shift++) {
-            bool equal = true;
-            for (int p = 0; p < N && equal; p++) {
-                const int from = (p / W + shift / W) % H * W + (p % W + shift % W) % W;
-                equal = points.xs[2 * p] == (double)v[2 * from] && points.xs[2 * p + 1] == (double)v[2 * from + 1];
-            }
-            shifts += equal;
+    for (int dim = 2; dim <= 4; dim += 2) {
+        float v[4 * N];
+        FILE *file = fopen("vectors.npy", "wb");
+        char head[119];
+        for (int i = 0; i < dim * N; i++) {
+            v[i] = (float)((i * 11 % (dim * N) + 0.5) / (dim * N));
         }
-        assert_int_equal(shifts, 1);
-        koksma_points_fini(&points);
+        snprintf(head, sizeof head, "{'descr': '<f4', 'fortran_order': False, 'shape': (4, 5, %d), }", dim);
+        fprintf(file, "%cNUMPY%c%c%c%c%-117s\n", 0x93, 1, 0, 118, 0, head);
+        fwrite(v, sizeof *v, (size_t)dim * N, file);
+        fclose(file);
+        for (uint64_t seed = 0; seed < 5; seed++) {
+            koksma_points points = test_points("mask-file:vectors.npy", N, dim, seed);
+            int shifts = 0;
+            for (int shift = 0; shift < N; shift++) {
+                bool equal = true;
+                for (int i = 0; i < dim * N && equal; i++) {
+                    const int p = i / dim, from = (p / W + shift / W) % H * W + (p % W + shift % W) % W;
+                    equal = points.xs[i] == (double)v[dim * from + i % dim];
+                }
+                shifts += equal;
+            }
+            assert_int_equal(shifts, 1);
+            koksma_points_fini(&points);
+        }
+        koksma_spec spec;
+        koksma_points two, other;
+        assert_ok(koksma_pattern_spec("mask-file:vectors.npy", &spec));
+        assert_ok(koksma_points_init(&two, 2 * N, dim));
+        assert_int_equal(koksma_generate(&spec, 0, NULL, &two), KOKSMA_N);
+        koksma_points_fini(&two);
+        assert_ok(koksma_points_init(&other, N, 6 - dim));
+        assert_int_equal(koksma_generate(&spec, 0, NULL, &other), KOKSMA_DIM);
+        koksma_points_fini(&other);
     }
-    koksma_spec spec;
-    koksma_points two;
-    assert_ok(koksma_pattern_spec("mask-file:vectors.npy", &spec));
-    assert_ok(koksma_points_init(&two, 2 * N, 2));
-    assert_int_equal(koksma_generate(&spec, 0, NULL, &two), KOKSMA_N);
-    koksma_points_fini(&two);
 }
 
 /* The uniform directions of a circle and of a sphere have no place in the square. */

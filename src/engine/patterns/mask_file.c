@@ -12,6 +12,7 @@
  *     3 numbers           their ranks vary the sequence
  *     3, all unit vectors with z >= 0 (the space hemisphere): the pixel's one sample is the point that the warp
  *                         cosine-hemisphere maps there, as renderers do for diffuse reflection and ambient occlusion
+ *     4 numbers           a number each in [0,1): the pixel's one sample, of four coordinates
  *
  * Unit vectors of the circle and of the whole sphere (the spaces circle and sphere) are refused.
  *
@@ -132,29 +133,37 @@ static void unmap_concentric(double x, double y, double u[2])
     }
 }
 
+/* Copies the vectors of the pixels, whose numbers are the sample's. */
+static koksma_status copy_vectors(const char *path, const mask *m, uint64_t seed, koksma_points *out)
+{
+    const size_t pixels = m->width * m->height, dim = m->numbers;
+    for (size_t i = 0; i < pixels * dim; i++) {
+        const double x = (double)m->values[shifted(m, seed, 0, i / dim) * dim + i % dim];
+        KOKSMA__FAIL_IF(!(x >= 0 && x < 1), KOKSMA_MALFORMED,
+                        "mask-file:%s: a pixel has the number %.9g; samples are in [0,1)", path, x);
+        out->xs[i] = x;
+    }
+    return KOKSMA_OK;
+}
+
 /* Makes the one sample of each pixel of a mask of points or directions. */
 static koksma_status fill_vectors(const char *path, const mask *m, uint64_t seed, koksma_points *out)
 {
     const size_t pixels = m->width * m->height;
-    const bool round = m->numbers == 3 || are_negative(m, false);
+    const bool round = m->numbers == 3 || (m->numbers == 2 && are_negative(m, false));
     KOKSMA__TRY(koksma__tile_check("mask-file", pixels, true, out));
+    if (!round) {
+        return copy_vectors(path, m, seed, out);
+    }
     for (size_t p = 0; p < pixels; p++) {
         const float *v = m->values + m->numbers * shifted(m, seed, 0, p);
         const double x = (double)v[0], y = (double)v[1];
-        if (round) {
-            const double length = m->numbers == 3 ? sqrt(x * x + y * y + (double)v[2] * (double)v[2]) : 1;
-            KOKSMA__FAIL_IF(
-                !(x * x + y * y <= length * length * (1 + LENGTH)), KOKSMA_MALFORMED,
-                "mask-file:%s: a pixel has the vector (%.9g, %.9g); samples are in [0,1), points of a disk "
-                "within a radius of 1",
-                path, x, y);
-            unmap_concentric(x / length, y / length, out->xs + 2 * p);
-        } else {
-            KOKSMA__FAIL_IF(!(x < 1 && y < 1), KOKSMA_MALFORMED,
-                            "mask-file:%s: a pixel has the vector (%.9g, %.9g); samples are in [0,1)", path, x, y);
-            out->xs[2 * p] = x;
-            out->xs[2 * p + 1] = y;
-        }
+        const double length = m->numbers == 3 ? sqrt(x * x + y * y + (double)v[2] * (double)v[2]) : 1;
+        KOKSMA__FAIL_IF(!(x * x + y * y <= length * length * (1 + LENGTH)), KOKSMA_MALFORMED,
+                        "mask-file:%s: a pixel has the vector (%.9g, %.9g); samples are in [0,1), points of a disk "
+                        "within a radius of 1",
+                        path, x, y);
+        unmap_concentric(x / length, y / length, out->xs + 2 * p);
     }
     return KOKSMA_OK;
 }
@@ -166,9 +175,14 @@ static koksma_status fill(const mask *m, uint64_t seed, const koksma_args *args,
         KOKSMA__FAIL_IF(!(m->values[i] >= -1e30f && m->values[i] <= 1e30f), KOKSMA_MALFORMED,
                         "mask-file:%s: number %zu is not finite", args->path, i);
     }
-    const bool unit = m->numbers > 1 && are_unit(m);
+    const bool unit = (m->numbers == 2 || m->numbers == 3) && are_unit(m);
+    const int dim = m->numbers == 4 ? 4 : 2;
+    KOKSMA__FAIL_IF(out->dim != dim, KOKSMA_DIM,
+                    "mask-file:%s: %zu numbers a pixel are samples of %d dimensions, not %d%s", args->path,
+                    m->numbers, dim, out->dim,
+                    out->dim == 4 ? "; a mask of 4 numbers (mask --space vector4) would do" : "");
     KOKSMA__TRY(check_directions(args->path, m, unit));
-    if (m->numbers == 2 || unit) {
+    if (m->numbers == 2 || m->numbers == 4 || unit) {
         return fill_vectors(args->path, m, seed, out);
     }
     KOKSMA__TRY(koksma__tile_check("mask-file", pixels, false, out));
@@ -188,10 +202,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     float *values;
     KOKSMA__TRY(koksma__npy_read_mask(args->path, KOKSMA__BY_FILE, KOKSMA_MASK_MAX, shape, &values));
     const mask m = {shape[1], shape[0], shape[2], values};
-    const koksma_status status =
-        m.numbers == 4
-            ? koksma__fail(KOKSMA_MALFORMED, "mask-file:%s: 4 numbers a pixel; 1 to 3 would do", args->path)
-            : fill(&m, seed, args, out);
+    const koksma_status status = fill(&m, seed, args, out);
     free(values);
     return status;
 }
@@ -201,7 +212,7 @@ const koksma_pattern koksma__pattern_mask_file = {
     .title = "samples of the pixels of a tile by a mask: mask-file:PATH (.npy of shape (height, width[, numbers]))",
     .cite = "georgiev2016 laine2011 burley2020",
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = 4,
     .generate = generate,
     .revision = 1, /* unit vectors and points of the disk are samples */
     .operand = "PATH",
