@@ -150,6 +150,7 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     if (ranking->advised) {
         cli_row_text(rows, "advised", options->patterns[advised]);
     }
+    cli_row_number(rows, "within", ranking->within);
     cli_row_whole(rows, "needed_trials", (uint64_t)ranking->needed_trials);
     cli_row_number(rows, "needed_s", ranking->needed_s);
     cli_row_number(rows, "random_spp", ranking->random_spp);
@@ -273,8 +274,8 @@ static void say_unranked(const koksma_rank_options *options, const koksma_rank_r
     }
 }
 
-/* Ranks the patterns for one number of samples, and prints the rows and the advice. *settled: whether the best
-   pattern is decided. */
+/* Ranks the patterns for one number of samples, and prints the rows and the advice. *settled: whether it is decided which
+   pattern to use. */
 static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_options *options, cli_work *work,
                              cli_rows *rows, bool *settled)
 {
@@ -296,7 +297,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
         cli_rank_advise(&shown, table, &ranking);
     }
     say_unranked(&shown, table, &ranking);
-    *settled = ranking.settled;
+    *settled = cli_rank_decided(&ranking);
     return KOKSMA_OK;
 }
 
@@ -553,7 +554,9 @@ static const cli_option options[] = {
      "the scene's own sampler, at most 64 or in a medium 16; else 16)"},
     {'p', "patterns", "PATTERN,..|modern|thesis|later|all", "patterns to rank, also SPEC@N (default: modern)"},
     {0, "target-error", "ERROR", "print how many samples of each pattern leave this error, instead of a ranking"},
-    {0, "size", "WxH", "image size (default: that of the scene, halved until it has at most 19,200 pixels)"},
+    {0, "size", "WxH",
+     "image size (default: that of the scene, halved until it has at most 19,200 pixels, in a medium "
+     "4,800)"},
     {0, "with", "RENDERER|mitsuba",
      "shell command of another renderer, with {scene}, {pattern}, {spp}, {seed}, {out}"},
     {0, "reference", "FILE|PATTERN",
@@ -599,8 +602,9 @@ const cli_command cli_command_rank = {
         "three of all; a remark appears if another pattern is the best at that size. The last rounds decide every "
         "pair of patterns. A pair is decided if the confidence interval of the ratio of its errors excludes 1 "
         "(different) or lies within 2 % of 1 (equal). A time limit ends the sequence early; a longer limit never "
-        "changes which pattern is named as the best. With too little time the answer is 'undecided', with an "
-        "estimate of the time needed.\n"
+        "changes which pattern is decided to be the best. If the time is up before, the advice names a pattern whose "
+        "error exceeds that of the best by at most 5 % (within in --json), as far as the confidence intervals show "
+        "one; else the answer is 'undecided', with an estimate of the time needed.\n"
         "\n"
         "position: 1 + the number of patterns that are decided to be better. behind: relative difference to the "
         "first row, over the trials that both have; the errors are over all trials of each, so that their quotient "
@@ -681,7 +685,7 @@ const cli_command cli_command_rank = {
         "within the time limit is 'extrapolated' by its rate, with an interval that follows from the rate's, or "
         "'unknown'.\n"
         "\n"
-        "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least "
+        "Exit codes: 0 the pattern to use is decided for every number of samples; 1 it is undecided for at least "
         "one, or with --target-error a pattern did not reach it; 2, 3, 4 and 130 as for all commands (koksma "
         "--help).\n",
     .examples = "koksma rank ball --spp 16 -p random,n-rooks,sobol:scramble=owen\n"

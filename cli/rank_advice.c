@@ -148,15 +148,34 @@ static void advise_behind(const koksma_rank_options *options, const koksma_rank_
     }
 }
 
+/* Prints how much worse than the best the pattern to use may be, and which patterns it is not told apart from. */
+static void advise_tied(const koksma_rank_options *options, const koksma_rank_row *rows,
+                        const koksma_ranking *ranking)
+{
+    const bool bands = ranking->n_coherent && ranking->n_coherent < ranking->n;
+    size_t first = 0;
+    for (size_t i = 0; i < ranking->n; i++) {
+        first += rows[i].position == 1;
+    }
+    fprintf(stderr, ", whose error exceeds that of the best%s by at most ", bands ? " without bands" : "");
+    print_two_digits(100 * ranking->within);
+    fprintf(stderr, " %%");
+    if (first > 1) {
+        fprintf(stderr, "; not told apart: ");
+        print_patterns(options, rows, ranking->n, KOKSMA_RANK_UNDECIDED, 1);
+    }
+}
+
 static void advise_best(const koksma_rank_options *options, const koksma_rank_row *rows,
                         const koksma_ranking *ranking)
 {
     const size_t best = ranking->use_row;
     const char *name = name_of(options, rows[best].pattern);
-    if (ranking->n_coherent == ranking->n) {
+    const bool all_coherent = ranking->n_coherent == ranking->n;
+    if (all_coherent) {
         fprintf(stderr, "the error of every pattern has visible bands; %s leaves the least", name);
         print_coherence(&rows[best]);
-    } else if (ranking->advised) {
+    } else if (ranking->advised || ranking->within <= KOKSMA_RANK_TIE) {
         fprintf(stderr, "use %s", name);
         if (ranking->n_slow) {
             fprintf(stderr, " (the time was too short to rank %zu of %zu patterns)", ranking->n_slow,
@@ -164,6 +183,9 @@ static void advise_best(const koksma_rank_options *options, const koksma_rank_ro
         }
     } else {
         fprintf(stderr, "undecided which pattern without bands leaves the least error; so far it is %s", name);
+    }
+    if (!(ranking->advised || (all_coherent && ranking->settled)) && ranking->within <= KOKSMA_RANK_TIE) {
+        advise_tied(options, rows, ranking);
     }
     for (size_t i = 1; best == 0 && i < ranking->n; i++) {
         if (rows[i].decision == KOKSMA_RANK_EQUAL) {
@@ -366,11 +388,17 @@ static void say_worth(const koksma_rank_options *options, const koksma_rank_row 
     }
 }
 
+bool cli_rank_decided(const koksma_ranking *ranking)
+{
+    return ranking->settled || ranking->within <= KOKSMA_RANK_TIE;
+}
+
 void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
 {
     fprintf(stderr, "%s at %d samples a pixel, %d x %d pixels: ", base_of(options->scene), options->spp,
             ranking->width, ranking->height);
-    if (ranking->settled) {
+    const bool decided = cli_rank_decided(ranking);
+    if (decided) {
         advise_best(options, rows, ranking);
     } else {
         advise_undecided(options, rows, ranking);
@@ -399,7 +427,7 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
     warn_of_few_pixels(options, rows, ranking->n);
     warn_of_bias(options, rows, ranking->n);
     say_of_method(options, ranking);
-    if (ranking->settled && ranking->n > 1 && !options->one_size && !options->reference_image &&
+    if (decided && ranking->n > 1 && !options->one_size && !options->reference_image &&
         (!options->render || options->width)) {
         advise_sizes(options, rows, ranking);
     }

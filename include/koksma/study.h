@@ -434,6 +434,9 @@ typedef struct koksma_rank_check {
     long long trials;
 } koksma_rank_check;
 
+/* A pattern whose error surely exceeds that of the best by no more than this part may be used as well. */
+#define KOKSMA_RANK_TIE 0.05
+
 /* The result of a ranking. */
 typedef struct koksma_ranking {
     size_t n;         /* number of ranked patterns, which are in rows 0 .. n - 1; the other patterns follow */
@@ -457,8 +460,14 @@ typedef struct koksma_ranking {
     size_t advised_row; /* row of that pattern, if `advised` is true */
     size_t n_coherent;  /* number of ranked patterns whose error is coherent */
     size_t
-        use_row; /* row of the pattern to use: the advised one; if there is none, that with the least error so far of
-                           those whose error is not coherent, or of all if every error is */
+        use_row; /* row of the pattern to use, among those whose error is not coherent, or among all if every error is: the
+                    advised one; if there is none, that of the smallest `within`, if this is at most KOKSMA_RANK_TIE; else
+                    that with the least error so far */
+    /* the most by which the error of the pattern to use exceeds that of any other ranked pattern (without coherent error, if
+       its own is not), relative to that error: the largest bound of the intervals of these differences, which hold together.
+       Up to KOKSMA_RANK_TIE it decides which pattern to use although it may not be `settled` which is the best. Infinite:
+       not known */
+    double within;
     /* how many samples of the pattern random leave as much error as spp samples of the pattern to use, because the error
        of random falls as n^-1/2; with an interval, NaN at both ends if it is not known. NaN: random is not ranked, or the
        metric follows no power law */

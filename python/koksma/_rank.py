@@ -92,7 +92,8 @@ class Ranking(Framed):
     advised: Optional[str]  #: decided to leave the least of those whose error is not coherent; None: undecided, or no such
     metric: str  #: what error is
     undecidable: bool  #: by 256 trials or more, 65,536 would not decide either: a noisy reference, or a small difference
-    use: str  #: `advised`; if there is none, the least error so far of those that are not coherent, or of all if all are
+    use: str  #: `advised`; else, of those that are not coherent (of all, if all are), the least `within`, if below .05, or error
+    within: float  #: the error of `use` exceeds that of any other by at most this part of it (95 %); infinite: not known
     spp: int
     random_spp: float  #: so many samples of the pattern random leave as much error as those of `use`; NaN: random is not ranked
     random_spp_interval: Tuple[float, float]
@@ -102,6 +103,11 @@ class Ranking(Framed):
         """The pattern with the least error, in bands or not; None while it is undecided. What to use is `advised`."""
         return self.rows[0].pattern if self.settled else None
 
+    def _advice(self) -> str:
+        if self.advised:
+            return f"use {self.advised}"
+        return f"use {self.use}, within {100 * self.within:.2g} % of the best" if self.within <= 0.05 else "undecided"
+
     def _columns(self) -> Dict[str, Any]:
         return columns_of(self.rows)
 
@@ -110,7 +116,7 @@ class Ranking(Framed):
 
         width = max(len(r.pattern) for r in self.rows)
         lines = [f"Ranking({self.size[0]} x {self.size[1]} pixels, {self.metric}, "
-                 f"{f'use {self.advised}' if self.advised else 'undecided'}; place, pattern, error, interval)"]
+                 f"{self._advice()}; place, pattern, error, interval)"]
         for r in self.rows:
             error = f"{number(r.error)} ({number(r.interval[0], 3)} to {number(r.interval[1], 3)})" if r.position else r.reason or r.state
             lines.append(f"{r.position or '-':>4}  {r.pattern:{width}}  {error}{', bands' * r.coherent}{', not unbiased' * (r.unbiased is False)}")
@@ -122,12 +128,11 @@ class Ranking(Framed):
     def _repr_html_(self) -> str:
         from ._display import number, table
 
-        advice = f"use {self.advised}" if self.advised else "undecided"
         return table(("position", "pattern", f"error ({self.metric})", "interval", "behind the first", "images", "error is"),
                      [(r.position if r.position else r.reason or r.state, r.pattern, r.error,
                        " to ".join(map(number, r.interval)), "" if math.isnan(r.behind) else f"{100 * r.behind:.3g} %", r.trials,
                        ("bands" if r.coherent else "noise") + ", perhaps bias" * (r.unbiased is False)) for r in self.rows],
-                     f"{advice} ({self.size[0]} x {self.size[1]} pixels; intervals hold together with 95 %)")
+                     f"{self._advice()} ({self.size[0]} x {self.size[1]} pixels; intervals hold together with 95 %)")
 
 
 @dataclass(frozen=True)
@@ -367,7 +372,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
         reference_error=out.reference_error, seconds=out.seconds,
         advised=names[rows[out.advised_row].pattern] if out.advised else None,
         checks=tuple(_check(c, names) for c in out.checks), metric=asked.metric,
-        undecidable=out.undecidable, use=names[rows[out.use_row].pattern], spp=int(options.spp), random_spp=out.random_spp,
+        undecidable=out.undecidable, use=names[rows[out.use_row].pattern], within=out.within, spp=int(options.spp), random_spp=out.random_spp,
         random_spp_interval=(out.random_spp_low, out.random_spp_high))
 
 

@@ -336,6 +336,41 @@ static void the_best_without_bands_is_advised(void **state)
     }
 }
 
+/* The excess by its definition: the largest of the bounds on quotients, the least of all rounds; better patterns, coherent
+   ones and those without a round do not count. */
+static void excess_by_hand(void **state)
+{
+    (void)state;
+    static const double means[] = {1.01, 1, 1.5, 0.5};
+    koksma__rank_table table;
+    decide(&table, means, 8, 3);                                             /* exact errors: 3 has no round */
+    assert_true(fabs(koksma__rank_excess(&table, 0, false) - 0.02) < 1e-12); /* by less than 2 %: the same */
+    assert_true(fabs(koksma__rank_excess(&table, 2, false) - 0.5) < 1e-6);
+    assert_true(isinf(koksma__rank_excess(&table, 3, false)));
+    koksma__rank_table_fini(&table);
+    decide(&table, means, 8, 4);
+    assert_true(fabs(koksma__rank_excess(&table, 1, false) - 1) < 1e-6);
+    assert_true(fabs(koksma__rank_excess(&table, 2, true) - 0.5) < 1e-6);
+    assert_true(isinf(koksma__rank_excess(&table, 3, true)) && !(koksma__rank_excess(&table, 3, false) > 0));
+    koksma__rank_table_fini(&table);
+    assert_ok(koksma__rank_table_init(&table, 2, 0.04));
+    static const double spreads[] = {0.02, 0.05}; /* the second round knows less */
+    for (size_t i = 0; i < 2; i++) {
+        for (int r = 0; r < 2; r++) {
+            table.entrants[i].rounds[r] = exact(1, spreads[r], koksma__rank_trials(r));
+        }
+    }
+    table.entrants[0].n_rounds = table.entrants[1].n_rounds = 1;
+    assert_ok(koksma__rank_decide(&table, NULL));
+    const double after_one = koksma__rank_compare(&table, 0, 1).high - 1;
+    assert_true(fabs(koksma__rank_excess(&table, 0, false) - after_one) < 1e-12);
+    table.entrants[0].n_rounds = table.entrants[1].n_rounds = 2;
+    assert_ok(koksma__rank_decide(&table, NULL));
+    assert_true(koksma__rank_compare(&table, 0, 1).high - 1 > after_one);
+    assert_true(fabs(koksma__rank_excess(&table, 0, false) - after_one) < 1e-12);
+    koksma__rank_table_fini(&table);
+}
+
 /* Open pairs matter for the advice where neither error is coherent and nothing without bands is better than both. */
 static void pairs_that_matter_for_advice(void **state)
 {
@@ -938,6 +973,7 @@ int main(void)
         cmocka_unit_test(equal_errors_are_equal),
         cmocka_unit_test(trials_are_foretold),
         cmocka_unit_test(the_best_without_bands_is_advised),
+        cmocka_unit_test(excess_by_hand),
         cmocka_unit_test(pairs_that_matter_for_advice),
         cmocka_unit_test(decisions_end_with_the_run),
         cmocka_unit_test(first_places_at_other_sizes),

@@ -138,16 +138,28 @@ static void find_worth(const koksma_rank_options *options, const koksma_rank_row
     }
 }
 
-/* The row of the advised pattern, or else of the best whose error is not coherent, or of the first. */
-static size_t row_to_use(const koksma_rank_row *rows, const koksma_ranking *ranking)
+/* Finds the pattern to use: what is decided, else what exceeds the best by the least, if that is little, else what has the
+   least error so far. order: the contestant in each row. */
+static void choose_row(const koksma__rank_table *table, const size_t *order, const koksma_rank_row *rows,
+                       koksma_ranking *out)
 {
-    size_t best = ranking->n;
-    for (size_t i = 0; i < ranking->n; i++) {
-        if (!rows[i].coherence.coherent && (best == ranking->n || rows[i].mean < rows[best].mean)) {
-            best = i;
+    const bool all_coherent = out->n_coherent == out->n, decided = out->advised || (all_coherent && out->settled);
+    size_t least = 0, safest = 0;
+    double excess = INFINITY, mean = INFINITY;
+    for (size_t k = 0; k < out->n; k++) {
+        const bool counts = all_coherent || !rows[k].coherence.coherent;
+        const double more = counts ? koksma__rank_excess(table, order[k], !all_coherent) : (double)INFINITY;
+        if (counts && rows[k].mean < mean) {
+            least = k;
+            mean = rows[k].mean;
+        }
+        if (decided ? k == out->advised_row : more < excess) {
+            safest = k;
+            excess = more;
         }
     }
-    return ranking->advised ? ranking->advised_row : best < ranking->n ? best : 0;
+    out->use_row = decided || excess <= KOKSMA_RANK_TIE ? safest : all_coherent ? 0 : least;
+    out->within = koksma__rank_excess(table, order[out->use_row], !all_coherent);
 }
 
 /* Writes a row for each contestant, in their order, and the fields of *out that follow from the rows. Errors: MEMORY. */
@@ -180,8 +192,8 @@ static koksma_status fill_rows(const koksma__contest *c, koksma_rank_row *rows, 
     }
     out->complete &= !out->n_slow;
     out->settled = c->table.leader != NOBODY;
+    choose_row(&c->table, order, rows, out);
     free(order);
-    out->use_row = row_to_use(rows, out);
     find_worth(c->options, rows, out);
     return KOKSMA_OK;
 }

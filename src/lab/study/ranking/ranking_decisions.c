@@ -310,6 +310,28 @@ koksma__estimate koksma__rank_compare(const koksma__rank_table *table, size_t i,
     return pair->verdict == KOKSMA__RANK_SAME ? koksma__rank_both(same, e) : e;
 }
 
+static bool counts_in_excess(const koksma__rank_entrant *e, bool incoherent)
+{
+    return !e->out && e->n_rounds && !(incoherent && e->coherent);
+}
+
+double koksma__rank_excess(const koksma__rank_table *table, size_t i, bool incoherent)
+{
+    double most = -1;
+    for (size_t j = 0; j < table->n && counts_in_excess(&table->entrants[i], incoherent); j++) {
+        if (j != i && counts_in_excess(&table->entrants[j], incoherent)) {
+            const bool less = table->pairs[i * table->n + j].verdict == KOKSMA__RANK_LESS;
+            double high = koksma__rank_compare(table, i, j).high;
+            for (int round = last_common_round(table, i, j);
+                 !less && round-- > 0;) { /* an early round may spend more */
+                high = fmin(high, quotient_after(table, i, j, round).high);
+            }
+            most = fmax(most, less ? 0 : fmax(high - 1, 0));
+        }
+    }
+    return most < 0 ? (double)INFINITY : most;
+}
+
 bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present)
 {
     const koksma__rank_entrant *mine = &table->entrants[i];

@@ -11,17 +11,18 @@
 #include "image/image.h"
 #include "study/ranking/ranking_contest.h"
 
-enum { MOST_PIXELS = 160 * 120 };
+enum { MOST_PIXELS = 160 * 120, MOST_IN_MEDIUM = 80 * 60 };
 
 /* Chooses the size of the pictures that this library renders: by default, the scene's size, halved until the picture
-   has at most MOST_PIXELS pixels. */
+   has at most MOST_PIXELS pixels, or in a medium, whose pixels take several times as long, MOST_IN_MEDIUM. */
 static void choose_size(const koksma_rank_options *options, koksma__study_scene *scene)
 {
     koksma_render_options defaults;
     koksma_render_options_init(&defaults, scene->scene);
+    const int most = koksma_scene_count(scene->scene).media ? MOST_IN_MEDIUM : MOST_PIXELS;
     scene->width = options->width ? options->width : defaults.width;
     scene->height = options->width ? options->height : defaults.height;
-    while (!options->width && (long long)scene->width * scene->height > MOST_PIXELS) {
+    while (!options->width && (long long)scene->width * scene->height > most) {
         scene->width = (scene->width + 1) / 2;
         scene->height = (scene->height + 1) / 2;
     }
