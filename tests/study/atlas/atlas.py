@@ -4,6 +4,7 @@
 a second build runs nothing, a new question its own commands alone; a question that asks for what the rows lack stops the build.
 An entry that is altered, false, doubled or worse is refused with this reason, also under the symmetries of the cube and the torus.
 all: the questions that ship, with ten numbers drawn at random and made again, in place of a small file of questions."""
+import csv
 import html.parser
 import json
 import math
@@ -283,6 +284,29 @@ def check_ties(folder, data):
             expect(low != high, f"{q['id']}: no digit of ({low} to {high}) shows its width")
 
 
+def check_mitsuba(work):
+    """The stored summary is that of the stored rows: made again, and by other words from the rows."""
+    stored = ROOT / "studies/atlas/mitsuba-samplers"
+    table = list(csv.DictReader(stored.with_suffix(".csv").open(encoding="utf-8")))
+    subprocess.run([ROOT / "tools/mitsuba_samplers.py", "--summary", stored.with_suffix(".csv"), work / "again.json"], check=True)
+    lines = [[json.loads(line) for line in path.open(encoding="utf-8")] for path in (stored.with_suffix(".json"), work / "again.json")]
+    expect(lines[0] == lines[1], "mitsuba-samplers.json is not the summary of mitsuba-samplers.csv")
+    scenes = {r["scene"] for r in table}
+    expect(len(table) == len(scenes) * 3 * 12 and len(lines[0]) == 3 * 12 + 3 * len(scenes), f"{len(table)} rows of {len(scenes)} scenes")
+    for row in lines[0]:
+        mine = [r for r in table if int(r["spp"]) == row["spp"]]
+        errors = {(r["scene"], r["sampler"]): float(r["error"]) for r in mine}
+        if "scene" in row:
+            first = {r["sampler"] for r in mine if r["scene"] == row["scene"] and r["position"] == "1"}
+            least = min(e for (scene, _), e in errors.items() if scene == row["scene"])
+            expect(set(re.split(", | and ", row["best"].removesuffix(", not told apart"))) == first and
+                   (len(first) > 1) == row["best"].endswith(", not told apart"), f"{row}: {first}")
+            expect(math.isclose(row["ratio"], least / errors[row["scene"], "independent"], rel_tol=1e-12), f"{row}")
+        else:
+            product = math.prod(errors[s, row["sampler"]] / errors[s, "independent"] for s in scenes)
+            expect(math.isclose(row["mean"], product ** (1 / len(scenes)), rel_tol=1e-9), f"{row}")
+
+
 def check_shipped(work):
     """The twenty questions. Datasheets of three patterns stand for all, which take minutes."""
     data = json.loads((ROOT / "studies/atlas/questions.json").read_text(encoding="utf-8"))
@@ -295,9 +319,10 @@ def check_shipped(work):
     file, folder = work / "shipped.json", work / "shipped"
     file.write_text(json.dumps(data), encoding="utf-8")
     summary = rows("atlas", "build", str(file), "-o", str(folder), "--quick")[0]
-    expect(summary["pages"] == 23 and len(list(folder.glob("sheets/*.html"))) == 2, f"shipped questions: {summary}")
+    expect(summary["pages"] == 24 and len(list(folder.glob("sheets/*.html"))) == 2, f"shipped questions: {summary}")
     check_links(folder)
     check_ties(folder, data)
+    check_mitsuba(work)
     expect(made_again(folder, 10) > 200, "numbers of the shipped questions")
     size = sum(p.stat().st_size for p in folder.rglob("*"))
     expect(size < 30e6 - 45 * 280e3, f"{size} bytes without the other datasheets")

@@ -74,6 +74,9 @@ static void print_interval(char text[3][TEXT], const double number[3])
                          : last < 0 ? -last
                                     : 0,
                          number[i]);
+        if (text[i][0] == '-' && !text[i][strspn(text[i], "-0.")]) {
+            memmove(text[i], text[i] + 1, strlen(text[i])); /* no -0 */
+        }
     }
 }
 
