@@ -324,6 +324,11 @@ def check_shipped(work):
     check_ties(folder, data)
     check_mitsuba(work)
     expect(made_again(folder, 10) > 200, "numbers of the shipped questions")
+    node = os.environ.get("KOKSMA_NODE", str(ROOT / "build/node"))
+    if (Path(node) / "node_modules/playwright-core").exists() and Path("/usr/bin/chromium").exists():
+        wide = subprocess.run(["node", Path(__file__).with_name("chromium.js"), folder], capture_output=True, text=True,
+                              env={**os.environ, "KOKSMA_NODE": node})
+        expect(wide.returncode == 0 and not wide.stdout, f"at 400 pixels: {wide.stdout}{wide.stderr}")
     size = sum(p.stat().st_size for p in folder.rglob("*"))
     expect(size < 30e6 - 45 * 280e3, f"{size} bytes without the other datasheets")
     for name in random.sample(sorted(re.findall(r"<code>(koksma measure record:[^<]*)</code>",
