@@ -59,6 +59,7 @@ const koksma_pattern koksma__pattern_every_n = {
     .min_dim = 2,
     .max_dim = 4,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N,
+    .revision = 1, /* a better start of the table of the plane */
     .generate = generate,
     .ranges = koksma__ranges_always,
 };
