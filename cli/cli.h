@@ -284,9 +284,6 @@ int cli_end_output(int code);
    write follows the first one there, whereas it replaces a plain file. */
 bool cli_is_stream(const char *path);
 
-/* Whether a path means another file in another folder. */
-bool cli_is_relative(const char *path);
-
 /* Returns whether `path` is standard output: "-", /dev/stdout, or another name of the stream behind it. */
 bool cli_is_stdout(const char *path);
 

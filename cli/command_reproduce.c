@@ -129,7 +129,7 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    const int code = cli_study_run(arguments, &options, NULL, &work, put_tables, rows);
+    const int code = cli_study_run(arguments, &options, &work, put_tables, rows);
     return cli_rows_close(rows, code);
 }
 

@@ -2,7 +2,7 @@
 /*
  * `koksma study` has one function for each verb, and one table, `verbs`, of the options that each verb takes. The
  * verb `new` writes an example of a plan. `run` measures and renders what plans list, writes the results into a
- * folder, and continues an earlier run in that folder; `quick` does so for a plan made from the command line.
+ * folder, and continues an earlier run in that folder.
  * `export` and `report` write the results of a run again, `audit` computes results again and compares them, and
  * `images` compares sets of images.
  */
@@ -102,14 +102,13 @@ static void say_left_out(const char *line, size_t length)
     fprintf(stderr, "left out: %.*s\n", (int)length, line);
 }
 
-int cli_study_run(const cli_arguments *arguments, const koksma_study_options *options, const cli_quick_plan *made,
-                  cli_work *work, cli_of_study *then, void *context)
+int cli_study_run(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work,
+                  cli_of_study *then, void *context)
 {
     koksma_study *study;
     koksma_study_summary summary = {0};
     koksma_status status = koksma_study_open(options, &study);
     if (status) {
-        cli_remove_quick_plan(options->folder, made);
         return cli_fail(arguments, status);
     }
     work->share = options->folder ? RUN_SHARE : 1;
@@ -187,34 +186,7 @@ static int run_plans(const cli_arguments *arguments)
     if (koksma_study_mpi_rank() > 0) {
         options.folder = NULL;
     }
-    const int code = cli_study_run(arguments, &options, NULL, &work, NULL, NULL);
-    cli_work_end();
-    return code;
-}
-
-/* Writes a plan from the options of the command line, and runs it. */
-static int run_quick(const cli_arguments *arguments)
-{
-    cli_work work;
-    koksma_study_options options;
-    cli_quick_plan made;
-    const char *folder = cli_text(arguments, "output", NULL);
-    if (arguments->n_operands != 1 || !folder) {
-        return cli_usage_error(arguments, "quick takes options and a folder, as in quick -p sobol,random -o DIR");
-    }
-    if (!study_options(arguments, &options, &work)) {
-        return CLI_USAGE;
-    }
-    int code = cli_write_quick_plan(arguments, folder, &made);
-    if (code) {
-        return code;
-    }
-    const char *plan = made.text ? made.text : made.path;
-    options.plans = &plan;
-    options.n_plans = 1;
-    options.folder = koksma_study_mpi_rank() > 0 ? NULL : folder;
-    code = cli_study_run(arguments, &options, &made, &work, NULL, NULL);
-    free(made.text);
+    const int code = cli_study_run(arguments, &options, &work, NULL, NULL);
     cli_work_end();
     return code;
 }
@@ -391,47 +363,33 @@ static int run(const cli_arguments *arguments)
         const char *name;
         int (*run)(const cli_arguments *arguments);
         const char *options; /* names of the options that the verb accepts in addition to the common ones */
-    } verbs[] = {
-        {"run", run_plans, " output trials quick time-limit "},
-        {"quick", run_quick, " output trials quick time-limit patterns measures integrands points scene spp metric "},
-        {"new", new_plan, " output "},
-        {"export", export_rows, " output format "},
-        {"report", report, " "},
-        {"audit", cli_study_audit, " rows seed json digits long "},
-        {"images", images, " reference metric json digits long "}};
+    } verbs[] = {{"run", run_plans, " output trials quick time-limit "},
+                 {"new", new_plan, " output "},
+                 {"export", export_rows, " output format "},
+                 {"report", report, " "},
+                 {"audit", cli_study_audit, " rows seed json digits long "},
+                 {"images", images, " reference metric json digits long "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
         }
     }
-    static const char names[] = "run, quick, new, export, report, audit or images";
+    static const char names[] = "run, new, export, report, audit or images";
     char meant[96] = "";
     return cli_usage_error(arguments, "%sit takes %s",
                            arguments->n_operands ? cli_meant_of(arguments->operands[0], names, meant) : "", names);
 }
 
 static const cli_option options[] = {
-    {'p', "patterns", "PATTERN,..|all",
-     "quick: patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
-    {'m', "measures", "MEASURE,..|all",
-     "quick: measures; all: every one that accepts the numbers of points (default: star,l2-star)"},
-    {0, "integrands", "INTEGRAND,..|all",
-     "quick: integrands whose integration errors are measured, too; all: every one (default: none)"},
-    {'n', "points", "N,..", "quick: the numbers of points (default: 16,64,256,1024)"},
-    {0, "scene", "SCENE,..", "quick: scenes to render as well (default: none)"},
     CLI_UNKNOWN_OPTION,
-    {0, "spp", "N,..", "quick: samples a pixel in the scenes (default: 4,16,64)"},
-    {'o', "output", "PATH", "run, quick: the folder; new, export: the file (default: -, standard output)"},
-    {0, "trials", "T", "run, quick: number of trials, instead of the numbers in the plan"},
-    {0, "quick", NULL, "run, quick: use the 'quick' number of trials of each block"},
-    {0, "time-limit", "S",
-     "run, quick: stop after S seconds, with exit code 1 if jobs remain (default: 0, no limit)"},
+    {'o', "output", "PATH", "run: the folder; new, export: the file (default: -, standard output)"},
+    {0, "trials", "T", "run: number of trials, instead of the numbers in the plan"},
+    {0, "quick", NULL, "run: use the 'quick' number of trials of each block"},
+    {0, "time-limit", "S", "run: stop after S seconds, with exit code 1 if jobs remain (default: 0, no limit)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
     {'s', "seed", "SEED", "audit: seed of the random draw (default: a random one, which is printed)"},
     {0, "reference", "FILE", "images: the reference image"},
-    {0, "metric", "METRIC,..",
-     "quick, images: metric of the error that ranks: mae (default), relmse, hdr-flip, ...; quick: also further "
-     "metrics to measure"},
+    {0, "metric", "METRIC", "images: metric of the error that ranks: mae (default), relmse, hdr-flip, ..."},
     {0, "format", "csv|json|npy|sha256",
      "export: the format; json: one object per line (default: by the file's ending, else csv)"},
     CLI_JSON_OPTIONS,
@@ -442,14 +400,12 @@ static const cli_option options[] = {
 const cli_command cli_command_study = {
     .name = "study",
     .summary = "evaluate patterns with measures or scenes, as a plan says",
-    .synopsis =
-        "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
-        "quick [-p PATTERN,..|all] [-m MEASURE,..|all] [-n N,..] [--scene SCENE,.. [--metric METRIC,..]] -o DIR\n"
-        "new [FILE]\n"
-        "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
-        "report DIR\n"
-        "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
-        "images 'PLACES' --reference FILE [--json]",
+    .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
+                "new [FILE]\n"
+                "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
+                "report DIR\n"
+                "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
+                "images 'PLACES' --reference FILE [--json]",
     .details =
         "PLAN is the name of a plan in the library, a JSON file (./plan.json), or the plan itself, which begins "
         "with '{\"'. Paths in a plan are relative to the plan's file, or without a file to the current folder. If "
@@ -458,11 +414,6 @@ const cli_command cli_command_study = {
         "continues when it is started again. If a pattern fails for some trials, the summary, the report and "
         "'export' list them with the reason, and all other trials are done. The exit code is then 2, or 0 if the "
         "block of the plan has \"skip\": true.\n"
-        "quick: writes DIR/plan.json from the options and runs it. Numbers of points that a pattern or a measure "
-        "does not accept are left out and listed. A pattern file:PATH is a file of points. Another DIR/plan.json "
-        "is not replaced. Images are always compared by mae, rmse, relmse and smape; --metric names the one that "
-        "ranks the patterns, and further ones, such as ldr-flip, which takes longer than many renders. In a plan "
-        "these are the fields 'metric' and 'metrics'.\n"
         "new: writes an example plan; it overwrites no file.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions. "
         "'json' is JSON Lines: one object per line, with a key for each column of the CSV. 'sha256' is the hash of "
@@ -480,8 +431,7 @@ const cli_command cli_command_study = {
         "error over the smallest error of a group with the same spp. It has an interval if both groups have the "
         "same trials, from the differences of images with equal {trial}. 'koksma compare --help' explains "
         "coherence.\n",
-    .examples = "koksma study quick -p random,sobol -m star -n 16,64 --quick -o quick\n"
-                "koksma study new plan.json\n"
+    .examples = "koksma study new plan.json\n"
                 "koksma study run ./plan.json -o results --quick\n"
                 "koksma study export results --format csv -o rows.csv\n"
                 "koksma study report results\n"

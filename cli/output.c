@@ -67,16 +67,6 @@ int cli_end_output(int code)
     return code;
 }
 
-bool cli_is_relative(const char *path)
-{
-#ifdef _WIN32
-    if (*path && path[1] == ':') {
-        return false;
-    }
-#endif
-    return *path != '/';
-}
-
 bool cli_is_stream(const char *path)
 {
     static const char *const names[] = {"/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/self/fd/"};

@@ -31,36 +31,11 @@ typedef struct koksma_study koksma_study;
 /* Returns the name of plan i of the library, or NULL past the last plan. */
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
-/* Returns the position in a pattern's text, after `from`, at which the next path begins: after the colon of a pattern whose
-   operand is a file, a program or a library, as in "exec:PATH" or in a group of uses, "jittered;lens=net-file:PATH". A
-   plan's relative paths start at the folder of the plan.
-     text  a pattern, or the patterns of several uses as koksma_render_patterns reads them. The text of a set of points has
-           at most one path, the first: ';' and '=' may be part of its name
-     from  number of characters to skip at the beginning of `text`
-   Returns 0 if no path begins after `from`. */
-KOKSMA_API size_t koksma_plan_path(const char *text, size_t from);
-
 /* Tries whether a pattern has a set of n points in dim dimensions, as the reader of a plan does; the set is checked, but
    not generated. Of a family of files, such as file:my_{n}_{seed}.npy, the set with the smallest seed is tried.
    Errors: UNKNOWN, ARGUMENT, N, DIM and others of koksma_pattern_spec and koksma_generate; of a family of files MISSING if
    it has no file, and N if it has files, but none for this n. */
 KOKSMA_API koksma_status koksma_plan_try(const char *pattern, size_t n, int dim);
-
-/* Tries whether a measure accepts n points in dim dimensions, as the reader of a plan does, by a call that is stopped at
-   once. More than 2^21 / dim points are not tried.
-   Errors: those of koksma_measure_spec and koksma_points_init, N. */
-KOKSMA_API koksma_status koksma_plan_try_measure(const char *measure, size_t n, int dim);
-
-/* Checks the text of a plan, then makes the folder and writes the text to DIR/plan.json. A text with an error writes
-   nothing. An existing DIR/plan.json is never replaced, and a link of that name is not followed.
-     folder  folder of the study; its parent must exist
-     text    a plan in JSON, as in the files that koksma_study_open reads
-     made    receives whether this call made the file; false if it was there with the same text; may be NULL
-   Of several processes that write at once, one makes the file; on file systems that can't rename without replacing,
-   such as NFS, two may.
-   Errors: MALFORMED (the text; the message names line and reason), ARGUMENT (the folder has a plan.json with another
-   text, or one that is not a plain file), IO, MEMORY. */
-KOKSMA_API koksma_status koksma_plan_write(const char *folder, const char *text, bool *made);
 
 /* Sets *out to question type i of those that a plan may contain, or to section i of the report; returns false past
    the last one. The title is the heading in the report. */

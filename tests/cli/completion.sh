@@ -95,15 +95,7 @@ measure pattern:n-r^ n-rooks
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
 rank ball --with ^ mitsuba FILES
-study ^ run quick new export report audit images
-study quick -p ^ all $(all patterns)
-study quick --patterns random,n-r^ n-rooks
-study quick -p random,sobol:scr^ scramble=
-study quick -m ^ all $(all measures)
-study quick --measures star,l2-st^ l2-star
-study quick --scene ^ $(all scenes) FILES
-study quick -n ^
-study quick --spp ^
+study ^ run new export report audit images
 study run ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 study export ^ FILES
 study export x --format ^ csv json npy sha256

@@ -186,7 +186,7 @@ def pointers():
     lines += [(name, ("measure", name, "-m", "star")) for name in ("a.txt", "a.npy", "a.csv")]
     lines += [(name, ("compare", name, "one.pfm")) for name in ("a.exr", "a.png", "a.pfm", "a.jpg")]
     lines += [("a.vec", ("generate", "lattice-file:a.vec", "-n", "4")), ("a.mat", ("generate", "net-file:a.mat", "-n", "4")),
-              ("a.pts", ("generate", "file:a.pts")), ("plan.json", ("study", "estimate", "plan.json")),
+              ("a.pts", ("generate", "file:a.pts")), ("plan.json", ("study", "run", "plan.json", "-o", "study")),
               ("m.obj", ("generate", "sample-elimination", "-n", "4", "--on", "m.obj")),
               ("d.png", ("generate", "random", "-n", "4", "--density", "d.png"))]
     for name, line in lines:

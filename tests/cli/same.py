@@ -4,8 +4,6 @@
 -n N, -p PATTERN, SPEC@N and pattern:SPEC@N are the same points for every command that takes a pattern, and `all` is taken
 by every list of patterns or measures; every command that writes refuses a file whose ending it does not know, before it
 works, and names those that it does."""
-import csv
-import json
 import os
 import re
 import subprocess
@@ -16,7 +14,7 @@ KOKSMA = os.path.abspath(sys.argv[1])
 failures = []
 # Options of one letter that have two names, by what they take: a set's points or a pixel's samples, a measure of
 # points or of an image's error, one or a list.
-TWO_NAMES = {"n": {"n", "spp", "points"}, "p": {"patterns", "pattern"}, "m": {"measures", "measure", "metric"}}
+TWO_NAMES = {"n": {"n", "spp"}, "p": {"patterns", "pattern"}, "m": {"measures", "measure", "metric"}}
 
 
 def check(good, what):
@@ -86,9 +84,6 @@ with tempfile.TemporaryDirectory() as folder:
     optima = [result("o.txt", "optimise", "l2-star", "--steps", "1", *way, "-o", "o.txt", "--json") for way in (
         ["--from", "sobol", "-n", "16"], ["--from", "sobol@16"], ["--from", "pattern:sobol@16"], ["--from", "pattern:sobol", "-n", "16"])]
     check(all(found == optima[0] for found in optima), "optimise --from")
-    check(ask("study", "quick", "-p", "sobol", "-n", "16", "-m", "star", "-o", "quick").returncode == 0, "study quick")
-    values = {float(row["value"]) for row in csv.DictReader(ask("study", "export", "quick").stdout.splitlines())}
-    check(values == {json.loads(ask("measure", "sobol@16", "-m", "star", "--json").stdout)["value"]}, f"study quick: {values}")
     every = ask("measure", "-p", "all", "-n", "16", "-m", "star")
     check(every.returncode == 0 and len(every.stdout.splitlines()) > 25 and "leaves out" in every.stderr, f"-p all: {every.stderr}")
 

@@ -139,8 +139,5 @@ with tempfile.TemporaryDirectory() as folder:
     text = on_terminal(["rank", "ball", "--size", "16x12", "--max-trials", "8", "--one-size", "-p", "random,jittered", "--time-limit", "1e6",
                         "--spp", "4"], 80, None, subprocess.STDOUT)
     check(re.findall(r"ranking +(\d+) %, at most (?:\d+) h", text) and set(re.findall(r"ranking +(\d+) %", text)) == {"0"}, f"rank: {text[:400]!r}")
-    cost = piped("study", "estimate", "./plan.json", "--threads", "2", "--time-limit", "0.2")
-    check(re.fullmatch(r"about (\d+ (min|h) )?[\d.]+ (s|min) on 2 threads, \d+ MB: 1680 jobs, 6480 rows, and 2 reference images "
-                       r"\([^()]+ of this time\)\n", cost), f"estimate: {cost}")
 print("\n".join(failures) or f"{tables} tables")
 sys.exit(bool(failures))

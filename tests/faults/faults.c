@@ -75,8 +75,6 @@ WRAP(int, mkdir, (const char *path, mode_t bits), (path, bits), FAULT_OPEN, ENOS
 WRAP(int, fsync, (int descriptor), (descriptor), FAULT_SYNC, EIO, -1)
 WRAP(int, renameat, (int from_folder, const char *from, int folder, const char *to), (from_folder, from, folder, to),
      FAULT_RENAME, EACCES, -1)
-WRAP(int, renameat2, (int from_folder, const char *from, int folder, const char *to, unsigned flags),
-     (from_folder, from, folder, to, flags), FAULT_RENAME, EACCES, -1)
 WRAP(int, pthread_create, (pthread_t * thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument),
      (thread, attributes, f, argument), FAULT_THREAD, EAGAIN, EAGAIN)
 #undef WRAP

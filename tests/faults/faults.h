@@ -19,7 +19,7 @@ typedef enum fault_kind {
     FAULT_WRITE,     /* write, or writing to standard output */
     FAULT_SYNC,      /* fsync */
     FAULT_CLOSE,     /* close, fclose */
-    FAULT_RENAME,    /* renameat, renameat2 */
+    FAULT_RENAME,    /* renameat */
     FAULT_THREAD,    /* pthread_create */
     FAULT_DB,        /* what SQLite asks of its files */
     FAULT_DB_MEMORY, /* SQLite's memory */

@@ -6,7 +6,6 @@ Links are planted under the names that the program chooses. A file is the old or
 that was asked for changes. tests/faults has runs that end in the middle, and disks that are full.
 """
 import glob
-import json
 import os
 import shutil
 import subprocess
@@ -77,45 +76,6 @@ def check_own_names(checks, program, folder):
     checks.check(not os.listdir(os.path.join(folder, "elsewhere")), "a reference was written below a link")
 
 
-def check_quick(checks, program, folder):
-    """`study quick` writes DIR/plan.json: a file of the user, or a link, stays, and is not followed."""
-    quick = ["study", "quick", "-p", "random", "-m", "star", "-n", "4", "--trials", "2", "-q", "-o"]
-    victim, planted = write(os.path.join(folder, "victim")), os.path.join(folder, "planted")
-    for to in ("../victim", "../nothing", "plan.json"):
-        os.mkdir(planted)
-        os.symlink(to, os.path.join(planted, "plan.json"))
-        checks.refused(f"plan.json -> {to}", files.run(program, *quick, "planted", cwd=folder), 2, "planted/plan.json")
-        checks.check(read(victim) == VICTIM and os.listdir(planted) == ["plan.json"], f"plan.json -> {to}: written")
-        checks.check(not os.path.lexists(os.path.join(folder, "nothing")), "plan.json: a link to nothing was followed")
-        shutil.rmtree(planted)
-    for make in (write, os.mkdir, os.mkfifo):
-        os.mkdir(planted)
-        make(os.path.join(planted, "plan.json"))
-        checks.refused(f"plan.json by {make}", files.run(program, *quick, "planted", cwd=folder), 2, "planted/plan.json")
-        checks.check(make is not write or read(os.path.join(planted, "plan.json")) == VICTIM, "a user's plan.json is gone")
-        shutil.rmtree(planted)
-    for _ in range(2):
-        good(checks, "the same plan again", files.run(program, *quick, "planted", cwd=folder))
-
-
-def check_quick_at_once(checks, program, folder):
-    """Several `study quick` in one new folder: one plan wins, and the folder has no rows of another one."""
-    for i in range(3 if files.SANITIZED else 12):
-        study = os.path.join(folder, f"study{i}")
-        sizes = [16 + k if i % 2 else 16 for k in range(4)]
-        runs = [subprocess.Popen([program, "study", "quick", "-p", "random", "-m", "star", "-n", str(n), "--trials", "2", "-q", "-o",
-                                  study], stdout=subprocess.PIPE, stderr=subprocess.PIPE) for n in sizes]
-        ends = [(run.communicate(timeout=files.SECONDS)[1].decode(), run.returncode) for run in runs]
-        with open(os.path.join(study, "plan.json"), encoding="utf-8") as stream:
-            n = json.load(stream)["discrepancies"][0]["n"][0]
-        rows = files.run(program, "study", "export", study).out.decode().splitlines()[1:]
-        checks.check(rows and all(row.split(",")[6] == str(n) for row in rows), f"rows beside a plan of {n}: {rows}")
-        for own, (error, code) in zip(sizes, ends):
-            other = code == 2 and "another plan, which is not replaced" in error
-            held = code == 4 and "is using it" in error
-            checks.check(code == 0 and own == n or other and own != n or held and own == n, f"{own} at {n}: {code}, {error}")
-
-
 def check_user_names(checks, program, folder):
     """What the user named is written where it leads: through links, and to streams and devices as they are."""
     target, link = write(os.path.join(folder, "target.txt")), os.path.join(folder, "link.txt")
@@ -182,7 +142,7 @@ def check_streams(checks, program, folder):
 
 def main():
     program, checks = os.path.abspath(sys.argv[1]), files.Checks()
-    for case in (check_planted_links, check_own_names, check_quick, check_quick_at_once, check_user_names, check_stores, check_streams):
+    for case in (check_planted_links, check_own_names, check_user_names, check_stores, check_streams):
         with tempfile.TemporaryDirectory() as folder:
             case(checks, program, folder)
     checks.end()

@@ -247,7 +247,7 @@ def check_rows(checks, program):
 
 
 def check_paths(checks, program):
-    """`study quick` and plans in other folders name the file that the user meant, of every pattern that has one."""
+    """Plans in other folders name the file that the user meant, of every pattern that has one."""
     os.makedirs("folder", exist_ok=True)
     with open("net.txt", "w", encoding="utf-8") as file:
         file.write("# soboljk\n2 1 0 1\n")
@@ -257,9 +257,6 @@ def check_paths(checks, program):
         file.write(".1 .2\n.3 .4\n")
     specs = "exec:./mark", "exec:mark", "plugin:./p.so", "plugin:p.so:good", "net-file:net.txt", "lattice-file:./lattice.txt", "file:points.txt"
     for spec in specs:
-        shutil.rmtree("quick", ignore_errors=True)
-        done = files.run(program, "study", "quick", "-p", spec, "-m", "l2-star", "-n", "2", "--trials", "2", "-q", "-o", "quick", "--allow-exec")
-        checks.check(done.code == 0, f"study quick -p {spec}: {done.code} {done.err}")
         kind, path = spec.split(":", 1)
         with open("folder/a.json", "w", encoding="utf-8") as file:
             file.write(plan(kind + ":../" + path))

@@ -92,16 +92,8 @@ KOKSMA__LAB void koksma__atomic_temporary(const koksma__atomic_file *file, char 
    failed. */
 KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep);
 
-/* Makes closing keep a file that exists, also if another process makes it at this moment; *made then tells which. NULL: it
-   is replaced. */
-void koksma__atomic_keep_old(koksma__atomic_file *file, bool *made);
-
 /* Opens a file, writes the bytes and closes it. */
 KOKSMA__LAB koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size);
-
-/* The same, but a file that exists stays, also if another process makes it at this moment; *made tells which. */
-KOKSMA__LAB koksma_status koksma__atomic_put_new(const char *folder, const char *path, const void *bytes, size_t size,
-                                                 bool *made);
 
 /* Returns the path of the file that a path leads to through symbolic links, which need not exist; the caller frees it.
    NULL: the links have no end or lead below a file, or there is no memory; errno tells which. */

@@ -13,7 +13,7 @@
  * run touches.
  */
 #ifndef _WIN32
-#define _GNU_SOURCE /* fopencookie, getentropy, O_PATH, renameat2 */
+#define _GNU_SOURCE /* fopencookie, getentropy, O_PATH */
 #include "core/files.h"
 
 #include <errno.h>
@@ -33,8 +33,6 @@
 /* What macOS lacks or calls otherwise. */
 #ifdef __APPLE__
 #define O_PATH O_RDONLY
-#define RENAME_NOREPLACE RENAME_EXCL
-#define renameat2 renameatx_np
 #endif
 
 enum { MOST_LINKS = 40 /* as Linux follows */ };
@@ -45,7 +43,6 @@ typedef struct koksma__output {
     int folder; /* descriptor of the folder; -1: the target is not a plain file */
     int descriptor;
     int reason; /* errno of the first write that failed */
-    bool *made; /* NULL: a file of that name is replaced; else it stays, and this receives whether there was none */
 } output;
 
 #ifdef __APPLE__
@@ -336,24 +333,6 @@ koksma_status koksma__atomic_folder(const char *path)
     return sync_above(path) ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: can't be synced: %s", path, strerror(errno));
 }
 
-/* As renameat, but fails if the name is taken. C libraries and file systems that cannot do both at once, such as NFS, are
-   asked first whether it is taken; another process may then take it in between. */
-static int rename_new(const output *o)
-{
-    struct stat info;
-#ifdef RENAME_NOREPLACE
-    const int code = renameat2(o->folder, o->temporary, o->folder, o->name, RENAME_NOREPLACE);
-    if (!code || (errno != EINVAL && errno != ENOSYS)) {
-        return code;
-    }
-#endif
-    if (!fstatat(o->folder, o->name, &info, AT_SYMLINK_NOFOLLOW)) {
-        errno = EEXIST;
-        return -1;
-    }
-    return renameat(o->folder, o->temporary, o->folder, o->name);
-}
-
 koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
 {
     output *o = file->output;
@@ -369,14 +348,11 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     if (o->folder >= 0 && keep && !o->reason) {
         if (sync_file(o->descriptor)) {
             o->reason = errno;
-        } else if (o->made ? rename_new(o) : renameat(o->folder, o->temporary, o->folder, o->name)) {
-            o->reason = o->made && errno == EEXIST ? 0 : errno;
+        } else if (renameat(o->folder, o->temporary, o->folder, o->name)) {
+            o->reason = errno;
             what = "can't be written";
         } else {
             placed = true;
-            if (o->made) {
-                *o->made = true;
-            }
             o->reason = sync_folder(o->folder) ? 0 : errno;
         }
     }
@@ -394,11 +370,6 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     end(o);
     *file = (koksma__atomic_file){0};
     return status;
-}
-
-void koksma__atomic_keep_old(koksma__atomic_file *file, bool *made)
-{
-    file->output->made = made;
 }
 
 #endif

@@ -22,7 +22,6 @@ enum { TRIES = 20, PAUSE_MS = 20 };
 typedef struct koksma__output {
     char *path;      /* in messages; NULL after "-" */
     char *temporary; /* NULL: the target is a stream or device, written in place */
-    bool *made; /* NULL: a file of that name is replaced; else it stays, and this receives whether there was none */
 } output;
 
 /* The path that a link at `path` leads to, as far as it exists. */
@@ -128,12 +127,10 @@ void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA_
 static int place(const output *o)
 {
     wchar_t *from = koksma__wide_path(o->temporary), *to = koksma__wide_path(o->path);
-    const DWORD how = MOVEFILE_WRITE_THROUGH | (o->made ? 0 : MOVEFILE_REPLACE_EXISTING);
     bool placed = false;
     for (int i = 0; from && to && !placed && i < TRIES; i++) {
-        placed = MoveFileExW(from, to, how);
-        if (!placed &&
-            (o->made || (GetLastError() != ERROR_ACCESS_DENIED && GetLastError() != ERROR_SHARING_VIOLATION))) {
+        placed = MoveFileExW(from, to, MOVEFILE_WRITE_THROUGH | MOVEFILE_REPLACE_EXISTING);
+        if (!placed && GetLastError() != ERROR_ACCESS_DENIED && GetLastError() != ERROR_SHARING_VIOLATION) {
             break;
         }
         if (!placed) {
@@ -163,11 +160,8 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     bool placed = false;
     if (o->temporary && keep && !reason) {
         placed = !place(o);
-        reason = placed || (o->made && errno == EEXIST) ? 0 : errno;
+        reason = placed ? 0 : errno;
         what = "can't be written";
-    }
-    if (o->made && placed) {
-        *o->made = true;
     }
     if (o->temporary && !placed) {
         unlink(o->temporary);
@@ -179,11 +173,6 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     end(o);
     *file = (koksma__atomic_file){0};
     return status;
-}
-
-void koksma__atomic_keep_old(koksma__atomic_file *file, bool *made)
-{
-    file->output->made = made;
 }
 
 koksma_status koksma__atomic_folder(const char *path)

@@ -319,4 +319,13 @@ const koksma__table_row *koksma__plan_row_of(const koksma__table *table, const c
 bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
                               long long n, long long dim);
 
+/* Returns the position in a pattern's text, after `from`, at which the next path begins: after the colon of a pattern whose
+   operand is a file, a program or a library, as in "exec:PATH" or in a group of uses, "jittered;lens=net-file:PATH". A
+   plan's relative paths start at the folder of the plan.
+     text  a pattern, or the patterns of several uses as koksma_render_patterns reads them. The text of a set of points has
+           at most one path, the first: ';' and '=' may be part of its name
+     from  number of characters to skip at the beginning of `text`
+   Returns 0 if no path begins after `from`. */
+size_t koksma__plan_path(const char *text, size_t from);
+
 #endif

@@ -78,9 +78,8 @@ static const char *path_of(const char *pattern, const char *end)
     return koksma__names_path(koksma_pattern_find(name)) ? pattern + length + 1 : NULL;
 }
 
-size_t koksma_plan_path(const char *text, size_t from)
+size_t koksma__plan_path(const char *text, size_t from)
 {
-    KOKSMA__REQUIRE_OR(0, text);
     for (const char *part = text; *part;) {
         const char *pattern, *end = koksma__use_part(part, &pattern), *path = path_of(pattern, end);
         if (path && path > text + from) {
@@ -138,14 +137,14 @@ static koksma_status from_plan(const koksma__json_node *node, text_kind kind, bo
     if (!joined) {
         return koksma__fail_memory(length);
     }
-    size_t path = is_scene ? 0 : koksma_plan_path(*text, 0);
+    size_t path = is_scene ? 0 : koksma__plan_path(*text, 0);
     for (size_t i = 0; i < length; i++) {
         if (i == path && (is_scene || path)) {
             if (!koksma__path_is_absolute(*text + i)) {
                 memcpy(to, name, folder);
                 to += folder;
             }
-            path = kind == USES ? koksma_plan_path(*text, i) : 0;
+            path = kind == USES ? koksma__plan_path(*text, i) : 0;
         }
         *to++ = (*text)[i];
     }

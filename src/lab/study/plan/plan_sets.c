@@ -84,9 +84,13 @@ static koksma_status try_image(const void *unused, const char *pattern, long lon
 }
 
 /* koksma_evaluate refuses a number of points before its first call of keep_going. Other errors are of the points. */
-koksma_status koksma_plan_try_measure(const char *measure, size_t n, int dim)
+static koksma_status try_measure(const void *block, const char *measure, long long count)
 {
-    KOKSMA__REQUIRE(measure);
+    const int dim = ((const koksma__discrepancy_block *)block)->dim;
+    const size_t n = (size_t)count;
+    if (koksma__integrand_of(measure)) {
+        return KOKSMA_OK;
+    }
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
     koksma_spec spec;
     koksma_points points;
@@ -103,13 +107,6 @@ koksma_status koksma_plan_try_measure(const char *measure, size_t n, int dim)
     const koksma_status status = koksma_evaluate(&spec, &points, &briefly, &value);
     koksma_points_fini(&points);
     return status == KOKSMA_N || status == KOKSMA_MEMORY ? status : KOKSMA_OK;
-}
-
-static koksma_status try_measure(const void *block, const char *measure, long long n)
-{
-    return koksma__integrand_of(measure)
-               ? KOKSMA_OK
-               : koksma_plan_try_measure(measure, (size_t)n, ((const koksma__discrepancy_block *)block)->dim);
 }
 
 /* The combinations to try: all patterns, or all measures, with all numbers `n` up to `most`, which are the list `key` of

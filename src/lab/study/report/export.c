@@ -330,7 +330,7 @@ static char *split(char **path)
 static koksma_status check_target(const char *study, const char *results, const char *path)
 {
     static const char *const endings[] = {"", "-wal", "-shm", "-journal"};
-    static const char *const own[] = {"plan.json", "report.json", "report.html", "references"};
+    static const char *const own[] = {"report.json", "report.html", "references"};
     char *store = koksma__atomic_target(results), *target = store ? koksma__atomic_target(path) : NULL;
     const int reason = errno;
     bool same = false, is_own = false, reference = false;

@@ -107,7 +107,7 @@ static koksma_status build(koksma__report *r, const koksma_run *run, koksma__doc
 static void join_paths(char folder[KOKSMA__FOLDER], const char *pattern)
 {
     char path[KOKSMA_MAX_PATTERNS_TEXT];
-    for (size_t at = 0; (at = koksma_plan_path(pattern, at)) > 0;) {
+    for (size_t at = 0; (at = koksma__plan_path(pattern, at)) > 0;) {
         snprintf(path, sizeof path, "%.*s", (int)strcspn(pattern + at, ";,"), pattern + at);
         koksma__folder_join(folder, path);
     }

@@ -11,6 +11,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "study/plan/plan.h"
 #include "study/sheet/sheet.h"
 
 static void put_head(const koksma__sheet *sheet, koksma__document *d)
@@ -79,7 +80,7 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
     char folder[KOKSMA__FOLDER] = "";
     for (size_t i = 0; i < sheet->n_samplers; i++) {
         const char *text = sheet->samplers[i]->text;
-        const size_t at = koksma_plan_path(text, 0);
+        const size_t at = koksma__plan_path(text, 0);
         koksma__folder_join(folder, at ? text + at : "");
     }
     for (size_t i = 0; sheet->options->scenes && i < sheet->options->n_scenes; i++) {
