@@ -343,14 +343,14 @@ static void excess_by_hand(void **state)
     (void)state;
     static const double means[] = {1.01, 1, 1.5, 0.5};
     koksma__rank_table table;
-    decide(&table, means, 8, 3);                                             /* exact errors: 3 has no round */
-    assert_true(fabs(koksma__rank_excess(&table, 0, false) - 0.02) < 1e-12); /* by less than 2 %: the same */
-    assert_true(fabs(koksma__rank_excess(&table, 2, false) - 0.5) < 1e-6);
+    decide(&table, means, 8, 3); /* exact errors: 3 has no round */
+    assert_near(koksma__rank_excess(&table, 0, false), 0.01, 1e-6);
+    assert_near(koksma__rank_excess(&table, 2, false), 0.5, 1e-6);
     assert_true(isinf(koksma__rank_excess(&table, 3, false)));
     koksma__rank_table_fini(&table);
     decide(&table, means, 8, 4);
-    assert_true(fabs(koksma__rank_excess(&table, 1, false) - 1) < 1e-6);
-    assert_true(fabs(koksma__rank_excess(&table, 2, true) - 0.5) < 1e-6);
+    assert_near(koksma__rank_excess(&table, 1, false), 1, 1e-6);
+    assert_near(koksma__rank_excess(&table, 2, true), 0.5, 1e-6);
     assert_true(isinf(koksma__rank_excess(&table, 3, true)) && !(koksma__rank_excess(&table, 3, false) > 0));
     koksma__rank_table_fini(&table);
     assert_ok(koksma__rank_table_init(&table, 2, 0.04));
@@ -363,11 +363,11 @@ static void excess_by_hand(void **state)
     table.entrants[0].n_rounds = table.entrants[1].n_rounds = 1;
     assert_ok(koksma__rank_decide(&table, NULL));
     const double after_one = koksma__rank_compare(&table, 0, 1).high - 1;
-    assert_true(fabs(koksma__rank_excess(&table, 0, false) - after_one) < 1e-12);
+    assert_near(koksma__rank_excess(&table, 0, false), after_one, 1e-12);
     table.entrants[0].n_rounds = table.entrants[1].n_rounds = 2;
     assert_ok(koksma__rank_decide(&table, NULL));
     assert_true(koksma__rank_compare(&table, 0, 1).high - 1 > after_one);
-    assert_true(fabs(koksma__rank_excess(&table, 0, false) - after_one) < 1e-12);
+    assert_near(koksma__rank_excess(&table, 0, false), after_one, 1e-12);
     koksma__rank_table_fini(&table);
 }
 
