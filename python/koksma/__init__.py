@@ -76,11 +76,29 @@ else:
 
     _show_types()
 
+    def _hint_at_arguments() -> None:
+        from types import FunctionType
+
+        from ._library import with_hints
+
+        hinting = {}  # methods with two names stay one
+        for name in __all__:
+            item = globals().get(name)
+            if isinstance(item, FunctionType):
+                globals()[name] = with_hints(item)
+            for method, function in list(vars(item).items()) if isinstance(item, type) else ():
+                if isinstance(function, FunctionType) and not method.startswith("_"):
+                    setattr(item, method, hinting.setdefault(function, with_hints(function)))
+
+    _hint_at_arguments()
+
     def __getattr__(name: str) -> object:
         """Engine on first use: its base is a class of scipy, which takes most of a second to import."""
         if name == "Engine":
             from ._engine import Engine
+            from ._library import with_hints
 
+            Engine.__init__ = with_hints(Engine.__init__)
             globals()[name] = Engine
             return Engine
         if name == "__version__":

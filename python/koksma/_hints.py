@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What to say of a name that the module does not have: the spelling that it has, or the call that does what was meant."""
+"""What to say of a name that the module, or an argument that a function does not have: the spelling that it has, or what does
+what was meant."""
 from __future__ import annotations
 
+import inspect
 from difflib import get_close_matches
-from typing import Sequence
+from typing import Any, Callable, Sequence
 
 _CALLS = {  # names of others, chiefly of scipy.stats.qmc
     "discrepancy": 'measure(points, "CD") is the value of scipy.stats.qmc.discrepancy, its names "WD", "MD" and "L2-star" are known, too',
@@ -40,3 +42,30 @@ def hint(name: str, known: Sequence[str]) -> str:
         return f'; koksma.measure(points, "{words}") computes it'
     near = get_close_matches(british.replace("list_", ""), [k for k in known if k.islower() or not name.islower()], 1)
     return f"; did you mean koksma.{near[0]}?" if near else "; help(koksma) names all that there is"
+
+
+_MEANT = {  # what others call an argument, and what functions of this package call it, the likeliest first
+    "dim": "dims dimension dimensions ndim ndims n_dim d dim", "n": "n_samples num_samples nsamples n_points num_points npoints samples points count num size spp n",
+    "spp": "samples n_samples num_samples samples_per_pixel n spp", "seed": "rng random_state seeds rand key scramble_seed seed",
+    "threads": "n_jobs jobs workers num_threads nthreads n_threads cores threads", "time_limit": "timeout limit time max_time seconds budget time_limit",
+    "size": "resolution res shape width height dimensions size", "measures": "measure metric metrics method methods measures",
+    "measure": "measures metric method measure", "metrics": "metric measure metrics", "metric": "metrics measure error metric",
+    "patterns": "pattern sampler samplers spec specs patterns", "pattern": "patterns sampler spec name engine pattern",
+    "path": "file filename fname out output path", "out": "output result buffer out", "trials": "repeats replicates n_trials runs n_seeds trials",
+    "reference": "ref truth ground_truth reference", "a": "image test first a", "b": "reference image second b",
+    "density": "image weights pdf density", "first": "start skip offset fast_forward first", "scene": "file path filename scene",
+    "function": "f fun func integrand function",
+}
+_PARTS = {  # what is no argument here, but a part of a spec
+    "scramble": 'is a part of the pattern: "sobol:scramble=owen"', "shift": 'is a part of the pattern: "korobov,shift=1"',
+    "optimization": "is koksma.optimise(measure, n, d)", "bits": 'is a part of the pattern; koksma.patterns() has its parameters',
+}
+
+
+def hint_of_argument(name: str, function: "Callable[..., Any]") -> str:
+    """The end of a message on an argument that a function lacks."""
+    word, known = name.lower(), [p for p in inspect.signature(function).parameters if p not in ("self", "cls")]
+    meant = [k for k, others in _MEANT.items() if k in known and word in others.split()]
+    near = meant or get_close_matches(word, known, 1)
+    return (f"; did you mean {near[0]}?" if near else f"; {name} {_PARTS[word]}" if word in _PARTS
+            else f"; it takes {', '.join(known)}")

@@ -9,7 +9,7 @@ import secrets
 import sys
 from contextlib import contextmanager
 from ctypes import POINTER, addressof, byref, c_bool, c_char_p, c_double, c_float, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
-from functools import lru_cache
+from functools import lru_cache, wraps
 from math import inf
 from operator import index
 from pathlib import Path
@@ -568,3 +568,19 @@ def spec(kind: str, name: str) -> s.Spec:
             _SPECS.clear()
         _SPECS[kind, name] = result
     return result
+
+
+def with_hints(function: Any) -> Any:
+    """The function, whose error on an argument that it lacks names the nearest one that it has."""
+    @wraps(function)
+    def called(*values: Any, **named: Any) -> Any:
+        try:
+            return function(*values, **named)
+        except TypeError as error:
+            found = re.search(r"^.*got an unexpected keyword argument '(\w+)'", str(error))
+            if not found or error.__traceback__ is None or error.__traceback__.tb_next is not None:
+                raise  # of another call
+            from ._hints import hint_of_argument
+
+            raise TypeError(found[0] + hint_of_argument(found[1], function)) from None
+    return called

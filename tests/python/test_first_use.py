@@ -62,6 +62,34 @@ class Values(unittest.TestCase):
 
 
 class Vocabulary(unittest.TestCase):
+    def test_a_wrong_argument_is_answered_by_the_right_one(self):
+        for function, values, named, said in (
+                (koksma.generate, ["sobol", 16], {"dims": 2}, "did you mean dim?"), (koksma.generate, ["sobol", 16], {"dimension": 2}, "did you mean dim?"),
+                (koksma.generate, ["sobol"], {"n_samples": 16}, "did you mean n?"), (koksma.generate, ["sobol", 16], {"random_state": 1}, "did you mean seed?"),
+                (koksma.generate, ["sobol", 16], {"scramble": True}, 'scramble is a part of the pattern: "sobol:scramble=owen"'),
+                (koksma.generate, ["sobol", 16], {"treads": 1}, "did you mean threads?"), (koksma.measure, [POINTS], {"method": "CD"}, "did you mean measure?"),
+                (koksma.rank, ["ball"], {"samples": 4}, "did you mean spp?"), (koksma.rank, ["ball"], {"timeout": 4}, "did you mean time_limit?"),
+                (koksma.render, ["ball", "sobol"], {"resolution": (4, 4)}, "did you mean size?"), (koksma.Engine, ["sobol"], {"dims": 2}, "did you mean "),
+                (koksma.has_ranges, ["sobol"], {"xyzzy": 2}, "it takes pattern")):
+            with self.assertRaisesRegex(TypeError, "got an unexpected keyword argument '.*'; ") as caught:
+                function(*values, **named)
+            self.assertIn(said, str(caught.exception))
+            self.assertIsNone(caught.exception.__cause__)
+
+    def test_errors_of_a_users_function_stay(self):
+        def of_user(x):
+            return dict(x).update(1, unexpected=int("1", bass=2))
+        with self.assertRaises(TypeError) as caught:
+            koksma.integrate(of_user, "sobol", 4, 2)
+        self.assertNotIn("did you mean", str(caught.exception))
+
+    def test_every_function_keeps_its_signature(self):
+        for name in koksma.__all__:
+            function = getattr(koksma, name)
+            if isinstance(function, types.FunctionType):
+                self.assertEqual(str(inspect.signature(function)), str(inspect.signature(function.__wrapped__)), name)
+                self.assertTrue(function.__doc__, name)
+
     def test_scipys_names_give_scipys_values(self):
         # 0.008142039609053464 is the value in the documentation of scipy.stats.qmc.discrepancy.
         doc = (np.array([[1, 3], [2, 6], [3, 2], [4, 5], [5, 1], [6, 4]]) - 0.5) / 6
