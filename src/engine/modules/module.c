@@ -45,10 +45,23 @@ bool koksma__module_path(const char *name, char *path, size_t room)
     return (size_t)snprintf(path, room, KOKSMA_MODULE_DIR "/koksma-%s.so", name) < room && !access(path, R_OK);
 }
 
+/* The module that a static program has in itself, as it can load none. */
+static const koksma__module_entry *linked(const char *name)
+{
+#ifdef KOKSMA_LINKED_JPEG
+    extern const koksma__module_entry koksma__entry_jpeg;
+    if (!strcmp(name, "jpeg")) {
+        return &koksma__entry_jpeg;
+    }
+#endif
+    (void)name;
+    return NULL;
+}
+
 bool koksma__module_exists(const koksma__module *module)
 {
     char path[4096];
-    return koksma__module_path(module->name, path, sizeof path);
+    return linked(module->name) || koksma__module_path(module->name, path, sizeof path);
 }
 
 koksma_status koksma__module_missing(const koksma__module *module)
@@ -63,6 +76,11 @@ koksma_status koksma__module_missing(const koksma__module *module)
 koksma_status koksma__module_load(const koksma__module *module, const void **functions)
 {
     char path[4096];
+    const koksma__module_entry *entry = linked(module->name);
+    if (entry) {
+        *functions = entry->start(&module->host);
+        return KOKSMA_OK;
+    }
     *functions = NULL;
     if (!koksma__module_path(module->name, path, sizeof path)) {
         return koksma__module_missing(module);
@@ -70,7 +88,7 @@ koksma_status koksma__module_load(const koksma__module *module, const void **fun
     fenv_t mode; /* libraries may change the floating-point environment while they are loaded */
     fegetenv(&mode);
     void *file = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    const koksma__module_entry *entry = file ? dlsym(file, KOKSMA__MODULE_SYMBOL) : NULL;
+    entry = file ? dlsym(file, KOKSMA__MODULE_SYMBOL) : NULL;
     fesetenv(&mode);
     if (!entry) {
         const char *reason = dlerror();
