@@ -5,12 +5,12 @@
     mitsuba_samplers.py ROWS.csv SCENE.xml..              adds a row for each scene, number of samples and sampler that ROWS.csv lacks
     mitsuba_samplers.py --summary ROWS.csv SUMMARY.json   what the page shows of them
 
-A scene is named by its file; `cornell-box` is mitsuba.cornell_box(). The first form needs koksma and mitsuba in the interpreter.
-Pictures have about 4,800 pixels; every sampler has up to 16 of them, against one of 16,384 samples a pixel by `independent`, whose own error
-is left out of account (koksma.mitsuba.rank). The rows that ship, studies/atlas/mitsuba-samplers.csv, are of cornell-box and of nine files in docs/scenes of
-github.com/mitsuba-renderer/mitsuba-data, commit 01100fa:
-integrator_direct_both bsdf_roughplastic_ggx emitter_projector_textured shape_bsplinecurve_basic bsdf_dielectric_glass
-sampler_independent_16spp bsdf_roughconductor_textured_carbon medium_homogeneous_sss integrator_depth_inf."""
+A scene is named by its file; `cornell-box` is mitsuba.cornell_box(). The first form needs koksma and mitsuba in the
+interpreter. Pictures have about 4,800 pixels; every sampler has up to 16 of them, against one of 16,384 samples a pixel by
+`independent`, whose own error is left out of account (koksma.mitsuba.rank). The rows that ship,
+studies/atlas/mitsuba-samplers.csv, are of cornell-box and of these files in docs/scenes of
+github.com/mitsuba-renderer/mitsuba-data, commit 01100fa: integrator_direct_both bsdf_roughplastic_ggx
+emitter_projector_textured bsdf_dielectric_glass sampler_independent_16spp bsdf_roughconductor_textured_carbon."""
 import csv
 import json
 import math
