@@ -79,23 +79,27 @@ def join(names):
 def summary(rows):
     """Rows of each sampler and number of samples: its error in that of `independent`, the geometric mean over the scenes with Student's
     interval for other scenes; `group`: first, unless its ratios to the sampler of the least mean are surely above 1, by Student's intervals
-    that hold together with 95 %. Then rows of each scene and number of samples: the samplers in the first position, and the least error in
+    that hold together with 95 %. A scene in which the interval of some sampler's error reaches 0 is left out of the means: a few pixels of
+    10^3 to 10^24, which Mitsuba makes in the glass sphere by `ldsampler` and `stratified`, then decide it. Then rows of each scene and number of samples: the samplers in the first position, and the least error in
     that of `independent`; its interval holds where those of both errors do, which hold together with 95 %."""
     case = {(r["scene"], int(r["spp"]), r["sampler"]): {k: float(r[k]) for k in ("position", "error", "low", "high")} for r in rows}
     scenes = list(dict.fromkeys(r["scene"] for r in rows))
     for spp in SPP:
-        logs = {name: [math.log(case[s, spp, name]["error"] / case[s, spp, "independent"]["error"]) for s in scenes] for name in SAMPLERS}
+        sound = [s for s in scenes if all(case[s, spp, name]["low"] > 0 for name in SAMPLERS)]
+        logs = {name: [math.log(case[s, spp, name]["error"] / case[s, spp, "independent"]["error"]) for s in sound] for name in SAMPLERS}
         order = sorted(SAMPLERS, key=lambda name: statistics.fmean(logs[name]))
         for name in order:
             mean, *ends = map(math.exp, interval(logs[name]))
             behind = interval([x - y for x, y in zip(logs[name], logs[order[0]])], .025 / (len(SAMPLERS) - 1))
             yield {"spp": spp, "sampler": name, "group": "rest" if behind[1] > 0 else "first", "mean": mean,
-                   "mean_low": ends[0], "mean_high": ends[1], "first": sum(case[s, spp, name]["position"] == 1 for s in scenes), "scenes": len(scenes)}
+                   "mean_low": ends[0], "mean_high": ends[1], "first": sum(case[s, spp, name]["position"] == 1 for s in sound), "scenes": len(sound)}
     for scene in scenes:
         for spp in SPP:
             of = {name: case[scene, spp, name] for name in SAMPLERS}
             best, base = min(of.values(), key=lambda c: c["error"]), of["independent"]
-            yield {"scene": scene, "spp": spp, "best": join([n for n in sorted(of, key=lambda n: of[n]["error"]) if of[n]["position"] == 1]),
+            names = sorted(SAMPLERS, key=lambda n: of[n]["error"])
+            yield {"scene": scene, "spp": spp, "best": join([n for n in names if of[n]["position"] == 1 and of[n]["low"] > 0]),
+                   "unsure": ", ".join(n for n in names if not of[n]["low"] > 0) or "-",
                    "ratio": best["error"] / base["error"], "ratio_low": best["low"] / base["high"], "ratio_high": best["high"] / base["low"]}
 
 
