@@ -88,8 +88,6 @@ RUN(pair_counts, N, t->pair_counts(N, units, units + N, 0.4, 0.6, 0.09, 600, 200
 RUN(mask_growth, 13 * 16,
     sums[0][0] += (double)t->mask_growth(13, 16, 16, 300, 2, floats, floats, floats, floats + 2))
 RUN(gauss_force, 80, t->gauss_force(4, runs, units, units + N, 0.4, 0.6, -48, 0.25, sums[0]))
-RUN(source_force, 80, const double *const sources[] = {units, units + N, units, units + N, units};
-    const double x[] = {0.4, 0.6, 0.5}; t->source_force(4, runs, sources, x, 0.01, 12, 6e-6, sums[0]))
 RUN(extreme_strips, 16 * N, t->extreme_strips(N, units, sorted, (const double (*)[16])(units + N), sums[0], sums[1]))
 RUN(extreme_runs, 16 * 900,
     t->extreme_runs(900, units, sorted, (const double (*)[9])units, (const double (*)[16])(units + N), sums[0],

@@ -368,14 +368,6 @@ def authors_patterns(table, peers):
     beside("cascaded-sobol:owen=1 4D 64k, 53 digits; theirs 32", "cascaded-sobol:owen=1", 1 << 16, 4, "cascade", "UTK", "cascade", 1 << 16, 4)
     for pattern in ("sz", "cascaded-sobol"):  # the program of the authors of sz was not to be had
         table.versus(part, pattern + " 4D 1M", ours(pattern, 1 << 20, 4), ours("sobol", 1 << 20, 4), "our sobol")
-    density = os.path.join(WORK, "bell.pfm")
-    side, what = 128, "gaussian-blue-noise 2D 1000 with a density, 1 core"
-    if table.has(part, what):
-        with open(density, "wb") as file:
-            file.write(b"Pf\n%d %d\n-1.0\n" % (side, side) + array.array("f", [
-                .02 + math.exp(-20 * ((x / side - .5) ** 2 + (y / side - .5) ** 2)) for y in range(side) for x in range(side)]).tobytes())
-    table.alone(part, what, lambda: run(KOKSMA, "generate", "gaussian-blue-noise", "-n", "1000", "--density", density, "--threads", "1", "-q",
-                                        "-o", os.path.join(WORK, "bell.txt")), rounds=1)
 
 
 MANIFEST = """[package]

@@ -186,7 +186,7 @@ static int run(const cli_arguments *arguments)
         return code;
     }
     const bool elsewhere = t.density || t.on || t.size;
-    if (!source.n && !pattern->whole && !elsewhere) {
+    if (!source.n && (elsewhere || !pattern->whole)) {
         return cli_usage_error(arguments, "-n N, the number of points, is missing");
     }
     if (!cli_whole(arguments, "first", 0, 0, KOKSMA_MAX_INDEX, &first) ||
@@ -264,13 +264,9 @@ const cli_command cli_command_generate = {
         "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N. All other "
         "patterns are generated in memory, with at most 2^28 coordinates.\n"
         "\n"
-        "With --density, --domain and --on the pattern is random, sample-elimination, progressive-elimination, "
-        "poisson-disk, dart-throwing, best-candidate, poisson-disk-maximal or gaussian-blue-noise; the last two "
-        "also with order=progressive. poisson-disk-maximal:d=D needs no -n there: D decides how many points there "
-        "are. D is in units of --domain or of the model; with --density alone in units of the picture's height, "
-        "and where the density equals its mean. Distances on a picture or rectangle wrap around its edges (those "
-        "of poisson-disk with torus=1 only); on a model they are straight-line distances in space, not along the "
-        "surface.\n"
+        "With --density, --domain and --on the pattern is random, sample-elimination or progressive-elimination. "
+        "Distances on a picture or rectangle wrap around its edges; on a model they are straight-line distances in "
+        "space, not along the surface.\n"
         "\n"
         "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each "
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time, "
@@ -281,7 +277,7 @@ const cli_command cli_command_generate = {
                 "koksma generate jittered -n 64 --warp concentric-disk -o disk.txt\n"
                 "koksma generate sample-elimination -n 2000 --density photo.png -o stipples.csv\n"
                 "koksma generate sample-elimination -n 400 --domain 4:1 -o wide.csv\n"
-                "koksma generate poisson-disk-maximal:d=0.1 --on model.obj -o on.txt\n",
+                "koksma generate sample-elimination -n 2000 --on model.obj -o on.txt\n",
     .options = options,
     .run = run,
 };

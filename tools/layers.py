@@ -84,7 +84,6 @@ INTERNAL = {
     "src/engine/core/capacity.h": "memory: arrays that grow",
     "src/engine/core/clock.h": "clocks",
     "src/files/domains/domain.h": "a domain of points, and the methods that choose on it",
-    "src/files/domains/field.h": "the target of gaussian-blue-noise, and what finds its forces",
     "src/files/image/formats.h": "image files, one .c file a format",
     "src/files/image/codec.h": "the formats whose library is a module",
     "src/files/image/coherence.h": "spectra of pictures and of their errors",

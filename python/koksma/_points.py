@@ -409,8 +409,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     pattern : str
         A spec such as "n-rooks" or "poisson-disk:d=0.2"; koksma.patterns() has them all.
     n : int
-        How many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1"), the latter
-        also with density, domain and on.
+        How many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
     dim : int
         2 where it is left out, but all that a file has where n is left out, too.
     seed : int, numpy.random.Generator, RandomState, SeedSequence or None
@@ -460,9 +459,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
 
     Notes
     -----
-    density, domain and on are for "random", "sample-elimination", "progressive-elimination", "poisson-disk", "dart-throwing",
-    "best-candidate", "poisson-disk-maximal" and "gaussian-blue-noise"; the last two also with order=progressive. Equal arguments give
-    equal bits, and the same as `koksma generate`.
+    density, domain and on are for "random", "sample-elimination" and "progressive-elimination". Equal arguments give equal bits, and the same as `koksma generate`.
 
     Examples
     --------
@@ -582,8 +579,10 @@ def _generate_in(pattern: str, n: Optional[SupportsIndex], dim: Optional[Support
 
     parsed = spec("pattern", pattern)
     axes = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
-    out: Optional[PointArray] = None if n is None else np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
-    points = s.Points(0, axes) if out is None else view(out)
+    if n is None:
+        raise ArgumentError("the number of points is missing: density, domain and on need n")
+    out = np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
+    points = view(out)
     image: Any = None
     if density is not None:
         array = read_image(density) if isinstance(density, (str, os.PathLike)) else as_image(density)
@@ -599,10 +598,8 @@ def _generate_in(pattern: str, n: Optional[SupportsIndex], dim: Optional[Support
     except BaseException as error:
         if isinstance(error, MalformedError) and isinstance(density, (str, os.PathLike)):  # the library knows no name of an image
             error.args = (f"{os.fsdecode(density)}: {error}",)
-        if out is None:
-            core().koksma_points_fini(byref(points))
         raise
-    return adopt(points) if out is None else out
+    return out
 
 
 def find_warp(name: str) -> Any:

@@ -233,26 +233,6 @@ static void gauss_force(const koksma__kernel_table *t, size_t count, void *out)
     }
 }
 
-/* Runs of every length up to 12, widths that differ, and pairs on both sides of the cut. */
-static void source_force(const koksma__kernel_table *t, size_t count, void *out)
-{
-    double squares[MAX];
-    uint32_t run[26];
-    for (size_t i = 0; i < MAX; i++) {
-        squares[i] = 0.002 + 0.03 * units[MAX - 1 - i];
-    }
-    for (uint32_t r = 0; r < 13; r++) {
-        run[2 * r] = (uint32_t)(count + 7 * r) % 250;
-        run[2 * r + 1] = run[2 * r] + r;
-    }
-    const double *const sources[] = {units, units + MAX, squares, units + 200};
-    for (size_t runs = 0; runs <= 13; runs++) {
-        const double x[] = {units[count], 0.03};
-        t->source_force(runs, run, sources, x, 0.004 + 0.002 * (double)(count % 7), 12, 0x1.9c54c3b43bc8bp-18,
-                        (double *)out + 2 * runs);
-    }
-}
-
 static void rows_of_columns(const koksma__kernel_table *t, size_t count, void *out)
 {
     t->rows_of_columns(count, 4, units, 97, count % 2, out);
@@ -309,7 +289,6 @@ TEST(permute, MAX)
 TEST(rooks_2d, 120)
 TEST(truncated_normals, MAX)
 TEST(gauss_force, MAX)
-TEST(source_force, MAX)
 TEST(rows_of_columns, 150)
 
 TEST_GROUP(setup, NULL)

@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The Gaussian forces of the pattern gaussian-blue-noise: between points in the plane, and between sources whose
-   widths and masses differ, for points with a density (domains/gaussian.c). Sums run in eight lanes for every vector
-   width, so that all instruction sets give the same bits. */
+/* The Gaussian forces of the pattern gaussian-blue-noise. Sums run in eight lanes for every vector width, so that all
+   instruction sets give the same bits. */
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
 void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs, const double *ys, double x,
                               double y, double scale, double cut2, double force[2]);
-void KERNEL_NAME(source_force)(size_t runs, const uint32_t *run, const double *const sources[4], const double x[2],
-                               double square, double cut, double least, double force[2]);
 
 enum { LANES = 8, PARTS = LANES / LANES64 };
 
@@ -45,37 +42,6 @@ void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs
                 const lanes64_d w = lanes64_masked(inside & (lanes64_i)(square <= cut2), fall(square * scale));
                 sum[0][p] -= w * a;
                 sum[1][p] -= w * b;
-            }
-        }
-    }
-    for (int k = 0; k < 2; k++) {
-        double s[LANES];
-        memcpy(s, sum[k], sizeof s);
-        force[k] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-    }
-}
-
-void KERNEL_NAME(source_force)(size_t runs, const uint32_t *run, const double *const sources[4], const double x[2],
-                               double square, double cut, double least, double force[2])
-{
-    lanes64_d sum[2][PARTS] = {{{0}}, {{0}}};
-    for (size_t r = 0; r < runs; r++) {
-        for (uint32_t i = run[2 * r], end = run[2 * r + 1]; i < end; i += LANES) {
-            for (int p = 0; p < PARTS; p++) {
-                const size_t at = i + (size_t)(p * LANES64);
-                const lanes64_i inside = (lanes64_i)(lanes64_count() + (uint64_t)(p * LANES64) < (uint64_t)(end - i));
-                const lanes64_d a = x[0] - lanes64_load_d(sources[0] + at),
-                                b = x[1] - lanes64_load_d(sources[1] + at);
-                const lanes64_d distance = a * a + b * b, v = square + lanes64_load_d(sources[2] + at);
-                const lanes64_i near = inside & (lanes64_i)(distance < cut * v);
-                if (!lanes64_any(near)) { /* sources of a run are neighbours: often all or none are in reach */
-                    continue;
-                }
-                const lanes64_d inverse = 1 / v, ratio = 2 * square * inverse;
-                const lanes64_d weight = lanes64_load_d(sources[3] + at) * (ratio * ratio);
-                const lanes64_d w = lanes64_masked(near, weight * (fall(-distance * inverse) - least));
-                sum[0][p] += w * a;
-                sum[1][p] += w * b;
             }
         }
     }

@@ -323,29 +323,6 @@ void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs
     }
 }
 
-void KERNEL_NAME(source_force)(size_t runs, const uint32_t *run, const double *const sources[4], const double x[2],
-                               double square, double cut, double least, double force[2])
-{
-    double sum[2][8] = {{0}, {0}};
-    for (size_t r = 0; r < runs; r++) {
-        for (uint32_t i = run[2 * r]; i < run[2 * r + 1]; i++) {
-            const double d[2] = {x[0] - sources[0][i], x[1] - sources[1][i]};
-            const double distance = d[0] * d[0] + d[1] * d[1], v = square + sources[2][i];
-            const double inverse = 1 / v, ratio = 2 * square * inverse, weight = sources[3][i] * (ratio * ratio);
-            if (distance < cut * v) {
-                const double w = weight * (fall(-distance * inverse) - least);
-                for (int k = 0; k < 2; k++) {
-                    sum[k][(i - run[2 * r]) % 8] += w * d[k];
-                }
-            }
-        }
-    }
-    for (int k = 0; k < 2; k++) {
-        const double *s = sum[k];
-        force[k] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-    }
-}
-
 static float distance_of(int dim, const float *a, const float *values, size_t plane)
 {
     float square = 0;

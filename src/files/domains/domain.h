@@ -14,30 +14,18 @@ typedef struct koksma__domain_point {
     double at[2];
 } koksma__domain_point;
 
-struct koksma__field;
-
 typedef struct koksma__point_domain {
     const char *what;   /* for messages: "with a density" */
     int dim;            /* number of coordinates of a position; they are in [0,1) */
     double lengths[3];  /* what a coordinate of 1 measures along each axis */
-    int corners;        /* number of corners of a part: 4 or 3 */
     bool torus, varies; /* varies: the density is not constant */
     double area;        /* area of the domain, in the measure of `lengths` */
-    double unit;        /* the length, in this measure, that a pattern's d=1 stands for */
-    size_t n_parts;
-    const void *data; /* argument of the functions below */
+    const void *data;   /* argument of the functions below */
     /* Makes candidate i. Candidates are independent and have the density of the domain. */
     void (*draw)(const void *data, uint64_t seed, uint64_t i, koksma__domain_point *point);
     void (*place)(const void *data, const koksma__domain_point *point, double *x);
-    /* Returns the part's share of the points, up to a factor that is equal for all parts; 0 for a part without
-       points. */
-    double (*share)(const void *data, size_t part);
-    /* Returns the unit of distance on a part: 1 / sqrt p where the density is p times its mean. */
+    /* If `varies`: returns the unit of distance on a part, 1 / sqrt p where the density is p times its mean. */
     double (*unit_of)(const void *data, size_t part);
-    /* Makes the target of gaussian-blue-noise (field.h) for n points and the pattern's parameter sigma. NULL: the
-       domain can't have that pattern. */
-    koksma_status (*open_field)(const struct koksma__point_domain *domain, size_t n, double sigma,
-                                const koksma_run *run, struct koksma__field *field);
 } koksma__point_domain;
 
 /* The task of a method: make n points of the pattern, with its parameters and a seed, on the domain. */
@@ -55,24 +43,9 @@ typedef struct koksma__choice {
    sum is above the sum before it. */
 size_t koksma__domain_find(const double *sums, size_t count, double at);
 
-/* Makes *n points of a domain by the method of the pattern that the spec names. If *n is 0, the pattern's d decides how
-   many there are, and *n receives their number. The caller frees *points, also after an error; it is NULL on entry.
-   Errors: ARGUMENT, UNSUPPORTED, N, IMPOSSIBLE, MEMORY, INTERRUPTED. */
+/* Makes n points of a domain by the method of the pattern that the spec names. The caller frees *points, also after an
+   error; it is NULL on entry. Errors: ARGUMENT, UNSUPPORTED, N, MEMORY, INTERRUPTED. */
 koksma_status koksma__domain_choose(const koksma__point_domain *domain, const koksma_spec *spec, uint64_t seed,
-                                    const koksma_run *run, size_t *n, koksma__domain_point **points);
-
-/* ---- Methods in files of their own (choose.c has the others) ---- */
-
-/* poisson-disk-maximal, and the same whatever number of points the parameter d gives: sets choice->n and allocates
-   choice->points. Errors: N (too many points), MEMORY, INTERRUPTED. */
-koksma_status koksma__choose_maximal(const koksma__choice *choice);
-koksma_status koksma__choose_by_distance(koksma__choice *choice);
-
-/* dart-throwing: throws darts until there are n points, none closer than the parameter f times the distance of n points in
-   the densest packing of the plane, times the root of the domain's area. */
-koksma_status koksma__choose_fraction(const koksma__choice *choice);
-
-/* gaussian-blue-noise */
-koksma_status koksma__choose_gaussian(const koksma__choice *choice);
+                                    const koksma_run *run, size_t n, koksma__domain_point **points);
 
 #endif

@@ -4,7 +4,6 @@
  * triangle that is drawn with probability proportional to its area, by bisection in the running sums of the areas;
  * the warp `triangle` maps the unit square to the triangle. The methods of choose.c get positions that are scaled so
  * that the smallest cube about the model becomes the unit cube.
- *
  */
 #include <koksma/density.h>
 #include <koksma/warp.h>
@@ -73,19 +72,6 @@ static void place_in_model(const surface *s, const koksma__domain_point *point, 
     }
 }
 
-static double share(const void *data, size_t part)
-{
-    const surface *s = data;
-    return s->sums[part] - (part ? s->sums[part - 1] : 0);
-}
-
-static double unit_of(const void *data, size_t part)
-{
-    (void)data;
-    (void)part;
-    return 1;
-}
-
 static void place(const void *data, const koksma__domain_point *point, double *x)
 {
     const surface *s = data;
@@ -129,22 +115,13 @@ static koksma_status choose(surface *s, const koksma_spec *spec, uint64_t seed, 
     }
     const koksma__point_domain domain = {.what = "on a model",
                                          .dim = 3,
-                                         .corners = 3,
                                          .lengths = {1, 1, 1},
                                          .area = area / s->side / s->side,
-                                         .unit = 1 / s->side,
-                                         .n_parts = n,
                                          .data = s,
                                          .draw = draw,
-                                         .place = place,
-                                         .share = share,
-                                         .unit_of = unit_of};
-    size_t count = out->n;
+                                         .place = place};
     koksma__domain_point *points = NULL;
-    koksma_status status = koksma__domain_choose(&domain, spec, seed, run, &count, &points);
-    if (!status && !out->n) {
-        status = koksma_points_init(out, count, out->dim);
-    }
+    koksma_status status = koksma__domain_choose(&domain, spec, seed, run, out->n, &points);
     if (!status) {
         write_points(s, points, out);
     }
@@ -158,12 +135,11 @@ koksma_status koksma_generate_on(const koksma_spec *spec, uint64_t seed, const c
 {
     KOKSMA__REQUIRE(spec, path, out);
     KOKSMA__REQUIRE_RUN(run);
-    KOKSMA__FAIL_IF(!out->xs != !out->n, KOKSMA_ARGUMENT, "%s: it takes initialised points, or n = 0 and xs = NULL",
-                    __func__);
+    KOKSMA__FAIL_IF(!out->xs || !out->n, KOKSMA_ARGUMENT, "%s: it takes initialised points", __func__);
     KOKSMA__FAIL_IF(
         out->dim != 3 && out->dim != 6 && out->dim != 7, KOKSMA_DIM,
         "points on a model have dim = 3, or 6 with their normal, or 7 with their triangle as well; not %d", out->dim);
-    KOKSMA__TRY(out->n ? koksma__points_fit(out->n, out->dim) : KOKSMA_OK);
+    KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
     surface s = {.warp = koksma_warp_find("triangle")};
     koksma_status status = koksma__mesh_read(path, KOKSMA__BY_USER, NULL, &s.mesh);
     status = status ? status : choose(&s, spec, seed, run, out);
