@@ -151,6 +151,7 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
         cli_row_text(rows, "advised", options->patterns[advised]);
     }
     cli_row_number(rows, "within", ranking->within);
+    cli_row_flag(rows, "without_few", ranking->without_few);
     cli_row_whole(rows, "needed_trials", (uint64_t)ranking->needed_trials);
     cli_row_number(rows, "needed_s", ranking->needed_s);
     cli_row_number(rows, "random_spp", ranking->random_spp);
@@ -604,7 +605,8 @@ const cli_command cli_command_rank = {
         "(different) or lies within 2 % of 1 (equal). A time limit ends the sequence early; a longer limit never "
         "changes which pattern is decided to be the best. If the time is up before, the advice names a pattern whose "
         "error exceeds that of the best by at most 5 % (within in --json), as far as the confidence intervals show "
-        "one; else the answer is 'undecided', with an estimate of the time needed.\n"
+        "one; if they do not, the errors without the 0.1 % of the pixels that err most may (without_few); else the "
+        "answer is 'undecided', with an estimate of the time needed.\n"
         "\n"
         "position: 1 + the number of patterns that are decided to be better. behind: relative difference to the "
         "first row, over the trials that both have; the errors are over all trials of each, so that their quotient "
@@ -635,7 +637,7 @@ const cli_command cli_command_rank = {
         "--json), a warning tells that few pixels decide the order. 'robust' is the error without them, not "
         "corrected for the error of the reference as 'error' is. Each image is compared 17 times: with the "
         "reference, which is the mean of 16 images, and with the 16 means that leave out one of these images. At "
-        "160 x 120 pixels this takes 0.7 s for hdr-flip and a millisecond for mae.\n"
+        "160 x 120 pixels this takes 0.7 s for hdr-flip and some milliseconds for mae.\n"
         "\n"
         "--adaptive ranks patterns as they are with a method of adaptive sampling: each image of each pattern is "
         "that of koksma render --adaptive METHOD --budget N, with a quarter of N in the first round (divided by "

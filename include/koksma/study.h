@@ -443,6 +443,9 @@ typedef struct koksma_ranking {
        Up to KOKSMA_RANK_TIE it decides which pattern to use although it may not be `settled` which is the best. Infinite:
        not known */
     double within;
+    /* true: the errors leave open which pattern to use, but those without the 0.1 % of pixels that err most (`robust` of the
+       rows) do not: `use_row` and `within` are of these */
+    bool without_few;
     /* how many samples of the pattern random leave as much error as spp samples of the pattern to use, because the error
        of random falls as n^-1/2; with an interval, NaN at both ends if it is not known. NaN: random is not ranked, or the
        metric follows no power law */

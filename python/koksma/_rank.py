@@ -94,6 +94,7 @@ class Ranking(Framed):
     undecidable: bool  #: by 256 trials or more, 65,536 would not decide either: a noisy reference, or a small difference
     use: str  #: `advised`; else, of those that are not coherent (of all, if all are), the least `within`, if below .05, or error
     within: float  #: the error of `use` exceeds that of any other by at most this part of it (95 %); infinite: not known
+    without_few: bool  #: `use` and `within` are of the errors without the 0.1 % of pixels that err most, since all leave it open
     spp: int
     random_spp: float  #: so many samples of the pattern random leave as much error as those of `use`; NaN: random is not ranked
     random_spp_interval: Tuple[float, float]
@@ -106,7 +107,7 @@ class Ranking(Framed):
     def _advice(self) -> str:
         if self.advised:
             return f"use {self.advised}"
-        return f"use {self.use}, within {100 * self.within:.2g} % of the best" if self.within <= 0.05 else "undecided"
+        return f"use {self.use}, within {100 * self.within:.2g} % of the best{' but for few pixels' * self.without_few}" if self.within <= 0.05 else "undecided"
 
     def _columns(self) -> Dict[str, Any]:
         return columns_of(self.rows)
@@ -372,7 +373,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
         reference_error=out.reference_error, seconds=out.seconds,
         advised=names[rows[out.advised_row].pattern] if out.advised else None,
         checks=tuple(_check(c, names) for c in out.checks), metric=asked.metric,
-        undecidable=out.undecidable, use=names[rows[out.use_row].pattern], within=out.within, spp=int(options.spp), random_spp=out.random_spp,
+        undecidable=out.undecidable, use=names[rows[out.use_row].pattern], within=out.within, without_few=out.without_few, spp=int(options.spp), random_spp=out.random_spp,
         random_spp_interval=(out.random_spp_low, out.random_spp_high))
 
 

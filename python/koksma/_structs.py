@@ -417,7 +417,7 @@ class Ranking(Structure):
                 ("reference_error", c_double),
                 ("checks", RankCheck * RANK_CHECKS), ("seconds", c_double), ("advised", c_bool),
                 ("advised_row", c_size_t), ("n_coherent", c_size_t), ("use_row", c_size_t),
-                ("within", c_double), ("random_spp", c_double), ("random_spp_low", c_double), ("random_spp_high", c_double)]
+                ("within", c_double), ("without_few", c_bool), ("random_spp", c_double), ("random_spp_low", c_double), ("random_spp_high", c_double)]
 
 
 class TargetRow(Structure):

@@ -960,6 +960,48 @@ static void intervals_have_both_ends(void **state)
     assert_true(none > 12 && some > 12);
 }
 
+/* Images of noise, half as much again for "ccc", in which one pixel in 1,200 has an error that differs between trials by
+   factors of e^5 and exceeds all others together; the reference is almost 0. */
+static koksma_status render_firefly(void *context, const koksma_rank_picture *picture, const koksma_run *run,
+                                    koksma_image *image)
+{
+    (void)context;
+    (void)run;
+    const double size = !strcmp(picture->pattern, "zero") ? 1e-9 : !strcmp(picture->pattern, "ccc") ? 1.5 : 1;
+    const koksma_status status = koksma_image_init(image, picture->width, picture->height, 1);
+    const int n = picture->width * picture->height, hot = (int)(picture->seed % (uint64_t)n);
+    for (int i = 0; !status && i < n; i++) {
+        image->pixels[i] = (float)(size * normal(picture->seed, 10, (uint64_t)i));
+    }
+    if (!status && size > 1e-9) {
+        image->pixels[hot] = (float)(1e4 * exp(5 * normal(picture->seed, 11, 0)));
+    }
+    return status;
+}
+
+/* Where the error is that of single pixels, a pattern is chosen by the others: one of those with the least noise. */
+static void fireflies_leave_a_choice(void **state)
+{
+    (void)state;
+    const char *patterns[] = {"a", "bb", "ccc"};
+    koksma_rank_row rows[3];
+    koksma_ranking r;
+    const koksma_rank_options options = {.scene = "fireflies",
+                                         .patterns = patterns,
+                                         .n_patterns = 3,
+                                         .spp = 1,
+                                         .width = 40,
+                                         .height = 30,
+                                         .max_trials = 16,
+                                         .one_size = true,
+                                         .render = render_firefly,
+                                         .reference = "zero"};
+    assert_ok(koksma_rank_patterns(&options, NULL, rows, &r));
+    assert_true(!r.settled && !r.advised && r.without_few);
+    assert_true(r.within > 0 && r.within <= KOKSMA_RANK_TIE && rows[r.use_row].pattern != 2);
+    assert_true(rows[0].top_share > 0.5 && rows[0].robust < 0.1 * rows[0].mean);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -988,6 +1030,7 @@ int main(void)
         cmocka_unit_test(sizes_are_part_of_the_question),
         cmocka_unit_test(undecidable_only_after_many_trials),
         cmocka_unit_test(intervals_have_both_ends),
+        cmocka_unit_test(fireflies_leave_a_choice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

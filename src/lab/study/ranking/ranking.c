@@ -141,9 +141,9 @@ static void find_worth(const koksma_rank_options *options, const koksma_rank_row
 /* Finds the pattern to use: what is decided, else what exceeds the best by the least, if that is little, else what has the
    least error so far. order: the contestant in each row. */
 static void choose_row(const koksma__rank_table *table, const size_t *order, const koksma_rank_row *rows,
-                       koksma_ranking *out)
+                       bool decided, koksma_ranking *out)
 {
-    const bool all_coherent = out->n_coherent == out->n, decided = out->advised || (all_coherent && out->settled);
+    const bool all_coherent = out->n_coherent == out->n;
     size_t least = 0, safest = 0;
     double excess = INFINITY, mean = INFINITY;
     for (size_t k = 0; k < out->n; k++) {
@@ -162,8 +162,34 @@ static void choose_row(const koksma__rank_table *table, const size_t *order, con
     out->within = koksma__rank_excess(table, order[out->use_row], !all_coherent);
 }
 
+/* Where the errors leave the choice open, makes it by those without the few pixels that err most, if they decide it: the
+   error of one such pixel may exceed that of all others, and vary as much. */
+static koksma_status choose_without_few(koksma__contest *c, const size_t *order, const koksma_rank_row *rows,
+                                        koksma_ranking *out)
+{
+    koksma_ranking robust = *out;
+    if (out->within <= KOKSMA_RANK_TIE) {
+        return KOKSMA_OK;
+    }
+    for (size_t i = 0; i < c->n; i++) {
+        const koksma__rank_entrant *e = &c->table.entrants[i];
+        koksma__rank_entrant *without = &c->robust.entrants[i];
+        without->out = e->out || !e->n_rounds;
+        without->coherent = e->coherent;
+        without->n_rounds = e->n_rounds;
+    }
+    KOKSMA__TRY(koksma__rank_decide(&c->robust, NULL));
+    choose_row(&c->robust, order, rows, false, &robust);
+    if (robust.within <= KOKSMA_RANK_TIE) {
+        out->use_row = robust.use_row;
+        out->within = robust.within;
+        out->without_few = true;
+    }
+    return KOKSMA_OK;
+}
+
 /* Writes a row for each contestant, in their order, and the fields of *out that follow from the rows. Errors: MEMORY. */
-static koksma_status fill_rows(const koksma__contest *c, koksma_rank_row *rows, koksma_ranking *out)
+static koksma_status fill_rows(koksma__contest *c, koksma_rank_row *rows, koksma_ranking *out)
 {
     size_t *order = malloc(c->n * sizeof *order);
     KOKSMA__REQUIRE_MEMORY(order, c->n * sizeof *order);
@@ -192,10 +218,12 @@ static koksma_status fill_rows(const koksma__contest *c, koksma_rank_row *rows, 
     }
     out->complete &= !out->n_slow;
     out->settled = c->table.leader != NOBODY;
-    choose_row(&c->table, order, rows, out);
+    const bool decided = out->advised || (out->n_coherent == out->n && out->settled);
+    choose_row(&c->table, order, rows, decided, out);
+    const koksma_status status = decided || out->settled ? KOKSMA_OK : choose_without_few(c, order, rows, out);
     free(order);
     find_worth(c->options, rows, out);
-    return KOKSMA_OK;
+    return status;
 }
 
 /* Decides the best of the patterns that have a complete round, if there are several, when the time is up for the

@@ -206,19 +206,18 @@ static koksma_status compare_with(const koksma__rank_reference *reference, const
     double *const map = values + reference->values;
     koksma__metric_values(spec->metric, image, values);
     koksma_status status = KOKSMA_OK;
-    for (int r = REPLICATES; !status && r >= 0;
-         r--) { /* the whole reference comes last, because koksma__metric_pool below reorders its errors in `map` */
+    for (int r = REPLICATES; !status && r >= 0; r--) {
         const koksma_metric_input in = {spec->params, reference->width, reference->height, values,
                                         r ? reference->without + (size_t)(r - 1) * reference->values
                                           : reference->mean};
         const char kept = koksma__call_begin();
         status = koksma__call_end(kept, spec->metric->errors(&in, map), "koksma_metric.errors");
-        errors[r] = status ? 0 : koksma__metric_mean(spec->metric, map, reference->pixels);
-    }
-    if (!status) {
-        const koksma_metric_value value = koksma__metric_pool(spec->metric, map, reference->pixels);
-        errors[KOKSMA__RANK_ROBUST] = value.robust;
-        errors[KOKSMA__RANK_TOP_SHARE] = value.top_share;
+        if (!status) {
+            const koksma_metric_value value = koksma__metric_pool(spec->metric, map, reference->pixels);
+            errors[r] = value.value;
+            errors[KOKSMA__RANK_ROBUST + r] = value.robust;
+            errors[KOKSMA__RANK_TOP_SHARE] = value.top_share; /* at last against the whole reference */
+        }
     }
     free(values);
     return status;
@@ -398,29 +397,35 @@ static koksma_status do_trial(void *context, size_t i)
     return take_out(&work, b->first + t, status);
 }
 
-/* Updates the running mean and the squared deviations by Welford's method (1962). Trials are added in their
-   order. */
-static void add_trial(koksma__contestant *p, const double errors[ERRORS])
+/* Updates the running mean and the squared deviations by Welford's method (1962). */
+static void add_errors(koksma__rank_sums *sums, size_t n, const double *errors)
 {
-    const double off = errors[0] - p->mean;
-    p->n++;
-    p->mean += off / (double)p->n;
-    p->squares += off * (errors[0] - p->mean);
-    p->robust += errors[KOKSMA__RANK_ROBUST];
-    p->top_share += errors[KOKSMA__RANK_TOP_SHARE];
+    const double off = errors[0] - sums->mean;
+    sums->mean += off / (double)n;
+    sums->squares += off * (errors[0] - sums->mean);
     for (int r = 0; r < KOKSMA__RANK_REPLICATES; r++) {
-        p->without[r] += errors[1 + r];
+        sums->without[r] += errors[1 + r];
     }
 }
 
-static koksma__rank_errors summary(const koksma__contestant *p)
+/* Trials are added in their order. */
+static void add_trial(koksma__contestant *p, const double errors[ERRORS])
 {
-    koksma__rank_errors e = {.n = p->n, .mean = p->mean};
-    e.robust = p->n ? p->robust / (double)p->n : (double)NAN;
+    p->n++;
+    p->top_share += errors[KOKSMA__RANK_TOP_SHARE];
+    add_errors(&p->all, p->n, errors);
+    add_errors(&p->robust, p->n, errors + KOKSMA__RANK_ROBUST);
+}
+
+/* sums: those of p of all pixels, or without a few. */
+static koksma__rank_errors summary(const koksma__contestant *p, const koksma__rank_sums *sums)
+{
+    koksma__rank_errors e = {.n = p->n, .mean = sums->mean};
+    e.robust = p->n ? p->robust.mean : (double)NAN;
     e.top_share = p->n ? p->top_share / (double)p->n : (double)NAN;
-    e.variance = p->n > 1 ? p->squares / (double)(p->n - 1) : (double)NAN;
+    e.variance = p->n > 1 ? sums->squares / (double)(p->n - 1) : (double)NAN;
     for (int r = 0; r < KOKSMA__RANK_REPLICATES; r++) {
-        e.without[r] = p->n ? p->without[r] / (double)p->n : (double)NAN;
+        e.without[r] = p->n ? sums->without[r] / (double)p->n : (double)NAN;
     }
     return e;
 }
@@ -432,7 +437,7 @@ koksma__rank_errors koksma__contest_errors(const koksma__contest *c, size_t i)
     for (size_t t = 0; !latest && t < FIRST && atomic_load(&c->contestants[i].done[t]); t++) {
         add_trial(&sums, c->contestants[i].first[t]);
     }
-    return latest ? *latest : summary(&sums);
+    return latest ? *latest : summary(&sums, &sums.all);
 }
 
 /* ---- Rounds --------------------------------------------------------------------------------------------- */
@@ -497,7 +502,8 @@ static koksma_status do_round(koksma__contest *c, int round, const size_t *activ
         e->aside = atomic_load(&p->late);
         if (!e->out && !e->aside) {
             e->coherent = (c->asked ? &c->asked->contestants[p->pattern] : p)->coherence.coherent;
-            e->rounds[e->n_rounds++] = summary(p);
+            c->robust.entrants[active[a]].rounds[e->n_rounds] = summary(p, &p->robust);
+            e->rounds[e->n_rounds++] = summary(p, &p->all);
         }
     }
     return status ? status : koksma__rank_decide(&c->table, &c->control->job);
@@ -643,7 +649,8 @@ koksma_status koksma__contest_init(koksma__contest *c, const koksma_rank_options
         pthread_mutex_init(&c->contestants[i].lock, NULL);
         koksma_coherence_find(&c->contestants[i].sums, &c->contestants[i].coherence);
     }
-    return koksma__rank_table_init(&c->table, n, alpha);
+    KOKSMA__TRY(koksma__rank_table_init(&c->table, n, alpha));
+    return koksma__rank_table_init(&c->robust, n, alpha);
 }
 
 void koksma__contest_fini(koksma__contest *c)
@@ -662,6 +669,7 @@ void koksma__contest_fini(koksma__contest *c)
         koksma__rank_reference_fini(&c->references[stage]);
     }
     koksma__rank_table_fini(&c->table);
+    koksma__rank_table_fini(&c->robust);
     free(c->contestants);
     *c = (koksma__contest){0};
 }

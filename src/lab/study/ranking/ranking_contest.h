@@ -43,12 +43,19 @@ long long koksma__rank_reference_spp(int spp, int stage);
 void koksma__rank_reference_fini(koksma__rank_reference *reference);
 
 /* Indices of a trial's errors: at 0 the error against the reference, at 1 + r the error against the reference
-   without replicate r, and then two values that show how much a few pixels contribute to the error. */
+   without replicate r, from KOKSMA__RANK_ROBUST on the same without the few pixels that err most, and last these pixels'
+   share of the error. */
 enum {
     KOKSMA__RANK_ROBUST = 1 + KOKSMA__RANK_REPLICATES,
-    KOKSMA__RANK_TOP_SHARE,
+    KOKSMA__RANK_TOP_SHARE = 2 * KOKSMA__RANK_ROBUST,
     KOKSMA__RANK_ERRORS,
 };
+
+/* Of the trials summed so far: their mean error, the sum of the squared deviations, and sums of the errors against the
+   references without a replicate. */
+typedef struct koksma__rank_sums {
+    double mean, squares, without[KOKSMA__RANK_REPLICATES];
+} koksma__rank_sums;
 
 /* ---- Contests ---------------------------------------------------------------------------------------------- */
 
@@ -62,11 +69,10 @@ typedef struct koksma__contestant {
     double first[KOKSMA__RANK_FIRST_ROUND][KOKSMA__RANK_ERRORS]; /* errors of the trials of round 0 */
     /* whether `first` has the errors of trial t of round 0 */
     atomic_bool done[KOKSMA__RANK_FIRST_ROUND];
-    size_t n; /* number of trials summed in the next fields; trials are added in their order */
-    /* mean: the mean error of the trials; squares: the sum of their squared deviations; the others: sums over the
-       trials */
-    double mean, squares, robust, top_share, without[KOKSMA__RANK_REPLICATES];
-    pthread_mutex_t lock;                      /* guards the next four fields until round 0 is complete */
+    size_t n;                      /* number of trials summed in the next fields; trials are added in their order */
+    koksma__rank_sums all, robust; /* of all pixels, and without the few that err most */
+    double top_share;              /* a sum */
+    pthread_mutex_t lock;          /* guards the next four fields until round 0 is complete */
     double *waiting[KOKSMA__RANK_FIRST_ROUND]; /* pixel errors of trials that wait for an earlier trial to be added */
     size_t added;                              /* number of trials added to `sums` */
     koksma_coherence sums;
@@ -84,7 +90,9 @@ typedef struct koksma__contest {
     int max_rounds;
     size_t n;
     koksma__contestant *contestants;
-    koksma__rank_table table;                               /* entrant i is contestant i */
+    koksma__rank_table table; /* entrant i is contestant i */
+    koksma__rank_table
+        robust; /* that of the errors without a few pixels: their rounds; all else is set where it is used */
     koksma__rank_reference references[KOKSMA__RANK_STAGES]; /* pixels is 0 before a stage is begun */
     unsigned long long share_ns; /* thread time allowed for a pattern's first round; 0: no limit */
     pthread_mutex_t lock;        /* guards `reason` of all contestants */
