@@ -79,9 +79,10 @@ def join(names):
 def summary(rows):
     """Rows of each sampler and number of samples: its error in that of `independent`, the geometric mean over the scenes with Student's
     interval for other scenes; `group`: first, unless its ratios to the sampler of the least mean are surely above 1, by Student's intervals
-    that hold together with 95 %. A scene in which the interval of some sampler's error reaches 0 is left out of the means: a few pixels of
-    10^3 to 10^24, which Mitsuba makes in the glass sphere by `ldsampler` and `stratified`, then decide it. Then rows of each scene and number of samples: the samplers in the first position, and the least error in
-    that of `independent`; its interval holds where those of both errors do, which hold together with 95 %."""
+    that hold together with 95 %. A scene in which the interval of some sampler's error reaches 0 is left out of the means: a few pixels then
+    decide it. In the glass sphere Mitsuba makes some of up to 3 10^25 by `ldsampler` and 3 10^7 by `stratified`, of 22 at most by
+    others. Then rows of each scene and number of samples: the samplers in the first position, those whose error is undetermined, and the
+    least error in that of `independent`; its interval holds where those of both errors do, which hold together with 95 %."""
     case = {(r["scene"], int(r["spp"]), r["sampler"]): {k: float(r[k]) for k in ("position", "error", "low", "high")} for r in rows}
     scenes = list(dict.fromkeys(r["scene"] for r in rows))
     for spp in SPP:
