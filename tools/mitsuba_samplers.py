@@ -10,7 +10,8 @@ interpreter. Pictures have about 4,800 pixels; every sampler has up to 16 of the
 `independent`, whose own error is left out of account (koksma.mitsuba.rank). The rows that ship,
 studies/atlas/mitsuba-samplers.csv, are of cornell-box and of these files in docs/scenes of
 github.com/mitsuba-renderer/mitsuba-data, commit 01100fa: integrator_direct_both bsdf_roughplastic_ggx
-emitter_projector_textured bsdf_dielectric_glass sampler_independent_16spp bsdf_roughconductor_textured_carbon."""
+emitter_projector_textured bsdf_dielectric_glass sampler_independent_16spp bsdf_roughconductor_textured_carbon
+medium_homogeneous_sss."""
 import csv
 import json
 import math
@@ -79,7 +80,7 @@ def join(names):
 def summary(rows):
     """Rows of each sampler and number of samples: its error in that of `independent`, the geometric mean over the scenes with Student's
     interval for other scenes; `group`: first, unless its ratios to the sampler of the least mean are surely above 1, by Student's intervals
-    that hold together with 95 %. A scene in which the interval of some sampler's error reaches 0 is left out of the means: a few pixels then
+    that hold together with 95 %; `others`: how many are first beside one. A scene in which the interval of some sampler's error reaches 0 is left out of the means: a few pixels then
     decide it. In the glass sphere Mitsuba makes some of up to 3 10^25 by `ldsampler` and 3 10^7 by `stratified`, of 22 at most by
     others. Then rows of each scene and number of samples: the samplers in the first position, those whose error is undetermined, and the
     least error in that of `independent`; its interval holds where those of both errors do, which hold together with 95 %."""
@@ -89,11 +90,13 @@ def summary(rows):
         sound = [s for s in scenes if all(case[s, spp, name]["low"] > 0 for name in SAMPLERS)]
         logs = {name: [math.log(case[s, spp, name]["error"] / case[s, spp, "independent"]["error"]) for s in sound] for name in SAMPLERS}
         order = sorted(SAMPLERS, key=lambda name: statistics.fmean(logs[name]))
+        behind = {n: interval([x - y for x, y in zip(logs[n], logs[order[0]])], .025 / (len(SAMPLERS) - 1)) for n in order}
+        first = [name for name in order if behind[name][1] <= 0]
         for name in order:
             mean, *ends = map(math.exp, interval(logs[name]))
-            behind = interval([x - y for x, y in zip(logs[name], logs[order[0]])], .025 / (len(SAMPLERS) - 1))
-            yield {"spp": spp, "sampler": name, "group": "rest" if behind[1] > 0 else "first", "mean": mean,
-                   "mean_low": ends[0], "mean_high": ends[1], "first": sum(case[s, spp, name]["position"] == 1 for s in sound), "scenes": len(sound)}
+            yield {"spp": spp, "sampler": name, "group": "first" if name in first else "rest", "others": len(first) - 1, "mean": mean,
+                   "mean_low": ends[0], "mean_high": ends[1], "first": sum(case[s, spp, name]["position"] == 1 for s in sound),
+                   "scenes": len(sound)}
     for scene in scenes:
         for spp in SPP:
             of = {name: case[scene, spp, name] for name in SAMPLERS}
