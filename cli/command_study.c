@@ -3,8 +3,7 @@
  * `koksma study` has one function for each verb, and one table, `verbs`, of the options that each verb takes. The
  * verb `new` writes an example of a plan. `run` measures and renders what plans list, writes the results into a
  * folder, and continues an earlier run in that folder.
- * `export` and `report` write the results of a run again, `audit` computes results again and compares them, and
- * `images` compares sets of images.
+ * `export` and `report` write the results of a run again, `audit` computes results again and compares them.
  */
 #include <math.h>
 #include <stdio.h>
@@ -255,89 +254,6 @@ static int report(const cli_arguments *arguments)
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
-/* ---- images -------------------------------------------------------------------------------------------- */
-
-/* Warns that a template has no {trial}, and names a placeholder that may be a misspelling of it. */
-static void say_no_trial(const char *places)
-{
-    char name[32], meant[96];
-    for (const char *at = strchr(places, '{'); at; at = strchr(at + 1, '{')) {
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(at + 1, "}"), at + 1);
-        if (*cli_meant_of(name, "trial", meant)) {
-            cli_say("study", "'%s' has no {trial} (is it {%s}?), so each group has one image and no interval", places,
-                    name);
-            return;
-        }
-    }
-    cli_say("study", "'%s' has no {trial}, so each group has one image and no interval", places);
-}
-
-static void put_image_rows(cli_rows *out, const koksma_metric_spec *metric, const koksma_images_row *rows, size_t n)
-{
-    char name[KOKSMA_MAX_SPEC];
-    koksma_metric_text(metric, name);
-    for (size_t i = 0; i < n; i++) {
-        cli_row_text(out, "images", rows[i].group[0] ? rows[i].group : "-");
-        if (rows[i].spp) {
-            cli_row_whole(out, "spp", (uint64_t)rows[i].spp);
-        } else { /* the path has no {spp} */
-            cli_row_number(out, "spp", (double)NAN);
-        }
-        cli_row_whole(out, "trials", rows[i].trials);
-        cli_row_number(out, "mean", rows[i].mean);
-        cli_row_number(out, "low", rows[i].low);
-        cli_row_number(out, "high", rows[i].high);
-        cli_row_whole(out, "position", rows[i].position);
-        cli_row_number(out, "behind", rows[i].behind);
-        cli_row_number(out, "behind_low", rows[i].behind_low);
-        cli_row_number(out, "behind_high", rows[i].behind_high);
-        cli_row_number(out, "sd", rows[i].sd);
-        cli_row_number(out, "max", rows[i].max);
-        cli_row_number(out, "rmse", rows[i].rmse);
-        cli_row_text(out, "metric", name);
-        cli_row_number(out, "robust", rows[i].robust);
-        cli_row_number(out, "top_share", rows[i].top_share);
-        cli_row_number(out, "slope", rows[i].slope);
-        cli_row_number(out, "slope_low", rows[i].slope_low);
-        cli_row_number(out, "slope_high", rows[i].slope_high);
-        cli_row_number(out, "coherence", rows[i].coherence.coherence);
-        cli_row_number(out, "noise_high", rows[i].coherence.noise_high);
-        cli_row_flag(out, "coherent", rows[i].coherence.coherent);
-        cli_row_end(out);
-        cli_warn_of_few_pixels("study", rows[i].group[0] ? rows[i].group : "images", name,
-                               &(koksma_metric_value){.robust = rows[i].robust, .top_share = rows[i].top_share});
-    }
-}
-
-static int images(const cli_arguments *arguments)
-{
-    cli_work work;
-    koksma_images_row *rows = NULL;
-    size_t n = 0;
-    const char *reference = cli_text(arguments, "reference", NULL);
-    if (arguments->n_operands != 2 || !reference) {
-        return cli_usage_error(arguments, "images takes a path with placeholders and a reference, such as images "
-                                          "'out_{spp}_{trial}.exr' --reference ref.exr");
-    }
-    cli_metrics metric = {.n = 0};
-    if (!cli_one_metric(arguments, &metric) || !cli_work_begin(arguments, "comparing", &work)) {
-        return CLI_USAGE;
-    }
-    const koksma_status status =
-        koksma_study_images(arguments->operands[1], reference, metric.specs, &work.run, &rows, &n);
-    cli_work_end();
-    if (status) {
-        return cli_fail(arguments, status);
-    }
-    if (n > 1 && !strstr(arguments->operands[1], "{trial}")) {
-        say_no_trial(arguments->operands[1]);
-    }
-    cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
-    put_image_rows(out, metric.specs, rows, n);
-    free(rows);
-    return cli_rows_close(out, CLI_YES);
-}
-
 /* ---- The command --------------------------------------------------------------------------------------- */
 
 /* Returns false, after an error, if an option is given that the verb does not accept. own: the names of the options
@@ -367,14 +283,13 @@ static int run(const cli_arguments *arguments)
                  {"new", new_plan, " output "},
                  {"export", export_rows, " output format "},
                  {"report", report, " "},
-                 {"audit", cli_study_audit, " rows seed json digits long "},
-                 {"images", images, " reference metric json digits long "}};
+                 {"audit", cli_study_audit, " rows seed json digits long "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
         }
     }
-    static const char names[] = "run, new, export, report, audit or images";
+    static const char names[] = "run, new, export, report or audit";
     char meant[96] = "";
     return cli_usage_error(arguments, "%sit takes %s",
                            arguments->n_operands ? cli_meant_of(arguments->operands[0], names, meant) : "", names);
@@ -388,8 +303,6 @@ static const cli_option options[] = {
     {0, "time-limit", "S", "run: stop after S seconds, with exit code 1 if jobs remain (default: 0, no limit)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
     {'s', "seed", "SEED", "audit: seed of the random draw (default: a random one, which is printed)"},
-    {0, "reference", "FILE", "images: the reference image"},
-    {0, "metric", "METRIC", "images: metric of the error that ranks: mae (default), relmse, hdr-flip, ..."},
     {0, "format", "csv|json|npy|sha256",
      "export: the format; json: one object per line (default: by the file's ending, else csv)"},
     CLI_JSON_OPTIONS,
@@ -404,8 +317,7 @@ const cli_command cli_command_study = {
                 "new [FILE]\n"
                 "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
                 "report DIR\n"
-                "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
-                "images 'PLACES' --reference FILE [--json]",
+                "audit DIR [--rows N|all] [--seed SEED] [--json]",
     .details =
         "PLAN is the name of a plan in the library, a JSON file (./plan.json), or the plan itself, which begins "
         "with '{\"'. Paths in a plan are relative to the plan's file, or without a file to the current folder. If "
@@ -425,18 +337,12 @@ const cli_command cli_command_study = {
         "(95 % confidence), which holds because nobody knows before which rows are drawn; --seed repeats a draw. "
         "The exit code is 1 if anything differs. Rows of other plans, files and revisions are counted only, and so "
         "are rows that are missing before the last trial of their series, because a run that is killed leaves such "
-        "gaps; missing rows at the end can't be seen. audit changes nothing, and also works under mpirun.\n"
-        "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in "
-        "braces; images that differ only in {trial} form a group. 'behind' is the relative excess of a group's "
-        "error over the smallest error of a group with the same spp. It has an interval if both groups have the "
-        "same trials, from the differences of images with equal {trial}. 'koksma compare --help' explains "
-        "coherence.\n",
+        "gaps; missing rows at the end can't be seen. audit changes nothing, and also works under mpirun.\n",
     .examples = "koksma study new plan.json\n"
                 "koksma study run ./plan.json -o results --quick\n"
                 "koksma study export results --format csv -o rows.csv\n"
                 "koksma study report results\n"
-                "koksma study audit results --rows all\n"
-                "koksma study images 'mine_{p}_{spp}_{trial}.exr' --reference truth.exr\n",
+                "koksma study audit results --rows all\n",
     .options = options,
     .run = run,
 };

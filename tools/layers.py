@@ -49,14 +49,13 @@ MAY_USE = {
     "study/store": "core study/plan",
     "study/run": "core modules stats patterns measures warps integrands image scene render study/plan study/store api",
     "study/ranking": "core stats optimise patterns measures image scene render study/plan study/run api",
-    "study/images": "core stats image study/plan study/run study/report",
     "study/report": "core stats patterns measures warps integrands image plot render study/plan study/store study/run "
                     "api",
     "study/sheet": "core stats patterns measures integrands verify api image masks maskfiles scene render study/plan study/run study/ranking "
                    "study/report",
     "study/atlas": "core json patterns measures warps integrands image optimise api study/plan study/run study/report study/sheet",
     "cli": "core kernels stats masks maskfiles patterns measures warps integrands api verify identify optimise image domains scene plot render "
-           "study/plan study/run study/ranking study/images study/report study/sheet study/atlas",
+           "study/plan study/run study/ranking study/report study/sheet study/atlas",
 }
 
 
@@ -352,7 +351,7 @@ ABOUT = {
     "integrands": "functions, errors", "optimise": "searches for points", "image": "images, formats, spectra",
     "meshes": "mesh readers", "domains": "points by density, on models", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
     "study/plan": "what to run", "study/store": "results (SQLite)", "study/run": "jobs, threads, MPI",
-    "study/ranking": "order of patterns", "study/images": "images of a study", "study/report": "the report", "study/sheet": "the datasheet", "study/atlas": "the atlas, entries",
+    "study/ranking": "order of patterns", "study/report": "the report", "study/sheet": "the datasheet", "study/atlas": "the atlas, entries",
     "cli": "the program, one file a command; uses all by the public headers",
 }
 

@@ -229,43 +229,6 @@ typedef struct koksma_study_row {
 KOKSMA_API koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t i, koksma_study_row *row,
                                                 bool *found);
 
-/* ---- Images of other renderers ------------------------------------------------------------------------------- */
-
-enum { KOKSMA_IMAGES_GROUP = 256 };
-
-/* A group of images whose paths differ only in {trial}. */
-typedef struct koksma_images_row {
-    char group[KOKSMA_IMAGES_GROUP]; /* the other names in braces with their texts: "pattern=halton scene=ball" */
-    long long spp;                   /* the number at {spp}; 0 if the template has no {spp} */
-    size_t trials;
-    double mean, low, high;   /* mean over the trials of the metric, and its 95 % interval, which begins at 0 or above
-                                 (NaN with one trial) */
-    double robust, top_share; /* means over the trials of these members of koksma_metric_value */
-    double sd, max, rmse;     /* means over the trials of these members of koksma_image_error, whatever the metric
-                                 is */
-    double slope, slope_low, slope_high;    /* log-log slope of the group's mean over {spp} and its interval; NaN
-                                               with one {spp} */
-    koksma_coherence_values coherence;      /* coherence of the errors of all trials, in their order */
-    size_t position;                        /* rank by the mean among the groups with this spp; the group with the
-                                               smallest mean has 1 */
-    double behind, behind_low, behind_high; /* relative excess of the mean over that of the group at position 1 (0.1
-                                               is 10 %), and its 95 % interval from the differences of images with
-                                               equal {trial}, or NaN if the two groups have different trials */
-} koksma_images_row;
-
-/* Compares all images whose paths match a template with a reference image.
-     places     the template, such as "out_{spp}_{trial}.exr": {spp} and {trial} match digits, other names in braces
-                match any text without '/'
-     reference  path of the reference image
-     metric     metric of the image error; NULL: mae
-     rows, n    receive the rows, sorted by group and spp; the caller frees *rows with free()
-   Each image is read twice: for its error and for the coherence of its row.
-   Errors: ARGUMENT (a brace that is not closed), MISSING (no file matches), MALFORMED (a pixel that is not a finite
-   number), those of koksma_image_read, MEMORY, INTERRUPTED. */
-KOKSMA_API koksma_status koksma_study_images(const char *places, const char *reference,
-                                             const koksma_metric_spec *metric, const koksma_run *run,
-                                             koksma_images_row **rows, size_t *n);
-
 /* ---- Ranking patterns for a scene ------------------------------------------------------------------------- */
 
 enum { KOKSMA_MAX_RANK_TRIALS = 65536, KOKSMA_RANK_CHECKS = 2, KOKSMA_RANK_REASON = 256 };

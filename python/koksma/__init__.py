@@ -20,7 +20,6 @@ except ModuleNotFoundError:
 from ._compare import Comparison, MetricValue, compare, metrics
 from ._datasheet import Datasheet, datasheet
 from ._display import load_ipython_extension, unload_ipython_extension
-from ._images import ImageGroup, study_images
 from ._integrate import Component, Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
 from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError, allow_exec, refuse_unknown)
@@ -41,7 +40,7 @@ from ._tolerance import Integral, Interval, Step, estimators, intervals
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Datasheet", "Engine",
-    "Error", "Finding", "ForbiddenError", "Identity", "ImageGroup", "Integral", "Integrand", "Integration",
+    "Error", "Finding", "ForbiddenError", "Identity", "Integral", "Integrand", "Integration",
     "Interval", "Layers", "MalformedError", "MaskQuality", "Member", "MetricValue", "MissingError", "Modifier",
     "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "Replicates",
     "SceneCheck", "ScreenError", "Sensitivity", "Share", "SizeCheck",
@@ -52,7 +51,7 @@ __all__ = [
     "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare",
     "plot_convergence", "radial_power", "rank", "rank_to_error", "read", "read_image", "read_mask", "records",
     "refuse_unknown", "render", "render_replicates", "scenes", "screen_errors", "sensitivity", "spectrum",
-    "study_images", "trials", "verify", "verify_sets", "version", "warp_points", "warps", "write", "write_image",
+    "trials", "verify", "verify_sets", "version", "warp_points", "warps", "write", "write_image",
     "write_mask",
 ]
 

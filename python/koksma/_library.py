@@ -228,8 +228,6 @@ def lab() -> ctypes.CDLL:
     _declare(library, s.SceneCounts, "koksma_scene_count", c_void_p)
     for name in ("warning", "unknown"):
         _declare(library, c_bool, f"koksma_scene_{name}", c_void_p, c_size_t, c_char_p, c_size_t)
-    _declare(library, c_int, "koksma_study_images", c_char_p, c_char_p, POINTER(s.MetricSpec), POINTER(s.Run),
-             POINTER(POINTER(s.ImagesRow)), POINTER(c_size_t))
     _declare(library, c_char_p, "koksma_plan_name_at", c_size_t)
     _declare(library, c_int, "koksma_study_open", POINTER(s.StudyOptions), POINTER(c_void_p))
     _declare(library, c_int, "koksma_study_close", c_void_p)

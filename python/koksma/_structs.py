@@ -9,7 +9,7 @@ MAX_USE_GROUPS = N_USES // 2
 MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
 MAX_SPP, MAX_IMAGE_SIDE, MAX_DEPTH = 1 << 20, 65536, 64
 MAX_RANK_TRIALS, RANK_CHECKS, RANK_REASON = 65536, 2, 256
-MAX_SIZES, IMAGES_GROUP, MAX_STEPS = 64, 256, 32
+MAX_SIZES, MAX_STEPS = 64, 32
 MASK_MIN, MASK_MAX, MASK_MAX_SIDE = 4, 1024, 65
 MAX_INT, MAX_SEED, MAX_INDEX = (1 << 31) - 1, (1 << 64) - 1, (1 << 51) - 1
 
@@ -380,14 +380,6 @@ class Record(Structure):
                 ("source", c_char_p), ("seed", c_uint64), ("steps", c_uint64)]
 
 
-class ImagesRow(Structure):
-    _fields_ = [("group", c_char * IMAGES_GROUP), ("spp", c_longlong), ("trials", c_size_t), ("mean", c_double),
-                ("low", c_double), ("high", c_double), ("robust", c_double), ("top_share", c_double), ("sd", c_double),
-                ("max", c_double), ("rmse", c_double), ("slope", c_double), ("slope_low", c_double), ("slope_high", c_double),
-                ("coherence", CoherenceValues), ("position", c_size_t), ("behind", c_double), ("behind_low", c_double),
-                ("behind_high", c_double)]
-
-
 class DatasheetOptions(Structure):
     _fields_ = [("sampler", c_char_p), ("beside", POINTER(c_char_p)), ("n_beside", c_size_t),
                 ("scenes", POINTER(c_char_p)), ("n_scenes", c_size_t), ("metric", c_char_p), ("quick", c_bool)]
@@ -439,7 +431,7 @@ CONSTANTS = [
     ("render.h", "KOKSMA_N_USES", N_USES), ("render.h", "KOKSMA_MAX_USE_GROUPS", MAX_USE_GROUPS),
     ("image.h", "KOKSMA_MAX_IMAGE_SIDE", MAX_IMAGE_SIDE), ("koksma.h", "(size_t)INT_MAX", MAX_INT),
     ("study.h", "KOKSMA_MAX_RANK_TRIALS", MAX_RANK_TRIALS), ("study.h", "KOKSMA_RANK_CHECKS", RANK_CHECKS),
-    ("study.h", "KOKSMA_RANK_REASON", RANK_REASON), ("study.h", "KOKSMA_IMAGES_GROUP", IMAGES_GROUP),
+    ("study.h", "KOKSMA_RANK_REASON", RANK_REASON),
     ("koksma.h", "UINT64_MAX", MAX_SEED), ("koksma.h", "KOKSMA_MAX_INDEX", MAX_INDEX), ("series.h", "KOKSMA_MAX_SIZES", MAX_SIZES),
     ("estimate.h", "KOKSMA_MAX_STEPS", MAX_STEPS),
 ]
@@ -484,7 +476,6 @@ LAYOUTS = [
     ("study.h", "koksma_rank_check_result", RankCheckResult),
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),
     ("study.h", "koksma_target_row", TargetRow), ("study.h", "koksma_target_ranking", TargetRanking),
-    ("study.h", "koksma_images_row", ImagesRow),
     ("render.h", "koksma_scene_counts", SceneCounts),
     ("optimise.h", "koksma_record", Record),
 ]

@@ -95,13 +95,11 @@ measure pattern:n-r^ n-rooks
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
 rank ball --with ^ mitsuba FILES
-study ^ run new export report audit images
+study ^ run new export report audit
 study run ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 study export ^ FILES
 study export x --format ^ csv json npy sha256
 study export x --format=js^ json
-study images ^ FILES
-study images x --reference ^ FILES
 reproduce ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 reproduce shirley1991 --table ^ all none
 reproduce shirley1991 -o ^ FILES

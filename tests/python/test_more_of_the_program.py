@@ -137,37 +137,5 @@ class Scenes(unittest.TestCase):
             koksma.render("ball", spp=1, size=(4, 4), probes=3)
 
 
-class Images(unittest.TestCase):
-    def test_groups(self):
-        """The program's rows; the error of a group is the mean absolute error of its images."""
-        truth = koksma.render("ball", "jittered", 256, size=(16, 12))
-        with tempfile.TemporaryDirectory() as folder:
-            reference, places = os.path.join(folder, "truth.pfm"), os.path.join(folder, "i_{p}_{spp}_{trial}.pfm")
-            koksma.write_image(reference, truth)
-            errors = {}
-            for pattern in ("random", "jittered"):
-                for spp in (4, 16, 64):
-                    for trial in range(3):
-                        image = koksma.render("ball", pattern, spp, size=(16, 12), seed=trial)
-                        koksma.write_image(os.path.join(folder, f"i_{pattern}_{spp}_{trial}.pfm"), image)
-                        errors.setdefault((f"p={pattern}", spp), []).append(koksma.compare(image, truth).mean)
-            rows = [json.loads(line) for line in program("study", "images", places, "--reference", reference, "--json").splitlines()]
-            found = koksma.study_images(places, reference)
-            self.assertEqual(len(found), len(rows))
-            for group, row in zip(found, rows):
-                self.assertAlmostEqual(group.error, np.mean(errors[group.group, group.spp]), 12)
-                self.assertIn(group.error, row.values())
-                self.assertEqual(group.trials, 3)
-                self.assertEqual(group.position == 1, np.isnan(group.behind) or group.behind == 0)
-            self.assertEqual({g.position for g in found}, {1, 2})
-            for call, kind, said in ((lambda: koksma.study_images(places, os.path.join(folder, "none.pfm")), koksma.MissingError, "none.pfm"),
-                                     (lambda: koksma.study_images(os.path.join(folder, "x_{trial}.pfm"), reference), koksma.MissingError, "x_"),
-                                     (lambda: koksma.study_images(places, reference, metric="q"), koksma.ArgumentError, r"koksma\.metrics"),
-                                     (lambda: koksma.study_images("i_{trial.pfm", reference), koksma.ArgumentError, "i_"),
-                                     (lambda: koksma.study_images(3, reference), TypeError, "places must be a str")):
-                with self.subTest(said=said), self.assertRaisesRegex(kind, said):
-                    call()
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -67,8 +67,7 @@ class WrongArguments(unittest.TestCase):
                 (koksma.audit, dict(folder="done")), (koksma.Study, dict(plan=plan)), (koksma.Engine, dict(pattern="sobol")),
                 (engine.random, {}), (engine.random_base2, dict(m=0)), (engine.fast_forward, dict(n=1)),
                 (koksma.warp_points, dict(points=points, warp="polar-disk")),
-                (koksma.local_discrepancy, dict(points=points, corner=[0.5, 0.5])), (koksma.check_scene, dict(scene="ball")),
-                (koksma.study_images, dict(places="i_{trial}.pfm", reference="i.pfm"))):
+                (koksma.local_discrepancy, dict(points=points, corner=[0.5, 0.5])), (koksma.check_scene, dict(scene="ball"))):
             yield function, given
         yield lambda seconds=1: koksma.allow_exec(seconds).__enter__(), {}
 
