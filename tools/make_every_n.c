@@ -9,8 +9,8 @@
  *     git show 069480af:src/engine/patterns/data/every_n.csv |
  *         /tmp/make_every_n src/engine/patterns/data/records.csv 1500000 1 >/tmp/plane
  *
- * The points after them are those of `l2 2 128 300 1` of the earlier program (git show bf89f9bf^:tools/make_every_n.c), with
- * these 128 as its table.
+ * The points after them are those of `l2 2 128 300 1` of the earlier program (git show bf89f9bf^:tools/make_every_n.c),
+ * with these 128 as its table.
  *
  * Simulated annealing of the sum of D*(n) / record(n) over n = 8 .. 128, with a penalty on ratios above 2.2. A proposal
  * moves a coordinate or both of a point, exchanges the places of two points in the order or one coordinate of theirs, or
