@@ -8,6 +8,7 @@
 #ifndef KOKSMA_CORE_RANDOM_H
 #define KOKSMA_CORE_RANDOM_H
 
+#define R123_USE_SSE 0 /* Philox uses none, and all intrinsics take a compiler .3 s a file */
 #include <Random123/philox.h>
 #include <stdint.h>
 
