@@ -157,11 +157,16 @@ static void advise_tied(const koksma_rank_options *options, const koksma_rank_ro
     for (size_t i = 0; i < ranking->n; i++) {
         first += rows[i].position == 1;
     }
-    fprintf(stderr, ", whose error%s exceeds that of the best%s by at most ",
-            ranking->without_few ? " without the 0.1 % of the pixels that err most" : "",
-            bands ? " without bands" : "");
-    print_two_digits(100 * ranking->within);
-    fprintf(stderr, " %%%s", ranking->without_few ? " (all pixels leave it undecided)" : "");
+    const char *few = ranking->without_few ? " without the 0.1 % of the pixels that err most" : "";
+    const char *all = ranking->without_few ? " (all pixels leave it undecided)" : "",
+               *of = bands ? " without bands" : "";
+    if (ranking->within > 0) {
+        fprintf(stderr, ", whose error%s exceeds that of the best%s by at most ", few, of);
+        print_two_digits(100 * ranking->within);
+        fprintf(stderr, " %%%s", all);
+    } else {
+        fprintf(stderr, ", whose error%s is the least%s%s", few, of, all);
+    }
     if (first > 1) {
         fprintf(stderr, "; not told apart: ");
         print_patterns(options, rows, ranking->n, KOKSMA_RANK_UNDECIDED, 1);
