@@ -2,6 +2,8 @@
 /* Our own elementary functions beside true values, and bits that every machine must give. */
 #include "test.h"
 
+#include <stdlib.h>
+
 #include "core/elementary.h"
 #include "core/random.h"
 
