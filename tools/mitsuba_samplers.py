@@ -11,7 +11,7 @@ interpreter. Pictures have about 4,800 pixels; every sampler has up to 16 of the
 studies/atlas/mitsuba-samplers.csv, are of cornell-box and of these files in docs/scenes of
 github.com/mitsuba-renderer/mitsuba-data, commit 01100fa: integrator_direct_both bsdf_roughplastic_ggx
 emitter_projector_textured bsdf_dielectric_glass sampler_independent_16spp bsdf_roughconductor_textured_carbon
-medium_homogeneous_sss integrator_depth_inf."""
+medium_homogeneous_sss integrator_depth_inf emitter_spot_texture."""
 import csv
 import json
 import math
