@@ -401,13 +401,13 @@ typedef struct koksma_ranking {
         use_row; /* row of the pattern to use, among those whose error is not coherent, or among all if every error is: the
                     advised one; if there is none, that of the smallest `within`, if this is at most KOKSMA_RANK_TIE; else
                     that with the least error so far */
-    /* the most by which the error of the pattern to use exceeds that of any other ranked pattern (without coherent error, if
-       its own is not), relative to that error: the largest bound of the intervals of these differences, which hold together.
+    /* the most by which the error of the pattern to use exceeds that of any other ranked pattern (without coherent error,
+       if its own is not), relative to that error: the largest bound of the intervals of these, which hold together.
        Up to KOKSMA_RANK_TIE it decides which pattern to use although it may not be `settled` which is the best. Infinite:
        not known */
     double within;
-    /* true: the errors leave open which pattern to use, but those without the 0.1 % of pixels that err most (`robust` of the
-       rows) do not: `use_row` and `within` are of these */
+    /* true: the errors leave open which pattern to use, but those without the 0.1 % of pixels that err most (`robust` of
+       the rows) do not: `use_row` and `within` are of these */
     bool without_few;
     /* how many samples of the pattern random leave as much error as spp samples of the pattern to use, because the error
        of random falls as n^-1/2; with an interval, NaN at both ends if it is not known. NaN: random is not ranked, or the
