@@ -8,6 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __APPLE__
+#include <sys/random.h> /* getentropy, which others have in unistd.h */
+#endif
 #include <unistd.h>
 
 #include <koksma/study.h>
