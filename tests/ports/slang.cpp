@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of tests/ports/vectors.c by the Slang port, as C++ that slangc made of vectors.slang; with an argument, the errors
-// of its example.
+// The table of tests/ports/vectors.c by the Slang port, as C++ that slangc made of vectors.slang; with an argument, the
+// errors of its example.
 #include "slang_vectors.h"
 
 #include <cmath>

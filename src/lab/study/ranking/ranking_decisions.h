@@ -131,9 +131,9 @@ koksma__estimate koksma__rank_compare(const koksma__rank_table *table, size_t i,
 
 /* The most by which the error of i exceeds that of any other pattern with a complete round, relative to that error, by
    the intervals of koksma__rank_compare after all rounds; 0 if i is decided to be the best of them. incoherent: only
-   patterns whose error is not coherent count. Infinite if nothing is known: i does not count or has no complete round, or no other has one. The
-   intervals hold together with the decisions, so that this needs no share of alpha (Bechhofer 1954 calls the difference up
-   to which a choice does not matter the indifference zone). */
+   patterns whose error is not coherent count. Infinite if nothing is known: i does not count or has no complete round, or
+   no other has one. The intervals hold together with the decisions, so that this needs no share of alpha (Bechhofer 1954
+   calls the difference up to which a choice does not matter the indifference zone). */
 double koksma__rank_excess(const koksma__rank_table *table, size_t i, bool incoherent);
 
 /* koksma__rank_matters: whether the goal needs another round of the pair. koksma__rank_reached: whether the goal is
