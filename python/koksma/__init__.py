@@ -76,6 +76,7 @@ else:
     _show_types()
 
     def _hint_at_arguments() -> None:
+        import sys
         from types import FunctionType
 
         from ._library import with_hints
@@ -83,8 +84,9 @@ else:
         hinting = {}  # methods with two names stay one
         for name in __all__:
             item = globals().get(name)
-            if isinstance(item, FunctionType):
+            if isinstance(item, FunctionType):  # in its module, too: pickle looks there
                 globals()[name] = with_hints(item)
+                setattr(sys.modules[item.__module__], item.__name__, globals()[name])
             for method, function in list(vars(item).items()) if isinstance(item, type) else ():
                 if isinstance(function, FunctionType) and not method.startswith("_"):
                     setattr(item, method, hinting.setdefault(function, with_hints(function)))

@@ -92,7 +92,6 @@ with tempfile.TemporaryDirectory() as folder:
                  ["curve", "power", long_source], ["curve", "pairs", "pattern:random@16", long_source],
                  ["rank", "ball", "--size", "16x12", "--spp", "1,4", "--max-trials", "8", "--one-size", "-p", "random,sobol:scramble=owen"],
                  ["compare", "1.pfm", "2.pfm"], ["compare", "1.pfm", "1.pfm", "2.pfm"], ["scene", "check", "ball"],
-                 ["study", "images", "{trial}.pfm", "--reference", "1.pfm"],
                  ["optimise", "l2-star", "-n", "6", "--steps", "1", "-o", "six.txt"]):
         look(*line)
         check(SANITIZED or rows(*line), f"{line}: no JSON")

@@ -163,7 +163,7 @@ PLACES = {
     "datasheet": [["{}", "--quick", "-o", "s.html"], ["random", "{}", "--quick", "-o", "s.html"]],
     "study": [["quick", "-p", "{}", "-n", "2", "--trials", "2", "-o", "q"], ["quick", "-p", "random", "-m", "{}", "-n", "2", "-o", "q"],
               ["quick", "-p", "random", "-n", "2", "--scene", "{}", "-o", "q"], ["estimate", "a.json"], ["run", "a.json", "-o", "q"],
-              ["run", "{}", "-o", "q"], ["report", "{}"], ["audit", "{}"], ["export", "{}"], ["images", "{}", "--reference", "{}"]],
+              ["run", "{}", "-o", "q"], ["report", "{}"], ["audit", "{}"], ["export", "{}"]],
     "reproduce": [["{}", "-o", "q"], ["./a.json", "-o", "q"]],
     "completion": [["{}"]],
     "manual": [["{}"]],
