@@ -30,9 +30,11 @@ def long_call():
 
 
 def send_in_call(number):
-    """Starts a thread that sends the signal when a call of the library has the handlers."""
+    """Starts a thread that sends the signal when a call of the library has the handlers; after seconds anyway, as a function in
+    Python that calls the library for short parts of its work may have them for moments only, and then not at all."""
     def send():
-        while not isinstance(signal.getsignal(number), Signals):
+        end = time.monotonic() + 5
+        while not isinstance(signal.getsignal(number), Signals) and time.monotonic() < end:
             time.sleep(0.001)
         os.kill(os.getpid(), number)
 
