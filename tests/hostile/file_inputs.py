@@ -149,7 +149,7 @@ def named_by_files(folder):
 def named_by_user():
     return [
         ("IMAGE", ".png", "compare", lambda name: ["compare", name, name]),
-        ("IMAGE", ".exr", "reference", lambda name: ["study", "images", "good_{spp}.pfm", "--reference", name]),
+        ("IMAGE", ".exr", "reference", lambda name: ["compare", "good_4.pfm", "-r", name]),
         ("SCENE", ".json", "scene", lambda name: ["scene", "check", "./" + name]),
         ("MESH", ".obj", "model", lambda name: ["scene", "check", "./" + name]),
         ("MESH", ".glb", "model", lambda name: ["scene", "check", "./" + name]),
