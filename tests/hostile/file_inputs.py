@@ -159,7 +159,7 @@ def named_by_user():
         ("MESH", ".obj", "surface", lambda name: ["generate", "random", "-n", "4", "--on", name]),
         ("PARAMETERS", ".txt", "radial power",
          lambda name: ["optimise", "--power", name, "-n", "4", "--steps", "1", "-q", "-o", "set.txt"]),
-        ("PLAN", ".json", "plan", lambda name: ["study", "estimate", "./" + name]),
+        ("PLAN", ".json", "plan", lambda name: ["study", "run", "-o", "q", "./" + name]),
         ("POINTS", ".csv", "points", lambda name: ["measure", name, "-m", "l2-star"]),
         ("POINTS", ".npy", "points", lambda name: ["measure", name, "-m", "l2-star"]),
     ]
