@@ -1530,6 +1530,8 @@ static const struct {
     {"b.pbrt", "Film \"rgb\" \"float iso\" -50 Camera \"perspective\" WorldBegin LightSource \"infinite\"",
      "open from 0 to 1, at ISO -50"},
     {"b.pbrt", "Bake 3", ":1: 'Bake' is not a directive of pbrt-v4"},
+    {"b.pbrt", "WorldBegin\nWorldEnd",
+     ":2: 'WorldEnd' is not a directive of pbrt-v4 but of pbrt-v3; 'pbrt --upgrade FILE'"},
     {"b.pbrt", PBRT "AttributeEnd", ":2: an AttributeEnd, ObjectEnd or TransformEnd without its begin"},
     {"b.pbrt", PBRT "ObjectEnd", "ObjectEnd without ObjectBegin"},
     {"b.pbrt", PBRT "ObjectInstance \"x\"", "no object 'x'"},

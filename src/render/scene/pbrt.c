@@ -873,7 +873,9 @@ static koksma_status read_source(reader *r, source *s)
             }
             snprintf(word, sizeof word, "%.*s", t.length < 40 ? (int)t.length : 40, t.at);
             return koksma__import_fail(s->place, "'%s' is not a directive of pbrt-v4%s", word,
-                                       koksma__or_meant(koksma__word_list_closest(&names, word), meant));
+                                       !strcmp(word, "WorldEnd")
+                                           ? " but of pbrt-v3; 'pbrt --upgrade FILE' prints a file as one of pbrt-v4"
+                                           : koksma__or_meant(koksma__word_list_closest(&names, word), meant));
         }
         KOKSMA__TRY(read_directive(r, s, &directives[i]));
     }
