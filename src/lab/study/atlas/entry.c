@@ -318,7 +318,8 @@ static koksma_status compare(const entry *e, koksma_entry_result *r, const koksm
     }
     if (!strcmp(r->verdict, "accepted") && !(sign * (r->value - value) > clear)) {
         r->verdict = "worse";
-        koksma__snprintf(r->reason, sizeof r->reason, "%.17g is not better than %.17g, the value of %.150s", r->value,
+        koksma__snprintf(r->reason, sizeof r->reason,
+                         "%.17g is not better by more than %g than %.17g, the value of %.150s", r->value, clear,
                          value, name);
     }
     return KOKSMA_OK;
