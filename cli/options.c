@@ -451,7 +451,8 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
     char *end;
     const double value = strtod(text, &end);
     if (end == text || *end || !(value >= min && value <= max)) {
-        cli_usage_error(arguments, "--%s %s: it takes a number from %g to %g", name, text, min, max);
+        cli_usage_error(arguments, "--%s %s: it takes a number from %g to %g%s", name, text, min, max,
+                        strchr(text, '%') ? "; 1 % is 0.01" : "");
         return false;
     }
     *out = value;

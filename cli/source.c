@@ -188,6 +188,14 @@ static int read_scaled(const cli_arguments *arguments, const char *path, const c
                                "--scale %s: it takes one number, or one for each of the %d coordinates of %s", scale,
                                points->dim, path);
     }
+    size_t counted = 0; /* rows whose first coordinate is their number */
+    while (counted < points->n && points->xs[counted * (size_t)points->dim] == points->xs[0] + (double)counted) {
+        counted++;
+    }
+    if (points->dim > 1 && counted == points->n && counted > 2 && !option_text(arguments, "quiet")) {
+        cli_say(arguments->command->name,
+                "%s: warning: the first column counts the rows; if it is an index, leave it out", path);
+    }
     for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
         const double divisor = divisors[n == 1 ? 0 : i % (size_t)points->dim], x = points->xs[i];
         if (!(x >= 0 && x <= divisor)) {

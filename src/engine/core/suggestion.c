@@ -3,14 +3,13 @@
  * Finds the name that a misspelt word probably means: the name that the fewest edits turn the word into. An edit
  * inserts, deletes or replaces a character or swaps two neighbours (Damerau 1964). No edit is made inside a swapped
  * pair (the "optimal string alignment" distance); the dynamic programme stores three rows of its table. A word that
- * is the beginning of a name counts as one edit away, so that `jitter` means jittered, and one that begins with a name as
- * at most two: `ranking` means rank. Among equally close names the one with the longer common beginning wins, and among
- * these the first in the table.
+ * is the beginning of a name counts as one edit away, so that `jitter` means jittered; one that begins with a name, or
+ * is its last part, as at most two: `ranking` means rank, `trials` max-trials. A _ is a -. Among equally close names the
+ * one with the longer common beginning wins, and among these the first in the table.
  */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 #include "core/lookup.h"
 
@@ -32,7 +31,7 @@ static size_t common_beginning(const char *a, const char *b)
 
 static bool equal(char a, char b)
 {
-    return tolower((unsigned char)a) == tolower((unsigned char)b);
+    return tolower((unsigned char)(a == '_' ? '-' : a)) == tolower((unsigned char)(b == '_' ? '-' : b));
 }
 
 static size_t edits(const char *a, size_t n, const char *b, size_t m)
@@ -72,6 +71,10 @@ const char *koksma_closest_name(const char *word, koksma_name_at *name, const vo
         }
         size_t distance = length >= 3 && beginning == length ? 1 : edits(word, length, candidate, size);
         distance = size >= 4 && beginning == size ? least(distance, 2) : distance;
+        if (length >= 4 && size > length && candidate[size - length - 1] == '-' &&
+            !edits(word, length, candidate + size - length, length)) {
+            distance = least(distance, 2); /* trials: max-trials */
+        }
         if (distance < fewest || (distance == fewest && closest && beginning > common_beginning(word, closest))) {
             fewest = distance;
             closest = candidate;
@@ -92,6 +95,7 @@ static const struct {
     const char *what, *name, *ours, *there;
 } foreign[] = {
     {"measure", "CD", "l2-centered", "scipy's CD is its square"},
+    {"measure", "centred", "l2-centered", "Hickernell 1998"},
     {"measure", "WD", "l2-wraparound", "scipy's WD is its square"},
     {"measure", "MD", "l2-mixture", "scipy's MD is its square"},
     {"measure", "L2-star", "l2-star", "scipy's L2-star is the same"},
@@ -105,6 +109,7 @@ static const struct {
     {"pattern", "ldsampler", "sobol:scramble=digital-shift",
      "Mitsuba's is a (0,2)-sequence, shifted digitally in each pixel"},
     {"pattern", "paddedsobol", "sobol:scramble=owen", "pbrt pads two-dimensional sets of it, as renders here do"},
+    {"pattern", "tabulated-sobol", "sobol:scramble=owen", "Blender's table of Owen-scrambled Sobol' points"},
     {"pattern", "zsobol", "z-sampler", "pbrt calls it so"},
     {"pattern", "owen", "sobol:scramble=owen", "Owen's scrambling is a parameter of 'sobol'"},
     {"pattern", "owen-sobol", "sobol:scramble=owen", "Owen's scrambling is a parameter of 'sobol'"},
@@ -135,6 +140,8 @@ static const struct {
     {"metric", "l1", "mae", "the mean absolute error"},
     {"metric", "flip", "ldr-flip", "or hdr-flip, over exposures"},
     {"metric", "ssim", "ldr-flip", "there is no SSIM; FLIP, too, judges as eyes do"},
+    {"metric", "blur", "rmse", "rmse:blur=1 blurs both images by a Gaussian of 1 pixel"},
+    {"metric", "relative", "relmse", "it divides by the square of the reference"},
     {"metric", "mape", "smape", "the symmetric one; relmse divides by the square of the reference"},
 };
 
@@ -143,8 +150,10 @@ koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_na
 {
     char meant[KOKSMA__MEANT];
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
-        KOKSMA__FAIL_IF(!strcmp(what, foreign[i].what) && !strcasecmp(word, foreign[i].name), KOKSMA_UNKNOWN,
-                        "no %s '%s'; did you mean '%s'? %s", what, word, foreign[i].ours, foreign[i].there);
+        const char *name_there = foreign[i].name;
+        KOKSMA__FAIL_IF(!strcmp(what, foreign[i].what) && !edits(word, strlen(word), name_there, strlen(name_there)),
+                        KOKSMA_UNKNOWN, "no %s '%s'; did you mean '%s'? %s", what, word, foreign[i].ours,
+                        foreign[i].there);
     }
     return koksma__fail(KOKSMA_UNKNOWN, "no %s '%s'; %s%s", what, word, koksma__meant(word, name, table, meant),
                         where);
