@@ -115,6 +115,18 @@ static void put_number(const char *key, double value)
     printf(isfinite(value) ? ",\"%s\":%.6g" : ",\"%s\":null", key, value);
 }
 
+/* Wilson's 95 % interval of a share that was seen in `count` runs: NAME_low and NAME_high. */
+static void put_wilson(const char *name, double share, double count)
+{
+    const double z = 1.959964, middle = (share + z * z / (2 * count)) / (1 + z * z / count),
+                 half = z * sqrt(share * (1 - share) / count + z * z / (4 * count * count)) / (1 + z * z / count);
+    char key[64];
+    snprintf(key, sizeof key, "%s_low", name);
+    put_number(key, middle - half);
+    snprintf(key, sizeof key, "%s_high", name);
+    put_number(key, middle + half);
+}
+
 static void put_rows(const koksma_integral *integral, const double *estimates, double share, size_t runs,
                      size_t replicates)
 {
@@ -151,6 +163,7 @@ static void put_rows(const koksma_integral *integral, const double *estimates, d
         snprintf(key, sizeof key, "%s_width", interval->name);
         put_number(interval->name, covered / count);
         put_number(key, width / count);
+        put_wilson(interval->name, covered / count, count);
         if (!interval->estimator) {
             snprintf(key, sizeof key, "%s_rmse", interval->name);
             put_number(key, sqrt(square / count) / root);
