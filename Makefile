@@ -25,6 +25,7 @@
 #   make dist        write build/dist/koksma-VERSION.tar.gz; the same commit gives the same bytes
 #   make dist-test   build and test from that archive, in an empty directory without git
 #   make wheel       build a self-contained Python wheel, and try it with the newest NumPy and SciPy
+#   make targets     build wheels for other systems than this one, and a static program: build/targets; TAGS="win_amd64"
 #   make npm         build the package @koksma/koksma for Node and browsers: build/npm
 #   make deb         write Debian packages to build/deb and check them with lintian
 #   make cross       build for aarch64 and run the tests of libkoksma under qemu; MACHINES="aarch64 s390x i686"
@@ -40,10 +41,11 @@ DEMO ?= demo
 TRIALS ?=
 BASE ?= main
 MACHINES ?= aarch64
+TAGS ?=
 SEED ?= 1
 QUICK ?=
 
-.PHONY: help experiment demo check test test-all bench install masks docs paper explorer wheel npm deb dist dist-test cross same-bits release clean
+.PHONY: help experiment demo check test test-all bench install masks docs paper explorer wheel targets npm deb dist dist-test cross same-bits release clean
 
 help:
 	@sed -n 's/^#   //p; s/^#$$//p' Makefile | sed '1{/^$$/d}'
@@ -70,6 +72,7 @@ test-all:
 	@scripts/setup explorer browser || echo "make test-all: emcc or Chromium is missing; the tests that need it are skipped" >&2
 	@scripts/test clang dev
 	@scripts/test-lean
+	@scripts/setup cross
 	@scripts/cross $(MACHINES)
 	@$(MAKE) deb
 
@@ -111,6 +114,10 @@ wheel:
 	@scripts/setup build
 	@scripts/wheel
 
+targets:
+	@scripts/setup build cross
+	@scripts/targets $(TAGS)
+
 npm:
 	@scripts/setup explorer
 	@scripts/npm
@@ -120,9 +127,11 @@ deb:
 	@scripts/deb
 
 cross:
+	@scripts/setup build test cross
 	@scripts/cross $(MACHINES)
 
 same-bits: release
+	@scripts/setup cross explorer
 	@scripts/same-bits
 
 clean:
