@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma integrate`: estimates integrals of functions by means over point sets and prints the errors against n, and
- * the analysis of variance of the functions. Operands are integrands, then sources of points as `koksma measure`
- * takes them; sources of one pattern that differ in their size become one series with a slope. Rows are printed in
- * three tables: errors, slopes, variance. cli/integrands.c opens the functions, cli/estimating.c has the
- * estimates of functions whose integral is not known.
+ * `koksma integrate`: estimates integrals of functions by means over point sets and prints the errors against n.
+ * Operands are integrands, then sources of points as `koksma measure` takes them; sources of one pattern that differ in
+ * their size become one series with a slope. Rows are printed in two tables: errors, slopes. cli/integrands.c opens the
+ * functions, cli/estimating.c has the estimates of functions whose integral is not known.
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +14,7 @@
 
 #include "integrating.h"
 
-enum { MOST_TRIALS = 1000000, MOST_PAIRED_AXES = 16 };
+enum { MOST_TRIALS = 1000000 };
 
 /* A pattern with its sizes, or a file. */
 typedef struct series {
@@ -49,46 +48,27 @@ typedef struct job {
     size_t n_deterministic;
     char deterministic[KOKSMA_MAX_SPEC]; /* the first deterministic pattern */
     char biased[KOKSMA_MAX_SPEC];        /* the last pattern that was found to be biased */
-    cli_integrands integrands;
 } job;
 
-/* What a function that cli_integrands_each calls has as its context: the job, and what else it needs. */
+/* The context of a function that cli_integrands_each calls. */
 typedef struct of_job {
     job *j;
-    void *other;
+    series *s;
 } of_job;
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
-/* Adds a column with one coordinate or a pair of coordinates. */
-static void put_axes(job *j, const int *axes, size_t n_axes)
+static void put_error(job *j, const koksma_integral_facts *facts, const series *s, const koksma_integration_row *row)
 {
-    char text[32], json[40];
-    snprintf(text, sizeof text, n_axes == 1 ? "%d" : "%d,%d", axes[0], axes[n_axes - 1]);
-    snprintf(json, sizeof json, "[%s]", text);
-    cli_row_json(j->rows, "axes", json, text);
-}
-
-/* Adds the first columns of a row of errors, after the name of the integrand or component. dim: 0 for a component,
-   whose rows have no column `dim`. */
-static void put_rmse(job *j, const series *s, int dim, const koksma_integration_row *row)
-{
+    cli_row_text(j->rows, "integrand", facts->text);
     cli_row_text(j->rows, "source", s->text);
     cli_row_whole(j->rows, "n", row->n);
-    if (dim) {
-        cli_row_whole(j->rows, "dim", (uint64_t)dim);
-    }
+    cli_row_whole(j->rows, "dim", (uint64_t)facts->dim);
     cli_row_whole(j->rows, "trials", row->trials);
     cli_row_number(j->rows, "rmse", row->rmse);
     cli_row_number(j->rows, "low", row->low);
     cli_row_number(j->rows, "high", row->high);
     cli_row_flag(j->rows, "approximate", row->approximate);
-}
-
-static void put_error(job *j, const koksma_integral_facts *facts, const series *s, const koksma_integration_row *row)
-{
-    cli_row_text(j->rows, "integrand", facts->text);
-    put_rmse(j, s, facts->dim, row);
     cli_row_number(j->rows, "gain", row->gain);
     cli_row_number(j->rows, "mean", row->mean);
     cli_row_number(j->rows, "sd", row->sd);
@@ -163,106 +143,6 @@ static int integrate(job *j, const koksma_integral *integral, series *s)
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
-/* ---- Analysis of variance ------------------------------------------------------------------------------------ */
-
-static int put_share(job *j, const koksma_integral *integral, const char *name, const int *axes, size_t n_axes,
-                     uint64_t samples)
-{
-    koksma_sensitivity s;
-    const koksma_status status =
-        koksma_integral_sensitivity(integral, axes, n_axes, samples, j->seed, &j->work.run, &s);
-    if (status) {
-        return cli_fail(j->arguments, status);
-    }
-    cli_row_text(j->rows, "variance_of", name);
-    put_axes(j, axes, n_axes);
-    cli_row_number(j->rows, "share", s.component.value);
-    cli_row_number(j->rows, "low", s.component.low);
-    cli_row_number(j->rows, "high", s.component.high);
-    cli_row_number(j->rows, "total", s.total.value);
-    cli_row_number(j->rows, "total_low", s.total.low);
-    cli_row_number(j->rows, "total_high", s.total.high);
-    cli_row_flag(j->rows, "exact", s.exact);
-    cli_row_number(j->rows, "variance", s.variance);
-    cli_row_end(j->rows);
-    return CLI_YES;
-}
-
-/* Prints the error of integrating the component of these coordinates over the largest sets of a series, and the
-   square of this error divided by `square`, the mean squared error of the integrand itself. Components are known for
-   products of functions of one coordinate; for other integrands nothing is printed. Returns the exit code. */
-static int put_component(job *j, const koksma_integral *integral, const char *name, series *s, double square,
-                         const int *axes, size_t n_axes)
-{
-    koksma_integral *component;
-    koksma_integration result;
-    koksma_status status = koksma_integral_component(integral, axes, n_axes, &component);
-    if (status) {
-        return status == KOKSMA_UNSUPPORTED ? CLI_YES : cli_fail(j->arguments, status);
-    }
-    status = errors_of(j, component, s, &result);
-    koksma_integral_close(component);
-    if (status) {
-        return cli_fail(j->arguments, status);
-    }
-    const koksma_integration_row *row = &result.rows[0];
-    cli_row_text(j->rows, "error_of", name);
-    put_axes(j, axes, n_axes);
-    put_rmse(j, s, 0, row);
-    cli_row_number(j->rows, "part", row->rmse * row->rmse / square);
-    cli_row_end(j->rows);
-    return CLI_YES;
-}
-
-/* Prints the errors of the components of all coordinates and of all pairs of coordinates, for one series. */
-static int put_components(const koksma_integral *integral, void *context)
-{
-    job *j = ((of_job *)context)->j;
-    const series *all = ((of_job *)context)->other;
-    series *s = malloc(sizeof *s);
-    koksma_integration result;
-    koksma_integral_facts facts;
-    if (!s) {
-        return cli_no_memory();
-    }
-    *s = *all;
-    for (size_t i = 0; i < all->options.n_sizes; i++) {
-        s->options.sizes[0] =
-            all->options.sizes[i] > s->options.sizes[0] ? all->options.sizes[i] : s->options.sizes[0];
-    }
-    s->options.n_sizes = 1;
-    koksma_integral_about(integral, &facts);
-    const koksma_status status = errors_of(j, integral, s, &result);
-    int code = status ? cli_fail(j->arguments, status) : CLI_YES;
-    const double square = code ? 0 : result.rows[0].rmse * result.rows[0].rmse;
-    for (int a = 0; a < facts.axes && !code; a++) {
-        code = put_component(j, integral, facts.text, s, square, &a, 1);
-    }
-    for (int a = 0; facts.axes <= MOST_PAIRED_AXES && a < facts.axes; a++) {
-        for (int b = a + 1; b < facts.axes && !code; b++) {
-            code = put_component(j, integral, facts.text, s, square, (int[]){a, b}, 2);
-        }
-    }
-    free(s);
-    return code;
-}
-
-static int put_variance(job *j, const koksma_integral *integral, uint64_t samples)
-{
-    koksma_integral_facts facts;
-    koksma_integral_about(integral, &facts);
-    int code = CLI_YES;
-    for (int a = 0; a < facts.axes && !code; a++) {
-        code = put_share(j, integral, facts.text, &a, 1, samples);
-    }
-    for (int a = 0; facts.axes <= MOST_PAIRED_AXES && a < facts.axes; a++) {
-        for (int b = a + 1; b < facts.axes && !code; b++) {
-            code = put_share(j, integral, facts.text, (int[]){a, b}, 2, samples);
-        }
-    }
-    return code;
-}
-
 /* ---- The command --------------------------------------------------------------------------------------------- */
 
 /* Whether two operands write the same name of a pattern. */
@@ -334,24 +214,10 @@ static int open_series(job *j, int i)
 static int errors_of_series(const koksma_integral *integral, void *context)
 {
     job *j = ((of_job *)context)->j;
-    series *s = ((of_job *)context)->other;
+    series *s = ((of_job *)context)->s;
     slope *more = realloc(j->slopes, (j->n_slopes + 1) * sizeof *more);
     j->slopes = more ? more : j->slopes;
     return more ? integrate(j, integral, s) : cli_no_memory();
-}
-
-static int shares_of_variance(const koksma_integral *integral, void *context)
-{
-    const of_job *of = context;
-    return put_variance(of->j, integral, *(const uint64_t *)of->other);
-}
-
-static int run_variance(job *j, int dim)
-{
-    uint64_t samples;
-    return cli_whole(j->arguments, "samples", 0, 1, 1 << 20, &samples)
-               ? cli_integrands_each(&j->integrands, dim, shares_of_variance, &(of_job){j, &samples})
-               : CLI_USAGE;
 }
 
 /* Shares the level of z among all rows of errors. */
@@ -376,10 +242,6 @@ static int run_all(job *j)
 {
     const cli_arguments *arguments = j->arguments;
     int code = CLI_YES;
-    uint64_t dim;
-    if (!cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim)) {
-        return CLI_USAGE;
-    }
     for (int i = 1; i < arguments->n_operands && !code; i++) {
         code = open_series(j, i);
     }
@@ -387,16 +249,10 @@ static int run_all(job *j)
     j->rows = code ? NULL : cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < j->n_series && !code; i++) {
         cli_work_part(&j->work, i, j->n_series);
-        code = cli_integrands_each(&j->integrands, j->series[i].dim, errors_of_series, &(of_job){j, &j->series[i]});
+        code = cli_integrands_each(j->arguments, j->series[i].dim, errors_of_series, &(of_job){j, &j->series[i]});
     }
     for (size_t i = 0; i < j->n_slopes; i++) {
         put_slope(j, &j->slopes[i]);
-    }
-    if (!code && cli_flag(arguments, "anova")) {
-        code = run_variance(j, j->n_series ? j->series[0].dim : (int)dim);
-        for (size_t i = 0; i < j->n_series && !code; i++) {
-            code = cli_integrands_each(&j->integrands, j->series[i].dim, put_components, &(of_job){j, &j->series[i]});
-        }
     }
     cli_work_end();
     const int end = j->rows ? cli_rows_close(j->rows, code) : code;
@@ -410,7 +266,7 @@ static int run_all(job *j)
 
 static int run(const cli_arguments *arguments)
 {
-    job j = {.arguments = arguments, .integrands.arguments = arguments};
+    job j = {.arguments = arguments};
     if (cli_estimates(arguments)) {
         return cli_run_estimates(arguments);
     }
@@ -418,16 +274,10 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(arguments, "it takes an integrand, such as disk or genz-gaussian:difficulty=5, and "
                                           "patterns or files; 'koksma list integrands' names them");
     }
-    if (arguments->n_operands == 1 && !cli_flag(arguments, "anova")) {
+    if (arguments->n_operands == 1) {
         return cli_usage_error(
             arguments, "it takes an integrand and points, as in disk sobol@64 or disk -p sobol,halton -n 16,64; "
                        "'koksma list integrands' names the integrands");
-    }
-    if (cli_text(arguments, "samples", NULL) && !cli_flag(arguments, "anova")) {
-        return cli_usage_error(arguments, "--samples has an effect only with --anova");
-    }
-    if (cli_text(arguments, "trials", NULL) && arguments->n_operands == 1) {
-        return cli_usage_error(arguments, "--trials has an effect only with points, as in disk sobol@64");
     }
     if (!cli_trials(arguments, 32, MOST_TRIALS, &j.seed, &j.trials) || !cli_sources_check(arguments, 1, 1, 1) ||
         !cli_work_begin(arguments, "integrating", &j.work)) {
@@ -439,7 +289,6 @@ static int run(const cli_arguments *arguments)
     for (size_t i = 0; j.series && i < (size_t)arguments->n_operands; i++) {
         koksma_points_fini(&j.series[i].points);
     }
-    cli_integrands_close(&j.integrands);
     free(j.series);
     free(j.sizes);
     free(j.slopes);
@@ -451,8 +300,6 @@ static const cli_option options[] = {
     {'t', "trials", "T",
      "number of sets of each random pattern, with seeds S, S+1, .. to 2^64 - 1 at most (default: 32)"},
     {'s', "seed", "S", "seed of patterns (default: 0)"},
-    {0, "anova", NULL, "print the share of each coordinate and pair of coordinates in the variance"},
-    {0, "samples", "N", "with --anova: estimate shares by N points, even if a closed form is known"},
     CLI_ESTIMATE_OPTIONS,
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -463,7 +310,7 @@ const cli_command cli_command_integrate = {
     .name = "integrate",
     .summary = "integrate functions with known integrals; print errors against n",
     .synopsis =
-        "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]\n"
+        "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T]\n"
         "INTEGRAND,..|--with PROGRAM --tolerance ERROR [--relative] [--confidence C] [--resume FILE] [-p PATTERN,..] "
         "[-d DIM]",
     .details =
@@ -480,18 +327,6 @@ const cli_command cli_command_integrate = {
         "are much more skewed or heavy-tailed than normal ones, as those of options far out of the money. "
         "Simulated intervals of rmse and slope hold in 95 to 98 % for nearly normal errors, in 76 to 99 % for "
         "skewed or heavy-tailed ones, and in 98 to 99.9 % for uniform ones (docs/findings/integration.md).\n"
-        "\n"
-        "INTEGRAND is a name of 'koksma list integrands' with its parameters, or ./LIBRARY.so[:NAME], which is a "
-        "function of a shared library that exports koksma_function_at (koksma/integrate.h). The library runs with "
-        "your permissions as soon as it is opened; plans cannot name libraries. If the integral of a function is "
-        "not known, rmse is the standard deviation over the trials.\n"
-        "\n"
-        "--anova prints the Sobol' indices of coordinates, numbered from 0, and up to 16 dimensions also of pairs. "
-        "share is the part of the variance in the component of exactly these coordinates, total the part in all "
-        "components that contain any of them. Without a closed form they are estimated, with 95 % intervals, which "
-        "hold in 94 to 96 % of simulations. With patterns, --anova also prints the error of each component at the "
-        "largest n, for products of functions of one coordinate. These errors add up to the total error. part is "
-        "the mean square of a component's error divided by that of the total error.\n"
         "\n"
         "--estimator, --interval, --replicates and --confidence print estimates that need no known integral, each "
         "from R independent sets of n points, with an interval for the integral. --interval auto takes the "
@@ -515,7 +350,6 @@ const cli_command cli_command_integrate = {
         "line from stdin and prints a value for each. --exec-seconds limits each run.\n",
     .examples = "koksma integrate quarter-disk,quarter-gaussian -p random,halton -n 16,64,256\n"
                 "koksma integrate genz-gaussian:difficulty=3 -d 5 -p halton -n 64,256,1024\n"
-                "koksma integrate asian:path=bridge -d 4 --anova\n"
                 "koksma integrate disk points.txt --json\n"
                 "koksma integrate exp --tolerance 1e-6\n"
                 "koksma integrate disk -p sobol:scramble=owen -n 256 --estimator mean\n"

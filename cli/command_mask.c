@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma mask`: arranges a mask for a filter and writes it with a recipe, FILE.json, that makes it again;
    `koksma mask check` measures masks in files, whoever made them. */
-#include <koksma/datasheet.h>
 #include <koksma/maskfile.h>
-#include <koksma/plot.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -340,29 +338,22 @@ static int put_filters(const cli_arguments *arguments, cli_rows *rows, const cha
 /* The tables that replace the errors: of rings, of a histogram or of correlations, with their sizes; 0: not asked for. */
 typedef struct tables {
     uint64_t rings, bins, reach;
-    bool correlation, page;
+    bool correlation;
 } tables;
 
 /* Reads which table is asked for. Returns false after an error. */
 static bool parse_tables(const cli_arguments *arguments, tables *t)
 {
     const char *const options[TABLES] = {"rings", "histogram", "correlation"};
-    const char *first = NULL, *output = cli_text(arguments, "output", NULL);
-    const size_t length = output ? strlen(output) : 0;
+    const char *first = NULL;
     for (size_t i = 0; i < TABLES; i++) {
         const bool given = cli_text(arguments, options[i], NULL) != NULL;
-        if (given && (first || output)) {
-            cli_usage_error(arguments, "--%s: it prints rows in place of %s%s", options[i], output ? "" : "--",
-                            output ? "a page" : first);
+        if (given && first) {
+            cli_usage_error(arguments, "--%s: it prints rows in place of --%s", options[i], first);
             return false;
         }
         first = given ? options[i] : first;
     }
-    if (output && (length < 6 || strcmp(output + length - 5, ".html") != 0)) {
-        cli_usage_error(arguments, "--output %s: check writes a page, .html", output);
-        return false;
-    }
-    t->page = output != NULL;
     t->correlation = cli_text(arguments, "correlation", NULL) != NULL;
     if (t->correlation && arguments->n_operands > 3) {
         cli_usage_error(arguments, "--correlation: it takes one mask or two, not %d", arguments->n_operands - 1);
@@ -382,54 +373,22 @@ static int put_mask(const cli_arguments *arguments, const tables *t, cli_rows *r
                      : put_filters(arguments, rows, path, mask, run);
 }
 
-/* Writes the page of all masks. */
-static int write_page(const cli_arguments *arguments, const koksma_mask *masks, size_t n, const koksma_run *run)
+/* Correlates one mask with itself, or two with each other. */
+static int put_correlation(const cli_arguments *arguments, const tables *t, const koksma_mask_space *space,
+                           cli_rows *rows)
 {
-    const char *output = cli_text(arguments, "output", NULL), *list = cli_text(arguments, "filter", six);
-    char texts[KOKSMA_MAX_SHEET_MASKS + 1][KOKSMA_MAX_SPEC], *json = NULL, *page = NULL;
-    const char *names[KOKSMA_MAX_SHEET_MASKS], *filters[KOKSMA_MAX_SHEET_MASKS + 1];
-    size_t count = 0;
-    while (count <= KOKSMA_MAX_SHEET_MASKS && cli_list_item(list, count, texts[count], sizeof *texts)) {
-        filters[count] = texts[count];
-        count++;
-    }
-    for (size_t i = 0; i < n; i++) {
-        names[i] = arguments->operands[i + 1];
-    }
-    const int code = cli_try_output(arguments, output);
-    if (code) {
-        return code;
-    }
-    koksma_status status = koksma_mask_datasheet(masks, names, n, filters, count, run, &json);
-    cli_work_end();
-    status = status ? status : koksma_datasheet_page(json, &page);
-    status = status ? status : koksma_plot_write(output, (const unsigned char *)page, strlen(page));
-    free(json);
-    free(page);
-    return status ? cli_fail(arguments, status) : CLI_YES;
-}
-
-/* Reads all masks at once, which a page and correlations need. */
-static int check_together(const cli_arguments *arguments, const tables *t, const koksma_mask_space *space,
-                          cli_rows *rows, const koksma_run *run)
-{
-    koksma_mask masks[KOKSMA_MAX_SHEET_MASKS] = {{0}};
+    koksma_mask masks[2] = {{0}};
     const char *const *paths = (const char *const *)arguments->operands + 1;
     const size_t n = (size_t)arguments->n_operands - 1;
     koksma_status status = KOKSMA_OK;
-    if (n > KOKSMA_MAX_SHEET_MASKS) {
-        return cli_usage_error(arguments, "check: a page has up to %d masks, not %zu", KOKSMA_MAX_SHEET_MASKS, n);
-    }
     for (size_t i = 0; i < n && !status; i++) {
         status = koksma_mask_read(paths[i], space, &masks[i]);
     }
-    int code = status    ? cli_fail(arguments, status)
-               : t->page ? write_page(arguments, masks, n, run)
-                         : put_offsets(arguments, rows, (const char *const[]){paths[0], paths[n - 1]},
-                                       (const koksma_mask *const[]){&masks[0], &masks[n - 1]}, (int)t->reach);
-    for (size_t i = 0; i < n; i++) {
-        koksma_mask_fini(&masks[i]);
-    }
+    const int code = status ? cli_fail(arguments, status)
+                            : put_offsets(arguments, rows, (const char *const[]){paths[0], paths[n - 1]},
+                                          (const koksma_mask *const[]){&masks[0], &masks[n - 1]}, (int)t->reach);
+    koksma_mask_fini(&masks[0]);
+    koksma_mask_fini(&masks[1]);
     return code;
 }
 
@@ -438,7 +397,7 @@ static int run_check(const cli_arguments *arguments)
     const koksma_mask_space *space;
     cli_work work;
     tables t = {0};
-    if (!cli_refuse(arguments, "size open levels swaps until seed from resume bits time-limit",
+    if (!cli_refuse(arguments, "output size open levels swaps until seed from resume bits time-limit",
                     "has no effect on 'check'")) {
         return CLI_USAGE;
     }
@@ -450,8 +409,8 @@ static int run_check(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    int code = t.page || t.correlation ? check_together(arguments, &t, space, rows, &work.run) : CLI_YES;
-    for (int i = 1; i < arguments->n_operands && !code && !t.page && !t.correlation; i++) {
+    int code = t.correlation ? put_correlation(arguments, &t, space, rows) : CLI_YES;
+    for (int i = 1; i < arguments->n_operands && !code && !t.correlation; i++) {
         koksma_mask mask;
         const koksma_status status = koksma_mask_read(arguments->operands[i], space, &mask);
         cli_work_part(&work, (size_t)i - 1, (size_t)arguments->n_operands - 1);
@@ -470,9 +429,7 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'o', "output", "FILE.png|.exr|.npy|.raw|.h|.html",
-     "the mask; FILE.json beside it has what makes it again. check: a page, .html, of errors, spectra, histograms, "
-     "correlations and dithering"},
+    {'o', "output", "FILE.png|.exr|.npy|.raw|.h", "the mask; FILE.json beside it has what makes it again"},
     {'f', "filter", "FILTER",
      "the filter that will be applied: box:size=K, binomial:size=K, gaussian:sigma=S, one of 'koksma list "
      "filters', or file:PATH, rows of numbers (default: gaussian:sigma=1); check: a list (default: six common ones)"},
@@ -504,7 +461,7 @@ const cli_command cli_command_mask = {
     .synopsis = "-o FILE [--filter FILTER] [--size WxH] [--space SPACE] [--swaps K]\n"
                 "--resume FILE [-o FILE] [--time-limit SECONDS]\n"
                 "check FILE... [--filter FILTER,..] [--space SPACE] [--tests N]\n"
-                "check FILE... --rings N|--histogram N|--correlation R|-o PAGE.html",
+                "check FILE... --rings N|--histogram N|--correlation R",
     .details =
         "A mask has a number, a vector or a direction for each pixel of a tile. Noise that is made with it, such "
         "as one random number a pixel, nearly vanishes under the filter. The search swaps pixels by simulated "
@@ -516,15 +473,13 @@ const cli_command cli_command_mask = {
         "seam if they are equal. levels, least_often and most_often: the histogram of a mask of one number. "
         "--rings: the mean power at each frequency, 1 for white noise, and its anisotropy. --correlation: of all "
         "numbers of pixels p of the first mask and p + (dx, dy) of the second, on the torus; two masks that should "
-        "be independent have about 0 everywhere. -o PAGE.html has all of this for up to eight masks, with "
-        "pictures, and a ramp and a scene dithered by the masks of scalars. Equal options give equal bits on every "
+        "be independent have about 0 everywhere. Equal options give equal bits on every "
         "machine and with any number of threads (the search uses one). A mask with borders (--open) has the error "
         "that the filter leaves if all beyond is exact.\n",
     .examples = "koksma mask -o m.png --filter gaussian:sigma=1 --size 64x64\n"
                 "koksma mask -o v.npy -f box:size=3 --size 32x48 --space vector2\n"
                 "koksma mask check m.png\n"
-                "koksma mask check m.png --rings 16\n"
-                "koksma mask check m.png -o page.html\n",
+                "koksma mask check m.png --rings 16\n",
     .options = options,
     .run = run,
 };

@@ -80,7 +80,7 @@ static bool read_options(estimating *e)
         !cli_refuse(arguments, "relative max-points resume", "has an effect only with --tolerance")) {
         return false;
     }
-    if (!cli_refuse(arguments, "anova trials", "has no effect on estimates; their number of sets is --replicates") ||
+    if (!cli_refuse(arguments, "trials", "has no effect on estimates; their number of sets is --replicates") ||
         !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &o->seed) ||
         !cli_real(arguments, "tolerance", 0, 1e-300, 1e300, &tolerance) ||
         !cli_real(arguments, "confidence", 0.95, 1e-9, 1 - 1e-12, &o->estimate.confidence) ||
@@ -242,7 +242,6 @@ int cli_run_estimates(const cli_arguments *arguments)
     const bool command = cli_text(arguments, "with", NULL);
     const int first = command ? 0 : 1;
     estimating e = {.arguments = arguments};
-    cli_integrands integrands = {.arguments = arguments};
     if (arguments->n_operands < first) {
         return cli_usage_error(arguments,
                                "it takes an integrand, or --with PROGRAM; 'koksma list integrands' names them");
@@ -257,11 +256,9 @@ int cli_run_estimates(const cli_arguments *arguments)
         cli_work_part(&e.work, (size_t)(i - first), (size_t)(end - first));
         code = open_source(&e, i);
         if (!code) {
-            code =
-                command ? put_estimate(NULL, &e) : cli_integrands_each(&integrands, e.source.dim, put_estimate, &e);
+            code = command ? put_estimate(NULL, &e) : cli_integrands_each(arguments, e.source.dim, put_estimate, &e);
         }
     }
     cli_work_end();
-    cli_integrands_close(&integrands);
     return cli_rows_close(e.rows, code ? code : e.missed ? CLI_NO : CLI_YES);
 }

@@ -26,18 +26,10 @@
             "stdout"                                                                                                 \
     }
 
-/* Integrands of the first operand, with the libraries that have them. */
-typedef struct cli_integrands {
-    const cli_arguments *arguments;
-    void *libraries[16];
-    size_t n_libraries;
-} cli_integrands;
-
-/* Calls f for each, in dim dimensions; of "all" only those that have this dimension. Returns the exit code. */
-int cli_integrands_each(cli_integrands *all, int dim, int (*f)(const koksma_integral *integral, void *context),
-                        void *context);
-
-void cli_integrands_close(cli_integrands *all);
+/* Calls f for each integrand of the first operand, in dim dimensions; of "all" only those that have this dimension.
+   Returns the exit code. */
+int cli_integrands_each(const cli_arguments *arguments, int dim,
+                        int (*f)(const koksma_integral *integral, void *context), void *context);
 
 /* Whether the command line asks for estimates in place of errors. */
 bool cli_estimates(const cli_arguments *arguments);

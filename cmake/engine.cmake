@@ -7,7 +7,7 @@ macro(koksma_engine_sources folder)
   koksma_table(unused ${folder}/patterns PATTERN patterns.def "" modify.c registry.c)
   koksma_table(unused ${folder}/measures MEASURE measures.def "" registry.c)
   koksma_table(unused ${folder}/integrands INTEGRAND integrands.def "" closed_forms.c command.c estimates.c integral.c integration.c
-               anova.c screen.c tolerance.c tolerance_path.c)
+               screen.c tolerance.c tolerance_path.c)
   koksma_table(unused ${folder}/verify PROPERTY properties.def verify_ verify.c)
   koksma_table(unused ${folder}/optimise METHOD methods.def method_ descent.c optimise.c radial_power.c sequence.c start.c swaps.c
                value.c)

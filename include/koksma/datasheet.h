@@ -13,13 +13,12 @@
 #define KOKSMA_DATASHEET_H
 
 #include <koksma/koksma.h>
-#include <koksma/maskfile.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum { KOKSMA_MAX_BESIDE = 7, KOKSMA_MAX_SHEET_SCENES = 16, KOKSMA_MAX_SHEET_MASKS = 8 };
+enum { KOKSMA_MAX_BESIDE = 7, KOKSMA_MAX_SHEET_SCENES = 16 };
 
 /* The sampler that a datasheet describes, and what to compare it with. A sampler is the spec of a pattern, a file
    of points, or a template of file names with {n} and {seed}. With the template "my_{n}_{seed}.npy" the file
@@ -47,18 +46,6 @@ typedef struct koksma_datasheet_options {
    datasheet leaves it out and gives the reason. */
 KOKSMA_API koksma_status koksma_datasheet(const koksma_datasheet_options *options, const koksma_run *run,
                                           char **json);
-
-/* Measures masks and writes as JSON, for koksma_datasheet_page: their errors by filter, pictures and spectra,
-   autocorrelations, histograms, the correlations of pairs and, for masks of the space scalar, dithering of a ramp and of a
-   scene beside white noise, Bayer's matrix and a void-and-cluster mask. It takes a few seconds.
-     masks, names        n masks and what the page calls them, 1 to KOKSMA_MAX_SHEET_MASKS
-     filters, n_filters  texts of koksma_mask_filter_parse, 1 to KOKSMA_MAX_SHEET_MASKS; pictures are filtered by the first
-     json                receives a text that the caller frees with free()
-   Errors: those of koksma_mask_filter_parse and koksma_mask_measure, ARGUMENT (n, n_filters; a mask whose pixels are all
-   equal), UNSUPPORTED (this build lacks PNG), MEMORY, INTERRUPTED. */
-KOKSMA_API koksma_status koksma_mask_datasheet(const koksma_mask *masks, const char *const *names, size_t n,
-                                               const char *const *filters, size_t n_filters, const koksma_run *run,
-                                               char **json);
 
 /* Makes the HTML page of a datasheet: one file that needs no network.
      page  receives a text that the caller frees with free()

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Numerical integration: test functions with known integrals over the unit cube, the error of the mean over a point
- * set, and the share of a function's variance that each projection carries. Part of libkoksma.
+ * Numerical integration: test functions with known integrals over the unit cube, and the error of the mean over a
+ * point set. Part of libkoksma.
  *
  *     koksma_integral *f;
  *     koksma_spec sobol;
@@ -48,12 +48,7 @@ typedef struct koksma_integrand {
 KOKSMA_API const koksma_integrand *koksma_integrand_at(size_t i);
 KOKSMA_API const koksma_integrand *koksma_integrand_find(const char *name);
 
-/* An integrand that the caller or a shared library provides. A library for `koksma integrate ./LIBRARY.so` exports
-
-       const koksma_function *koksma_function_at(size_t i);
-
-   koksma_function_at returns function i, or NULL past the last one. Functions and names must stay valid
-   while the library is loaded. */
+/* An integrand that the caller provides. */
 typedef struct koksma_function {
     const char *name; /* 1 to 63 characters */
     int min_dim, max_dim;
@@ -169,46 +164,6 @@ KOKSMA_API koksma_status koksma_integration_errors(const koksma_integral *integr
 KOKSMA_API koksma_status koksma_integration_summary(double value, double variance,
                                                     const koksma_integration_options *options,
                                                     const double *estimates, koksma_integration *out);
-
-/* ---- Analysis of variance ----------------------------------------------------------------------------- */
-
-/* A fraction of the variance, 0 to 1, and its 95 % interval, which holds in 94 to 96 % of simulations; if the value is
-   exact, low and high are equal to it. An estimate of a fraction near 0 or 1 may lie a little outside. */
-typedef struct koksma_share {
-    double value, low, high;
-} koksma_share;
-
-/* Sobol' indices of a set u of coordinates. */
-typedef struct koksma_sensitivity {
-    koksma_share component; /* index of the ANOVA component of exactly the set u; for one coordinate this is its
-                               first-order index */
-    koksma_share closed;    /* sum of the indices of all subsets of u: Var(E(f | x_u)) / Var(f) */
-    koksma_share total;     /* sum of the indices of all sets that have a coordinate in common with u */
-    double variance;        /* variance of the integrand; an estimate unless exact is true */
-    bool exact; /* true: all values come from a closed form; false: they are pick-freeze estimates (Saltelli et al.
-                   2010, Jansen 1999) over 16 Owen-scrambled Sobol' sets, whose spread gives the intervals */
-} koksma_sensitivity;
-
-enum { KOKSMA_MAX_ANOVA_AXES = 8 };
-
-/* Computes the Sobol' indices of the coordinates axes[0] .. axes[n_axes - 1], numbered from 0.
-     n_axes   1 to KOKSMA_MAX_ANOVA_AXES different coordinates below dim. Cost: 2^n_axes closed forms for an exact
-              component, 2^n_axes function values per sample for an estimated one
-     samples  number of points in each of the 16 sets, up to 2^20; 0: use the closed form if there is one, else 4096
-              points
-   Errors: ARGUMENT (bad axes or samples, a function with variance 0), MEMORY, INTERRUPTED. */
-KOKSMA_API koksma_status koksma_integral_sensitivity(const koksma_integral *integral, const int *axes, size_t n_axes,
-                                                     size_t samples, uint64_t seed, const koksma_run *run,
-                                                     koksma_sensitivity *out);
-
-/* Opens the ANOVA component of the coordinates axes[0] .. axes[n_axes - 1] as an integrand, whose integral is 0;
-   allocates out. The errors of all components add up to the error of the integrand, so koksma_integration_errors of
-   the components shows which projections of a pattern cause that error.
-     n_axes  1 to KOKSMA_MAX_ANOVA_AXES different coordinates, all below koksma_integral_facts.axes of the integrand
-   Errors: ARGUMENT (bad axes), UNSUPPORTED (the integrand is not a product of functions of one coordinate),
-   MEMORY. */
-KOKSMA_API koksma_status koksma_integral_component(const koksma_integral *integral, const int *axes, size_t n_axes,
-                                                   koksma_integral **out);
 
 /* ---- Errors over a screen ----------------------------------------------------------------------------- */
 

@@ -20,7 +20,7 @@ except ModuleNotFoundError:
 from ._compare import Comparison, MetricValue, compare, metrics
 from ._datasheet import Datasheet, datasheet
 from ._display import load_ipython_extension, unload_ipython_extension
-from ._integrate import Component, Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
+from ._integrate import Integrand, Integration, integrand, integrands, integrate
 from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError, allow_exec, refuse_unknown)
 from ._mask import MaskQuality, mask, mask_quality, read_mask, write_mask
@@ -39,18 +39,18 @@ from ._tolerance import Integral, Interval, Step, estimators, intervals
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Datasheet", "Engine",
+    "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Datasheet", "Engine",
     "Error", "Finding", "ForbiddenError", "Identity", "Integral", "Integrand", "Integration",
     "Interval", "Layers", "MalformedError", "MaskQuality", "Member", "MetricValue", "MissingError", "Modifier",
     "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "Record", "Replicates",
-    "SceneCheck", "ScreenError", "Sensitivity", "Share", "SizeCheck",
+    "SceneCheck", "ScreenError", "SizeCheck",
     "Spectrum", "Step", "Study", "Summary", "TableRow", "Target", "Trials", "UnsupportedError", "Value", "Witness",
     "adaptive", "allow_exec", "audit", "canonical", "check_scene", "compare", "convergence", "datasheet",
     "estimators", "filters", "generate", "has_ranges", "identify", "integrand", "integrands", "integrate",
     "integrators", "intervals", "local_discrepancy", "mask", "mask_quality", "measure", "measures", "metrics",
     "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare",
     "plot_convergence", "radial_power", "rank", "rank_to_error", "read", "read_image", "read_mask", "records",
-    "refuse_unknown", "render", "render_replicates", "scenes", "screen_errors", "sensitivity", "spectrum",
+    "refuse_unknown", "render", "render_replicates", "scenes", "screen_errors", "spectrum",
     "trials", "verify", "verify_sets", "version", "warp_points", "warps", "write", "write_image",
     "write_mask",
 ]

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Errors of integration, and which coordinates carry a function's variance."""
+"""Errors of integration, and integrals to a tolerance."""
 from __future__ import annotations
 
 import math
 import os
 from contextlib import contextmanager
-from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_void_p
+from ctypes import POINTER, byref, c_double, c_size_t, c_void_p
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
@@ -14,15 +14,12 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._frame import Framed
-from ._library import (ArgumentError, Seed, UnsupportedError, call, check, core, first_seed, flag, quoted, real, seed_of,
-                       several, sizes_of, spec, text, whole)
+from ._library import (ArgumentError, Seed, call, check, core, first_seed, flag, quoted, real, several, sizes_of, spec, text,
+                       whole)
 from ._points import Member, PointArray, as_points, canonical, generate, numbers, table, view
 from ._tolerance import Integral, integrate_to
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
-
-_MOST_AXES = 8  # KOKSMA_MAX_ANOVA_AXES
-_MOST_PAIRED_AXES = 16  # of functions of more coordinates the analysis of variance has no pairs, as the program's
 
 
 @dataclass(frozen=True)
@@ -40,58 +37,6 @@ class Integrand:
     variation: float
     lowest: float
     highest: float
-
-
-@dataclass(frozen=True)
-class Share:
-    """A part of the variance and its 95 % interval, which holds in 94 to 96 % of simulations; both ends equal it where it is
-    exact."""
-
-    value: float
-    low: float
-    high: float
-
-    def __float__(self) -> float:
-        return self.value
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """Sobol' indices of a set u of coordinates. component: of exactly u; closed: of all within u; total: of all that meet
-    u. exact: by a closed form; else estimated."""
-
-    component: Share
-    closed: Share
-    total: Share
-    variance: float
-    exact: bool
-
-
-@dataclass(frozen=True)
-class Component:
-    """A part of a function that depends on exactly the coordinates `axes`: its share of the variance and of the error.
-
-    Attributes
-    ----------
-    axes : tuple of int
-        Numbered from 0.
-    sensitivity : Sensitivity
-        Of these axes; sensitivity.component is the share of this part in the variance.
-    rmse, low, high, approximate : float, float, float, bool
-        The error of the mean of this part over the sets of the largest n, with its interval, as in Integration. Set by set the
-        errors of all components add up to that of the function (those of three coordinates and more among them, which are not
-        listed). NaN unless the function is a spec of a product of functions of one coordinate.
-    part : float
-        rmse squared, divided by that of the function.
-    """
-
-    axes: Tuple[int, ...]
-    sensitivity: Sensitivity
-    rmse: float
-    low: float
-    high: float
-    approximate: bool
-    part: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,8 +72,6 @@ class Integration(Framed):
     slope_sizes : int
         How many sizes the slope is of: all but those whose error is only rounding.
     integral, variance : float
-    components : tuple of Component
-        With integrate(anova=True): of each coordinate, and up to 16 of each pair; else empty.
     bias : str
         Where the sets of the pattern are biased (verify_sets, with up to 64 of the 32 trials or more): in which box; else "".
     """
@@ -154,7 +97,6 @@ class Integration(Framed):
     slope_sizes: int
     integral: float
     variance: float
-    components: Tuple[Component, ...] = ()
     bias: str = ""
 
     def _slope_interval(self) -> str:
@@ -165,16 +107,10 @@ class Integration(Framed):
 
         errors = zip(self.sizes, self.rmse, self.low, self.high, self.approximate, self.gain, self.z)
         slope = "" if math.isnan(self.slope) else f"; slope {self.slope:.3f} ({self._slope_interval()})"
-        page = table(("n", "rmse", "low", "high", "interval", "gain", "z"),
+        return table(("n", "rmse", "low", "high", "interval", "gain", "z"),
                      [(int(n), *map(float, (rmse, low, high)), "approximate" if about else "", float(gain), float(z))
                       for n, rmse, low, high, about, gain, z in errors],
                      f"{self.integrand} by {self.pattern}, {self.trials} set{'s' * (self.trials != 1)}{slope}")
-        if not self.components:
-            return page
-        return page + table(("axes", "share of the variance", "total", "rmse", "interval", "part of the error"),
-                            [(", ".join(map(str, c.axes)), c.sensitivity.component.value, c.sensitivity.total.value, c.rmse,
-                              "" if math.isnan(c.low) else f"{number(c.low)} to {number(c.high)}", c.part) for c in self.components],
-                            f"components; n = {max(self.sizes)}")
 
     def _columns(self) -> Dict[str, Any]:
         names = ("rmse", "low", "high", "approximate", "mean", "sd", "gain", "z")
@@ -330,36 +266,6 @@ def _errors(handle: c_void_p, source: Union[str, PointArray], options: s.Integra
     return _summary(facts.value, facts.variance, options, np.array([[mean.value]]))
 
 
-def _component_error(handle: c_void_p, axes: Tuple[int, ...], source: Union[str, PointArray], options: s.IntegrationOptions,
-                     threads: SupportsIndex) -> Optional[s.IntegrationRow]:
-    """None if the components of the function are not known."""
-    part = c_void_p()
-    try:
-        check(core().koksma_integral_component(handle, (c_int * len(axes))(*axes), len(axes), byref(part)))
-    except UnsupportedError:
-        return None
-    try:
-        row: s.IntegrationRow = _errors(part, source, options, threads).rows[0]
-        return row
-    finally:
-        core().koksma_integral_close(part)
-
-
-def _components(handle: c_void_p, function: Function, source: Union[str, PointArray], sizes: Sequence[int], seed: int, trials: int,
-                rmse: float, samples: int, threads: SupportsIndex, raised: List[BaseException]) -> Tuple[Component, ...]:
-    """Of each coordinate and pair. rmse: of the function, at the largest of the sizes."""
-    axes, found = _facts(handle).axes, []
-    sets = [(a,) for a in range(axes)] + [(a, b) for a in range(axes) for b in range(a + 1, axes) if axes <= _MOST_PAIRED_AXES]
-    largest = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(max(sizes)), 1, seed, trials)
-    for chosen in sets:
-        share = _sensitivity(handle, function, chosen, samples, seed, threads, raised)
-        row = _component_error(handle, chosen, source, largest, threads) if isinstance(function, str) else None
-        error, low, high = (row.rmse, row.low, row.high) if row else (math.nan,) * 3
-        part = error * error / (rmse * rmse) if rmse else math.nan
-        found.append(Component(chosen, share, error, low, high, row is not None and row.approximate, part))
-    return tuple(found)
-
-
 def _each(name: str, numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> Sequence[SupportsIndex]:
     """One number or several, as several."""
     return [numbers] if hasattr(numbers, "__index__") and not np.ndim(numbers) else several(name, numbers)  # type: ignore[arg-type]
@@ -368,7 +274,7 @@ def _each(name: str, numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> 
 @overload
 def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[SupportsIndex, Sequence[SupportsIndex], None] = None,
               dim: SupportsIndex = 2, *, trials: SupportsIndex = 32, seed: Seed = 0,
-              integral: float = math.nan, variance: float = math.nan, anova: bool = False, samples: SupportsIndex = 0,
+              integral: float = math.nan, variance: float = math.nan,
               threads: SupportsIndex = 0) -> Integration: ...
 
 
@@ -382,8 +288,8 @@ def integrate(function: Function, pattern: Union[str, SupportsIndex, None] = Non
 
 
 def integrate(function: Function, pattern: Any = None, n: Any = None, dim: SupportsIndex = 2, *, trials: SupportsIndex = 32,
-              seed: Seed = 0, integral: float = math.nan, variance: float = math.nan, anova: bool = False,
-              samples: SupportsIndex = 0, threads: SupportsIndex = 0, tolerance: Optional[float] = None, relative: bool = False,
+              seed: Seed = 0, integral: float = math.nan, variance: float = math.nan, threads: SupportsIndex = 0,
+              tolerance: Optional[float] = None, relative: bool = False,
               estimator: Optional[str] = None, interval: Optional[str] = None, confidence: float = 0.95,
               replicates: Optional[SupportsIndex] = None, max_points: SupportsIndex = 1 << 24,
               value_range: Optional[Sequence[float]] = None, bounds: Optional[npt.ArrayLike] = None, warp: Optional[str] = None,
@@ -406,11 +312,6 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
         Sets of each size with the seeds seed .. seed + trials - 1, at most 2^64 - 1; one of a deterministic pattern.
     integral, variance : float
         Of a callable, where they are known: finite, and the variance not negative.
-    anova : bool
-        Says in `components` which coordinates, and up to 16 coordinates which pairs, carry the variance, and for products of
-        functions of one coordinate, which carry the error at the largest n.
-    samples : int
-        With anova, and only then: as of sensitivity().
     threads : int
         0: one for each processor.
     tolerance : float
@@ -457,18 +358,10 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
     >>> found = koksma.integrate(lambda x: x[:, 0] * x[:, 1], "sobol:scramble=owen", [64, 256, 1024], integral=1/4)
     >>> found.slope < -1  # of random points -1/2
     True
-
-    A Latin hypercube integrates single coordinates well, and pairs as random points do:
-
-    >>> found = koksma.integrate("genz-gaussian", "latin-hypercube", 256, 3, anova=True)
-    >>> worst = max(found.components, key=lambda component: component.part)
-    >>> worst.axes, worst.sensitivity.component.value < 0.1, worst.part > 0.9
-    ((0, 1), True, True)
     """
     if tolerance is not None:
-        if trials != 32 or anova or samples or not (math.isnan(integral) and math.isnan(variance)):
-            raise ArgumentError("trials, integral, variance, anova and samples have no effect with a tolerance; the number of sets "
-                                "is replicates")
+        if trials != 32 or not (math.isnan(integral) and math.isnan(variance)):
+            raise ArgumentError("trials, integral and variance have no effect with a tolerance; the number of sets is replicates")
         if hasattr(pattern, "__index__"):
             pattern, dim = None, pattern
         return integrate_to(_opened, function, pattern, n, dim, tolerance=tolerance, relative=relative, estimator=estimator,
@@ -496,12 +389,10 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
     dim, trials = whole("dim", dim, 1, s.MAX_DIM), whole("trials", trials, 1, 1000000)
     if isinstance(source, str) and core().koksma_has_one_set(byref(spec("pattern", source))):
         trials = 1
-    seed, samples = first_seed(seed, trials), whole("samples", samples, 0, 1 << 20)
+    seed = first_seed(seed, trials)
     if not 1 <= len(sizes) <= s.MAX_SIZES:
         raise ArgumentError(f"n must be 1 to {s.MAX_SIZES} sizes, not {len(sizes)}")
-    options, each = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(*sizes), len(sizes), seed, trials), flag("anova", anova)
-    if samples and not each:
-        raise ArgumentError(f"samples={samples} has an effect only with anova=True")
+    options = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(*sizes), len(sizes), seed, trials)
     integral, variance = _known("integral", integral, -math.inf), _known("variance", variance, 0)
     raised: List[BaseException] = []
     with _opened(function, dim, raised) as handle:
@@ -512,64 +403,14 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
             name = _name_of(function)
             result = _summary(integral, variance, options, _estimates(function, source, sizes, dim, trials, seed, threads))
         rows = result.rows[:len(sizes)]
-        components = _components(handle, function, source, sizes, seed, trials, rows[int(np.argmax(sizes))].rmse, samples, threads,
-                                 raised) if each else ()
     columns = {key: np.array([getattr(row, key) for row in rows])
                for key in ("rmse", "low", "high", "approximate", "mean", "sd", "gain", "z")}
     return Integration(name, canonical(source) if isinstance(source, str) else "points", dim, rows[0].trials, np.array(sizes), **columns,
                        slope=result.slope.value, slope_error=result.slope.standard_error, slope_low=result.slope.low,
                        slope_high=result.slope.high, slope_approximate=result.slope.approximate, slope_sizes=result.slope.count,
-                       integral=integral, variance=variance, components=components, bias=result.bias.decode())
+                       integral=integral, variance=variance, bias=result.bias.decode())
 
 
 def _pattern(pattern: Any) -> str:
     """The text of a spec."""
     return os.fsdecode(text(pattern, "pattern"))
-
-
-def _sensitivity(handle: c_void_p, function: Function, axes: Tuple[int, ...], samples: int, seed: int, threads: SupportsIndex,
-                 raised: List[BaseException]) -> Sensitivity:
-    """What a callable raised, which no C function can pass on, is raised here."""
-    if not 1 <= len(axes) <= _MOST_AXES:
-        raise ArgumentError(f"axes must be 1 to {_MOST_AXES} coordinates, not {len(axes)}")
-    result = s.Sensitivity()
-    call(core().koksma_integral_sensitivity, handle, (c_int * len(axes))(*axes), len(axes), samples, seed, byref(result),
-         threads=threads if isinstance(function, str) else 1, run_at=5, raised=raised)
-    component, closed, total = (Share(x.value, x.low, x.high) for x in (result.component, result.closed, result.total))
-    return Sensitivity(component, closed, total, result.variance, result.exact)
-
-
-def sensitivity(function: Function, axes: Union[SupportsIndex, Sequence[SupportsIndex]], dim: SupportsIndex = 2, *,
-                samples: SupportsIndex = 0, seed: Seed = 0, threads: SupportsIndex = 0) -> Sensitivity:
-    """Sobol' indices of a coordinate, or of several together.
-
-    Parameters
-    ----------
-    function : str or callable
-        As of integrate(); a callable is called for one point at a time.
-    axes : int or sequence of int
-        Up to 8 different coordinates, numbered from 0.
-    dim : int
-    samples : int
-        Points in each of 16 sets for an estimate; 0: the closed form where there is one, else 4096.
-    seed : int
-    threads : int
-        0: one for each processor.
-
-    Returns
-    -------
-    Sensitivity
-
-    Examples
-    --------
-    >>> import koksma
-    >>> share = koksma.sensitivity(lambda x: x[:, 0] + 2 * x[:, 1], 1).total  # 4 of 5 parts
-    >>> share.low <= 0.8 <= share.high
-    True
-    """
-    dim = whole("dim", dim, 1, s.MAX_DIM)
-    chosen: Tuple[int, ...] = tuple(whole("axes", a, 0, dim - 1) for a in _each("axes", axes))
-    raised: List[BaseException] = []
-    with _opened(function, dim, raised) as handle:
-        return _sensitivity(handle, function, chosen, whole("samples", samples, 0, 1 << 20), seed_of(seed), threads,
-                            raised)

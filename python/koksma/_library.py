@@ -163,13 +163,10 @@ def core() -> ctypes.CDLL:
     _declare(library, None, "koksma_integral_close", c_void_p)
     _declare(library, None, "koksma_integral_about", c_void_p, POINTER(s.IntegralFacts))
     options, result = POINTER(s.IntegrationOptions), POINTER(s.Integration)
-    _declare(library, c_int, "koksma_integral_component", c_void_p, POINTER(c_int), c_size_t, POINTER(c_void_p))
     _declare(library, c_int, "koksma_integrate", c_void_p, points, run, POINTER(c_double))
     _declare(library, c_int, "koksma_integration_errors", c_void_p, spec, options, run, result)
     _declare(library, c_int, "koksma_integration_summary", c_double, c_double, options, POINTER(c_double), result)
     _declare(library, c_int, "koksma_screen_errors", spec, POINTER(s.ScreenOptions), run, POINTER(s.ScreenRow))
-    _declare(library, c_int, "koksma_integral_sensitivity", c_void_p, POINTER(c_int), c_size_t, c_size_t, c_uint64, run,
-             POINTER(s.Sensitivity))
     for name, kind in (("koksma_estimator_at", s.Estimator), ("koksma_interval_at", s.Interval)):
         _declare(library, POINTER(kind), name, c_size_t)
     _declare(library, c_int, "koksma_integral_values", c_void_p, points, run, POINTER(c_double))

@@ -247,14 +247,6 @@ class Tolerance(Structure):
                 ("rate_error", c_double), ("needed", c_double), ("needed_low", c_double), ("needed_high", c_double)]
 
 
-class Share(Structure):
-    _fields_ = [("value", c_double), ("low", c_double), ("high", c_double)]
-
-
-class Sensitivity(Structure):
-    _fields_ = [("component", Share), ("closed", Share), ("total", Share), ("variance", c_double), ("exact", c_bool)]
-
-
 class ScatterOptions(Structure):
     _fields_ = [("size", c_double), ("columns", c_size_t), ("rows", c_size_t), ("local_discrepancy", c_bool), ("warp", c_void_p),
                 ("witness", POINTER(Witness)), ("caption", c_char_p)]
@@ -449,8 +441,8 @@ LAYOUTS = [
     ("integrate.h", "koksma_integrand", Integrand), ("integrate.h", "koksma_function", Function),
     ("integrate.h", "koksma_integral_facts", IntegralFacts), ("integrate.h", "koksma_integration_row", IntegrationRow),
     ("integrate.h", "koksma_integration_slope", IntegrationSlope), ("integrate.h", "koksma_integration", Integration),
-    ("integrate.h", "koksma_integration_options", IntegrationOptions), ("integrate.h", "koksma_share", Share),
-    ("integrate.h", "koksma_sensitivity", Sensitivity), ("integrate.h", "koksma_screen_options", ScreenOptions),
+    ("integrate.h", "koksma_integration_options", IntegrationOptions), 
+    ("integrate.h", "koksma_screen_options", ScreenOptions),
     ("integrate.h", "koksma_screen_row", ScreenRow),
     ("estimate.h", "koksma_estimator", Estimator), ("estimate.h", "koksma_interval", Interval),
     ("estimate.h", "koksma_estimate_options", EstimateOptions), ("estimate.h", "koksma_integral_estimate", IntegralEstimate),

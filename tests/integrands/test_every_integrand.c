@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Walks the table of integrands, with each choice of a parameter and some of its numbers, in 1 to 3 dimensions: values
- * against the definitions below, integral, variance and Sobol' indices against sums over fine grids, estimated indices
- * against exact ones, and components that add up.
+ * against the definitions below, integral and variance against sums over fine grids.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -249,19 +248,18 @@ TEST_CASE(genz_parameters_are_scaled)
 
 enum { CELLS_3 = 96, CELLS_2 = 800, CELLS_1 = 400000 };
 
-/* Mean, mean square, and for each axis the mean square of the conditional mean, by the midpoint rule. */
+/* Mean and mean square by the midpoint rule. */
 typedef struct sums {
-    double mean, square, of_axis[3];
+    double mean, square;
 } sums;
 
 static sums sums_of(const koksma_integral *f)
 {
     const int cells = f->dim == 1 ? CELLS_1 : f->dim == 2 ? CELLS_2 : CELLS_3;
-    double *conditional = calloc(3 * (size_t)cells, sizeof *conditional), x[3];
+    double x[3];
     sums s = {0};
     int at[3] = {0};
     const double volume = pow(cells, -f->dim);
-    assert_non_null(conditional);
     for (bool more_cells = true; more_cells;) {
         for (int k = 0; k < f->dim; k++) {
             x[k] = (at[k] + 0.5) / cells;
@@ -269,19 +267,12 @@ static sums sums_of(const koksma_integral *f)
         const double value = f->integrand->at(f, x);
         s.mean += value * volume;
         s.square += value * value * volume;
-        for (int k = 0; k < f->dim; k++) {
-            conditional[k * cells + at[k]] += value * volume * cells;
-        }
         int k = 0;
         while (k < f->dim && ++at[k] == cells) {
             at[k++] = 0;
         }
         more_cells = k < f->dim;
     }
-    for (int i = 0; i < 3 * cells; i++) {
-        s.of_axis[i / cells] += conditional[i] * conditional[i] / cells;
-    }
-    free(conditional);
     return s;
 }
 
@@ -291,133 +282,16 @@ static void look_at_sums(const char *spec, koksma_integral *f)
     const sums s = sums_of(f);
     const double tail = isinf(f->highest) ? 10 : 1; /* the grid ends half a cell before the singularity */
     const double sd = sqrt(f->variance), part = tail * (f->dim == 1 ? 2e-5 : f->dim == 2 ? 3e-3 : 2e-2);
-    koksma_sensitivity exact;
     if (!(fabs(s.mean - f->value) <= part * sd &&
           fabs(s.square - s.mean * s.mean - f->variance) <= 2 * part * f->variance)) {
         fail_msg("%s in %d dimensions: integral %.10g, on a grid %.10g; variance %.10g, on a grid %.10g", spec,
                  f->dim, f->value, s.mean, f->variance, s.square - s.mean * s.mean);
     }
-    for (int k = 0; k < f->dim && f->explained; k++) {
-        assert_ok(koksma_integral_sensitivity(f, &k, 1, 0, 0, NULL, &exact));
-        const double share = (s.of_axis[k] - s.mean * s.mean) / f->variance;
-        if (!exact.exact || !(fabs(share - exact.closed.value) <= 4 * part)) {
-            fail_msg("%s in %d dimensions: share of coordinate %d %.6g, on a grid %.6g", spec, f->dim, k,
-                     exact.closed.value, share);
-        }
-    }
 }
 
-TEST_CASE(integrals_variances_and_shares_hold)
+TEST_CASE(integrals_and_variances_hold)
 {
     walk(look_at_sums);
-}
-
-/* What cannot be seen on a grid: components add up to the variance, of one coordinate less than total. */
-static void look_at_components(const char *spec, koksma_integral *f)
-{
-    const int axes[] = {0, 1, 2};
-    double sum = 0;
-    if (f->dim != 3 || !f->explained) {
-        return;
-    }
-    koksma_sensitivity s;
-    for (unsigned bits = 1; bits < 8; bits++) {
-        int some[3];
-        size_t n = 0;
-        for (int k = 0; k < 3; k++) {
-            if (bits >> k & 1) {
-                some[n++] = axes[k];
-            }
-        }
-        assert_ok(koksma_integral_sensitivity(f, some, n, 0, 0, NULL, &s));
-        if (!(s.component.value >= -1e-9 && s.component.value <= s.closed.value + 1e-9 &&
-              s.closed.value <= s.total.value + 1e-9 && s.total.value <= 1 + 1e-9)) {
-            fail_msg("%s: component %g, closed %g, total %g", spec, s.component.value, s.closed.value, s.total.value);
-        }
-        sum += s.component.value;
-    }
-    assert_near(sum, 1, 1e-9);
-}
-
-TEST_CASE(components_add_up)
-{
-    walk(look_at_components);
-}
-
-/* At every point the components add up to the function less its integral, and their variances to its variance. */
-static void look_at_component_values(const char *spec, koksma_integral *f)
-{
-    const koksma_points points = test_points("random", 40, f->dim, 3);
-    double added[40] = {0}, values[40], variance = 0;
-    koksma_integral *component;
-    for (unsigned bits = 1; bits < 1u << f->axes; bits++) {
-        int some[3];
-        size_t n = 0;
-        for (int k = 0; k < f->axes; k++) {
-            if (bits >> k & 1) {
-                some[n++] = k;
-            }
-        }
-        const koksma_status status = koksma_integral_component(f, some, n, &component);
-        if (!f->factors) {
-            assert_int_equal(status, KOKSMA_UNSUPPORTED);
-            koksma_points_fini((koksma_points *)&points);
-            return;
-        }
-        assert_ok(status);
-        assert_ok(koksma_integral_values(component, &points, NULL, values));
-        for (size_t i = 0; i < points.n; i++) {
-            added[i] += values[i];
-        }
-        assert_true(component->value == 0 && component->variance >= 0);
-        variance += component->variance;
-        koksma_integral_close(component);
-    }
-    assert_ok(koksma_integral_values(f, &points, NULL, values));
-    for (size_t i = 0; i < points.n; i++) {
-        if (!(fabs(added[i] - (values[i] - f->value)) <= 1e-12 * (1 + fabs(values[i])))) {
-            fail_msg("%s in %d dimensions: components add up to %.17g, not %.17g", spec, f->dim, added[i],
-                     values[i] - f->value);
-        }
-    }
-    assert_near(variance / f->variance, 1, 1e-9);
-    koksma_points_fini((koksma_points *)&points);
-}
-
-TEST_CASE(components_of_products_add_up)
-{
-    walk(look_at_component_values);
-}
-
-/* Of estimates' 95 % intervals about a twentieth miss. */
-static size_t n_shares, n_missed;
-
-static void look_at_estimates(const char *spec, koksma_integral *f)
-{
-    (void)spec;
-    koksma_sensitivity exact, estimate;
-    const int axes[] = {1, 0};
-    for (size_t n = 1; f->axes >= 2 && f->dim == 3 && f->explained && n <= 2; n++) {
-        assert_ok(koksma_integral_sensitivity(f, axes, n, 0, 0, NULL, &exact));
-        assert_ok(koksma_integral_sensitivity(f, axes, n, 1024, 3, NULL, &estimate));
-        assert_true(!estimate.exact);
-        const koksma_share pairs[][2] = {
-            {exact.component, estimate.component}, {exact.closed, estimate.closed}, {exact.total, estimate.total}};
-        for (int k = 0; k < 3; k++) {
-            assert_near(pairs[k][0].value, pairs[k][1].value, 0.05);
-            n_missed += pairs[k][0].value < pairs[k][1].low - 1e-12 || pairs[k][0].value > pairs[k][1].high + 1e-12;
-            n_shares++;
-        }
-    }
-}
-
-TEST_CASE(estimated_shares_hold_the_exact_ones)
-{
-    walk(look_at_estimates);
-    assert_true(n_shares >= 100);
-    if (n_missed > n_shares / 8) {
-        fail_msg("%zu of %zu intervals miss", n_missed, n_shares);
-    }
 }
 
 /* ---- Numbers that others have published ------------------------------------------------------------------------ */

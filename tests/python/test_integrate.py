@@ -87,81 +87,14 @@ class Integrate(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "^n must be the number"):
             koksma.integrate("genz-gaussian", "random")
 
-    def test_components_as_the_program(self):
-        """All that --anova prints, in its order: shares of the variance, and errors at the largest size."""
-        for integrand, pattern, dim, samples in (("genz-gaussian", SCRAMBLED, 3, 0), ("genz-continuous", "sobol", 2, 0), ("exp", "random", 2, 64),
-                                                 ("genz-corner-peak", "n-rooks", 2, 32), ("bernoulli", "halton", 17, 0)):
-            with self.subTest(integrand=integrand, pattern=pattern):
-                said = rows(integrand, "-p", pattern, "-n", "64,16", "-d", str(dim), "-t", "8", "-s", "5", "--anova",
-                            *(["--samples", str(samples)] if samples else []))
-                shares, errors = ([row for row in said if key in row] for key in ("variance_of", "error_of"))
-                ours = koksma.integrate(integrand, pattern, [64, 16], dim, trials=8, seed=5, anova=True, samples=samples).components
-                self.assertEqual(len(ours), 17 if dim == 17 else dim * (dim + 1) // 2)
-                self.assertEqual([list(c.axes) for c in ours], [row["axes"] for row in shares])
-                for row, c in zip(shares, ours):
-                    self.assertEqual([row[k] for k in ("share", "low", "high", "total", "total_low", "total_high", "exact", "variance")],
-                                     [c.sensitivity.component.value, c.sensitivity.component.low, c.sensitivity.component.high,
-                                      c.sensitivity.total.value, c.sensitivity.total.low, c.sensitivity.total.high, c.sensitivity.exact,
-                                      c.sensitivity.variance])
-                    self.assertEqual(c.sensitivity, koksma.sensitivity(integrand, c.axes, dim, samples=samples, seed=5))
-                if not errors:
-                    self.assertEqual(integrand, "genz-corner-peak")  # the only one here that is no product
-                    self.assertTrue(all(math.isnan(x) for c in ours for x in (c.rmse, c.low, c.high, c.part)))
-                    continue
-                self.assertEqual(len(errors), len(ours))
-                for row, c in zip(errors, ours):
-                    said = [row["axes"], *(math.nan if row[k] is None else row[k] for k in ("rmse", "low", "high", "part"))]
-                    np.testing.assert_equal([list(c.axes), c.rmse, c.low, c.high, c.part], said)
-                    self.assertEqual(c.approximate, row["approximate"])
-        self.assertEqual(koksma.integrate("exp", "random", 16).components, ())
-
-    def test_components_by_their_definition(self):
-        """exp(x + y) has the components (e - 1)(e^x - e + 1), the same in y, and the product of both brackets."""
-        points, m = koksma.generate("n-rooks", 50, seed=3), math.e - 1
-        x, y = np.exp(points).T - m
-        first, second, both = koksma.integrate("exp", points, anova=True).components
-        errors = [m * x.mean(), m * y.mean(), (x * y).mean()]
-        np.testing.assert_allclose([first.rmse, second.rmse, both.rmse], np.abs(errors), rtol=1e-10)
-        np.testing.assert_allclose([first.part, second.part, both.part], np.square(errors) / sum(errors)**2, rtol=1e-9)
-        variance = (math.e**2 - 1) / 2 - m * m  # of e^x
-        self.assertAlmostEqual(both.sensitivity.component.value, variance**2 / (2 * m * m * variance + variance**2), places=12)
-
-    def test_components_of_a_callable(self):
-        """Shares are estimated; the errors of parts are not known. Of x + 2y + 0z the parts are 1/5, 4/5 and nothing."""
-        found = koksma.integrate(lambda x: x[:, 0] + 2 * x[:, 1], "random", 16, 3, trials=2, anova=True, samples=64).components
-        self.assertEqual([c.axes for c in found], [(0,), (1,), (2,), (0, 1), (0, 2), (1, 2)])
-        for c, share in zip(found, (0.2, 0.8, 0, 0, 0, 0)):
-            self.assertAlmostEqual(float(c.sensitivity.component), share, delta=0.01)
-            self.assertTrue(math.isnan(c.rmse) and math.isnan(c.part))
-        with self.assertRaises(ZeroDivisionError):
-            koksma.integrate(lambda x: x[:, 0] if len(x) > 1 else 1 // 0, "random", 4, anova=True)
-
-    def test_sensitivity(self):
-        for axes in (0, [0, 1]):
-            exact, estimate = koksma.sensitivity("exp", axes), koksma.sensitivity(lambda x: np.exp(x.sum(axis=1)), axes, samples=256)
-            self.assertTrue(exact.exact and not estimate.exact)
-            for name in ("component", "closed", "total"):
-                self.assertAlmostEqual(float(getattr(exact, name)), float(getattr(estimate, name)), places=1)
-
     def test_wrong_arguments(self):
         for wrong in (lambda: koksma.integrate("dsik", "random", 4), lambda: koksma.integrate("disk", "random", 4, dim=1),
                       lambda: koksma.integrate("disk", "random", []), lambda: koksma.integrate("disk", "random", 0),
-                      lambda: koksma.integrate(lambda x: x, "random", 4), lambda: koksma.sensitivity("disk", [0, 0]),
-                      lambda: koksma.sensitivity("disk", 2), lambda: koksma.integrate("disk", "random", 4, trials=0)):
+                      lambda: koksma.integrate(lambda x: x, "random", 4),  lambda: koksma.integrate("disk", "random", 4, trials=0)):
             with self.assertRaises(koksma.Error):
                 wrong()
-        with self.assertRaisesRegex(koksma.ArgumentError, "^samples=64 has an effect only with anova=True"):
-            koksma.integrate("disk", "random", 4, samples=64)
         with self.assertRaises(ZeroDivisionError):
             koksma.integrate(lambda x: 1 // 0, "random", 4)
-        calls = []
-        with self.assertRaises(ZeroDivisionError):  # at once: 262,144 calls of the function would follow
-            koksma.sensitivity(lambda x: calls.append(1) or 1 // 0, 0)
-        self.assertEqual(len(calls), 1)
-        with self.assertRaisesRegex(koksma.ArgumentError, "axes must be 1 to 8 coordinates, not 0"):
-            koksma.sensitivity("disk", [])
-        with self.assertRaisesRegex(koksma.ArgumentError, "returned the shape"):
-            koksma.sensitivity(lambda x: np.ones((1, 3)), 0, samples=16)
         huge = koksma.integrate(lambda x: np.full(len(x), 1e308), "random", 16, trials=2)
         np.testing.assert_allclose(huge.mean, 1e308)
         both = koksma.integrate(lambda x: np.where(x[:, 0] < 0.5, np.inf, -np.inf), "jittered", 16, trials=2)
@@ -174,8 +107,6 @@ class Integrate(unittest.TestCase):
                       lambda x: [None] * len(x), lambda x: np.array([1j] * len(x), dtype=object), lambda x: x[:, 0].astype("datetime64[s]")):
             with self.assertRaisesRegex(TypeError, "^the values of the function <lambda> must be (real )?numbers, "):
                 koksma.integrate(wrong, "sobol", 4)
-            with self.assertRaisesRegex(TypeError, "^the values of the function <lambda> must be (real )?numbers, "):
-                koksma.sensitivity(wrong, 0, samples=16)
         for right in (lambda x: x[:, 0] < 0.5, lambda x: [Fraction(1, 2)] * len(x), lambda x: x[:, 0].astype(np.float32)):
             self.assertAlmostEqual(koksma.integrate(right, "sobol", 256).mean[0], 0.5, places=2)
         for wrong in (1j, np.complex128(1j), np.complex128(0.5), np.array(1j), "0.5", True, None):

@@ -211,7 +211,6 @@ class ErrorsSpeakPython(unittest.TestCase):
                 (lambda: koksma.datasheet("sobol", beside="random"), r"^beside must be a list of texts, not 'random'$"),
                 (lambda: koksma.datasheet("sobol", scenes="ball"), r"^scenes must be a list of texts, not 'ball'$"),
                 (lambda: koksma.datasheet("sobol", beside=["random"] * 9), r"^beside: 9 samplers"),
-                (lambda: koksma.sensitivity("genz-gaussian", [0, 0]), r"^axes: 0: it takes different"),
                 (lambda: koksma.canonical("star", "q"), r"^kind must be one of pattern, measure, not 'q'$"),
                 (lambda: koksma.write("", points), r"^the path of the file to write is empty$"),
                 (lambda: koksma.read(""), r"^the path of the file to read is empty$"),

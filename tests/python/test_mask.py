@@ -3,7 +3,6 @@
 """Masks of the package are the program's, and their quality is that of NumPy's sums."""
 import json
 import os
-import re
 import subprocess
 import tempfile
 import unittest
@@ -59,40 +58,19 @@ class Masks(unittest.TestCase):
             with self.subTest(wrong=wrong), self.assertRaises(koksma.Error):
                 koksma.mask(**{"filter": "box:size=2", **wrong})
 
-    def test_page(self):
-        """The tables of the page are NumPy's: correlations of two masks, and a ramp that Bayer's matrix dithers, filtered."""
+    def test_correlation(self):
+        """Of two masks at each offset, by the Fourier transform."""
         with tempfile.TemporaryDirectory() as folder:
-            paths = [os.path.join(folder, name) for name in ("a.npy", "b.npy", "page.html")]
             masks = [koksma.mask("box:size=3", (12, 10), swaps=20, seed=s) for s in range(2)]
             masks[1] = (np.roll(masks[0], (3, 5), (0, 1)) + masks[1]) / 2
+            paths = [os.path.join(folder, name) for name in ("a.npy", "b.npy")]
             for path, mask in zip(paths, masks):
                 koksma.write_mask(path, mask)
-            program("mask", "check", *paths[:2], "-o", paths[2], "-f", "binomial:size=3")
-            with open(paths[2], encoding="utf-8") as file:
-                data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', file.read(), re.S).group(1))
-        tables = {}
-
-        def walk(node):
-            if isinstance(node, dict) and node.get("kind") == "table":
-                tables[node["name"]] = node["rows"]
-            for inner in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
-                walk(inner)
-        walk(data)
-        number = lambda cell: cell["value"] if isinstance(cell, dict) else cell
+            rows = [json.loads(line) for line in program("mask", "check", *paths, "--correlation", "5", "--json").splitlines()]
         a, b = (np.fft.fft2(mask.astype(float) - mask.mean(dtype=float)) for mask in masks)
         both = np.fft.ifft2(np.conj(a) * b).real / np.sqrt((abs(a)**2).sum() * (abs(b)**2).sum()) * a.size
-        at = np.unravel_index(np.argmax(abs(both)), both.shape)
-        self.assertEqual(at, (3, 5))
-        np.testing.assert_allclose([number(c) for c in tables["pairs"][0][2:]], [both[0, 0], both[at], at[1], at[0]], atol=1e-12)
-        bayer = np.zeros((1, 1))
-        for _ in range(4):
-            bayer = np.block([[4 * bayer, 4 * bayer + 2], [4 * bayer + 3, 4 * bayer + 1]])
-        ramp = np.tile((np.arange(240) + .5) / 240, (48, 1))
-        rows, columns = np.indices(ramp.shape)
-        filtered = np.pad((ramp > (bayer[rows % 16, columns % 16] + .5) / 256) - ramp, 1, "edge")
-        filtered = sum(w * v * filtered[i:i + 48, j:j + 240] for i, w in enumerate((.25, .5, .25)) for j, v in enumerate((.25, .5, .25)))
-        error = next(number(row[2]) for row in tables["dithering"] if list(row[:2]) == ["ramp", "Bayer"])
-        self.assertAlmostEqual(error, np.sqrt(np.mean(filtered**2)), 6)
+        self.assertEqual(np.unravel_index(np.argmax(abs(both)), both.shape), (3, 5))
+        np.testing.assert_allclose([row["correlation"] for row in rows], [both[row["dy"], row["dx"]] for row in rows], atol=1e-12)
 
 
 if __name__ == "__main__":

@@ -43,10 +43,8 @@ class Display(unittest.TestCase):
         image = koksma.render("checker", "n-rooks", 4, size=(16, 12))
         rows = cells(koksma.compare(image, 0 * image, metrics=["smape"])._repr_html_())
         self.assertEqual([row[0] for row in rows[1:]], ["mean absolute error", "largest", "rmse", "smape"])
-        found = koksma.integrate("exp", "random", [16, 64, 256], anova=True)
-        errors, parts = (cells(page + "</table>") for page in found._repr_html_().split("</table>")[:2])
-        self.assertEqual([row[0] for row in errors[1:]], ["16", "64", "256"])
-        self.assertEqual([(row[0], row[3]) for row in parts[1:]], [(", ".join(map(str, c.axes)), f"{c.rmse:.5g}") for c in found.components])
+        found = koksma.integrate("exp", "random", [16, 64, 256])
+        self.assertEqual([row[0] for row in cells(found._repr_html_())[1:]], ["16", "64", "256"])
         self.assertEqual(cells(_display.table(["<b>"], [["a & b", float("nan")]])), [["<b>"], ["a & b", ""]])
 
     def test_curves(self):

@@ -112,8 +112,6 @@ class Raised(Case):
                      "optimise with progress": lambda: koksma.optimise("star", 64, progress=lambda best: True),
                      "integrate": lambda: koksma.integrate("genz-gaussian", "sobol:scramble=owen", [1 << 20], trials=100000),
                      "integrate a callable": lambda: koksma.integrate(lambda x: x[:, 0], "sobol:scramble=owen", [1 << 20], trials=100000),
-                     "sensitivity of a callable": lambda: koksma.sensitivity(lambda x: x[:, 0], 0, samples=1 << 20),
-                     "sensitivity": lambda: koksma.sensitivity("genz-gaussian", range(8), 100, samples=1 << 20),
                      "witness": lambda: koksma.plot(koksma.generate("random", 1 << 11, 6), witness="star"),
                      "rank": lambda: koksma.rank("balls", spp=1024, size=(640, 480), time_limit=None),
                      "datasheet": lambda: koksma.datasheet("sobol:scramble=owen"),

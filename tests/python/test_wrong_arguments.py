@@ -56,7 +56,7 @@ class WrongArguments(unittest.TestCase):
                 (koksma.trials, dict(pattern="jittered", n=4, trials=2)), (koksma.convergence, dict(pattern="sobol", sizes=[4, 8])),
                 (koksma.canonical, dict(text_of_spec="sobol")), (koksma.has_ranges, dict(pattern="sobol")),
                 (koksma.integrand, dict(name="genz-gaussian")), (koksma.integrate, dict(function="genz-gaussian", pattern="sobol", n=4)),
-                (koksma.sensitivity, dict(function="genz-gaussian", axes=1)), (koksma.optimise, dict(measure="l2-star", n=4, steps=1)),
+                (koksma.optimise, dict(measure="l2-star", n=4, steps=1)),
                 (koksma.mask, dict(filter="box:size=2", size=(4, 5), swaps=2)), (koksma.mask_quality, dict(mask=image, filter="box:size=2", tests=2)),
                 (koksma.read_mask, dict(path="m.npy")), (koksma.write_mask, dict(path="n.npy", mask=image)),
                 (koksma.radial_power, dict(target="step", n=4)), (koksma.render, dict(scene="ball", spp=1, size=small)),
@@ -106,7 +106,7 @@ class WrongArguments(unittest.TestCase):
                 needs = dict(tolerance=1.0, pattern="random") if name == "relative" else {}
                 for right in (True, False, np.True_, np.False_):
                     self.call(function, {**given, **needs, name: right})
-        self.assertLessEqual({"allow_exec", "anova", "exact", "layers", "local_discrepancy", "one_size", "prefixes", "quick", "splat"}, seen)
+        self.assertLessEqual({"allow_exec", "exact", "layers", "local_discrepancy", "one_size", "prefixes", "quick", "splat"}, seen)
 
     def test_numbers_that_are_none(self):
         """NaN is no number of the range that a message states, and the message states the same range as for -1."""

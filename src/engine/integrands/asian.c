@@ -10,13 +10,10 @@
  * log G = mu + sum a_k z_k, where the weights a_k depend on the path and sum a_k^2 = s^2. With h = (mu - log K) / s,
  *
  *     integral / discount            exp(mu + s^2 / 2) Phi(h + s) - K Phi(h)
- *     E(E(f | x_u)^2) / discount^2   the mean of the product of two payoffs whose log G have the correlation
- *                                    rho = sum_u a^2 / s^2:
- *                                    exp(2 mu + s^2 (1 + rho)) Phi2(h + s (1 + rho), h + s (1 + rho))
- *                                    - 2 K exp(mu + s^2 / 2) Phi2(h + s, h + rho s) + K^2 Phi2(h, h)
+ *     mean square / discount^2       exp(2 mu + 2 s^2) Phi(h + 2 s) - 2 K exp(mu + s^2 / 2) Phi(h + s) + K^2 Phi(h)
  *
- * where discount = exp(-R T), and Phi and Phi2 are the distribution functions of the standard normal distribution on
- * the line and, with correlation rho, in the plane. The payoff is unbounded, and its variation is infinite.
+ * where discount = exp(-R T), and Phi is the distribution function of the standard normal distribution. The payoff is
+ * unbounded, and its variation is infinite.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,29 +22,11 @@
 #include "core/status.h"
 #include "integrands/integrands.h"
 
-enum { NODES = 52 };
 static const double initial = 100, rate = 0.05;
 
 static double normal(double h)
 {
     return koksma__erfc(-h * M_SQRT1_2) / 2;
-}
-
-/* Phi2(h, k; rho) = Phi(h) Phi(k) + 1 / (2 pi) times the integral of exp(-(h^2 + k^2 - 2 h k sin t) / (2 cos^2 t))
-   over t from 0 to asin(rho) (Drezner & Wesolowsky 1990), by the tanh-sinh rule, for rho >= 0. */
-static double normal_plane(double h, double k, double rho)
-{
-    if (rho >= 1 - 1e-15) {
-        return normal(fmin(h, k));
-    }
-    const double half = koksma__asin(rho) / 2, step = 1.0 / 16;
-    double sum = 0;
-    for (int i = -NODES; i <= NODES; i++) {
-        const double u = M_PI_2 * koksma__sinh(i * step), t = half * (1 + koksma__tanh(u)), c = koksma__cos(t);
-        sum += M_PI_2 * koksma__cosh(i * step) / (koksma__cosh(u) * koksma__cosh(u)) *
-               koksma__exp(-((h - k) * (h - k) + 2 * h * k * (1 - koksma__sin(t))) / (2 * c * c));
-    }
-    return normal(h) * normal(k) + half * step * sum / (2 * M_PI);
 }
 
 /* Computes mu and s, the mean and standard deviation of log G. */
@@ -64,26 +43,6 @@ static double deviation(const koksma_integral *f)
         square += f->a[i] * f->a[i];
     }
     return sqrt(square);
-}
-
-/* Returns E(E(f | x_u)^2), where rho is the share of x_u in the variance of log G. */
-static double explained_square(const koksma_integral *f, double rho)
-{
-    const double mu = log_mean(f), s = deviation(f), K = f->params[0], h = (mu - koksma__log(K)) / s;
-    const double both = koksma__exp(2 * mu + s * s * (1 + rho)) *
-                        normal_plane(h + s * (1 + rho), h + s * (1 + rho), rho),
-                 one = koksma__exp(mu + s * s / 2) * normal_plane(h + s, h + rho * s, rho);
-    return koksma__exp(-2 * rate) * (both - 2 * K * one + K * K * normal_plane(h, h, rho));
-}
-
-static double explained(const koksma_integral *f, const bool *held)
-{
-    double square = 0, all = 0;
-    for (int i = 0; i < f->dim; i++) {
-        square += held[i] ? f->a[i] * f->a[i] : 0;
-        all += f->a[i] * f->a[i];
-    }
-    return explained_square(f, square / all) - f->value * f->value;
 }
 
 /* Computes the weights of the Brownian bridge. A middle m between times l and r has W_m = ((r - m) W_l + (m - l) W_r)
@@ -143,11 +102,12 @@ static koksma_status prepare(koksma_integral *f)
     }
     const double mu = log_mean(f), s = deviation(f), h = (mu - koksma__log(K)) / s;
     f->value = koksma__exp(-rate) * (koksma__exp(mu + s * s / 2) * normal(h + s) - K * normal(h));
-    f->variance = explained_square(f, 1) - f->value * f->value;
+    const double square = koksma__exp(2 * mu + s * s * 2) * normal(h + s * 2) -
+                          2 * K * (koksma__exp(mu + s * s / 2) * normal(h + s)) + K * K * normal(h);
+    f->variance = koksma__exp(-2 * rate) * square - f->value * f->value;
     f->variation = HUGE_VAL;
     f->lowest = 0;
     f->highest = HUGE_VAL;
-    f->explained = explained;
     return KOKSMA_OK;
 }
 

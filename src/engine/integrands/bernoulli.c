@@ -50,14 +50,8 @@ static double mean_square(int r)
     return ratio * numbers[r];
 }
 
-static double factor(const koksma_integral *f, int axis, double x)
-{
-    return 1 + f->params[1] * koksma__pow(axis + 1, -f->params[2]) * polynomial((int)f->params[0], x);
-}
-
 static koksma_status prepare(koksma_integral *f)
 {
-    f->factor = factor;
     const int r = (int)f->params[0];
     KOKSMA__TRY(koksma__integral_factors(f));
     const double top = r == 1 ? 0.5 : r % 2 ? polynomial(r, root(r - 1)) : polynomial(r, 0.5);
@@ -80,7 +74,7 @@ static double at(const koksma_integral *f, const double *x)
 {
     double product = 1;
     for (int j = 0; j < f->dim; j++) {
-        product *= factor(f, j, x[j]);
+        product *= 1 + f->params[1] * koksma__pow(j + 1, -f->params[2]) * polynomial((int)f->params[0], x[j]);
     }
     return product;
 }

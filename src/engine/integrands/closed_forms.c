@@ -4,7 +4,7 @@
  * variation,
  *
  *     integral             offset + scale prod m
- *     Var(E(f | x_u))      scale^2 (prod_{i in u} q_i prod_{i not in u} m_i^2 - prod m_i^2)
+ *     variance             scale^2 (prod q - prod m^2)
  *     Hardy and Krause     |scale| (prod (V_i + |g_i(1)|) - prod |g_i(1)|)
  *
  * The variation in the sense of Hardy and Krause, anchored at 1, is the sum over all u of Vitali's variations of
@@ -22,17 +22,6 @@ koksma_status koksma__integral_factors(koksma_integral *f)
     KOKSMA__REQUIRE_MEMORY(f->factors, (size_t)f->axes * sizeof *f->factors);
     f->scale = 1;
     return KOKSMA_OK;
-}
-
-static double explained(const koksma_integral *f, const bool *held)
-{
-    double closed = 1, mean = 1;
-    for (int i = 0; i < f->axes; i++) {
-        const double square = f->factors[i].mean * f->factors[i].mean;
-        closed *= held[i] ? f->factors[i].square : square;
-        mean *= square;
-    }
-    return f->scale * f->scale * (closed - mean);
 }
 
 void koksma__integral_of_product(koksma_integral *f)
@@ -53,7 +42,6 @@ void koksma__integral_of_product(koksma_integral *f)
     f->variation = fabs(f->scale) * (all - end);
     f->lowest = f->offset + f->scale * (f->scale < 0 ? high : low);
     f->highest = f->offset + f->scale * (f->scale < 0 ? low : high);
-    f->explained = explained;
 }
 
 koksma_status koksma__integral_of_rows(koksma_integral *f)
@@ -73,13 +61,6 @@ koksma_status koksma__integral_of_rows(koksma_integral *f)
    the rectangles of a grid grows without limit along such an edge as the grid is refined, so the variation in the
    sense of Hardy and Krause is infinite. */
 
-static double explained_of_plane(const koksma_integral *f, const bool *held)
-{
-    const koksma__plane *p = f->integrand->constants;
-    const double mean = p->value * p->value;
-    return held[0] ? (held[1] ? p->square : p->of_x) - mean : held[1] ? p->of_y - mean : 0;
-}
-
 koksma_status koksma__integral_of_plane(koksma_integral *f)
 {
     const koksma__plane *p = f->integrand->constants;
@@ -88,6 +69,5 @@ koksma_status koksma__integral_of_plane(koksma_integral *f)
     f->variation = HUGE_VAL;
     f->lowest = 0;
     f->highest = 1;
-    f->explained = explained_of_plane;
     return KOKSMA_OK;
 }

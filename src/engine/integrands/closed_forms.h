@@ -14,10 +14,9 @@ void koksma__integral_of_product(koksma_integral *f);
 /* The function prepare() of products whose factors, one for each axis, are constants of the integrand. */
 koksma_status koksma__integral_of_rows(koksma_integral *f);
 
-/* square: the integral of f^2; of_x, of_y: the integrals of E(f | x)^2 and E(f | y)^2. The function's range is [0,1],
-   and its variation is infinite. */
+/* square: the integral of f^2. The function's range is [0,1], and its variation is infinite. */
 typedef struct koksma__plane {
-    double value, square, of_x, of_y;
+    double value, square;
 } koksma__plane;
 
 /* The function prepare() of integrands whose constants are a koksma__plane. */

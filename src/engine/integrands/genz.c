@@ -60,12 +60,9 @@ static koksma_status draw(koksma_integral *f)
 
 typedef koksma__factor factor_of(double a, double u, bool cut);
 
-typedef double factor_at(const koksma_integral *f, int axis, double x);
-
-static koksma_status prepare_product(koksma_integral *f, factor_of *factor, factor_at *at)
+static koksma_status prepare_product(koksma_integral *f, factor_of *factor)
 {
     koksma_status status = draw(f);
-    f->factor = at;
     status = status ? status : koksma__integral_factors(f);
     for (int i = 0; !status && i < f->axes; i++) {
         f->factors[i] = factor(f->a[i], f->b[i], i < 2);
@@ -131,53 +128,32 @@ static koksma__factor discontinuous(double a, double u, bool cut)
                             .highest = koksma__exp(to)};
 }
 
-static double product_peak_factor(const koksma_integral *f, int axis, double x)
-{
-    const double t = f->a[axis] * (x - f->b[axis]);
-    return f->a[axis] * f->a[axis] / (1 + t * t);
-}
-
-static double gaussian_factor(const koksma_integral *f, int axis, double x)
-{
-    const double t = f->a[axis] * (x - f->b[axis]);
-    return koksma__exp(-t * t);
-}
-
-static double continuous_factor(const koksma_integral *f, int axis, double x)
-{
-    return koksma__exp(-f->a[axis] * fabs(x - f->b[axis]));
-}
-
-static double discontinuous_factor(const koksma_integral *f, int axis, double x)
-{
-    return axis < 2 && x > f->b[axis] ? 0 : koksma__exp(f->a[axis] * x);
-}
-
 static koksma_status prepare_product_peak(koksma_integral *f)
 {
-    return prepare_product(f, product_peak, product_peak_factor);
+    return prepare_product(f, product_peak);
 }
 
 static koksma_status prepare_gaussian(koksma_integral *f)
 {
-    return prepare_product(f, gaussian, gaussian_factor);
+    return prepare_product(f, gaussian);
 }
 
 static koksma_status prepare_continuous(koksma_integral *f)
 {
-    return prepare_product(f, continuous, continuous_factor);
+    return prepare_product(f, continuous);
 }
 
 static koksma_status prepare_discontinuous(koksma_integral *f)
 {
-    return prepare_product(f, discontinuous, discontinuous_factor);
+    return prepare_product(f, discontinuous);
 }
 
 static double product_peak_at(const koksma_integral *f, const double *x)
 {
     double product = 1;
     for (int i = 0; i < f->dim; i++) {
-        product *= product_peak_factor(f, i, x[i]);
+        const double t = f->a[i] * (x[i] - f->b[i]);
+        product *= f->a[i] * f->a[i] / (1 + t * t);
     }
     return product;
 }
@@ -232,18 +208,6 @@ static double oscillatory_mean(const koksma_integral *f)
     return r * koksma__cos(angle);
 }
 
-static double oscillatory_explained(const koksma_integral *f, const bool *held)
-{
-    double angle = 4 * M_PI * f->b[0], square = 1, product = 1;
-    for (int i = 0; i < f->dim; i++) {
-        const double s = sine_ratio(f->a[i] / 2);
-        angle += f->a[i];
-        square *= held[i] ? 1 : s * s;
-        product *= held[i] ? sine_ratio(f->a[i]) : 1;
-    }
-    return square / 2 * (1 + koksma__cos(angle) * product) - f->value * f->value;
-}
-
 static double oscillatory_at(const koksma_integral *f, const double *x)
 {
     return koksma__cos(2 * M_PI * f->b[0] + sum_at(f, x));
@@ -261,7 +225,6 @@ static koksma_status prepare_oscillatory(koksma_integral *f)
     f->variance = (1 + koksma__cos(angle) * product) / 2 - f->value * f->value;
     f->lowest = -1;
     f->highest = 1;
-    f->explained = oscillatory_explained;
     return KOKSMA_OK;
 }
 

@@ -95,8 +95,7 @@ koksma_status koksma_integral_of_function(const koksma_function *function, int d
 void koksma_integral_close(koksma_integral *integral)
 {
     if (integral) {
-        KOKSMA__FREE((char *)integral->function.name, integral->factors, integral->a, integral->chosen);
-        koksma_integral_close(integral->whole);
+        KOKSMA__FREE((char *)integral->function.name, integral->factors, integral->a);
         free(integral);
     }
 }

@@ -13,7 +13,6 @@
    and its range. */
 typedef struct koksma__factor {
     double mean, square, variation, end, lowest, highest;
-    double (*at)(double x); /* g; NULL: the integrand's factor() computes it */
 } koksma__factor;
 
 struct koksma_integral {
@@ -22,17 +21,11 @@ struct koksma_integral {
     int dim, axes;
     double params[KOKSMA_MAX_PARAMS];
     double value, variance, variation, lowest, highest;
-    /* Returns Var(E(f | x_u)), where held[i] tells whether coordinate i is in u. NULL: there is no closed form. */
-    double (*explained)(const koksma_integral *f, const bool *held);
     /* a product is offset + scale * the product of the factors, one for each axis */
     double offset, scale;
-    koksma__factor *factors;                                        /* NULL: the function is not a product */
-    double (*factor)(const koksma_integral *f, int axis, double x); /* g of an axis; NULL: use factors[axis].at */
+    koksma__factor *factors; /* NULL: the function is not a product */
     /* two parameters for each axis, which the integrand defines */
     double *a, *b;
-    /* for an ANOVA component: the whole product, and whether each axis is in the component (component.c) */
-    koksma_integral *whole;
-    bool *chosen;
 };
 
 #endif

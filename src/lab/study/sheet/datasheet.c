@@ -114,7 +114,9 @@ static koksma_status check_options(const koksma_datasheet_options *o)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__sheet_finish(koksma__document *d, koksma_status status, double start_s, char **json)
+/* Ends the document with the seconds since start_s, and passes the text on; with a status frees the document and
+   returns it. Errors: MEMORY. */
+static koksma_status finish(koksma__document *d, koksma_status status, double start_s, char **json)
 {
     size_t size;
     if (status) {
@@ -141,7 +143,7 @@ koksma_status koksma_datasheet(const koksma_datasheet_options *options, const ko
         status = koksma__sheet_choose(sheet);
         status = status ? status : put_content(sheet, &d);
     }
-    status = koksma__sheet_finish(&d, status, start_s, json);
+    status = finish(&d, status, start_s, json);
     if (sheet) {
         koksma__sheet_values_fini(&sheet->plane);
         koksma__json_writer_fini(&sheet->notes.json);

@@ -122,10 +122,6 @@ void koksma__sheet_command(koksma__sheet *sheet, const char *format, ...) KOKSMA
 void koksma__sheet_put_commands(koksma__sheet *sheet, koksma__document *d);
 void koksma__sheet_drop_commands(koksma__sheet *sheet);
 
-/* Ends a sheet's document with the seconds since start_s, and passes the text on, which the caller frees; with a status
-   frees the document and returns it. Errors: MEMORY. */
-koksma_status koksma__sheet_finish(koksma__document *d, koksma_status status, double start_s, char **json);
-
 /* ---- Samplers, sizes and points -------------------------------------------------------------------------------- */
 
 /* Chooses samplers, sizes, trials and samples per pixel. Errors: those of koksma_datasheet about samplers. */
