@@ -2,11 +2,10 @@
 /*
  * `koksma generate`: generates one point set of a pattern, or a range of its points, maps it by --warp, and writes it
  * to a file or to standard output. Points of patterns that can generate ranges are written piece by piece, unless
- * --warp is given. --density, --domain and --on generate points of varying density, points in a rectangle and points on
- * a model. The comment in the file has the pattern, the seed and where the points lie, and for points of blue-noise
- * patterns in the unit square the smallest distance of two of them.
+ * --warp is given. The comment in the file has the pattern and the seed, and for points of blue-noise patterns in the unit
+ * square the smallest distance of two of them.
  */
-#include <koksma/density.h>
+#include <koksma/koksma.h>
 #include <koksma/verify.h>
 
 #include <stdio.h>
@@ -71,101 +70,6 @@ static int stream(const cli_arguments *arguments, const cli_source *source, uint
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
-/* Prints why the density of a file that was read can't be used; the library knows no name of an image. Returns the exit
-   code. */
-static int fail_in_density(const cli_arguments *arguments, const char *path)
-{
-    cli_say(arguments->command->name, "%s: %s", path, koksma_error_text());
-    return koksma_status_exit_code(KOKSMA_MALFORMED);
-}
-
-/* Where points lie that are not in the unit square: on the model `on`, or in a rectangle of the size `size` ("W:H"), or of
-   the shape of the image `density`. What is not given is NULL. */
-typedef struct target {
-    const char *density, *on, *size;
-    double width, height;
-} target;
-
-/* Reads --density, --on and --domain. Returns the exit code. */
-static int read_target(const cli_arguments *arguments, target *t)
-{
-    *t = (target){cli_text(arguments, "density", NULL), cli_text(arguments, "on", NULL),
-                  cli_text(arguments, "domain", NULL), 1, 1};
-    char *end = NULL;
-    if (t->size) {
-        t->width = strtod(t->size, &end);
-        t->height = end > t->size && *end == ':' && end[1] ? strtod(end + 1, &end) : 0;
-    }
-    if (t->size && (*end || !(t->width > 0) || !(t->height > 0))) {
-        return cli_usage_error(arguments, "--domain %s: it takes the width and the height of a rectangle, as in 4:1",
-                               t->size);
-    }
-    return CLI_YES;
-}
-
-/* Calls the library for the points of a target. *unfit: the density can't be used. */
-static koksma_status make_in(const cli_source *source, const target *t, uint64_t seed, const koksma_run *run,
-                             koksma_points *points, bool *unfit)
-{
-    koksma_image map = {0};
-    koksma_status status = t->density ? koksma_image_read(t->density, &map) : KOKSMA_OK;
-    if (status) {
-        return status;
-    }
-    if (t->density && *koksma_image_remark()) {
-        cli_say("generate", "%s: warning: %s", t->density, koksma_image_remark());
-    }
-    status = t->on     ? koksma_generate_on(&source->spec, seed, t->on, run, points)
-             : t->size ? koksma_generate_rectangle(&source->spec, seed, t->width, t->height, t->density ? &map : NULL,
-                                                   run, points)
-                       : koksma_generate_density(&source->spec, seed, &map, run, points);
-    *unfit = t->density && status == KOKSMA_MALFORMED;
-    koksma_image_fini(&map);
-    return status;
-}
-
-/* Returns the comment of the file, to be freed, or NULL without memory: what the points are, and where they lie. */
-static char *describe(const cli_source *source, const target *t, uint64_t seed)
-{
-    const char *what = t->on ? "\non " : t->density ? "\ndensity " : "";
-    const char *file = t->on ? t->on : t->density ? t->density : "";
-    const size_t size = KOKSMA_MAX_SPEC + strlen(file) + 256; /* a path may be longer than a spec */
-    char text[KOKSMA_MAX_SPEC], domain[128] = "", *comment = malloc(size);
-    koksma_spec_text(&source->spec, text);
-    if (t->size) {
-        snprintf(domain, sizeof domain, "\ndomain %.17g:%.17g", t->width, t->height);
-    } else if (t->density) {
-        strcpy(domain, "\ncoordinates x of the picture's width, y of its height from the bottom");
-    }
-    if (comment) {
-        snprintf(comment, size, "pattern %s\nseed %llu%s%s%s", text, (unsigned long long)seed, what, file, domain);
-    }
-    return comment;
-}
-
-/* Generates and writes the points of a target. If source->n is 0, the pattern's d decides how many there are. */
-static int generate_in(const cli_arguments *arguments, const cli_source *source, int dim, const target *t,
-                       uint64_t seed, cli_work *work)
-{
-    const koksma_run *run = &work->run;
-    char *comment = describe(source, t, seed);
-    koksma_points points = {.dim = t->on && dim == 2 ? 3 : dim};
-    bool unfit = false;
-    if (!comment) {
-        return cli_no_memory();
-    }
-    koksma_status status = source->n ? koksma_points_init(&points, source->n, points.dim) : KOKSMA_OK;
-    status = status ? status : make_in(source, t, seed, run, &points, &unfit);
-    if (!status) {
-        make_way(arguments, work);
-        status = (t->on || t->size ? koksma_points_write_mapped
-                                   : koksma_points_write)(cli_text(arguments, "output", "-"), &points, comment, run);
-    }
-    koksma_points_fini(&points);
-    free(comment);
-    return unfit ? fail_in_density(arguments, t->density) : status ? cli_fail(arguments, status) : CLI_YES;
-}
-
 static int run(const cli_arguments *arguments)
 {
     cli_source source;
@@ -180,13 +84,7 @@ static int run(const cli_arguments *arguments)
         return code;
     }
     const koksma_pattern *pattern = source.spec.pattern;
-    target t;
-    code = read_target(arguments, &t);
-    if (code) {
-        return code;
-    }
-    const bool elsewhere = t.density || t.on || t.size;
-    if (!source.n && (elsewhere || !pattern->whole)) {
+    if (!source.n && !pattern->whole) {
         return cli_usage_error(arguments, "-n N, the number of points, is missing");
     }
     if (!cli_whole(arguments, "first", 0, 0, KOKSMA_MAX_INDEX, &first) ||
@@ -203,17 +101,8 @@ static int run(const cli_arguments *arguments)
     if (first && (name || !source.n)) {
         return cli_usage_error(arguments, "--first needs -n N and excludes --warp");
     }
-    if (elsewhere && (first || warp || (t.on && (t.density || t.size)))) {
-        return cli_usage_error(arguments,
-                               "--density, --domain and --on exclude --first and --warp, and --on the other two");
-    }
     code = cli_try_output(arguments, cli_text(arguments, "output", "-"));
     if (code) {
-        return code;
-    }
-    if (elsewhere) {
-        code = generate_in(arguments, &source, (int)dim, &t, seed, &work);
-        cli_work_end();
         return code;
     }
     if (source.n && !warp && (first || koksma_has_ranges(&source.spec))) {
@@ -240,12 +129,6 @@ static const cli_option options[] = {
     {0, "first", "I", "index of the first point, up to 2^51 - 1, for sequences that have ranges (default: 0)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "warp", "WARP", "map the points to a disk, triangle, hemisphere or sphere; see 'koksma list warps'"},
-    {0, "density", "FILE.png|.exr|.pfm",
-     "the points' density follows the luminance of this image, with distances of its shape; x and y are in units "
-     "of its width and height"},
-    {0, "domain", "W:H", "points in a rectangle, 0 <= x < W, 0 <= y < H; with --density, the image fills it"},
-    {0, "on", "FILE.obj|.ply|.ply.gz|.off|.gltf|.glb|.serialized",
-     "points on this model: x y z; -d 6 adds the normal, -d 7 also the number of the triangle, from 0"},
     {'o', "output", "FILE.txt|.csv|.npy", "the file (default: text on stdout)"},
     CLI_RUN_OPTIONS,
     {0},
@@ -264,20 +147,13 @@ const cli_command cli_command_generate = {
         "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N. All other "
         "patterns are generated in memory, with at most 2^28 coordinates.\n"
         "\n"
-        "With --density, --domain and --on the pattern is random, sample-elimination or progressive-elimination. "
-        "Distances on a picture or rectangle wrap around its edges; on a model they are straight-line distances in "
-        "space, not along the surface.\n"
-        "\n"
         "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each "
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time, "
         "uniform-jittered and most of orthogonal-array.\n",
     .examples = "koksma generate sobol:scramble=owen -n 64 --seed 1 -o points.csv\n"
                 "koksma generate n-rooks -n 16\n"
                 "koksma generate sobol -n 1000000 --first 4000000000 -o far.npy\n"
-                "koksma generate jittered -n 64 --warp concentric-disk -o disk.txt\n"
-                "koksma generate sample-elimination -n 2000 --density photo.png -o stipples.csv\n"
-                "koksma generate sample-elimination -n 400 --domain 4:1 -o wide.csv\n"
-                "koksma generate sample-elimination -n 2000 --on model.obj -o on.txt\n",
+                "koksma generate jittered -n 64 --warp concentric-disk -o disk.txt\n",
     .options = options,
     .run = run,
 };

@@ -2,7 +2,7 @@
 # leanest program reads and writes.
 file(GLOB_RECURSE tests CONFIGURE_DEPENDS test_*.c)
 foreach(test ${tests})
-  file(STRINGS ${test} of_lab REGEX "include.*((image|scene|scene_files|render|rendering|study|plot|adaptive|json|meshes|density|datasheet)[/.]|stats/stats[.])")
+  file(STRINGS ${test} of_lab REGEX "include.*((image|scene|scene_files|render|rendering|study|plot|adaptive|json|meshes|datasheet)[/.]|stats/stats[.])")
   if(NOT of_lab)
     koksma_test(${test} koksma)
   endif()
@@ -10,7 +10,7 @@ endforeach()
 if(KOKSMA_LAB)
   set(names byte_order malformed_points lean/study)
   if(WIN32) # which has neither links nor devices with names
-    list(APPEND names compare density filters formats points_of_others)
+    list(APPEND names compare filters formats points_of_others)
   else()
     list(APPEND names points_files generate)
   endif()

@@ -7,7 +7,7 @@ import re
 
 from docs_site import ROOT, table
 
-HEADERS = ("koksma", "sampler", "series", "spectrum", "warp", "density", "verify", "identify", "mask", "maskfile", "keys", "integrate", "estimate", "optimise", "adaptive", "image", "plot", "render", "study", "datasheet", "atlas", "plugin")
+HEADERS = ("koksma", "sampler", "series", "spectrum", "warp", "verify", "identify", "mask", "maskfile", "keys", "integrate", "estimate", "optimise", "adaptive", "image", "plot", "render", "study", "datasheet", "atlas", "plugin")
 
 # ---- Commands
 

@@ -41,7 +41,6 @@ MAY_USE = {
     "image": "core kernels stats modules",
     "meshes": "core json image",
     "maskfiles": "core json masks image",
-    "domains": "core kernels patterns warps api image meshes",
     "plot": "core patterns measures image api modules",
     "render": "core modules json kernels stats masks patterns warps image meshes api",
     "scene": "core json image meshes warps render",
@@ -54,7 +53,7 @@ MAY_USE = {
     "study/sheet": "core stats patterns measures integrands verify api image masks maskfiles scene render study/plan study/run study/ranking "
                    "study/report",
     "study/atlas": "core json patterns measures warps integrands image optimise api study/plan study/run study/report study/sheet",
-    "cli": "core kernels stats masks maskfiles patterns measures warps integrands api verify identify optimise image domains scene plot render "
+    "cli": "core kernels stats masks maskfiles patterns measures warps integrands api verify identify optimise image scene plot render "
            "study/plan study/run study/ranking study/report study/sheet study/atlas",
 }
 
@@ -82,7 +81,6 @@ INTERNAL = {
     "src/engine/core/random.h": "random numbers and permutations",
     "src/engine/core/capacity.h": "memory: arrays that grow",
     "src/engine/core/clock.h": "clocks",
-    "src/files/domains/domain.h": "a domain of points, and the methods that choose on it",
     "src/files/image/formats.h": "image files, one .c file a format",
     "src/files/image/codec.h": "the formats whose library is a module",
     "src/files/image/coherence.h": "spectra of pictures and of their errors",
@@ -349,7 +347,7 @@ ABOUT = {
     "api": "generate, evaluate", "verify": "proved properties", "identify": "whose points",
     "masks": "masks for a filter", "maskfiles": "files of masks",
     "integrands": "functions, errors", "optimise": "searches for points", "image": "images, formats, spectra",
-    "meshes": "mesh readers", "domains": "points by density, on models", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
+    "meshes": "mesh readers", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
     "study/plan": "what to run", "study/store": "results (SQLite)", "study/run": "jobs, threads, MPI",
     "study/ranking": "order of patterns", "study/report": "the report", "study/sheet": "the datasheet", "study/atlas": "the atlas, entries",
     "cli": "the program, one file a command; uses all by the public headers",

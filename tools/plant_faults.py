@@ -25,7 +25,7 @@ import sys
 import time
 
 AREAS = {
-    "patterns": (r"^src/engine/(patterns|kernels|domains|warps|optimise)", "pattern|point|key|lattice|net|claim|sampl|kernel|mask|golden|optimise|warp"),
+    "patterns": (r"^src/engine/(patterns|kernels|warps|optimise)", "pattern|point|key|lattice|net|claim|sampl|kernel|mask|golden|optimise|warp"),
     "measures": (r"^src/engine/(measures|stats|integrands|verify)", "measure|star|extreme|l2|disk|edge|integr|verify|stat|spectr|golden|curve"),
     "render": (r"^src/render/(?!scene/)", "render|bsdf|light|shape|camera|film|filter|pixel|integrator|image|adaptive|accel|medium"),
     "files": (r"^src/(files|render/scene)/", "mesh|image|import|scene|json|gltf|pbrt|mitsuba|domain|format|model|file"),

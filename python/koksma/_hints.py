@@ -53,7 +53,7 @@ _MEANT = {  # what others call an argument, and what functions of this package c
     "patterns": "pattern sampler samplers spec specs patterns", "pattern": "patterns sampler spec name engine pattern",
     "path": "file filename fname out output path", "out": "output result buffer out", "trials": "repeats replicates n_trials runs n_seeds trials",
     "reference": "ref truth ground_truth reference", "a": "image test first a", "b": "reference image second b",
-    "density": "image weights pdf density", "first": "start skip offset fast_forward first", "scene": "file path filename scene",
+    "first": "start skip offset fast_forward first", "scene": "file path filename scene",
     "function": "f fun func integrand function",
 }
 _PARTS = {  # what is no argument here, but a part of a spec

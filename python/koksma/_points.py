@@ -398,10 +398,8 @@ def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes
 def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[SupportsIndex] = None,
              seed: Seed = 0, *, first: SupportsIndex = 0, threads: SupportsIndex = 0,
              out: Optional[PointArray] = None, allow_exec: bool = False,
-             density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]] = None,
-             on: Optional[Union[str, "os.PathLike[str]"]] = None, warp: Optional[str] = None,
-             domain: Optional[Sequence[float]] = None, sets: Optional[SupportsIndex] = None,
-             d: Optional[SupportsIndex] = None, rng: Seed = None) -> PointArray:
+             warp: Optional[str] = None, sets: Optional[SupportsIndex] = None, d: Optional[SupportsIndex] = None,
+             rng: Seed = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     Parameters
@@ -424,21 +422,11 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         or are those of its shape.
     allow_exec : bool
         Run what "exec:PROGRAM" or "plugin:LIBRARY" names; allow_exec() is for other functions, and sets the time.
-    density : path or array_like of shape (height, width), optional
-        An image whose luminance the density follows. Distances are those of the picture, with square pixels, and wrap around
-        its edges; coordinates are fractions of it: x in [0,1) of its width, y in [0,1) of its height from the bottom. A
-        pattern's d is in units of its height.
-    domain : (width, height), optional
-        The points lie in this rectangle, 0 <= x < width, 0 <= y < height, and distances and a pattern's d are in its units.
-        With density, the image fills it.
-    on : path, optional
-        A model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
-        dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
     warp : str, optional
         Maps the points of the square to a disk, triangle, hemisphere or sphere, as `warp_points` does; warps() has them all.
     sets : int, optional
         Makes so many sets in one call, with the seeds seed, seed + 1, ... (`measure` takes them all at once, too). Threads
-        share the sets. Excludes first, density, on, warp and domain; out has the shape (sets, n, dim).
+        share the sets. Excludes first and warp; out has the shape (sets, n, dim).
     d, rng : optional
         Other names of dim and seed, as scipy has them.
 
@@ -451,15 +439,13 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     ArgumentError
         The spec is wrong, or the pattern has no such set; the message says which n would do.
     MalformedError
-        A density is negative, 0 everywhere or not finite, or a file is malformed.
+        A file is malformed.
     ForbiddenError
         The pattern runs a program or shared library, which needs allow_exec=True.
-    UnsupportedError
-        The pattern has no density and no surface.
 
     Notes
     -----
-    density, domain and on are for "random", "sample-elimination" and "progressive-elimination". Equal arguments give equal bits, and the same as `koksma generate`.
+    Equal arguments give equal bits, and the same as `koksma generate`.
 
     Examples
     --------
@@ -475,8 +461,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     if type(seed) is not int or not 0 <= seed <= s.MAX_SEED:  # a short call does without a function
         seed = seed_of(seed)
     if sets is not None:
-        if first or warp is not None or density is not None or on is not None or domain is not None:
-            raise ArgumentError("sets excludes first, warp, density, on and domain")
+        if first or warp is not None:
+            raise ArgumentError("sets excludes first and warp")
         return _generate_sets(pattern, n, dim, seed, whole("sets", sets, 1, s.MAX_COORDINATES), threads, out, flag("allow_exec", allow_exec))
     shape: Any = (n, 2 if dim is None else dim)
     if type(out) is np.ndarray and out.ndim == 2:
@@ -484,7 +470,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     elif out is not None:
         shape = None
     if (type(threads) is int and 0 <= threads <= s.MAX_INT and type(pattern) is str
-            and type(allow_exec) is bool and density is on is warp is None and domain is None and type(first) is int and first == 0
+            and type(allow_exec) is bool and warp is None and type(first) is int and first == 0
             and set(map(type, shape or ())) == {int} and (pattern, shape) in quick):
         quickly = _quick_points(pattern, shape, seed, threads, out)
         if quickly is not None:
@@ -492,17 +478,12 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     if flag("allow_exec", allow_exec):
         core().koksma_allow_exec(before := core().koksma_allow_exec(0))
         with allowing_exec(before if before > 0 else 60):  # the time of a block of allow_exec() remains
-            return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, density=density, on=on, warp=warp,
-                            domain=domain)
+            return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, warp=warp)
     if warp is not None:
-        if out is not None or density is not None or on is not None or domain is not None:
-            raise ArgumentError("warp excludes out, density, domain and on: its points lie in another domain")
+        if out is not None:
+            raise ArgumentError("warp excludes out: its points lie in another domain")
         found = find_warp(warp)
         return _warped(found, generate(pattern, n, 2 if dim is None else dim, seed, first=first, threads=threads))
-    if density is not None or on is not None or domain is not None:
-        if first or out is not None or (on is not None and not density is domain is None):
-            raise ArgumentError("density, domain and on exclude first and out, and on the other two")
-        return _generate_in(pattern, n, dim, seed, density, on, domain, threads)
     parsed = spec("pattern", pattern)
     first = whole("first", first, 0, s.MAX_INDEX)
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
@@ -560,45 +541,6 @@ def _generate_sets(pattern: str, n: Optional[SupportsIndex], dim: Optional[Suppo
         raise ArgumentError(f"out has the shape {out.shape}, not that of sets, n and dim")
     points = view(out.reshape(-1, out.shape[2]))
     call(core().koksma_generate_sets, byref(parsed), seed, sets, byref(points), threads=threads, run_at=3)
-    return out
-
-
-def _rectangle_of(domain: Sequence[float]) -> Tuple[float, float]:
-    sides = numbers("domain", domain)
-    if sides.shape != (2,):
-        raise ArgumentError(f"domain must be (width, height), not {quoted(domain)}")
-    return float(sides[0]), float(sides[1])
-
-
-def _generate_in(pattern: str, n: Optional[SupportsIndex], dim: Optional[SupportsIndex], seed: int,
-                 density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]],
-                 on: Optional[Union[str, "os.PathLike[str]"]], domain: Optional[Sequence[float]],
-                 threads: SupportsIndex) -> PointArray:
-    from ._compare import as_image, view_image
-    from ._render import read_image
-
-    parsed = spec("pattern", pattern)
-    axes = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
-    if n is None:
-        raise ArgumentError("the number of points is missing: density, domain and on need n")
-    out = np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
-    points = view(out)
-    image: Any = None
-    if density is not None:
-        array = read_image(density) if isinstance(density, (str, os.PathLike)) else as_image(density)
-        image = byref(view_image(array))
-    try:
-        if on is not None:
-            call(lab().koksma_generate_on, byref(parsed), seed, text(on, "on"), byref(points), threads=threads, run_at=3)
-        elif domain is not None:
-            call(lab().koksma_generate_rectangle, byref(parsed), seed, *_rectangle_of(domain), image, byref(points),
-                 threads=threads, run_at=5)
-        else:
-            call(lab().koksma_generate_density, byref(parsed), seed, image, byref(points), threads=threads, run_at=3)
-    except BaseException as error:
-        if isinstance(error, MalformedError) and isinstance(density, (str, os.PathLike)):  # the library knows no name of an image
-            error.args = (f"{os.fsdecode(density)}: {error}",)
-        raise
     return out
 
 

@@ -155,8 +155,6 @@ def named_by_user():
         ("MESH", ".glb", "model", lambda name: ["scene", "check", "./" + name]),
         ("SCENE", ".pbrt", "pbrt scene", lambda name: ["scene", "check", "./" + name]),
         ("SCENE", ".xml", "Mitsuba scene", lambda name: ["scene", "check", "./" + name]),
-        ("IMAGE", ".png", "density", lambda name: ["generate", "random", "-n", "4", "--density", name]),
-        ("MESH", ".obj", "surface", lambda name: ["generate", "random", "-n", "4", "--on", name]),
         ("PARAMETERS", ".txt", "radial power",
          lambda name: ["optimise", "--power", name, "-n", "4", "--steps", "1", "-q", "-o", "set.txt"]),
         ("PLAN", ".json", "plan", lambda name: ["study", "run", "-o", "q", "./" + name]),

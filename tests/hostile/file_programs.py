@@ -136,7 +136,7 @@ LIBRARIES = "./p.so", "./p.so:f", "error of ./p.so:f", "file:./p.so", "net-file:
 PLACES = {
     "list": [["{}"], ["patterns", "{}"]],
     "generate": [["{}", "-n", "2"], ["-p", "{}", "-n", "2"], ["{}", "-n", "2", "--first", "1"], ["{}", "-n", "2", "--warp", "polar-disk"],
-                 ["{}"], ["{}", "-n", "2", "--density", "d.pfm"], ["{}", "-n", "2", "--on", "t.obj"]],
+                 ["{}"]],
     "measure": [["{}@2", "-m", "star"], ["pattern:{}@2", "-m", "star"], ["{}", "-m", "star"], ["pattern:random@2", "-m", "{}"],
                 ["{}@2", "-m", "star", "--trials", "2", "--threads", "2"]],
     "integrate": [["{}", "random@4"], ["disk", "-p", "{}", "-n", "2"], ["disk", "{}@2"], ["disk", "-p", "random,{}", "-n", "2", "-t", "3", "--threads", "2"]],

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * order=progressive of poisson-disk-maximal and gaussian-blue-noise in 2 to 6 dimensions: the points are those of the plain
- * order, and every prefix is blue noise of its number, which a prefix of a random order is not. tests/domains/ has the same
- * with a density and on models.
+ * order, and every prefix is blue noise of its number, which a prefix of a random order is not.
  *
  * A random part of a share f of a set whose power is P has the power f P + 1 - f, so at low frequencies, where P is small,
  * it has 1 - f. The relative radius is the smallest distance on the torus over that of the densest known packing of as many

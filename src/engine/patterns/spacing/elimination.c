@@ -53,16 +53,13 @@ typedef struct elimination {
     int dim, grid_dims;
     size_t all, keep, count; /* numbers of points: at the beginning, at the end, and in the heap */
     double d_max, d_min;
-    bool plain;             /* true: distances are measured in the cube, not on the torus */
-    double *scale;          /* each renumbered point's own unit of distance; NULL: all are 1 */
-    const double *lengths;  /* what a coordinate of 1 measures along each axis; NULL: 1 */
     bool all_images;        /* true: all images of a point contribute, not only the nearest */
     double *xs;             /* coordinates of the renumbered points */
     uint32_t *origin;       /* the original number of a point */
     entry *heap;            /* heaviest point first */
     uint32_t *heap_place;   /* index of a point in the heap */
     uint32_t cells;         /* cells on a side */
-    size_t reach;           /* largest number of cells that d_max extends over; unused with `scale` */
+    size_t reach;           /* largest number of cells that d_max extends over */
     uint32_t *cell_start;   /* where each cell's points begin in `members` */
     uint32_t *cell_count;   /* number of points left in each cell */
     uint32_t *members;      /* the points of all cells, cell by cell, those left in a cell first */
@@ -123,14 +120,13 @@ static void sink(elimination *e, size_t at)
 
 /* ---- The cells ------------------------------------------------------------------------------------------- */
 
-/* Chooses the number of cells on a side: as many as d_max allows, but no more cells than points. If scaled, d_max
-   does not limit this number, because the distances within which points are neighbours then differ from point to
-   point, or from axis to axis. Returns the number of cells. */
-static size_t size_cells(elimination *e, bool scaled)
+/* Chooses the number of cells on a side: as many as d_max allows, but no more cells than points. Returns the number of
+   cells. */
+static size_t size_cells(elimination *e)
 {
     e->grid_dims = e->dim < GRID_DIMS ? e->dim : GRID_DIMS;
     e->reach = e->dim <= 3 ? 2 : 1;
-    const double wanted = scaled ? (double)INFINITY : floor((double)e->reach / e->d_max * (1 - 1e-9));
+    const double wanted = floor((double)e->reach / e->d_max * (1 - 1e-9));
     e->cells = 1;
     for (;;) {
         size_t count = 1;
@@ -150,8 +146,7 @@ static size_t size_cells(elimination *e, bool scaled)
 }
 
 /* Renumbers the points cell by cell; within a cell they keep their order. */
-static koksma_status sort_into_cells(elimination *e, const double *points, const double *scale, size_t cells,
-                                     const koksma_run *run)
+static koksma_status sort_into_cells(elimination *e, const double *points, size_t cells, const koksma_run *run)
 {
     const size_t dim = (size_t)e->dim;
     memset(e->cell_count, 0, cells * sizeof *e->cell_count);
@@ -170,9 +165,6 @@ static koksma_status sort_into_cells(elimination *e, const double *points, const
         const uint32_t at = e->cell_start[c] + e->cell_count[c]++;
         memcpy(e->xs + at * dim, points + i * dim, dim * sizeof *points);
         e->origin[at] = (uint32_t)i;
-        if (e->scale) {
-            e->scale[at] = scale[i];
-        }
         e->members[at] = e->member_place[at] = at;
     }
     return KOKSMA_OK;
@@ -228,22 +220,18 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
     e->looks += 1 + e->cell_count[cell];
     for (uint32_t m = 0; m < e->cell_count[cell]; m++) {
         const double *y = e->xs + member[m] * dim;
-        const double unit = e->scale ? fmin(e->scale[point], e->scale[member[m]]) : 1;
-        const double limit2 = d_max2 * (unit * unit);
         double square = 0;
-        for (size_t k = 0; k < dim && square < limit2; k++) {
-            const double along = e->plain ? y[k] - x[k] : koksma__torus_difference(x[k], y[k]);
-            const double t = e->lengths ? along * e->lengths[k] : along;
+        for (size_t k = 0; k < dim && square < d_max2; k++) {
+            const double t = koksma__torus_difference(x[k], y[k]);
             square += t * t;
             if (e->all_images) {
                 across[k] = t;
             }
         }
-        if (!(square < limit2) || member[m] == point) {
+        if (!(square < d_max2) || member[m] == point) {
             continue;
         }
-        const double weight =
-            e->all_images ? weight_of_images(e, across, 0, square) : weight_at(e, square / (unit * unit));
+        const double weight = e->all_images ? weight_of_images(e, across, 0, square) : weight_at(e, square);
         if (relieve) {
             const size_t at = e->heap_place[member[m]];
             e->heap[at].weight -= weight;
@@ -255,16 +243,6 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
     }
 }
 
-/* Returns how many cells away, along axis k, the neighbours of a point can be. With e->scale, two points are
-   neighbours if they are nearer than d_max times the smaller of their units, so a point with a larger unit can have
-   neighbours farther away. */
-static size_t reach_of(const elimination *e, uint32_t point, int k)
-{
-    const double unit = e->scale ? e->scale[point] : 1, length = e->lengths ? e->lengths[k] : 1;
-    return e->scale || e->lengths ? (size_t)fmin(ceil(e->d_max * unit / length * (double)e->cells), (double)e->cells)
-                                  : e->reach;
-}
-
 /* Calls weigh_cell for each cell that can contain neighbours of `point`, by recursion over the dimensions. */
 static void weigh_from(elimination *e, int k, size_t row, uint32_t point, bool relieve)
 {
@@ -273,7 +251,7 @@ static void weigh_from(elimination *e, int k, size_t row, uint32_t point, bool r
         return;
     }
     const size_t own = koksma__cell_along(e->xs[(size_t)point * (size_t)e->dim + (size_t)k], e->cells);
-    const size_t reach = reach_of(e, point, k), some = 2 * reach + 1 < e->cells ? 2 * reach + 1 : e->cells;
+    const size_t reach = e->reach, some = 2 * reach + 1 < e->cells ? 2 * reach + 1 : e->cells;
     size_t cell = some < e->cells ? (own + e->cells - reach) % e->cells : 0;
     for (size_t i = 0; i < some; i++) {
         weigh_from(e, k + 1, row * e->cells + cell, point, relieve);
@@ -338,34 +316,20 @@ static void list_kept(const elimination *e, uint32_t *order)
 koksma_status koksma__eliminate(size_t count, int dim, const double *points, size_t keep, double d_max, double d_min,
                                 const koksma_run *run, uint32_t *order)
 {
-    const koksma__metric unit = {.torus = true};
-    return koksma__eliminate_scaled(count, dim, points, &unit, keep, d_max, d_min, run, order);
-}
-
-koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *points, const koksma__metric *metric,
-                                       size_t keep, double d_max, double d_min, const koksma_run *run,
-                                       uint32_t *order)
-{
     elimination e = {.dim = dim, .all = count, .keep = keep, .d_max = d_max, .d_min = d_min};
-    const double *scale = metric->units;
-    e.plain = !metric->torus;
-    e.lengths = metric->lengths;
-    e.all_images =
-        !scale && !e.lengths && metric->torus && dim >= MIN_IMAGE_DIMS && dim <= MAX_IMAGE_DIMS && d_max > 0.5;
-    const size_t cells = size_cells(&e, scale || e.lengths), words = 4 * count + 2 * cells;
-    const size_t numbers = (size_t)dim + (scale ? 1 : 0);
-    const size_t bytes = count * (numbers * sizeof *e.xs + sizeof *e.heap) + words * sizeof *e.members;
+    e.all_images = dim >= MIN_IMAGE_DIMS && dim <= MAX_IMAGE_DIMS && d_max > 0.5;
+    const size_t cells = size_cells(&e), words = 4 * count + 2 * cells;
+    const size_t bytes = count * ((size_t)dim * sizeof *e.xs + sizeof *e.heap) + words * sizeof *e.members;
     e.xs = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(e.xs, bytes);
-    e.scale = scale ? e.xs + count * (size_t)dim : NULL;
-    e.heap = (entry *)(e.xs + count * numbers);
+    e.heap = (entry *)(e.xs + count * (size_t)dim);
     e.origin = (uint32_t *)(e.heap + count);
     e.heap_place = e.origin + count;
     e.members = e.heap_place + count;
     e.member_place = e.members + count;
     e.cell_start = e.member_place + count;
     e.cell_count = e.cell_start + cells;
-    koksma_status status = sort_into_cells(&e, points, scale, cells, run);
+    koksma_status status = sort_into_cells(&e, points, cells, run);
     status = status ? status : take_out(&e, run, order);
     if (!status) {
         list_kept(&e, order);
@@ -383,55 +347,35 @@ static void pick(size_t n, size_t dim, const double *from, const uint32_t *order
     }
 }
 
-/* Each halving has a d_max that grows with the volume available to each point. d_min is always that of the whole set, as
-   in Yuksel's implementation. */
-koksma_status koksma__progressive_order(size_t count, int dim, const double *points, const koksma__metric *metric,
-                                        int volume_dim, double d_max, double d_min, const koksma_run *run,
-                                        uint32_t *order)
+/* Puts points into Yuksel's progressive order, in which every prefix is blue noise: elimination halves the set again and
+   again, and each point comes after those that remain when it is removed. Each halving has a d_max that grows with the
+   volume available to each point. d_min is always that of the whole set, as in Yuksel's implementation. */
+static koksma_status order_set(size_t n, int dim, double d_max, double d_min, const koksma_run *run, double *xs)
 {
     const size_t width = (size_t)dim;
-    const size_t bytes = count * ((width + 1) * sizeof *points + 2 * sizeof *order);
-    const double growth = volume_dim == 2 ? sqrt(2) : koksma__pow(2, 1.0 / volume_dim);
-    double *xs = malloc(bytes);
-    KOKSMA__REQUIRE_MEMORY(xs, bytes);
-    double *units = xs + count * width;
-    koksma__metric left_metric = *metric;
-    left_metric.units = metric->units ? units : NULL;
-    uint32_t *before = (uint32_t *)(units + count), *picked = before + count;
-    for (size_t i = 0; i < count; i++) {
+    const double growth = dim == 2 ? sqrt(2) : koksma__pow(2, 1.0 / dim);
+    double *points = malloc(n * (2 * width * sizeof *points + 3 * sizeof(uint32_t)));
+    KOKSMA__REQUIRE_MEMORY(points, n * (2 * width * sizeof *points + 3 * sizeof(uint32_t)));
+    double *left_points = points + n * width;
+    uint32_t *order = (uint32_t *)(left_points + n * width), *before = order + n, *picked = before + n;
+    memcpy(points, xs, n * width * sizeof *xs);
+    for (size_t i = 0; i < n; i++) {
         order[i] = (uint32_t)i;
     }
     koksma_status status = KOKSMA_OK;
-    for (size_t left = count; left >= 3 && !status; left /= 2) {
+    for (size_t left = n; left >= 3 && !status; left /= 2) {
         d_max *= growth;
         memcpy(before, order, left * sizeof *order);
-        pick(left, width, points, before, xs);
-        for (size_t i = 0; metric->units && i < left; i++) {
-            units[i] = metric->units[before[i]];
-        }
-        status = koksma__eliminate_scaled(left, dim, xs, &left_metric, left / 2, d_max, d_min, run, picked);
+        pick(left, width, points, before, left_points);
+        status = koksma__eliminate(left, dim, left_points, left / 2, d_max, d_min, run, picked);
         for (size_t i = 0; i < left && !status; i++) {
             order[i] = before[picked[i]];
         }
     }
-    free(xs);
-    return status;
-}
-
-/* Puts the points of a set on the torus into progressive order. */
-static koksma_status order_set(size_t n, int dim, double d_max, double d_min, const koksma_run *run, double *xs)
-{
-    const size_t width = (size_t)dim, bytes = n * (width * sizeof *xs + sizeof(uint32_t));
-    double *before = malloc(bytes);
-    KOKSMA__REQUIRE_MEMORY(before, bytes);
-    uint32_t *order = (uint32_t *)(before + n * width);
-    memcpy(before, xs, n * width * sizeof *xs);
-    const koksma__metric unit = {.torus = true};
-    const koksma_status status = koksma__progressive_order(n, dim, before, &unit, dim, d_max, d_min, run, order);
     if (!status) {
-        pick(n, width, before, order, xs);
+        pick(n, width, points, order, xs);
     }
-    free(before);
+    free(points);
     return status;
 }
 
