@@ -424,9 +424,9 @@ static bool parse_process(const cli_arguments *arguments, request *r)
     return true;
 }
 
-enum { MOST_SCENE_SPP = 64, MOST_MEDIUM_SPP = 16 };
+enum { MOST_SCENE_SPP = 64, MOST_PATHS_SPP = 16 };
 
-/* Takes from the scene what the command line leaves open: the integrator, which is path where a medium asks for it, and
+/* Takes from the scene what the command line leaves open: the integrator, which is path where the scene asks for it, and
    the number of samples. That is the number of the scene's own sampler, up to what can be ranked within the default time
    limit. Returns the exit code. */
 static int ask_scene(const cli_arguments *arguments, request *r)
@@ -440,8 +440,8 @@ static int ask_scene(const cli_arguments *arguments, request *r)
         const koksma_scene_counts counts = koksma_scene_count(scene);
         koksma_scene_close(scene);
         spp = counts.spp;
-        most = counts.media ? MOST_MEDIUM_SPP : MOST_SCENE_SPP;
-        if (counts.media && !cli_text(arguments, "integrator", NULL)) {
+        most = counts.paths ? MOST_PATHS_SPP : MOST_SCENE_SPP;
+        if (counts.paths && !cli_text(arguments, "integrator", NULL)) {
             r->options.integrator = koksma_integrator_find("path");
         }
     }
@@ -552,7 +552,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'n', "spp", "N,..",
      "numbers of samples per pixel; each gets its own ranking (default: that of "
-     "the scene's own sampler, at most 64 or in a medium 16; else 16)"},
+     "the scene's own sampler, at most 64, or 16 where it is ranked by path; else 16)"},
     {'p', "patterns", "PATTERN,..|modern|thesis|later|all", "patterns to rank, also SPEC@N (default: modern)"},
     {0, "target-error", "ERROR", "print how many samples of each pattern leave this error, instead of a ranking"},
     {0, "size", "WxH",
@@ -566,7 +566,9 @@ static const cli_option options[] = {
      "process each image, not the reference: a Gaussian blur, or a shell command with {in} and {out}, such as a "
      "denoiser"},
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
-    {0, "integrator", "INTEGRATOR", "see 'koksma list integrators' (default: distribution, or path in a medium)"},
+    {0, "integrator", "INTEGRATOR",
+     "see 'koksma list integrators' (default: distribution, or path in a medium and where a scene of pbrt or Mitsuba "
+     "asks for it)"},
     CLI_FILTER_OPTION,
     {0, "depth", "D", "the most bounces (default: the integrator's)"},
     {0, "lights", "all|one|power|uniform|auto", "lights that get a shadow ray, as in 'koksma render' (default: all)"},

@@ -299,11 +299,11 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
         "thesis": the seven of Shirley 1991. One that has no set of spp points is not ranked (`reason` of its row);
         one whose file is missing or malformed, or whose program may not run, raises.
     spp : int, optional
-        Samples a pixel. Left out, as many as the scene's own sampler takes (`check_scene`), 64 at most, or 16 in a medium; else 16.
+        Samples a pixel. Left out, as many as the scene's own sampler takes (`check_scene`), 64 at most, or 16 where `paths` is 1; else 16.
     size : (width, height), optional
         Without it the scene's own, halved until it has 19,200 pixels at most.
     integrator, filter : str, optional
-        As of `render`; left out, distribution, or path in a scene with a medium.
+        As of `render`; left out, distribution, or path where `check_scene` says so (`paths`).
     adaptive : str, optional
         A method of adaptive sampling, which renders the pictures of all patterns with a budget of spp samples a pixel and a quarter
         of it in the first round (koksma.adaptive() names them). One that places its own samples takes one pattern.
@@ -348,8 +348,8 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
     """
     if renderer is None and (spp is None or integrator is None):
         found = check_scene(scene)
-        integrator = "path" if integrator is None and found.media else integrator
-        spp = min(found.spp or 16, 16 if found.media else 64) if spp is None else spp
+        integrator = "path" if integrator is None and found.paths else integrator
+        spp = min(found.spp or 16, 16 if found.paths else 64) if spp is None else spp
     asked = _Request(scene, patterns, 16 if spp is None else spp, size, integrator, filter, adaptive, metric, time_limit, renderer, reference, seed, depth, lights,
                      scope, process)
     asked.options.one_size = flag("one_size", one_size)
@@ -410,6 +410,8 @@ def rank_to_error(scene: Union[str, "os.PathLike[str]"], target_error: float, pa
     >>> first.pattern, last.spp > first.spp, last.interval[0] < last.error < last.interval[1]
     ('jittered', True, True)
     """
+    if renderer is None and integrator is None and check_scene(scene).paths:
+        integrator = "path"
     asked = _Request(scene, patterns, 1, size, integrator, filter, adaptive, metric, time_limit, renderer, reference, seed, depth, lights,
                      scope, process)
     rows, out = (s.TargetRow * len(asked.names))(), s.TargetRanking()

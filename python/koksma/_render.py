@@ -53,6 +53,7 @@ class SceneCheck:
     warnings: Tuple[str, ...]
     unknown: Tuple[str, ...]
     media: int  #: 1 if the scene has a medium, which only path and its variants render
+    paths: int  #: 1 if it has a medium, or is a scene of pbrt or Mitsuba whose integrator follows paths between surfaces
     spp: Optional[int]  #: samples a pixel that the sampler of a pbrt or Mitsuba scene asks for
 
     def __bool__(self) -> bool:
@@ -96,7 +97,7 @@ def check_scene(scene: Union[str, "os.PathLike[str]"]) -> SceneCheck:
         counts = lab().koksma_scene_count(handle)
         return SceneCheck(lab().koksma_scene_title(handle).decode(errors="replace"), counts.shapes, counts.meshes, counts.placements,
                           counts.triangles, counts.materials, counts.lights, lines("warning"), lines("unknown"),
-                          counts.media, counts.spp or None)
+                          counts.media, counts.paths, counts.spp or None)
     finally:
         lab().koksma_scene_close(handle)
 

@@ -364,7 +364,7 @@ class RankOptions(Structure):
 
 class SceneCounts(Structure):
     _fields_ = [("shapes", c_size_t), ("meshes", c_size_t), ("placements", c_size_t), ("triangles", c_size_t),
-                ("materials", c_size_t), ("lights", c_size_t), ("media", c_size_t), ("spp", c_size_t)]
+                ("materials", c_size_t), ("lights", c_size_t), ("media", c_size_t), ("paths", c_size_t), ("spp", c_size_t)]
 
 
 class Record(Structure):

@@ -163,6 +163,7 @@ struct koksma_scene {
     koksma__medium medium;
     double clamp;      /* samples are clamped to this; infinity: no clamping */
     int path_vertices; /* of path tracing unless options say otherwise: 1 + the most bounces; 0: the integrator decides */
+    bool paths;        /* of pbrt and Mitsuba: its integrator follows paths between surfaces */
     bool hides_lights; /* rays from the camera pass through lights that rays hit, and see no environment */
     koksma__material *materials;
     koksma__shape *shapes;

@@ -1259,6 +1259,7 @@ static koksma_status integrator(reader *r, const node *n, int depth)
         "the medium is rendered, which Mitsuba's integrator '%s' leaves out; 'volpath' has it", type_of(n)));
     const bool direct = !strcmp(type_of(n), "direct");
     const double most = direct ? 2 : number(r, n, "max_depth");
+    scene->paths = !direct;
     scene->hides_lights = flag(r, n, "hide_emitters");
     if (most >= 0 && most < 2) {
         return koksma__import_unknown(r->im, n->place, "a max_depth of %g is replaced by 2", most);
@@ -1346,6 +1347,7 @@ static koksma_status read_root(reader *r)
                                    "no <scene>: the file is not a Mitsuba scene");
     }
     KOKSMA__TRY(find_medium(r, root));
+    r->im->scene->paths = true;
     for (const node *c = first_of(r, root); c; c = next_of(r, c)) {
         const node *n = object_of(r, c);
         koksma__xml_mark(c, is_of_scene(c) ? KOKSMA__XML_TAKEN : 0);

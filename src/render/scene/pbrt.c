@@ -1015,6 +1015,7 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     source s = {.at = text, .end = text + size, .place = {im->path, 1}};
     im->scene->width = 1280;
     im->scene->height = 720;
+    im->scene->paths = true;
     r.parameters = calloc(1, sizeof *r.parameters);
     KOKSMA__REQUIRE_MEMORY(r.parameters, sizeof *r.parameters);
     r.parameters->place = s.place;
