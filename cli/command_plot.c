@@ -98,7 +98,8 @@ static const cli_option options[] = {
     {0, "white", "P", "power: the power that is drawn as white (default: 2; random points have 1)"},
     {'m', "measure", "MEASURE", "convergence, compare: the measure to draw (default: l2-star)"},
     {0, "sizes", "N,..",
-     "convergence, compare: draw these n, as in 16,64,256 (default: powers of 4 up to the n of the source)"},
+     "convergence, compare: draw these n, as in 16,64,256 (default: powers of 4 up to the n of the source, and n; "
+     "files: n)"},
     CLI_CURVE_OPTIONS("chart", "2 sqrt(n)", "rings and pairs have error bars"),
     CLI_RUN_OPTIONS,
     {0},

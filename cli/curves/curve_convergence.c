@@ -26,18 +26,18 @@ static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
     return has;
 }
 
-/* Chooses the sizes of a source: those of --sizes, or else the powers of four from 16 to n for which the source has a
-   set, or else only n. Patterns with cells need square numbers, and powers of four are squares. Returns false after
-   an error. */
+/* Chooses the sizes of a source: those of --sizes, or else the powers of four from 16 to n, and n, as far as the source
+   has a set; a file, whose points may be no sequence, has only n. Patterns with cells need square numbers, and powers of
+   four are squares. Returns false after an error. */
 static bool choose_sizes(const cli_curves *c, const cli_source *source, size_t n, size_t *sizes, size_t *count)
 {
     const char *text = cli_text(c->arguments, "sizes", NULL);
     *count = 0;
-    for (size_t k = 16; !text && k <= n; k *= 4) {
+    for (size_t k = 16; !text && source->is_pattern && k < n; k *= 4) {
         sizes[*count] = k;
         *count += has_size(c, source, k);
     }
-    if (!text && *count == 0) {
+    if (!text && (*count == 0 || has_size(c, source, n))) {
         sizes[(*count)++] = n;
     }
     return !text || cli_sizes(c->arguments, "sizes", text, "", KOKSMA_MAX_COORDINATES, sizes, count);
