@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Groups of uses: sample i takes the coordinates of point i of one set, whatever is asked for before; the picture is
    the same in the mean; texts. Long because all of it needs the same sets and scenes. */
+#include <koksma/keys.h>
+
+#include "patterns/masks/tile_size.h"
 #include "render/samples/samples.h"
 #include "rendering.h"
 
@@ -48,8 +51,8 @@ static void assert_point(const char *name, const double *x, double a, double b, 
     }
 }
 
-/* Every pattern that has three dimensions: pixel and time of sample i are point i, in every pixel, in whichever order
-   pixels and uses are asked for; and in the order of the names. */
+/* Every pattern of three dimensions that makes a set for one pixel: pixel and time of sample i are point i, in every
+   pixel, in whichever order pixels and uses are asked for; and in the order of the names. */
 TEST_CASE(samples_are_the_points_of_one_set)
 {
     size_t tried = 0;
@@ -61,6 +64,9 @@ TEST_CASE(samples_are_the_points_of_one_set)
             continue;
         }
         assert_ok(koksma_pattern_spec(pattern->name, &spec));
+        if (koksma__fit_image(&spec, SIDE)) {
+            continue;
+        }
         static const int sizes[] = {16, 27, 64, 8};
         for (size_t s = 0; s < 4; s++) {
             char text[2][128];
@@ -99,6 +105,72 @@ TEST_CASE(samples_are_the_points_of_one_set)
         }
     }
     assert_true(tried >= 15);
+}
+
+/* Pixels of a wide image have the keys of their places, as by koksma/keys.h: those of a group over two uses, in some
+   order of the samples; with native pairing quadruples are counted through the dimensions. */
+TEST_CASE(pixels_have_the_keys_of_their_places)
+{
+    enum { WIDTH = 9, HEIGHT = 3, SPP = 6 };
+    koksma_render_options native = options_for("ranking-keys:dims=4", SPP);
+    koksma_render_options group = options_for("pixel+light=ranking-keys:dims=4", SPP);
+    native.pairing = KOKSMA_PAIRING_NATIVE;
+    for (uint64_t p = 0; p < (uint64_t)(WIDTH * HEIGHT); p++) {
+        for (int k = 0; k < 2; k++) {
+            koksma_render_options options = k ? native : group;
+            koksma__sampler sampler;
+            koksma__sample_scratch room;
+            float pairs[2][2 * SPP];
+            options.width = WIDTH;
+            options.height = HEIGHT;
+            open(&options, &sampler, &room);
+            draw(&sampler, &room, p, KOKSMA__USE_PIXEL, pairs[0]);
+            draw(&sampler, &room, p, k ? KOKSMA__USE_LENS : KOKSMA__USE_LIGHT, pairs[1]);
+            const koksma_keys keys = koksma_keys_of_4d(koksma__random_seed(options.seed, 0, KOKSMA__USE_PIXEL),
+                                                       (uint32_t)p % WIDTH, (uint32_t)p / WIDTH, 0, SPP);
+            for (uint32_t i = 0; i < SPP; i++) {
+                bool found = false;
+                float xs[4];
+                koksma_keys_4f(&keys, i, xs);
+                for (int s = 0; s < SPP; s++) {
+                    bool same = true;
+                    for (int c = 0; c < 4; c++) { /* keys round down, the renderer to the nearest float */
+                        same &= fabsf(xs[c] - pairs[c / 2][2 * s + c % 2]) < 1e-6F;
+                    }
+                    found |= same;
+                }
+                assert_true(found);
+            }
+            close_all(&sampler, &room);
+        }
+    }
+}
+
+/* All samples of a square image of a power of two pixels are one net, whichever use: z-sampler's definition. */
+TEST_CASE(pixels_share_the_net_of_the_z_sampler)
+{
+    for (int bounce = 0; bounce < 2; bounce++) {
+        const koksma_render_options options = options_for("z-sampler", N);
+        koksma__sampler sampler;
+        koksma__sample_scratch room;
+        koksma_points all;
+        koksma_spec measure;
+        koksma_value t;
+        assert_ok(koksma_points_init(&all, (size_t)SIDE * SIDE * N, 2));
+        assert_ok(koksma_measure_spec("t-value", &measure));
+        open(&options, &sampler, &room);
+        for (uint64_t p = 0; p < (uint64_t)(SIDE * SIDE); p++) {
+            float pairs[2 * N];
+            draw(&sampler, &room, p, bounce ? KOKSMA__USES_A_BOUNCE + KOKSMA__USE_LOBE : KOKSMA__USE_LIGHT, pairs);
+            for (size_t i = 0; i < (size_t)(2 * N); i++) {
+                all.xs[p * 2 * N + i] = (double)pairs[i];
+            }
+        }
+        assert_ok(koksma_evaluate(&measure, &all, NULL, &t));
+        assert_true(t.value == 0);
+        close_all(&sampler, &room);
+        koksma_points_fini(&all);
+    }
 }
 
 /* Faure's points in three dimensions: the first 27 have one in every elementary box of volume 1/27. That holds only

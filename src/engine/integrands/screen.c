@@ -360,12 +360,7 @@ static koksma_status fit_pattern(screen *s, const koksma_spec *pattern)
 {
     s->pattern = *pattern;
     KOKSMA__TRY(koksma__tile_size(pattern, s->tile));
-    for (const koksma_param *p = pattern->pattern->params; p && p->name && !s->tile[0]; p++) {
-        if (!strcmp(p->name, "width")) {
-            s->whole = true;
-            s->pattern.params[p - pattern->pattern->params] = s->options->side;
-        }
-    }
+    s->whole = koksma__fit_image(&s->pattern, s->options->side);
     return KOKSMA_OK;
 }
 

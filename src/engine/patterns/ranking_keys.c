@@ -16,6 +16,7 @@
  */
 #include <koksma/keys.h>
 
+#include <inttypes.h>
 #include <string.h>
 
 #include "core/parallel.h"
@@ -26,8 +27,8 @@ enum { BLOCK = 4096 };
 
 typedef struct filling {
     uint64_t seed;
-    size_t width, spp;
-    int dims; /* coordinates of a key: 2 or 4 */
+    uint64_t width, spp, first; /* first: number of the first of the points */
+    int dims;                   /* coordinates of a key: 2 or 4 */
     koksma_points *out;
 } filling;
 
@@ -40,7 +41,7 @@ static koksma_status fill_block(void *context, size_t block)
         const size_t bytes = (size_t)(left < f->dims ? left : f->dims) * sizeof(double);
         koksma_keys keys = {.key = 0};
         for (size_t i = block * BLOCK; i < end; i++) {
-            const size_t pixel = i / f->spp, s = i % f->spp;
+            const uint64_t pixel = (f->first + i) / f->spp, s = (f->first + i) % f->spp;
             double xs[4];
             if (i == block * BLOCK || s == 0) {
                 keys = (f->dims == 2 ? koksma_keys_of : koksma_keys_of_4d)(f->seed, (uint32_t)(pixel % f->width),
@@ -56,11 +57,14 @@ static koksma_status fill_block(void *context, size_t block)
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    const size_t width = (size_t)args->params[0], pixels = width * width;
-    KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
-                    "ranking-keys: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n, pixels,
-                    (out->n / pixels + 1) * pixels);
-    filling f = {seed, width, out->n / pixels, args->params[1] != 0 ? 4 : 2, out};
+    const uint64_t width = (uint64_t)args->params[0], pixels = width * width;
+    KOKSMA__FAIL_IF(args->n % pixels, KOKSMA_N,
+                    "ranking-keys: n = %" PRIu64 " is no multiple of the %" PRIu64 " pixels; n = %" PRIu64
+                    " would do",
+                    args->n, pixels, (args->n / pixels + 1) * pixels);
+    KOKSMA__FAIL_IF(args->n / pixels > 1 << 22, KOKSMA_N,
+                    "ranking-keys: %" PRIu64 " samples a pixel: the maximum is 2^22", args->n / pixels);
+    filling f = {seed, width, args->n / pixels, args->first, args->params[1] != 0 ? 4 : 2, out};
     return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, fill_block, &f);
 }
 
@@ -80,6 +84,7 @@ const koksma_pattern koksma__pattern_ranking_keys = {
     .max_dim = 128,
     .claims = KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_DIMENSION_PREFIXES,
     .params = params,
-    .revision = 1,
+    .revision = 2, /* of 1 the renderer gave each pixel a whole image */
+    .ranges = koksma__ranges_always,
     .generate = generate,
 };

@@ -12,6 +12,8 @@
  */
 #include <koksma/sampler.h>
 
+#include <inttypes.h>
+
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
@@ -23,7 +25,7 @@ typedef struct filling {
     uint64_t seed;
     uint32_t width;
     int levels;
-    size_t spp;
+    uint64_t spp, first; /* first: number of the first of the points */
     koksma_points *out;
 } filling;
 
@@ -34,11 +36,12 @@ static koksma_status fill_block(void *context, size_t block)
     const size_t end = (block + 1) * BLOCK < f->out->n ? (block + 1) * BLOCK : f->out->n;
     uint32_t rank = 0;
     for (size_t i = block * BLOCK; i < end; i++) {
-        const uint32_t pixel = (uint32_t)(i / f->spp);
-        if (i == block * BLOCK || i % f->spp == 0) {
+        const uint64_t s = (f->first + i) % f->spp;
+        if (i == block * BLOCK || s == 0) {
+            const uint32_t pixel = (uint32_t)((f->first + i) / f->spp);
             rank = koksma_z_rank(domain, pixel % f->width, pixel / f->width, f->levels);
         }
-        koksma_sobol_2d(domain, (uint32_t)(rank * f->spp + i % f->spp), f->out->xs + 2 * i);
+        koksma_sobol_2d(domain, (uint32_t)(rank * f->spp + s), f->out->xs + 2 * i);
     }
     return KOKSMA_OK;
 }
@@ -50,14 +53,16 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     while (1u << levels < width) {
         levels++;
     }
-    const size_t pixels = (size_t)width * width;
+    const uint64_t pixels = (uint64_t)width * width;
     KOKSMA__FAIL_IF(1u << levels != width, KOKSMA_ARGUMENT,
                     "z-sampler: width=%u is not a power of two; width=%u or %u would do", width, 1u << (levels - 1),
                     1u << levels);
-    KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
-                    "z-sampler: n = %zu is not a multiple of the %zu pixels; n = %zu would do", out->n, pixels,
-                    (out->n / pixels + 1) * pixels);
-    filling f = {seed, width, levels, out->n / pixels, out};
+    KOKSMA__FAIL_IF(args->n % pixels, KOKSMA_N,
+                    "z-sampler: n = %" PRIu64 " is not a multiple of the %" PRIu64 " pixels; n = %" PRIu64
+                    " would do",
+                    args->n, pixels, (args->n / pixels + 1) * pixels);
+    KOKSMA__FAIL_IF((args->n - 1) >> 32, KOKSMA_N, "z-sampler: n = %" PRIu64 ": the maximum is 2^32 points", args->n);
+    filling f = {seed, width, levels, args->n / pixels, args->first, out};
     return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, fill_block, &f);
 }
 
@@ -74,6 +79,7 @@ const koksma_pattern koksma__pattern_z_sampler = {
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_UNBIASED,
     .params = params,
-    .revision = 1,
+    .revision = 2, /* of 1 the renderer gave each pixel a whole image */
+    .ranges = koksma__ranges_always,
     .generate = generate,
 };

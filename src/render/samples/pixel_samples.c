@@ -62,19 +62,38 @@ static koksma_status generate(const koksma_spec *spec, uint64_t seed, size_t n, 
     return koksma_generate(spec, seed, run, &points);
 }
 
+/* Makes the set of a pixel. `key` is that of the use or group. A pattern of images has one seed for all pixels, of an
+   image that holds this one; z-sampler needs a power of two. One without ranges makes its image in each pixel. */
+static koksma_status generate_at(const koksma_render_options *options, const koksma_spec *spec, uint64_t pixel,
+                                 uint32_t key, int dim, const koksma_run *run, double *xs)
+{
+    const uint64_t width = (uint64_t)options->width, n = (uint64_t)options->spp;
+    uint64_t side = 1;
+    koksma_points points = {(size_t)n, dim, xs};
+    koksma_spec image = *spec;
+    while (side < width || side < (uint64_t)options->height) {
+        side *= 2;
+    }
+    if (!koksma_has_ranges(spec) || !koksma__fit_image(&image, (int)side)) {
+        return generate(spec, koksma__random_seed(options->seed, pixel, key), (size_t)n, dim, run, xs);
+    }
+    return koksma_generate_range(&image, koksma__random_seed(options->seed, 0, key), side * side * n,
+                                 (pixel / width * side + pixel % width) * n, run, &points);
+}
+
 enum { SETS_A_LOOK = 16 };
 
 /* Calls generate() for the set of a pixel and, before every SETS_A_LOOK-th set, keep_going: a slow pattern takes ten
    milliseconds per set and does not call keep_going itself, and the sets of all pixels that are drawn together take
    minutes. As often it is asked whether the file of a pattern has changed. */
-static koksma_status generate_next(const koksma_spec *spec, uint64_t seed, size_t n, int dim,
-                                   koksma__sample_scratch *room, double *xs)
+static koksma_status generate_next(const koksma_render_options *options, const koksma_spec *spec, uint64_t pixel,
+                                   uint32_t key, int dim, koksma__sample_scratch *room, double *xs)
 {
     if (++room->sets % SETS_A_LOOK == 0 && !koksma__keep_going(room->run, 0)) {
         return koksma__fail_interrupted();
     }
     const bool trusted = koksma__trust_files(room->sets % SETS_A_LOOK != 1);
-    const koksma_status status = generate(spec, seed, n, dim, room->run, xs);
+    const koksma_status status = generate_at(options, spec, pixel, key, dim, room->run, xs);
     koksma__trust_files(trusted);
     return status;
 }
@@ -118,8 +137,7 @@ static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pi
     if (*kept != key) {
         *kept = 0;
         const koksma_status status =
-            generate_next(&options->groups[place->group].pattern, koksma__random_seed(options->seed, pixel, set_key),
-                          n, place->dim, room, set);
+            generate_next(options, &options->groups[place->group].pattern, pixel, set_key, place->dim, room, set);
         if (status) {
             return status;
         }
@@ -141,8 +159,7 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
     if (samples->places[u].group >= 0) {
         status = take_from_group(sampler, pixel, use, room);
     } else {
-        status = generate_next(koksma__use_spec(options, use), koksma__random_seed(options->seed, pixel, use), n,
-                               dims, room, room->xs);
+        status = generate_next(options, koksma__use_spec(options, use), pixel, use, dims, room, room->xs);
         if (!status && dims == 1) {
             widen(room->xs, n);
         }
@@ -276,8 +293,7 @@ static koksma_status draw_native(const koksma__sampler *sampler, uint64_t pixel,
     if (room->kept_keys[slot] != pixel + 1) {
         room->kept_keys[slot] = 0;
         const koksma_status status =
-            generate_next(&samples->options->pattern, koksma__random_seed(samples->options->seed, pixel, 0), n,
-                          sampler->kept_dim, room, set);
+            generate_next(samples->options, &samples->options->pattern, pixel, 0, sampler->kept_dim, room, set);
         if (status) {
             return status;
         }
@@ -373,7 +389,7 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
     *fixed = NULL;
     KOKSMA__REQUIRE_MEMORY(xs, 2 * n * sizeof *xs);
     koksma_status status = koksma__check_single_use(spec);
-    status = status ? status : generate(spec, options->seed, n, dims, run, xs);
+    status = status ? status : generate_at(options, spec, 0, 0, dims, run, xs);
     if (!status && koksma_has_one_set(spec)) {
         status = keep_fixed(xs, n, dims, 0, dims == 2, fixed);
     }
@@ -464,7 +480,7 @@ static koksma_status try_group(pixel_samples *samples, int g, const koksma_run *
     const int dim = samples->places[group->uses[0]].dim;
     double *xs = malloc(n * (size_t)dim * sizeof *xs);
     KOKSMA__REQUIRE_MEMORY(xs, n * (size_t)dim * sizeof *xs);
-    koksma_status status = generate(&group->pattern, options->seed, n, dim, run, xs);
+    koksma_status status = generate_at(options, &group->pattern, 0, 0, dim, run, xs);
     for (int i = 0; !status && i < group->n_uses; i++) {
         const int u = group->uses[i];
         samples->shuffles[u] = options->pairing == KOKSMA_PAIRING_SHUFFLED &&
@@ -511,7 +527,7 @@ static koksma_status try_native(koksma__sampler *sampler, const pixel_samples *s
     if (!xs) {
         return status ? status : koksma__fail_memory(n * (size_t)dim * sizeof *xs);
     }
-    status = generate(&options->pattern, options->seed, n, dim, run, xs);
+    status = generate_at(options, &options->pattern, 0, 0, dim, run, xs);
     free(xs);
     sampler->draw = draw_native;
     sampler->prepare = NULL;

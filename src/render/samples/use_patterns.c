@@ -150,6 +150,17 @@ koksma_status koksma__try_set(const koksma_spec *spec, size_t n, int dim, const 
     return status;
 }
 
+/* Tries the set of a use or group; in the scope pixel an image of one pixel, where the pattern makes images. */
+static koksma_status try_pixel(const koksma_render_options *options, const koksma_spec *spec, size_t n, int dim,
+                               const koksma_run *run)
+{
+    koksma_spec one = *spec;
+    if (options->scope == KOKSMA_SCOPE_PIXEL && koksma_has_ranges(spec)) {
+        koksma__fit_image(&one, 1);
+    }
+    return koksma__try_set(&one, n, dim, run);
+}
+
 /* Tries the set of a use that is in no group. In the scope pixel a mask has n samples in each pixel of its tile; tiles too
    large to try are left to the renderer, which refuses those that do not fit. */
 static koksma_status try_single(const koksma_render_options *options, const koksma_spec *spec, size_t n, int dim,
@@ -161,7 +172,7 @@ static koksma_status try_single(const koksma_render_options *options, const koks
     if (options->scope == KOKSMA_SCOPE_PIXEL && tile[0]) {
         pixels = tile[0] * tile[1];
     }
-    return n <= MOST_TRIED / pixels || pixels == 1 ? koksma__try_set(spec, n * pixels, dim, run) : KOKSMA_OK;
+    return n <= MOST_TRIED / pixels || pixels == 1 ? try_pixel(options, spec, n * pixels, dim, run) : KOKSMA_OK;
 }
 
 koksma_status koksma__try_use_patterns(const koksma_render_options *options, size_t n, const koksma_run *run)
@@ -173,7 +184,7 @@ koksma_status koksma__try_use_patterns(const koksma_render_options *options, siz
     }
     for (int g = 0; (!status || status == KOKSMA_INTERRUPTED) && g < KOKSMA_MAX_USE_GROUPS; g++) {
         const koksma_use_group *group = &options->groups[g];
-        status = group->n_uses ? koksma__try_set(&group->pattern, n, dimensions(group), run) : status;
+        status = group->n_uses ? try_pixel(options, &group->pattern, n, dimensions(group), run) : status;
     }
     return status;
 }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The size of the tile of mask-offset and mask-file, which a renderer repeats over the image. */
+/* The size of the tile of mask-offset and mask-file, which a renderer repeats over the image, and of images. */
 #include "patterns/masks/tile_size.h"
 
 #include <koksma/mask.h>
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/points_io.h"
 #include "core/status.h"
@@ -22,4 +23,16 @@ koksma_status koksma__tile_size(const koksma_spec *spec, size_t size[2])
         size[1] = shape[0];
     }
     return KOKSMA_OK;
+}
+
+bool koksma__fit_image(koksma_spec *spec, int width)
+{
+    const koksma_param *p = spec->pattern == &koksma__pattern_mask_offset ? NULL : spec->pattern->params;
+    while (p && p->name && strcmp(p->name, "width") != 0) {
+        p++;
+    }
+    if (p && p->name) {
+        spec->params[p - spec->pattern->params] = width;
+    }
+    return p && p->name;
 }

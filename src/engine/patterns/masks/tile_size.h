@@ -10,4 +10,8 @@
    that has no tile. Errors: those of reading the mask of mask-file. */
 KOKSMA__LAB koksma_status koksma__tile_size(const koksma_spec *spec, size_t size[2]);
 
+/* Gives a pattern that makes the points of all pixels of an image, by its parameter `width`, an image of `width` pixels a
+   side; false: the pattern makes none. */
+KOKSMA__LAB bool koksma__fit_image(koksma_spec *spec, int width);
+
 #endif
