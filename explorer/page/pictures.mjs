@@ -38,6 +38,7 @@ export class Pictures {
         const label = name.toUpperCase(), numbers = element("span", { class: "numbers" }, ""), gain = element("span", {}, "");
         const image = figure(element("span", {}, `set ${label}`), `${scene} from the points of set ${label}`);
         const error = figure(element("span", {}, `error of ${label}`, gain, element("br"), numbers), `${scene}: error of set ${label}`);
+        image.node.classList.add("image");
         shown.sets[name] = { image, error, numbers, gain, answer: null };
         parts.push(image.node, error.node);
       }

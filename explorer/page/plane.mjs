@@ -69,7 +69,7 @@ function drawWitness(witness, axes, dim) {
 export function witnessText(witness, n) {
   const { kind, closed, count, volume, lo, hi } = witness;
   const where = {
-    "box": () => lo.map((x, k) => `[${short(x, 6)}, ${short(hi[k], 6)}]`).join(" × "),
+    "box": () => lo.map((x, k) => `${closed || !x ? "[" : "("}${short(x, 6)}, ${short(hi[k], 6)}${closed ? "]" : ")"}`).join(" × "),
     "half-plane": () => `${lo.map((a, k) => `${short(a, 6)} ${"xyz"[k]}`).join(" + ")} ≤ ${short(hi[0], 6)}`,
     "disk": () => `about (${short(lo[0], 6)}, ${short(lo[1], 6)}) of radius ${short(hi[0], 6)}`,
   }[kind]();
@@ -87,6 +87,8 @@ export class Plane {
       role: "application", "aria-roledescription": "picture of points that can be moved", "aria-describedby": "plane-help",
     });
     this.node.addEventListener("pointerdown", event => this.down(event));
+    // a finger on a point drags it in every direction; beside the points it scrolls the page
+    this.node.addEventListener("touchstart", event => { if (this.dragging) event.preventDefault(); }, { passive: false });
     this.node.addEventListener("pointermove", event => this.move(event));
     for (const end of ["pointerup", "pointercancel"]) this.node.addEventListener(end, () => { this.dragging = false; });
     this.node.addEventListener("keydown", event => this.key(event));
