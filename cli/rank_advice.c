@@ -173,6 +173,13 @@ static void advise_tied(const koksma_rank_options *options, const koksma_rank_ro
     }
 }
 
+/* What the errors of all patterns have: those of pictures by other means may also come from their filter. */
+static const char *in_all(const koksma_rank_options *options)
+{
+    return options->render || options->process ? "has visible bands, or goes over several pixels as its filter does"
+                                               : "has visible bands";
+}
+
 static void advise_best(const koksma_rank_options *options, const koksma_rank_row *rows,
                         const koksma_ranking *ranking)
 {
@@ -180,7 +187,7 @@ static void advise_best(const koksma_rank_options *options, const koksma_rank_ro
     const char *name = name_of(options, rows[best].pattern);
     const bool all_coherent = ranking->n_coherent == ranking->n;
     if (all_coherent) {
-        fprintf(stderr, "the error of every pattern has visible bands; %s leaves the least", name);
+        fprintf(stderr, "the error of every pattern %s; %s leaves the least", in_all(options), name);
         print_coherence(&rows[best]);
     } else if (ranking->advised || ranking->within <= KOKSMA_RANK_TIE) {
         fprintf(stderr, "use %s", name);
@@ -232,7 +239,7 @@ static void advise_undecided(const koksma_rank_options *options, const koksma_ra
                 in_bands(&rows[least]));
     }
     if (ranking->n && ranking->n_coherent == ranking->n) {
-        fprintf(stderr, "; the error of every%s pattern has visible bands", ranking->n_slow ? " ranked" : "");
+        fprintf(stderr, "; the error of every%s pattern %s", ranking->n_slow ? " ranked" : "", in_all(options));
     } else if (ranking->n_coherent) {
         fprintf(stderr, "; of those without bands %s leaves the least%s",
                 name_of(options, rows[ranking->use_row].pattern), ranking->advised ? "" : " so far");
