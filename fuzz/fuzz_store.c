@@ -25,7 +25,7 @@ static const char plan[] =
     "\"trials\": 30}], \"questions\": [{\"id\": \"e\", \"kind\": \"table\", \"title\": \"t\", "
     "\"discrepancies\": \"d\"}]}";
 
-enum { MAX_FILE = 1 << 17 };
+enum { MAX_FILE = 1 << 18 };
 typedef struct sound {
     size_t size;
     unsigned char bytes[MAX_FILE];
@@ -151,10 +151,9 @@ static void damage(const uint8_t *bytes, size_t size)
 /* The tables with values, and the columns that lead to one row. */
 static const struct {
     const char *name, *key;
-} tables[] = {{"meta", "key"},
-              {"series", "id"},
-              {"result", "id"},
-              {"reference", "scene, scene_hash, options, width, height, reference, made_by"}};
+} tables[] = {{"meta", "key"},    {"series", "id"},
+              {"result", "id"},   {"failed", "id"},
+              {"left_out", "id"}, {"reference", "scene, scene_hash, options, width, height, reference, made_by"}};
 enum { N_TABLES = sizeof tables / sizeof *tables };
 
 /* The kinds of a new value. A row is removed where it would be DELETE. */

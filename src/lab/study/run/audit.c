@@ -157,7 +157,7 @@ static koksma_status list_all(audit *a)
         n += !n || a->at[n].id != a->at[n - 1].id;
     }
     a->n = n;
-    status = status ? status : koksma__store_scan_rows(a->study->store, count_row, a);
+    status = status ? status : koksma__store_scan(a->study->store, true, count_row, a);
     for (size_t i = 0; !status && i < a->n; i++) {
         audited *s = &a->at[i];
         a->out->rows_missing += s->end - s->rows;
@@ -243,19 +243,6 @@ static double upper_limit(long long k, long long n)
 
 /* ---- Rows ---------------------------------------------------------------------------------------------- */
 
-/* Reads the values of a series in a row of the store: an image has four values, a measure one. */
-static koksma_status stored(audit *a, const audited *s, bool image, koksma__result *out, bool *found)
-{
-    const long long place = image ? 0 : s->id % KOKSMA__RESULT_VALUES;
-    double values[KOKSMA__RESULT_VALUES];
-    const koksma_status status =
-        koksma__store_row(a->study->store, s->id - place, out->trial, &out->seed, values, found);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        out->values[k] = image ? values[k] : k == 0 ? values[place] : (double)NAN;
-    }
-    return status;
-}
-
 /* Checks that the row's seed is the hash of its key; if it is not, the row was not computed from that key. */
 static koksma_status check_seed(audit *a, const koksma__task *t, size_t k, long long trial, bool *right)
 {
@@ -263,7 +250,7 @@ static koksma_status check_seed(audit *a, const koksma__task *t, size_t k, long 
     koksma__result row = {.trial = trial};
     bool found;
     char name[NAME];
-    const koksma_status status = stored(a, s, t->image != NULL, &row, &found);
+    const koksma_status status = koksma__store_row(a->study->store, s->id, &row, &found);
     *right = row.seed == koksma__task_seed(t, trial);
     if (!status && !*right) {
         name_row(t, k, trial, name);
@@ -310,8 +297,7 @@ static bool is_same(double a, double b)
     return (isnan(a) && isnan(b)) || !memcmp(&a, &b, sizeof a);
 }
 
-/* Compares a job's result with the series' row in the store, if there is one. A row that lacks a value of this series but
-   has those of others is none: it is from before the series was. */
+/* Compares a job's result with the series' row in the store, if there is one. */
 static koksma_status compare_row(audit *a, const koksma__task *t, size_t k, const koksma__result *made)
 {
     const audited *s = find_row(a, t->series[k], made->trial);
@@ -322,10 +308,7 @@ static koksma_status compare_row(audit *a, const koksma__task *t, size_t k, cons
     if (!s) {
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(stored(a, s, t->image != NULL, &row, &found));
-    pthread_mutex_lock(&a->lock);
-    found = found && (!isnan(row.values[0]) || is_drawn(s, row.trial));
-    pthread_mutex_unlock(&a->lock);
+    KOKSMA__TRY(koksma__store_row(a->study->store, s->id, &row, &found));
     while (v < KOKSMA__RESULT_VALUES && is_same(row.values[v], made->values[v])) {
         v++;
     }
@@ -449,7 +432,7 @@ static koksma_status compare(audit *a, const koksma_run *run)
     if (koksma_study_mpi_rank() > 0) {
         return koksma__mpi_work(a->study, &control.job);
     }
-    koksma_status status = koksma__store_scan_rows(a->study->store, draw_row, a);
+    koksma_status status = koksma__store_scan(a->study->store, true, draw_row, a);
     const double drawn = a->out->rows ? (double)a->out->drawn / (double)a->out->rows : 0;
     const double sets = drawn * koksma__run_work(a->study, false),
                  images = drawn * koksma__run_work(a->study, true) + work_of_references(a->study);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Counts the jobs of each task that failed without ending the run, and makes the lines of the list in the store
+/* Counts the jobs of each task that failed without ending the run, and lists these in the store
    (store_failed.c). */
 #include "study/run/run.h"
 
@@ -7,13 +7,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "study/plan/plan.h"
 
 void koksma__failures_fini(koksma__failures *failures)
 {
     free(failures->tasks);
-    koksma__texts_fini(&failures->lines);
+    for (size_t i = 0; i < failures->n_list; i++) {
+        KOKSMA__FREE(failures->list[i].label, failures->list[i].reason);
+    }
+    free(failures->list);
 }
 
 /* ---- Counting ------------------------------------------------------------------------------------------ */
@@ -60,7 +64,7 @@ koksma_status koksma__failures_count(const koksma__tasks *tasks, size_t job, con
 }
 
 /* Writes the label of a task, which tells all but n: the pattern, the dimension unless it is 2, and the warp; or the
-   pattern, scene, size and options. Lines of equal label, n and reason may be of several blocks, and a list has one of
+   pattern, scene, size and options. Tasks of equal label, n and reason may be of several blocks, and the store has one of
    them. */
 static void put_label(FILE *f, const koksma__task *t)
 {
@@ -74,24 +78,20 @@ static void put_label(FILE *f, const koksma__task *t)
     }
 }
 
-static koksma_status add_line(koksma__texts *lines, const koksma__task *t, const koksma__failed_task *failed)
+/* Adds a task to the list, which takes over the reason. */
+static koksma_status list_task(koksma__failures *run, const koksma__task *t, const koksma__failed_task *failed)
 {
-    char *text = NULL;
+    koksma__failed *at = koksma__add_one(&run->list, &run->n_list, sizeof *at);
     size_t size = 0;
-    FILE *f = open_memstream(&text, &size);
+    if (!at) {
+        free(failed->reason);
+        return KOKSMA_MEMORY;
+    }
+    *at = (koksma__failed){.reason = failed->reason, .n = t->n, .failed = (long long)failed->n, .trials = t->trials};
+    FILE *f = open_memstream(&at->label, &size);
     KOKSMA__REQUIRE_MEMORY(f, 1);
     put_label(f, t);
-    fflush(f);
-    const size_t label = size;
-    fprintf(f, "\t%lld\t%zu\t%lld\t%s", t->n, failed->n, t->trials, failed->reason);
-    koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
-    for (size_t i = 0; !status && i < size; i++) { /* blanks replace tabs and ends of lines, which separate fields */
-        const bool separates = text[i] == '\n' || text[i] == '\r' || (text[i] == '\t' && i < label);
-        text[i] = separates ? ' ' : text[i];
-    }
-    status = status ? status : koksma__texts_add(lines, text);
-    free(text);
-    return status;
+    return fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
 }
 
 koksma_status koksma__failures_add(koksma__failures *run, const koksma__failures *phase, const koksma__tasks *tasks)
@@ -104,28 +104,25 @@ koksma_status koksma__failures_add(koksma__failures *run, const koksma__failures
     run->n_refused += phase->n_refused;
     for (size_t i = 0; phase->tasks && i < tasks->n; i++) {
         if (!status && phase->tasks[i].n) {
-            status = add_line(&run->lines, &tasks->at[i], &phase->tasks[i]);
+            status = list_task(run, &tasks->at[i], &phase->tasks[i]);
+        } else {
+            free(phase->tasks[i].reason);
         }
-        free(phase->tasks[i].reason);
     }
-    return status ? status : koksma__left_out_thin(&run->lines);
+    return status;
 }
 
 koksma_status koksma__failures_record(koksma_study *study, const koksma__failures *run, bool all)
 {
-    koksma__texts before = {0}, stored = {0}, lines = {0};
+    koksma__texts lines = {0};
     const char *line;
-    koksma_status status = all ? KOKSMA_OK : koksma__left_out_recall(study->store, &before);
-    status = status ? status : koksma__left_out_add(&before, &run->lines, &stored);
-    const koksma__texts kept = stored;
-    status = status ? status : koksma__left_out_add(&run->lines, &kept, &stored);
-    status = status ? status : koksma__left_out_show(&stored, &study->failed);
+    koksma__texts_fini(&study->failed);
+    koksma_status status = koksma__store_put_failed(study->store, run->list, run->n_list, all);
+    status = status ? status : koksma__store_failed(study->store, &study->failed);
     for (size_t i = 0; !status && (line = koksma_study_left_out_at(study, i)); i++) {
         status = koksma__texts_add(&lines, line);
     }
-    status = status ? status : koksma__left_out_record(study->store, &stored, &lines);
-    koksma__texts_fini(&before);
-    koksma__texts_fini(&stored);
+    status = status ? status : koksma__store_put_left_out(study->store, &lines);
     koksma__texts_fini(&lines);
     return status ? status : koksma__store_commit(study->store);
 }

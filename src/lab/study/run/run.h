@@ -37,7 +37,8 @@ typedef struct koksma__failures {
     size_t first;                    /* the lowest failed job; if n_refused > 0, the lowest of these */
     char text[KOKSMA__FAILURE_TEXT]; /* the error text of job `first` */
     koksma__failed_task *tasks;      /* of a phase: one for each task, or NULL if no job failed */
-    koksma__texts lines;             /* of a run: a line for each task with failed jobs, as the store has them */
+    size_t n_list;                   /* length of `list`, which has the tasks of a run with failed jobs */
+    koksma__failed *list;
 } koksma__failures;
 
 void koksma__failures_fini(koksma__failures *failures);
@@ -217,11 +218,9 @@ koksma_status koksma__work_threads(koksma__phase *phase);
  *     RESULTS  koksma__outcomes
  *     NEED     index of a reference whose pixels the rank needs
  *     ERROR    status and text of a rank that fails; all ranks then end
- *     PIECES   this rank's pieces of a shared search (koksma_study_mpi_processes)
  * Messages from rank 0:
  *     ASSIGNMENTS  jobs or tiles to do, or the end of the phase or of the run; if empty, the rank requests again
  *     PIXELS       a reference image: koksma__image_head; its pixels follow in a second message
- *     PIECES       the pieces of all ranks
  */
 enum { KOKSMA__PHASES = 2 };
 

@@ -118,7 +118,7 @@ koksma_status koksma__count_undone(koksma_study *study, size_t *jobs, size_t *un
     *jobs = *undone = 0;
     KOKSMA__TRY(count_jobs(study, false, jobs, &done));
     KOKSMA__TRY(count_jobs(study, true, jobs, &done));
-    KOKSMA__TRY(koksma__left_out_count(study->store, &failed));
+    KOKSMA__TRY(koksma__store_count_failed(study->store, &failed));
     *undone = *jobs - done > failed ? *jobs - done - failed : 0;
     return KOKSMA_OK;
 }

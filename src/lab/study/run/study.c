@@ -294,15 +294,6 @@ static koksma_status load_plans(koksma_study *study, const koksma_study_options 
     return status;
 }
 
-static koksma_status recall_failed(koksma_study *study)
-{
-    koksma__texts stored = {0};
-    koksma_status status = koksma__left_out_recall(study->store, &stored);
-    status = status ? status : koksma__left_out_show(&stored, &study->failed);
-    koksma__texts_fini(&stored);
-    return status;
-}
-
 /* Opens a study with the plans of the options. folder = NULL: results are not stored (estimates, and all ranks of an
    MPI run but rank 0). */
 static koksma_status open_with_plans(koksma_study *study, const koksma_study_options *options)
@@ -317,7 +308,7 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
         status = make_folder(study, options->folder, path);
         status = status ? status : koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
         status = status ? status : keep_plan(study, options, texts);
-        status = status ? status : recall_failed(study);
+        status = status ? status : koksma__store_failed(study->store, &study->failed);
     }
     for (size_t i = 0; i < options->n_plans; i++) {
         free(texts[i]);
@@ -334,7 +325,7 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
     KOKSMA__REQUIRE_MEMORY(study->folder, strlen(folder));
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
     status = status ? status : recall_plan(study);
-    status = status ? status : recall_failed(study);
+    status = status ? status : koksma__store_failed(study->store, &study->failed);
     if (!status && (status = open_scenes(study))) {
         koksma__study_fail_here(study, status);
     }
@@ -412,8 +403,20 @@ koksma_status koksma_study_left_out(const char *folder, char **lines)
     *lines = NULL;
     KOKSMA__TRY(koksma__results_path(folder, path));
     KOKSMA__TRY(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
-    const koksma_status status = koksma__left_out_text(store, lines);
+    koksma__texts of = {0};
+    size_t size = 0;
+    koksma_status status = koksma__store_left_out(store, &of);
+    FILE *f = open_memstream(lines, &size);
+    for (size_t i = 0; f && i < of.n; i++) {
+        fprintf(f, "%s\n", of.at[i]);
+    }
+    status = f && !fclose(f) ? status : koksma__fail_memory(size);
+    koksma__texts_fini(&of);
     koksma__store_close(store);
+    if (status) {
+        free(*lines);
+        *lines = NULL;
+    }
     return status;
 }
 

@@ -416,7 +416,7 @@ koksma_status koksma__tasks_look_up(koksma__tasks *tasks, bool add, const koksma
 {
     owners o = {0};
     koksma_status status = find_series(tasks, add, run, &o);
-    status = status ? status : koksma__store_scan(tasks->study->store, see_row, &o);
+    status = status ? status : koksma__store_scan(tasks->study->store, false, see_row, &o);
     for (size_t i = 0; !status && i < tasks->n; i++) {
         mark_done(&tasks->at[i], &o);
     }

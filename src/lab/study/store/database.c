@@ -345,17 +345,6 @@ koksma_status koksma__database_execute(koksma__database *database, const char *s
     return sqlite3_exec(database->file, sql, NULL, NULL, NULL) == SQLITE_OK ? KOKSMA_OK : fail(database);
 }
 
-int koksma__database_changes(koksma__database *database)
-{
-    return sqlite3_changes(database->file);
-}
-
-bool koksma__database_had_conflict(koksma__database *database)
-{
-    const int code = sqlite3_extended_errcode(database->file);
-    return code == SQLITE_CONSTRAINT_ROWID || code == SQLITE_CONSTRAINT_PRIMARYKEY;
-}
-
 koksma_status koksma__statement_open(koksma__database *database, const char *sql, koksma__statement **out)
 {
     return sqlite3_prepare_v3(database->file, sql, -1, SQLITE_PREPARE_PERSISTENT, out, NULL) == SQLITE_OK

@@ -1,8 +1,7 @@
--- The results of studies, schema 7 (user_version; application_id 1265333101, "Kksm" in the header of the file). A name
+-- The results of studies, schema 8 (user_version; application_id 1265333101, "Kksm" in the header of the file). A name
 -- in a text never changes its meaning. Numbers are the computed doubles, bit for bit. `SELECT * FROM rows` shows all
 -- results with their keys. Koksma opens a file only if it has exactly these tables and nothing else. Table meta also has
--- the texts 'failed' and 'left-out', where a run had jobs that failed (study/run/failed_jobs.c), and 'run-folder', the
--- folder in which the last run was started.
+-- 'run-folder', the folder in which the last run was started.
 
 CREATE TABLE meta (          -- the file's 'plan', 'plan-texts', 'plan-text-0', 'plan-name-0', ...
   key TEXT PRIMARY KEY,
@@ -10,8 +9,7 @@ CREATE TABLE meta (          -- the file's 'plan', 'plan-texts', 'plan-text-0', 
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE series (        -- the key of results without the trial; each series is one mean in a table
-  id INTEGER PRIMARY KEY CHECK (id BETWEEN 1 AND 67108864), -- a multiple of 4 for images; measures of the same
-                                           -- point sets have consecutive ids
+  id INTEGER PRIMARY KEY CHECK (id BETWEEN 1 AND 67108864),
   kind TEXT NOT NULL CHECK (kind IN ('discrepancy', 'image', 'coherence', 'metric')), -- coherence: of an image's
                                            -- error; metric: an image's error by a metric
   scene TEXT NOT NULL,                     -- '' for discrepancies, as is scene_hash
@@ -30,20 +28,18 @@ CREATE TABLE series (        -- the key of results without the trial; each serie
   UNIQUE (kind, scene, scene_hash, options, pattern, n, dim, width, height, what, metric, made_by, measured_by)
 ) STRICT;
 
-CREATE TABLE result (        -- up to four measures of one point set, or one render and one reference
-  id INTEGER PRIMARY KEY CHECK (id >= 0 AND id & 3 = 0), -- 2^32 trial + series, a multiple of 4, so that new
-                                           -- rows are appended
+CREATE TABLE result (        -- one trial of a series
+  id INTEGER PRIMARY KEY CHECK (id >= 0),  -- 2^32 trial + series, so that new rows are appended
   seed INTEGER NOT NULL,                   -- of koksma_generate or koksma_render, as a signed 64-bit number
-  v0 REAL CHECK (abs(v0) < 9e999),         -- value of the measure `series`; for an image the mean over the pixels
-                                           -- of the absolute error in luminance; for a coherence the peak of the
-                                           -- error's power spectrum divided by its mean, 0 without an error; the
-                                           -- value of a metric
-  v1 REAL CHECK (abs(v1) < 9e999),         -- value of series + 1; for an image the SD of the absolute error; for a
-                                           -- coherence p, the probability that white noise has as large a peak; the
-                                           -- metric without the 0.1 % of the pixels with the largest errors
-  v2 REAL CHECK (abs(v2) < 9e999),         -- value of series + 2; the error's maximum; the peak's x frequency
-                                           -- (1/pixel); these pixels' share, 0 to 1, of the sum of all errors
-  v3 REAL CHECK (abs(v3) < 9e999)          -- value of series + 3; the RMSE; the peak's y frequency; none of a metric
+  v0 REAL CHECK (abs(v0) < 9e999),         -- value of the measure; for an image the mean over the pixels of the absolute
+                                           -- error in luminance; for a coherence the peak of the error's power
+                                           -- spectrum divided by its mean, 0 without an error; the value of a metric
+  v1 REAL CHECK (abs(v1) < 9e999),         -- for an image the SD of the absolute error; for a coherence p, the
+                                           -- probability that white noise has as large a peak; the metric without the
+                                           -- 0.1 % of the pixels with the largest errors
+  v2 REAL CHECK (abs(v2) < 9e999),         -- the error's maximum; the peak's x frequency (1/pixel); these pixels' share,
+                                           -- 0 to 1, of the sum of all errors
+  v3 REAL CHECK (abs(v3) < 9e999)          -- the RMSE; the peak's y frequency; none of a metric
 ) STRICT;
 
 CREATE TABLE reference (     -- the errors of reference images
@@ -72,9 +68,24 @@ CREATE TABLE run (           -- when, where and how long a run wrote this file
   store_seconds REAL NOT NULL              -- the part of processor_seconds spent in this database
 ) STRICT;
 
+CREATE TABLE failed (        -- jobs that failed without ending the run, and why (study/run/failed_jobs.c)
+  id INTEGER PRIMARY KEY,
+  label TEXT NOT NULL,                     -- the pattern, and what else tells the jobs but n
+  n INTEGER NOT NULL,
+  failed INTEGER NOT NULL CHECK (failed > 0), -- trials that failed, of `trials`
+  trials INTEGER NOT NULL,
+  reason TEXT NOT NULL,                    -- of the first of them
+  UNIQUE (label, n, reason)
+) STRICT;
+
+CREATE TABLE left_out (      -- what was left out: lines on the plan's blocks with `skip`, and on failed jobs
+  id INTEGER PRIMARY KEY,
+  line TEXT NOT NULL
+) STRICT;
+
 CREATE VIEW rows AS
   SELECT kind, scene, scene_hash, options, pattern, n, dim, width, height, what, result.id >> 32 AS trial, seed,
-         CASE series.id & 3 WHEN 0 THEN v0 WHEN 1 THEN v1 WHEN 2 THEN v2 ELSE v3 END AS value,
+         v0 AS value,
          CASE kind WHEN 'image' THEN v1 END AS sd,
          CASE kind WHEN 'image' THEN v2 END AS max,
          CASE kind WHEN 'image' THEN v3 END AS rmse,
@@ -84,5 +95,5 @@ CREATE VIEW rows AS
          CASE kind WHEN 'metric' THEN v1 END AS robust,
          CASE kind WHEN 'metric' THEN v2 END AS top_share,
          metric, made_by, measured_by
-  FROM result JOIN series ON series.id BETWEEN result.id & 4294967295 AND (result.id & 4294967295) + 3
-  WHERE value IS NOT NULL;
+  FROM result JOIN series ON series.id = result.id & 4294967295
+  WHERE v0 IS NOT NULL;

@@ -80,19 +80,13 @@ koksma_status koksma__store_series(koksma__store *store, const koksma__series *s
 koksma_status koksma__store_put(koksma__store *store, const long long *series, const koksma__result *results,
                                 size_t n);
 
-/* Calls `see` for every result in the store. */
-koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
-                                 void *context);
+/* Calls `see` for each result in the store; every: also for rows without a value, which runs write only for images whose
+   error is no number. */
+koksma_status koksma__store_scan(koksma__store *store, bool every,
+                                 void (*see)(void *context, long long series, long long trial), void *context);
 
-/* Like koksma__store_scan, but passes on every row: one without a value as a result of the first series of its group.
-   Runs write such rows only for images whose error is no number. */
-koksma_status koksma__store_scan_rows(koksma__store *store,
-                                      void (*see)(void *context, long long series, long long trial), void *context);
-
-/* Reads the values of a trial in the four series from `group`, a multiple of four; *found: whether there is such
-   a row. */
-koksma_status koksma__store_row(koksma__store *store, long long group, long long trial, uint64_t *seed,
-                                double values[KOKSMA__RESULT_VALUES], bool *found);
+/* Reads the seed and the values of the trial result->trial of a series; *found: whether there is such a row. */
+koksma_status koksma__store_row(koksma__store *store, long long series, koksma__result *result, bool *found);
 
 /* Reads the results of a series with trials below `trials`, in order; the caller frees *results. Series 0 has
    none. */
@@ -116,28 +110,27 @@ koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_r
 
 /* ---- Failed jobs (store_failed.c) ---------------------------------------------------------------------------- */
 
-/* Appends the store's lines to `stored`. Errors: those of the store, MEMORY. */
-koksma_status koksma__left_out_recall(koksma__store *store, koksma__texts *stored);
+/* The failed jobs of a task. label: all that tells it from others but n. */
+typedef struct koksma__failed {
+    char *label, *reason;
+    long long n, failed, trials;
+} koksma__failed;
 
-/* Makes the lines for readers from the store's lines. Errors: MEMORY. */
-koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *lines);
+/* Writes the failed jobs of a run. all: whether the run tried every job; otherwise the rows of earlier runs stay, except
+   those of which this run has one of equal label and n with at least as many failed trials, and vice versa: the reason may
+   be another trial's. Trials that failed once fail in every run, so that the run that counted more of them has tried more.
+   Of rows of one run with equal label, n and reason that with the most failed trials counts; those with different
+   reasons are of different jobs: the measures of two blocks may refuse the same set. */
+koksma_status koksma__store_put_failed(koksma__store *store, const koksma__failed *at, size_t n, bool all);
 
-/* Adds up the failed trials of the store's lines. Errors: those of the store, MEMORY. */
-koksma_status koksma__left_out_count(koksma__store *store, size_t *trials);
+/* Appends the lines for readers. */
+koksma_status koksma__store_failed(koksma__store *store, koksma__texts *lines);
 
-/* Writes the lines, and those for readers, into the store. Errors: those of the store, MEMORY. */
-koksma_status koksma__left_out_record(koksma__store *store, const koksma__texts *stored, const koksma__texts *lines);
+/* Adds up the failed trials. */
+koksma_status koksma__store_count_failed(koksma__store *store, size_t *trials);
 
-/* Reads the lines for readers that a run wrote, each ended by a newline. The caller frees *lines. */
-koksma_status koksma__left_out_text(koksma__store *store, char **lines);
-
-/* Removes the lines of one run that repeat an earlier line's label, n and reason with no more failed trials. Lines with
-   different reasons are of different jobs: the measures of two blocks may refuse the same set. Errors: MEMORY. */
-koksma_status koksma__left_out_thin(koksma__texts *lines);
-
-/* Appends the lines to `to`, except those of which `known`, of another run, has a line of equal label and n with at least
-   as many failed trials: the reason may be another trial's. Trials that failed once fail in every run, so that the run that
-   counted more of them has tried more of them. Errors: MEMORY. */
-koksma_status koksma__left_out_add(const koksma__texts *lines, const koksma__texts *known, koksma__texts *to);
+/* Write and append the lines of all that was left out. */
+koksma_status koksma__store_put_left_out(koksma__store *store, const koksma__texts *lines);
+koksma_status koksma__store_left_out(koksma__store *store, koksma__texts *lines);
 
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The internal interface of the store. store_open.c creates and opens it, and checks its tables,
-   store_tables.c reads and checks rows, store_series.c finds ids of series,
-   store_rows.c writes results, store_results.c reads them; store.c has locks, transactions, texts, references and
-   runs. */
+/* The internal interface of the store. store_open.c creates and opens it, and checks its tables; store_series.c finds ids
+   of series, store_rows.c writes results, store_results.c reads them; store.c has locks, transactions, texts, references
+   and runs. */
 #ifndef KOKSMA_STUDY_STORE_STORE_INTERNAL_H
 #define KOKSMA_STUDY_STORE_STORE_INTERNAL_H
 
@@ -52,11 +51,6 @@ const char *koksma__database_path(const koksma__database *database);
 /* Runs one or more SQL statements without parameters and ignores the rows that they return. */
 koksma_status koksma__database_execute(koksma__database *database, const char *sql);
 
-/* The first function returns how many rows the last statement inserted before it ended or failed, the second whether
-   it failed because a row existed. */
-int koksma__database_changes(koksma__database *database);
-bool koksma__database_had_conflict(koksma__database *database);
-
 /* A prepared statement, for repeated use with a value for each '?'. */
 koksma_status koksma__statement_open(koksma__database *database, const char *sql, koksma__statement **out);
 void koksma__statement_close(koksma__statement *statement);
@@ -79,7 +73,7 @@ void koksma__statement_reset(koksma__statement *statement);
    whether every column has its type: a text; a whole number; a finite number or NULL. */
 bool koksma__read(koksma__statement *statement, int first, const char *types, ...);
 
-/* A row of table result: the results of one trial in up to four series. */
+/* A row of table result: one trial of a series; id: 2^32 trial + series. */
 typedef struct koksma__row {
     long long id;
     uint64_t seed;
@@ -89,64 +83,39 @@ typedef struct koksma__row {
 /* The prepared statements, whose SQL is in store_open.c. */
 typedef enum koksma__query {
     KOKSMA__FIND_SERIES,
-    KOKSMA__NEXT_SERIES,
     KOKSMA__ADD_SERIES,
     KOKSMA__PUT_ROW,
     KOKSMA__PUT_ROWS,
     KOKSMA__GET_ROW,
     KOKSMA__GET_RESULTS,
-    KOKSMA__FILTER_RESULTS,
-    KOKSMA__GET_IDS,
+    KOKSMA__GET_ROWS,
     KOKSMA__GET_SERIES,
     KOKSMA__LAST_SERIES,
     KOKSMA__PUT_REFERENCE,
     KOKSMA__GET_REFERENCE,
     KOKSMA__PUT_TEXT,
     KOKSMA__GET_TEXT,
+    KOKSMA__PUT_FAILED,
+    KOKSMA__GET_FAILED,
+    KOKSMA__COUNT_FAILED,
+    KOKSMA__PUT_LEFT_OUT,
+    KOKSMA__GET_LEFT_OUT,
     KOKSMA__PUT_RUN,
     KOKSMA__GET_RUN,
     KOKSMA__N_QUERIES
 } koksma__query;
 
 /* Number of rows that PUT_ROWS inserts; version of the schema. */
-enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SCHEMA = 7 };
+enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SCHEMA = 8 };
 
 /* Rows are gathered in memory and written together, because one statement for each row would take most of the
    time of small jobs. A killed run loses the rows of this many seconds, or of one job if that takes longer. */
 static const double KOKSMA__WRITE_AFTER_S = 0.2;
 
-/* A row of table result has four values. For an image, a coherence or a metric these are one result. For point sets they
-   are one value each of up to four measures: series with equal pattern, n, dim and options get consecutive ids
-   from a multiple of GROUP on if they are created one after the other. The ids of rows ascend in the order
-   in which a run makes them, so that rows are appended. */
-enum { KOKSMA__GROUP = KOKSMA__RESULT_VALUES };
-
-static inline long long koksma__group_of(long long series)
-{
-    return series - series % KOKSMA__GROUP;
-}
-
 typedef struct koksma__rows {
     size_t n;
     koksma__row *at;
 } koksma__rows;
-
-/* The rows of table result as a scan has read them, in the order of their ids. Only a store of few rows has them in
-   memory: a report reads them several times, which SQLite does at about 1 us a row. */
-typedef struct koksma__kept_rows {
-    bool all; /* whether `rows` has all rows of the table */
-    koksma__rows rows;
-    size_t capacity;
-    /* The indices of the rows by group and trial; the group of series g * GROUP has order[first[g]] up to
-       order[first[g + 1] - 1]. */
-    unsigned *order, *first;
-} koksma__kept_rows;
-
-typedef struct koksma__known_series {
-    /* true: the four values of a row are one result; false: a row has one value each of up to four series */
-    bool alone;
-    long long end; /* 1 + the index of the last trial */
-} koksma__known_series;
 
 struct koksma__store {
     koksma__database *database;
@@ -155,13 +124,9 @@ struct koksma__store {
     bool in_transaction;
     koksma_status failed; /* status of the first write that failed, after which nothing more is written */
     char reason[512];     /* its error text */
-    long long rows;       /* of table result, which the last scan read */
     double began_s, entered_s, seconds;
     koksma__rows spare;
-    size_t n_known;              /* length of `known`, which is indexed by the ids of series */
-    koksma__known_series *known; /* NULL until it is needed */
-    bool knows_ends;
-    koksma__kept_rows kept;
+    bool sorted;                 /* whether the table temp.sorted has all rows of result */
     pthread_mutex_t gather_lock; /* guards the members below; may be taken while `lock` is held */
     koksma__rows gathered;
     double written_s; /* time of the last write of rows (koksma__now_s) */
@@ -195,25 +160,19 @@ koksma_status koksma__store_write(koksma__store *store, koksma__query query);
 koksma_status koksma__store_put_text(koksma__store *store, const char *key, const char *value);
 koksma_status koksma__store_find_text(koksma__store *store, const char *key, char **value);
 
-/* ---- store_tables.c ------------------------------------------------------------------------------------------- */
-
-/* Reads the current row of the statement GET_SERIES, a row of table series. */
-koksma_status koksma__store_read_series(koksma__store *store, koksma__statement *s, koksma__series *key,
-                                        long long *id);
-
-/* Reads the seed and the values of a row of table result, beginning at a column. The caller has set row->id. */
-koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, int column, koksma__row *row);
-
 /* ---- store_series.c ---------------------------------------------------------------------------------------------
  */
 
-/* The first function reads all series into `known`, unless it did so before; the second frees `known` and `kept`
-   after a change of the tables. */
-koksma_status koksma__store_know_series(koksma__store *store);
-void koksma__store_forget(koksma__store *store);
+/* Reads the current row of the statement GET_SERIES, a row of table series. Fails if a column has not the type that the
+   schema gives it, because a damaged file may hold anything. */
+koksma_status koksma__store_read_series(koksma__store *store, koksma__statement *s, koksma__series *key,
+                                        long long *id);
 
 /* ---- store_rows.c -----------------------------------------------------------------------------------------------
  */
+
+/* Reads the current row of a statement that returns rows of table result, and checks it likewise. */
+koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, koksma__row *row);
 
 koksma_status koksma__store_rows_init(koksma__store *store);
 void koksma__store_rows_fini(koksma__store *store);

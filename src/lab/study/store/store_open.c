@@ -27,7 +27,7 @@
 /* "Kksm", which no other program has in SQLite's own list of application ids (magic.txt). */
 static const uint32_t APPLICATION = 0x4b6b736d;
 
-enum { STATEMENTS = 6 };
+enum { STATEMENTS = 8 };
 
 /* Writes one statement to `out` without comments that begin with -- and with one blank for each stretch of white space,
    both outside quotes. The statement ends at the first ';' outside quotes, or at the end of the text. Returns the rest of
@@ -128,29 +128,25 @@ static koksma_status make_schema(koksma__database *database)
     return status ? status : koksma__database_execute(database, koksma__schema_sql);
 }
 
-#define GROUP_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height, made_by"
-#define SERIES_KEY GROUP_KEY ", what, metric, measured_by"
+#define SERIES_KEY                                                                                                   \
+    "kind, scene, scene_hash, options, pattern, n, dim, width, height, made_by, what, metric, measured_by"
 #define SORT_KEY                                                                                                     \
     "kind, scene, scene_hash, options, pattern, n, dim, width, height, what, metric, made_by, measured_by"
 
+#define PUT_ROWS(rows) "INSERT INTO result VALUES " rows " ON CONFLICT (id) DO NOTHING"
 #define ROW "(?,?,?,?,?,?)"
 #define TIMES_8(row) row "," row "," row "," row "," row "," row "," row "," row
 #define TIMES_32(row) TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row)
 
 static const char *const queries[KOKSMA__N_QUERIES] = {
     [KOKSMA__FIND_SERIES] = "SELECT id FROM series WHERE (" SERIES_KEY ") = (?,?,?,?,?,?,?,?,?,?,?,?,?)",
-    [KOKSMA__NEXT_SERIES] = "SELECT max(id), (SELECT max(id) FROM series) FROM series WHERE (" GROUP_KEY
-                            ") = (?,?,?,?,?,?,?,?,?,?) AND kind = 'discrepancy'",
     [KOKSMA__ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ", id) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
-    [KOKSMA__PUT_ROW] = "INSERT OR REPLACE INTO result VALUES " ROW,
-    [KOKSMA__PUT_ROWS] = "INSERT OR FAIL INTO result VALUES " TIMES_32(ROW),
-    [KOKSMA__GET_ROW] = "SELECT seed, v0, v1, v2, v3 FROM result WHERE id = ?",
-    [KOKSMA__GET_RESULTS] =
-        "WITH RECURSIVE trials(trial) AS (VALUES (0) UNION ALL SELECT trial + 1 FROM trials WHERE trial + 1 < ?2) "
-        "SELECT trial, seed, v0, v1, v2, v3 FROM trials CROSS JOIN result ON id = trial << 32 | ?1",
-    [KOKSMA__FILTER_RESULTS] =
-        "SELECT id >> 32, seed, v0, v1, v2, v3 FROM result WHERE id & 4294967295 = ?1 AND id < ?2 << 32",
-    [KOKSMA__GET_IDS] = "SELECT id, seed, v0, v1, v2, v3 FROM result ORDER BY id",
+    [KOKSMA__PUT_ROW] = PUT_ROWS(ROW),
+    [KOKSMA__PUT_ROWS] = PUT_ROWS(TIMES_32(ROW)),
+    [KOKSMA__GET_ROW] = "SELECT * FROM result WHERE id = ?",
+    [KOKSMA__GET_ROWS] = "SELECT * FROM result ORDER BY id",
+    [KOKSMA__GET_RESULTS] = "SELECT trial << 32 | series, seed, v0, v1, v2, v3 FROM sorted WHERE series = ? AND "
+                            "trial < ? ORDER BY trial",
     [KOKSMA__GET_SERIES] = "SELECT " SORT_KEY ", id FROM series ORDER BY " SORT_KEY,
     [KOKSMA__LAST_SERIES] = "SELECT max(id) FROM series",
     [KOKSMA__PUT_REFERENCE] = "INSERT OR REPLACE INTO reference VALUES (?,?,?,?,?,?,?,?,?)",
@@ -158,6 +154,19 @@ static const char *const queries[KOKSMA__N_QUERIES] = {
                               "options=? AND width=? AND height=? AND reference=? AND made_by=?",
     [KOKSMA__PUT_TEXT] = "INSERT OR REPLACE INTO meta VALUES (?,?)",
     [KOKSMA__GET_TEXT] = "SELECT value FROM meta WHERE key=?",
+    [KOKSMA__PUT_FAILED] = "INSERT INTO fresh (label, n, failed, trials, reason) VALUES (?,?,?,?,?) ON CONFLICT DO "
+                           "UPDATE SET failed = excluded.failed, trials = excluded.trials WHERE excluded.failed > "
+                           "failed",
+    [KOKSMA__GET_FAILED] =
+        "WITH ranked AS (SELECT *, row_number() OVER (PARTITION BY label, n ORDER BY id) AS rank FROM failed), "
+        "grown AS (SELECT label, group_concat(' ' || n || ' (' || failed || ' of ' || trials || ' trial' || "
+        "iif(trials = 1, '', 's') || ')', ',') OVER line AS sizes, first_value(reason) OVER line AS reason, "
+        "first_value(id) OVER line AS first, lead(id) OVER line AS next FROM ranked "
+        "WINDOW line AS (PARTITION BY label, rank ORDER BY id)) "
+        "SELECT label || ', N =' || sizes || ': ' || reason FROM grown WHERE next IS NULL ORDER BY first",
+    [KOKSMA__COUNT_FAILED] = "SELECT sum(failed) FROM failed",
+    [KOKSMA__PUT_LEFT_OUT] = "INSERT INTO left_out (line) VALUES (?)",
+    [KOKSMA__GET_LEFT_OUT] = "SELECT line FROM left_out ORDER BY id",
     [KOKSMA__PUT_RUN] = "INSERT INTO run (started, machine, version, workers, jobs, seconds, idle_seconds, "
                         "processor_seconds, store_seconds) VALUES (?,?,?,?,?,?,?,?,?)",
     [KOKSMA__GET_RUN] = "SELECT started, machine, version, workers, jobs, seconds, idle_seconds, processor_seconds, "
@@ -183,6 +192,11 @@ static koksma_status make_store(koksma__database *database, koksma__store **out)
 
 static koksma_status open_queries(koksma__store *store)
 {
+    KOKSMA__TRY(koksma__database_execute(store->database,
+                                         "CREATE TEMP TABLE sorted (series, trial, seed, v0, v1, v2, v3, "
+                                         "PRIMARY KEY (series, trial)) WITHOUT ROWID; "
+                                         "CREATE TEMP TABLE fresh (id INTEGER PRIMARY KEY, label, n, failed, trials, "
+                                         "reason, UNIQUE (label, n, reason))"));
     for (koksma__query i = 0; i < KOKSMA__N_QUERIES; i++) {
         KOKSMA__TRY(koksma__statement_open(store->database, queries[i], &store->queries[i]));
     }
@@ -378,7 +392,6 @@ koksma_status koksma__store_close(koksma__store *store)
     }
     koksma__database_close(store->database);
     koksma__store_rows_fini(store);
-    koksma__store_forget(store);
     koksma__point_files_fini(&store->files);
     pthread_mutex_destroy(&store->lock);
     free(store);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Writes results to the store. Results are gathered into rows in one buffer while the rows of a second buffer are
    written, KOKSMA__ROWS_AT_ONCE with one statement where possible. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,48 +34,17 @@ static void bind_row(koksma__statement *s, int k, const koksma__row *from)
                  from->values[2], from->values[3]);
 }
 
-static koksma_status find_row(koksma__store *store, koksma__row *row, bool *found)
+koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, koksma__row *row)
 {
-    koksma__statement *s = store->queries[KOKSMA__GET_ROW];
-    koksma_status status = KOKSMA_OK;
-    koksma__bind(s, 1, "w", row->id);
-    *found = koksma__next_row(store->database, s, &status);
-    if (*found) {
-        status = koksma__store_read_row(store, s, 0, row);
-    }
-    koksma__statement_reset(s);
-    return status;
-}
-
-/* Writes one row. If the row exists, its values are kept, and only missing values are taken from `from`. */
-static koksma_status put_one(koksma__store *store, const koksma__row *from)
-{
-    koksma__row row = {.id = from->id};
-    bool found;
-    KOKSMA__TRY(find_row(store, &row, &found));
-    row = found ? row : *from;
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        row.values[k] = isnan(row.values[k]) ? from->values[k] : row.values[k];
-    }
-    bind_row(store->queries[KOKSMA__PUT_ROW], 0, &row);
-    return koksma__statement_run(store->database, store->queries[KOKSMA__PUT_ROW]);
-}
-
-/* Writes up to ROWS_AT_ONCE rows; *done is their number. The statement stops at a row that exists already, which is
-   rare: put_one merges this row, because it may lack values of other series in its group. */
-static koksma_status put_many(koksma__store *store, const koksma__row *from, size_t *done)
-{
-    koksma__statement *s = store->queries[KOKSMA__PUT_ROWS];
-    for (int k = 0; k < KOKSMA__ROWS_AT_ONCE; k++) {
-        bind_row(s, k, &from[k]);
-    }
-    koksma_status status = koksma__statement_run(store->database, s);
-    const bool conflict = status && koksma__database_had_conflict(store->database);
-    if (status && !conflict) {
-        return status;
-    }
-    *done = (size_t)koksma__database_changes(store->database);
-    return conflict ? put_one(store, &from[(*done)++]) : KOKSMA_OK;
+    long long seed;
+    const bool right = koksma__read(s, 0, "wwnnnn", &row->id, &seed, &row->values[0], &row->values[1],
+                                    &row->values[2], &row->values[3]);
+    row->seed = (uint64_t)seed;
+    KOKSMA__FAIL_IF(!right || row->id < 0 || row->id >> 32 >= KOKSMA__MOST_TRIALS, KOKSMA_MALFORMED,
+                    "%s: row %lld of table result has a value that is infinite, of the wrong type or out of range; "
+                    "move it away to begin anew",
+                    koksma__database_path(store->database), row->id);
+    return KOKSMA_OK;
 }
 
 /* The caller holds the store's lock, so that no other thread uses the spare buffer. */
@@ -88,35 +56,22 @@ koksma_status koksma__store_write_rows(koksma__store *store)
     store->spare.at = taken.at;
     store->written_s = koksma__now_s();
     pthread_mutex_unlock(&store->gather_lock);
-    if (taken.n) { /* what was read about series earlier is now out of date */
-        koksma__store_forget(store);
-    }
+    store->sorted = store->sorted && !taken.n;
     koksma_status status = taken.n || store->in_transaction ? koksma__store_begin(store) : KOKSMA_OK;
-    for (size_t i = 0, done = 1; !status && i < taken.n; i += done, done = 1) {
-        status =
-            taken.n - i >= KOKSMA__ROWS_AT_ONCE ? put_many(store, &taken.at[i], &done) : put_one(store, &taken.at[i]);
-        koksma__store_wrote(store, status);
+    for (size_t i = 0, n; !status && i < taken.n; i += n) {
+        n = taken.n - i >= KOKSMA__ROWS_AT_ONCE ? KOKSMA__ROWS_AT_ONCE : 1;
+        koksma__statement *s = store->queries[n > 1 ? KOKSMA__PUT_ROWS : KOKSMA__PUT_ROW];
+        for (size_t k = 0; k < n; k++) {
+            bind_row(s, (int)k, &taken.at[i + k]);
+        }
+        status = koksma__store_wrote(store, koksma__statement_run(store->database, s));
     }
     return status ? status : koksma__store_end(store);
 }
 
 static long long row_id(long long series, long long trial)
 {
-    return (long long)((unsigned long long)trial << 32 | (unsigned long long)koksma__group_of(series));
-}
-
-/* Adds a result to the last gathered row, or to a new one; the buffer must have a free row. */
-static void gather(koksma__rows *to, long long series, const koksma__result *result)
-{
-    const long long id = row_id(series, result->trial);
-    const int place = (int)(series - koksma__group_of(series));
-    if (to->n == 0 || to->at[to->n - 1].id != id) {
-        to->at[to->n++] = (koksma__row){id, result->seed, {NAN, NAN, NAN, NAN}};
-    }
-    koksma__row *r = &to->at[to->n - 1];
-    for (int k = 0; place + k < KOKSMA__RESULT_VALUES; k++) {
-        r->values[place + k] = isnan(r->values[place + k]) ? result->values[k] : r->values[place + k];
-    }
+    return (long long)((unsigned long long)trial << 32 | (unsigned long long)series);
 }
 
 koksma_status koksma__store_put(koksma__store *store, const long long *series, const koksma__result *results,
@@ -126,7 +81,9 @@ koksma_status koksma__store_put(koksma__store *store, const long long *series, c
         pthread_mutex_lock(&store->gather_lock);
         koksma__rows *to = &store->gathered;
         for (; i < n && to->n < MOST_GATHERED; i++) {
-            gather(to, series[i], &results[i]);
+            koksma__row *row = &to->at[to->n++];
+            *row = (koksma__row){.id = row_id(series[i], results[i].trial), .seed = results[i].seed};
+            memcpy(row->values, results[i].values, sizeof row->values);
         }
         const bool write = i < n || koksma__now_s() - store->written_s > KOKSMA__WRITE_AFTER_S;
         pthread_mutex_unlock(&store->gather_lock);
@@ -138,14 +95,20 @@ koksma_status koksma__store_put(koksma__store *store, const long long *series, c
     return KOKSMA_OK;
 }
 
-koksma_status koksma__store_row(koksma__store *store, long long group, long long trial, uint64_t *seed,
-                                double values[KOKSMA__RESULT_VALUES], bool *found)
+koksma_status koksma__store_row(koksma__store *store, long long series, koksma__result *result, bool *found)
 {
-    koksma__row row = {.id = row_id(group, trial)};
+    koksma__statement *s = store->queries[KOKSMA__GET_ROW];
+    koksma_status status = KOKSMA_OK;
+    koksma__row row = {0};
     koksma__store_enter(store);
-    const koksma_status status = find_row(store, &row, found);
-    *seed = row.seed;
-    memcpy(values, row.values, sizeof row.values);
+    koksma__bind(s, 1, "w", row_id(series, result->trial));
+    *found = koksma__next_row(store->database, s, &status);
+    if (*found) {
+        status = koksma__store_read_row(store, s, &row);
+    }
+    koksma__statement_reset(s);
+    result->seed = row.seed;
+    memcpy(result->values, row.values, sizeof row.values);
     return koksma__store_leave(store, status);
 }
 
