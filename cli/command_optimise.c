@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma optimise`: searches for a point set with a small value of a measure, and writes the best set to a file
-   after each improvement, or at the end to a stream, where sets would follow each other. Under mpirun the ranks share the
-   search; rank 0 writes the file and prints. */
+   after each improvement, or at the end to a stream, where sets would follow each other. */
 #include <koksma/spectrum.h>
-#include <koksma/study.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +24,6 @@ typedef struct job {
     double gained_s;
     uint64_t projections[MOST_PROJECTIONS];
     double weights[MOST_PROJECTIONS];
-    koksma_processes ranks;
     double *power; /* --power: the target at each frequency; NULL: minimise a measure */
     double first;  /* the value of the initial set; NaN before it is measured */
     bool stream;   /* whether the set is written to a stream, once */
@@ -43,9 +40,8 @@ static koksma_status write_best(const job *j, const koksma_optimum *best)
              best->value, (unsigned long long)j->options.seed, (unsigned long long)best->last_gain,
              partial ? ", the last not completed: --steps does not give this set" : "", koksma_version());
     const char *path = cli_text(j->arguments, "output", NULL);
-    return j->ranks.rank > 0                         ? KOKSMA_OK
-           : j->options.keep == KOKSMA_KEEP_SEQUENCE ? koksma_net_write(path, &best->points, comment)
-                                                     : koksma_points_write(path, &best->points, comment, NULL);
+    return j->options.keep == KOKSMA_KEEP_SEQUENCE ? koksma_net_write(path, &best->points, comment)
+                                                   : koksma_points_write(path, &best->points, comment, NULL);
 }
 
 static bool progress(void *context, const koksma_optimum *best)
@@ -352,15 +348,12 @@ static int run(const cli_arguments *arguments)
     if (!code) {
         j.work.what = j.line;
         j.gained_s = cli_seconds();
-        j.options.processes = &j.ranks;
-        status = koksma_study_mpi_processes(&j.ranks);
-        j.work.run.keep_going = j.ranks.rank > 0 ? NULL : j.work.run.keep_going;
-        status = status ? status : koksma_optimise(power ? NULL : &measure, &j.options, &j.work.run, &best);
+        status = koksma_optimise(power ? NULL : &measure, &j.options, &j.work.run, &best);
         cli_work_end();
         j.last_gain = best.last_gain;
         j.written = j.stream && best.points.n && !j.written ? write_best(&j, &best) : j.written;
         status = j.written ? j.written : status;
-        if (best.points.n && !j.written && j.ranks.rank == 0 && !cli_is_stdout(output)) {
+        if (best.points.n && !j.written && !cli_is_stdout(output)) {
             code = report(&j, &best);
         }
         code = status ? cli_fail(arguments, status) : code;
@@ -420,8 +413,7 @@ const cli_command cli_command_optimise = {
         "--keep latin permutes the coordinates on each axis; --keep net moves each coordinate only within its "
         "interval of length 1/n. --keep sequence changes the generator matrices of a digital sequence in base 2; "
         "the value is then the geometric mean of the measure over the first 2, 4, .., n points. FILE.txt has the "
-        "matrices, which --from FILE.txt and the pattern net-file:FILE.txt read. Under mpirun the ranks share the "
-        "work.\n"
+        "matrices, which --from FILE.txt and the pattern net-file:FILE.txt read.\n"
         "\n"
         "--power minimises the root mean square difference between the power spectrum and a target, over the plane "
         "of frequencies f. The target step is 0 for f below sqrt(n / pi) and 1 above, gaussian is 1 - exp(-pi f^2 "

@@ -46,18 +46,6 @@ typedef struct koksma_optimum {
     const char *method; /* name of the search method, as in `koksma list methods` */
 } koksma_optimum;
 
-/* Several processes that share the work of one search. Each process calls koksma_optimise with equal arguments, and
-   each gets the same set that a single process would find. */
-typedef struct koksma_processes {
-    int size, rank; /* number of processes; index of this process, from 0 */
-    /* An all-gather: process i % size provides piece i of `count` pieces of `bytes` bytes each, and afterwards
-       every process has all pieces. All processes call this function at the same points of the search. */
-    koksma_status (*exchange)(void *context, void *pieces, size_t count, size_t bytes);
-    /* Called after the last exchange of a search that ends without an error. May be NULL. */
-    void (*done)(void *context);
-    void *context;
-} koksma_processes;
-
 typedef struct koksma_optimise_options {
     size_t n; /* 1 or more */
     int dim;
@@ -79,8 +67,6 @@ typedef struct koksma_optimise_options {
     const uint64_t *projections;
     const double *weights; /* n_projections weights from 1e-100 to 1e100 (NULL: all weights are 1) */
     size_t n_projections;
-    const koksma_processes *processes; /* processes that share the search; NULL: this process does all of the
-                                          work */
     /* NULL, or a target spectrum for 2D points: power[r - 1], from 0 to 1e100, is the wanted mean power in ring r = 1
        .. rings (koksma_spectrum_rings). With a target the search ignores the measure. It minimises the root mean square
        difference between the spectrum of the points and the target, with weight r for ring r. With KOKSMA_KEEP_NONE

@@ -49,10 +49,6 @@ KOKSMA_API const char *koksma_study_mpi(void);
    koksma_study_run executes jobs for rank 0 until all jobs are done. */
 KOKSMA_API int koksma_study_mpi_rank(void);
 
-/* Sets *out to the MPI ranks of this run, for koksma_optimise_options.processes; without mpirun to one process.
-   Errors: UNSUPPORTED (mpirun started this process, and this build has no MPI). */
-KOKSMA_API koksma_status koksma_study_mpi_processes(koksma_processes *out);
-
 /* Options of koksma_study_open. */
 typedef struct koksma_study_options {
     /* names of plans in the library; paths of JSON files if the text has a '/' or ends in ".json"; or plans as JSON texts,

@@ -217,7 +217,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Opt
     c_first = None if first is None else ctypes.pointer(view(first))
     options = s.OptimiseOptions(n, dim, c_first, kept, seed_of(seed), steps,
                                 s.OptimiseProgress(tell), None, (c_uint64 * len(bits))(*bits),
-                                None if heavy is None else (c_double * len(heavy))(*heavy), len(bits), None,
+                                None if heavy is None else (c_double * len(heavy))(*heavy), len(bits),
                                 None if target is None else (c_double * target.size)(*target),
                                 0 if target is None else target.size)
     try:

@@ -96,7 +96,7 @@ OptimiseProgress = CFUNCTYPE(c_bool, c_void_p, POINTER(Optimum))
 class OptimiseOptions(Structure):
     _fields_ = [("n", c_size_t), ("dim", c_int), ("first", POINTER(Points)), ("keep", c_int), ("seed", c_uint64),
                 ("steps", c_uint64), ("progress", OptimiseProgress), ("context", c_void_p),
-                ("projections", POINTER(c_uint64)), ("weights", POINTER(c_double)), ("n_projections", c_size_t), ("processes", c_void_p),
+                ("projections", POINTER(c_uint64)), ("weights", POINTER(c_double)), ("n_projections", c_size_t),
                 ("power", POINTER(c_double)), ("rings", c_int)]
 
 

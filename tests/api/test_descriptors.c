@@ -122,15 +122,6 @@ TEST_CASE(releases)
 
 static koksma_status answer;
 
-static koksma_status exchange(void *context, void *pieces, size_t count, size_t bytes)
-{
-    (void)context;
-    (void)pieces;
-    (void)count;
-    (void)bytes;
-    return answer;
-}
-
 static koksma_status render(void *context, const koksma_rank_picture *picture, const koksma_run *run,
                             koksma_image *image)
 {
@@ -169,13 +160,6 @@ TEST_CASE(functions_that_fail)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         answer = (koksma_status)cases[i].answer;
         refused(koksma_image_check_path("stale"), "stale"); /* the text of an earlier call */
-        koksma_processes processes = {.size = 2, .exchange = exchange};
-        const koksma_optimise_options options = {.n = 4, .dim = 2, .steps = 1, .processes = &processes};
-        koksma_optimum best;
-        assert_int_equal(koksma_optimise(&measure, &options, NULL, &best), cases[i].status);
-        assert_non_null(strstr(koksma_error_text(), cases[i].text));
-        assert_non_null(strstr(koksma_error_text(), "koksma_processes.exchange"));
-        refused(koksma_image_check_path("stale"), "stale");
         assert_int_equal(koksma_evaluate(&own, &p, NULL, &value), cases[i].status);
         assert_non_null(strstr(koksma_error_text(), cases[i].text));
         assert_non_null(strstr(koksma_error_text(), "koksma_measure.eval"));

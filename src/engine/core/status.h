@@ -19,7 +19,7 @@ KOKSMA__LAB koksma_status koksma__fail_memory(size_t bytes);
 
 /* Every function that a caller or a table provides, and that returns a status, is called as
        const char kept = koksma__call_begin();
-       status = koksma__call_end(kept, f(...), "koksma_processes.exchange");
+       status = koksma__call_end(kept, f(...), "koksma_measure.eval");
    koksma__call_end makes sure that the status exists and that an error has a text, which names the function unless the
    function itself has set one; a number that is no status becomes ARGUMENT. Without an error the text is as before. */
 KOKSMA__LAB char koksma__call_begin(void);

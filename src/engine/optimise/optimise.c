@@ -3,8 +3,7 @@
  * koksma_optimise runs in steps of a fixed amount of work. In each step SEARCHES independent searches, each with its
  * own seed, start from the best set; they run on any number of threads. The best of their results (the first of equal
  * ones) becomes the new best set if it is better. koksma_evaluate measures every result; values that a method
- * computes are not used. Several processes can share a run: process r of p makes the searches r, r + p, r + 2 p, ... of
- * each step. The processes exchange the results after each step, so that all continue from the same best set.
+ * computes are not used.
  *
  * Without a first set the search starts from the best of the listed patterns (start.c).
  *
@@ -38,7 +37,9 @@ static const koksma_method *const methods[] = {
 
 KOKSMA__LOOKUP(koksma_method, methods)
 
-enum { SEARCHES = 8, MOST_PROCESSES = 1024, RANDOM_SHARE = 8 };
+enum { SEARCHES = 8, RANDOM_SHARE = 8 };
+
+size_t koksma__searches_made = SEARCHES;
 
 /* Searches ask the caller and the clock at most once in so many seconds. */
 static const double PACE_S = 0.02;
@@ -127,13 +128,11 @@ static void measure_partial(step *s, const koksma_points *points, double *value)
     }
 }
 
-static koksma_status search(void *context, size_t block)
+static koksma_status search(void *context, size_t i)
 {
     step *s = context;
     const koksma_run run = {.threads = 1, .keep_going = search_goes_on, .context = s};
     const koksma_optimum *best = s->best;
-    const koksma_processes *others = s->options->processes;
-    const size_t i = others ? block * (size_t)others->size + (size_t)others->rank : block;
     const uint64_t seed = koksma__random_seed(s->options->seed, best->steps * SEARCHES + i, 1);
     koksma_points points = {best->points.n, best->points.dim, piece(s, i) + 1};
     memcpy(points.xs, best->points.xs, (s->piece - 1) * sizeof(double));
@@ -144,28 +143,6 @@ static koksma_status search(void *context, size_t block)
         koksma__fail_interrupted();
     }
     return status;
-}
-
-static koksma_status exchange(const koksma_processes *others, void *pieces, size_t count, size_t bytes)
-{
-    const char kept = koksma__call_begin();
-    return koksma__call_end(kept, others->exchange(others->context, pieces, count, bytes),
-                            "koksma_processes.exchange");
-}
-
-/* Sets *going to false if it is false in any of the processes that share the run. */
-static koksma_status agree(const koksma_processes *others, bool *going)
-{
-    double wishes[MOST_PROCESSES];
-    if (!others || others->size == 1) {
-        return KOKSMA_OK;
-    }
-    wishes[others->rank] = *going;
-    KOKSMA__TRY(exchange(others, wishes, (size_t)others->size, sizeof *wishes));
-    for (int i = 0; i < others->size; i++) {
-        *going = *going && wishes[i] > 0;
-    }
-    return KOKSMA_OK;
 }
 
 /* Takes the best result of the searches of a step if it is better than the best set. */
@@ -182,28 +159,19 @@ static void take_best(step *s, koksma_optimum *best, bool done)
     }
 }
 
-/* Runs one step: the share of this process in the searches 0 to SEARCHES - 1. If the time limit passes in any of the
-   processes, the step does not count as done in any of them. */
+/* Runs one step. If the time limit passes, the step does not count as done. */
 static koksma_status take_step(step *s, koksma_optimum *best)
 {
     const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = keep_going, .context = s};
-    const koksma_processes *others = s->options->processes;
-    const size_t size = others ? (size_t)others->size : 1, rank = others ? (size_t)others->rank : 0;
     for (size_t i = 0; i < SEARCHES; i++) {
         *piece(s, i) = INFINITY;
     }
-    koksma_status status = koksma__parallel(&run, (SEARCHES - rank + size - 1) / size, search, s);
-    const bool stopped = status == KOKSMA_INTERRUPTED && s->stopped;
-    bool done = !status;
-    status = status == KOKSMA_INTERRUPTED && !stopped ? KOKSMA_OK : status;
-    status = status ? status : agree(others, &done);
-    if (!status && size > 1) {
-        status = exchange(others, s->found, SEARCHES, s->piece * sizeof(double));
+    const koksma_status status = koksma__parallel(&run, koksma__searches_made, search, s);
+    if (status && status != KOKSMA_INTERRUPTED) {
+        return status;
     }
-    if (!status || (stopped && size == 1)) {
-        take_best(s, best, done);
-    }
-    return status;
+    take_best(s, best, !status);
+    return s->stopped ? status : KOKSMA_OK;
 }
 
 /* Returns a lower bound of the value (NAN: none is known): the projections of n points on an axis have a star
@@ -217,8 +185,7 @@ static double lower_bound(const koksma_spec *measure, const koksma_optimise_opti
                                                                                      : (double)NAN;
 }
 
-/* Measures a set from which the search could start; the best one becomes the first set. All processes leave out a set
-   that one of them could not measure in time. */
+/* Measures a set from which the search could start; the best one becomes the first set. */
 static koksma_status consider(void *context, const koksma_points *points)
 {
     step *s = context;
@@ -228,14 +195,7 @@ static koksma_status consider(void *context, const koksma_points *points)
     double value;
     const koksma_status status =
         points ? evaluate(s->measure, s->options, points, &run, &value) : koksma__fail_interrupted();
-    bool going = !status;
-    if (status && (status != KOKSMA_INTERRUPTED || s->stopped)) {
-        return status;
-    }
-    KOKSMA__TRY(agree(s->options->processes, &going));
-    if (!going) {
-        return koksma__fail_interrupted();
-    }
+    KOKSMA__TRY(status);
     if (value < sign * best->value) {
         best->value = sign * value;
         memcpy(best->points.xs, points->xs, (s->piece - 1) * sizeof(double));
@@ -295,10 +255,6 @@ static koksma_status check(const koksma_spec *measure, const koksma_optimise_opt
                     measure->measure ? measure->measure->name : "koksma_optimise");
     KOKSMA__FAIL_IF((unsigned)o->keep > KOKSMA_KEEP_SEQUENCE, KOKSMA_ARGUMENT,
                     "koksma_optimise: keep = %d is not a value of koksma_keep", (int)o->keep);
-    KOKSMA__FAIL_IF(o->processes && (!o->processes->exchange || o->processes->rank < 0 ||
-                                     o->processes->rank >= o->processes->size || o->processes->size > MOST_PROCESSES),
-                    KOKSMA_ARGUMENT, "koksma_optimise: process %d of %d: 1 to %d processes can share a search",
-                    o->processes ? o->processes->rank : 0, o->processes ? o->processes->size : 0, MOST_PROCESSES);
     KOKSMA__TRY(koksma__search_check(o));
     const koksma_status status = o->first ? koksma__points_check(o->first) : KOKSMA_OK;
     KOKSMA__FAIL_IF(!status && o->first && (o->first->n != o->n || o->first->dim != o->dim), KOKSMA_N,
@@ -320,7 +276,6 @@ static koksma_status run_steps(step *s, koksma_optimum *best)
     const koksma_optimise_options *o = s->options;
     koksma_status status = KOKSMA_OK;
     bool going = (!o->progress || o->progress(o->context, best)) && koksma__now_s() < s->end_s;
-    status = agree(o->processes, &going);
     while (!status && going && (o->steps == 0 || best->steps < o->steps)) {
         const uint64_t before = best->steps;
         status = take_step(s, best);
@@ -329,10 +284,6 @@ static koksma_status run_steps(step *s, koksma_optimum *best)
         }
         going = !status && best->steps > before && (!o->progress || o->progress(o->context, best)) &&
                 koksma__now_s() < s->end_s;
-        status = status ? status : agree(o->processes, &going);
-    }
-    if (!status && o->processes && o->processes->done) {
-        o->processes->done(o->processes->context);
     }
     return status;
 }

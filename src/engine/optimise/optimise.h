@@ -115,6 +115,9 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
 /* The distance between the radial power of a point set and a target curve. */
 
 /* The measure that a search for a target power minimises, in place of one from the table of measures. */
+/* How many of the eight searches of a step are made: all, but fewer in tests with sanitizers. */
+extern size_t koksma__searches_made;
+
 extern const koksma_measure koksma__measure_radial_power;
 
 /* The largest power of a target: its square and sums of such squares are in the range of doubles. */
