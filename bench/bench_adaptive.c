@@ -38,13 +38,10 @@ static const struct {
     bool budget;
 } methods[] = {
     {"hierarchical", 0, false},
-    {"hierarchical:reuse=renewed", 0, false},
     {"hierarchical:pairing=shuffled", 0, false},
-    {"hierarchical:phase=folded", 0, false},
-    {"hierarchical:phase=folded", 0, true},
+    {"hierarchical:pairing=shuffled", 0, true},
     {"selective", 0, false},
     {"selective", 0, true},
-    {"selective:reuse=fresh", 0, false},
     {"contrast", 1, true},
     {"confidence:test=t", 1, true},
     {"confidence:test=chi2", 1, true},

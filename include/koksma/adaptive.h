@@ -44,9 +44,7 @@ typedef struct koksma_space {
     koksma_stratum *strata; /* array of n; the values are luminances. If a stratum was split in other spaces but not
                                in this one, each of its parts is listed here with the cell and the mean value of the
                                whole stratum */
-    koksma_split *splits;   /* array of n_splits, the coarsest first; empty if options->probes is 0. With the
-                               parameter reuse=fresh the listed cells are those of the samples that caused the
-                               splits */
+    koksma_split *splits;   /* array of n_splits, the coarsest first; empty if options->probes is 0 */
 } koksma_space;
 
 /* The subdivision of one pixel, which koksma_plot_strata draws. */

@@ -80,7 +80,6 @@ def main():
         "scrambling": (["none", "digital-shift", "lms", "owen", "hash-owen"], lambda w: ["generate", f"sobol:scramble={w}", "-n", "4"]),
         "law": (["isotropic", "mitchell"], lambda w: ["measure", "-m", f"l2-edge:law={w}", "random@4"]),
         "path": (["steps", "bridge"], lambda w: ["integrate", f"asian:path={w}", "-p", "random", "-n", "4"]),
-        "phase": (["fixed", "shifted", "folded"], lambda w: ["render", "ball", "--adaptive", f"hierarchical:phase={w}", "-o", "x.pfm"]),
         "table": (["patterns", "measures", "integrands", "scenes", "warps"], lambda w: ["list", w]),
         "verb": (["estimate", "export", "report", "audit", "images"], lambda w: ["study", w]),
         "property": (names("properties", "property"), lambda w: ["verify", "random@4", "-e", w]),

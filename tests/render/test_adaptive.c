@@ -9,11 +9,8 @@ enum { WIDTH = 26, HEIGHT = 18, PIXELS = WIDTH * HEIGHT };
 /* Every method with something that makes it go on. */
 static const char *const methods[] = {
     "hierarchical",
-    "hierarchical:threshold=0,levels=3,reuse=renewed,pairing=shuffled",
-    "hierarchical:phase=folded,reuse=fresh",
-    "hierarchical:phase=shifted",
+    "hierarchical:threshold=0,levels=3,pairing=shuffled",
     "selective:threshold=0,below=2",
-    "selective:reuse=fresh,levels=1",
     "contrast:threshold=0.1,most=5",
     "confidence:threshold=0.01,most=5",
     "confidence:threshold=0.01,test=chi2,most=5,level=0.99",
@@ -84,8 +81,7 @@ TEST_CASE(same_bits_for_any_number_of_threads)
     koksma_scene_close(scene);
 }
 
-/* A grey sky: each pixel is exactly it, and costs the first samples; fresh must draw those that count.
- */
+/* A grey sky: each pixel is exactly it, and costs the first samples. */
 TEST_CASE(constant_pictures_cost_the_first_samples)
 {
     koksma_scene *scene = scene_of(SKY_ALONE("0.3"));
@@ -93,8 +89,7 @@ TEST_CASE(constant_pictures_cost_the_first_samples)
         const char *method = methods[m / 2];
         koksma_adaptive_report report;
         koksma_layers layers = render(scene, method, m % 2 ? 0 : 50, 2, &report);
-        const uint64_t again = strstr(method, "fresh") ? report.first : 0;
-        if (report.samples != report.first + again || layers.rays != report.samples) {
+        if (report.samples != report.first || layers.rays != report.samples) {
             fail_msg("%s took %llu samples, %llu of them at first", method, (unsigned long long)report.samples,
                      (unsigned long long)report.first);
         }
@@ -113,8 +108,7 @@ static double limit_of(const koksma_adaptive_options *a)
     if (!a->method->own_samples) {
         return 4 * a->params[1];
     }
-    const double leaves = 4 * pow(4, a->params[0]);
-    return a->params[2] == 1 ? 4 * (pow(4, a->params[0] + 1) - 1) / 3 : a->params[2] == 2 ? 2 * leaves : leaves;
+    return 4 * pow(4, a->params[0]);
 }
 
 TEST_CASE(limits_and_budgets_are_kept)
@@ -145,11 +139,10 @@ TEST_CASE(limits_and_budgets_are_kept)
    error: the edge crosses 4 2^levels of them, each of area 1 / (4 2^levels)^2 and wrong by 1 at most. */
 TEST_CASE(strata_weigh_their_volume)
 {
-    static const char *const forms[] = {
-        "hierarchical:threshold=0.5,levels=%d,reuse=kept", "hierarchical:threshold=0.5,levels=%d,reuse=renewed",
-        "hierarchical:threshold=0.5,levels=%d,reuse=fresh", "hierarchical:threshold=0.5,levels=%d,pairing=shuffled",
-        "selective:threshold=0.5,levels=%d,reuse=kept"};
-    for (int form = 0; form < 5; form++) {
+    static const char *const forms[] = {"hierarchical:threshold=0.5,levels=%d",
+                                        "hierarchical:threshold=0.5,levels=%d,pairing=shuffled",
+                                        "selective:threshold=0.5,levels=%d"};
+    for (int form = 0; form < 3; form++) {
         for (int levels = 0; levels <= 5; levels++) {
             for (int inside = 0; inside < 2; inside++) {
                 char text[600], method[80];
@@ -226,7 +219,7 @@ TEST_CASE(rays_are_counted_once)
 TEST_CASE(shown_strata_are_a_partition)
 {
     static const char *const forms[] = {"hierarchical:levels=3,threshold=0",
-                                        "hierarchical:levels=3,threshold=0,pairing=shuffled,reuse=fresh",
+                                        "hierarchical:levels=3,threshold=0,pairing=shuffled",
                                         "selective:levels=2,below=2,threshold=0"};
     koksma_scene *scene = shipped("all");
     for (size_t f = 0; f < 3; f++) {

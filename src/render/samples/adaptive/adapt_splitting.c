@@ -7,7 +7,7 @@
  * neighbours in every use. With pairing=shuffled they are not: strata that are neighbours in one use can be far apart
  * in another, and are then split although no neighbours differ there (Shirley's figure 5.36). Where the values are
  * constant, no stratum is split. The estimate is biased, because the values that decide about splits are also
- * averaged. It is unbiased with reuse=fresh; aligned strata also need phase=shifted or phase=folded.
+ * averaged.
  *
  * selective: splits strata only in the use of sample dimensions (pixel, lens, light, ...) that causes
  * most of the pixel's variance, a choice that Shirley 1991, section 5.6, leaves open. The uses are paired by random
@@ -28,29 +28,20 @@
 #include "render/samples/adaptive/adaptive.h"
 #include "render/vector3.h"
 
-static const char *const reuses[] = {
-    [KOKSMA__REUSE_KEPT] = "kept", [KOKSMA__REUSE_RENEWED] = "renewed", [KOKSMA__REUSE_FRESH] = "fresh", NULL};
-
 #define STRATA_PARAMS                                                                                                \
     {"levels", "largest number of times that a stratum is split", 2, 0, KOKSMA__MAX_LEVELS, NULL, true},             \
-        {"threshold", "difference of two values beyond which their strata are split", 0.05, 0, 1e30, NULL, false},   \
     {                                                                                                                \
-        "reuse", "which samples the parts of a split stratum get", KOKSMA__REUSE_KEPT, 0, 2, reuses, true            \
+        "threshold", "difference of two values beyond which their strata are split", 0.05, 0, 1e30, NULL, false      \
     }
 
 /* ---- hierarchical ----------------------------------------------------------------------------------------------- */
 
-enum { PAIRING = KOKSMA__STRATA_REUSE + 1, PHASE };
+enum { PAIRING = KOKSMA__STRATA_PARAMS };
 
 static const char *const pairings[] = {"aligned", "shuffled", NULL};
-static const char *const phases[] = {
-    [KOKSMA__PHASE_FIXED] = "fixed", [KOKSMA__PHASE_SHIFTED] = "shifted", [KOKSMA__PHASE_FOLDED] = "folded", NULL};
-
 static const koksma_param hierarchical_params[] = {
     STRATA_PARAMS,
     {"pairing", "how the strata of different uses are paired", 0, 0, 1, pairings, true},
-    {"phase", "how the strata of all uses but the pixel are moved with aligned pairing", KOKSMA__PHASE_FIXED, 0, 2,
-     phases, true},
     {0},
 };
 
@@ -60,15 +51,12 @@ static koksma_status open_hierarchical(koksma__adaptive *run)
     koksma__strata *s = run->state;
     if (s) {
         s->shuffled = run->options->params[PAIRING] > 0;
-        s->phase = (int)run->options->params[PHASE];
     }
     return status;
 }
 
-static const koksma__adaptive_method hierarchical = {.family = &koksma__strata_family,
-                                                     .last = koksma__strata_last,
-                                                     .open = open_hierarchical,
-                                                     .decide = koksma__strata_decide};
+static const koksma__adaptive_method hierarchical = {
+    .family = &koksma__strata_family, .open = open_hierarchical, .decide = koksma__strata_decide};
 
 const koksma_adaptive koksma__adaptive_hierarchical = {
     .name = "hierarchical",
@@ -81,7 +69,7 @@ const koksma_adaptive koksma__adaptive_hierarchical = {
 
 /* ---- selective ------------------------------------------------------------------------------------------- */
 
-enum { BELOW = KOKSMA__STRATA_REUSE + 1 };
+enum { BELOW = KOKSMA__STRATA_PARAMS };
 
 static const koksma_param selective_params[] = {
     STRATA_PARAMS,
@@ -178,7 +166,7 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__s
 }
 
 static const koksma__adaptive_method selective = {
-    .family = &koksma__strata_family, .last = koksma__strata_last, .open = open_selective, .decide = decide};
+    .family = &koksma__strata_family, .open = open_selective, .decide = decide};
 
 const koksma_adaptive koksma__adaptive_selective = {
     .name = "selective",

@@ -18,10 +18,9 @@
 
 /* The demand of a pixel for more samples. */
 typedef struct koksma__sample_demand {
-    uint32_t now;   /* samples in the next round; 0: the pixel is done */
-    uint32_t later; /* number of samples that a later round must take as a result of those of the next round */
-    float score;    /* priority of the pixel; under a budget the highest scores are selected first */
-    bool selected;  /* whether the next round draws samples of this pixel */
+    uint32_t now;  /* samples in the next round; 0: the pixel is done */
+    float score;   /* priority of the pixel; under a budget the highest scores are selected first */
+    bool selected; /* whether the next round draws samples of this pixel */
 } koksma__sample_demand;
 
 typedef struct koksma__adaptive koksma__adaptive;
@@ -64,8 +63,6 @@ typedef struct koksma__adaptive_method {
     /* NULL, or determines the next demand of the pixel; *demand is zero before the call, and scratch has run->scratch
        bytes. */
     void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
-    /* NULL, or a function that is called when no pixel is selected any more and sets demands for one last round */
-    void (*last)(koksma__adaptive *run);
 } koksma__adaptive_method;
 
 struct koksma__adaptive {
@@ -127,32 +124,21 @@ double koksma__sets_variance(const koksma__adaptive *run, const koksma__pixel_se
  * of the uses are paired one to one, and splitting a stratum quarters its cell in each use. A stratum has one sample.
  *
  * At first there are m x m strata. Stratum i has cell i of the pixel and one cell of every other use. Neighbours are
- * compared in the base use, which is the pixel or, in the method `selective`, the use that causes most of the variance.
- * Aligned pairing takes cell i in every use, so that all uses
- * have the same neighbours ("correlated jitter"; Shirley 1991, section 5.6). Shuffled pairing takes cell p(i), with a
- * random permutation p for each pixel and use ("uncorrelated jitter"). The cells of a one-dimensional use are m^2
- * intervals of a line with shuffled pairing, and the columns of the square with aligned pairing.
+ * compared in the base use. Aligned pairing takes cell i in every use, so that all uses have the same neighbours
+ * ("correlated jitter"; Shirley 1991, section 5.6). It samples only a small part of the product of the uses' unit
+ * squares: for example, samples in the left of the pixel never see the right of a light. Shuffled pairing takes cell
+ * p(i), with a random permutation p for each pixel and use ("uncorrelated jitter"). The cells of a one-dimensional use
+ * are m^2 intervals of a line with shuffled pairing, and the columns of the square with aligned pairing. Of a split
+ * stratum the old sample stays in the part that contains it, and the other parts get new samples.
  *
- * Aligned pairing samples only a small part of the product of the uses' unit squares: for example, samples in the
- * left of the pixel never see the right of a light. The parameter `phase` can correct this. With phase=fixed no use
- * is moved. With phase=shifted the other uses are shifted on the torus, x -> frac(x + s) with s uniform; the mean of
- * each pixel is then right, but neighbouring strata across the seam differ. With phase=folded the coordinates of all
- * uses but the pixel are mapped by x -> |2 frac(x + s) - 1|, s uniform in [0,1), which has no seam.
- *
- * The parameter `reuse` decides which samples the parts of a split stratum get. With reuse=kept the old sample stays
- * in the part that contains it, and the other parts get new samples. With reuse=renewed all four parts get new
- * samples, and the old sample is dropped. With reuse=fresh, samples are first reused as with reuse=kept; when no
- * stratum is split any more, every stratum gets a new sample for the estimate (Kirk & Arvo 1991: samples that decide
- * must not be counted), and the parts of split strata are paired again in all uses.
+ * The method `selective` splits cells in the base use only, which is the use that causes most of the variance; else the
+ * base use is the pixel.
  */
 
-enum { KOKSMA__PHASE_FIXED, KOKSMA__PHASE_SHIFTED, KOKSMA__PHASE_FOLDED };
-enum { KOKSMA__REUSE_KEPT, KOKSMA__REUSE_RENEWED, KOKSMA__REUSE_FRESH };
 enum { KOKSMA__MAX_LEVELS = 8, KOKSMA__MAX_STRATA_SIDE = 512 };
 
-/* The stage of a sample selects the random numbers that place it in its stratum: while the tree grows, in the last
-   round, or as a probe. */
-enum { KOKSMA__STAGE_TREE, KOKSMA__STAGE_LAST, KOKSMA__STAGE_PROBE };
+/* The stage of a sample selects the random numbers that place it in its stratum: while the tree grows, or as a probe. */
+enum { KOKSMA__STAGE_TREE = 0, KOKSMA__STAGE_PROBE = 2 };
 
 typedef struct koksma__stratum {
     uint32_t number;  /* index of the initial stratum, below m x m */
@@ -167,8 +153,7 @@ typedef struct koksma__stratum {
 typedef struct koksma__tree {
     koksma__stratum *strata;
     uint32_t n, marked, splits, needless;
-    uint32_t base;  /* the base use, in which neighbouring strata are compared */
-    uint32_t stage; /* KOKSMA__STAGE_TREE or KOKSMA__STAGE_LAST */
+    uint32_t base; /* the base use, in which neighbouring strata are compared */
     /* in the method `selective`: whether the base use was searched for, and whether it was found */
     bool searched, carried;
 } koksma__tree;
@@ -178,8 +163,7 @@ typedef struct koksma__strata {
     float threshold;
     bool shuffled;
     bool selective; /* when a stratum is split, its cells are split in the base use only */
-    int phase, reuse;
-    double below; /* threshold of the method `selective` on the contiguity ratio */
+    double below;   /* threshold of the method `selective` on the contiguity ratio */
     koksma__tree *trees;
     atomic_size_t total; /* number of strata in all trees */
 } koksma__strata;
@@ -189,24 +173,16 @@ typedef struct koksma__use_cells {
     uint32_t use;
     uint64_t seed;
     const uint32_t *permutation; /* permutation of the cells; NULL: identity */
-    /* line: whether the cells lie on a line; split: whether they are split with the stratum; turned: whether the
-       phase moves the samples */
-    bool line, split, turned;
+    bool line, split; /* line: whether the cells lie on a line; split: whether they are split with the stratum */
 } koksma__use_cells;
 
 /* Initialises the cells of a use in a pixel; `permutation` is a buffer of m^2 words, or NULL. */
 void koksma__use_cells_init(const koksma__adaptive *run, size_t pixel, uint32_t use, uint32_t *permutation,
                             koksma__use_cells *out);
 
-/* Computes the cell of a stratum in the base use, as column and row in the grid of its level; the row is 0 on a
-   line. */
-void koksma__stratum_cell(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum,
-                          uint32_t cell[2]);
-
-/* Computes the cell of a stratum in another use, in the grid of that cell's level. `stage` selects the pairing of
-   the parts. */
-void koksma__stratum_cell_in(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
-                             const koksma__stratum *stratum, uint32_t stage, uint32_t cell[2]);
+/* Computes the cell of a stratum in a use, as column and row in the grid of the cell's level; the row is 0 on a line. */
+void koksma__stratum_cell(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
+                          const koksma__stratum *stratum, uint32_t cell[2]);
 
 /* Returns the quarter of the base cell that contains the sample of a stratum. */
 int koksma__stratum_quarter(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum);
@@ -218,11 +194,10 @@ void koksma__stratum_place(const koksma__strata *s, const koksma__use_cells *bas
 /* ---- Methods that split strata (adaptive_strata.c) -------------------------------------------------------------- */
 
 /* The parameters of every method that splits strata begin with these. */
-enum { KOKSMA__STRATA_LEVELS, KOKSMA__STRATA_THRESHOLD, KOKSMA__STRATA_REUSE };
+enum { KOKSMA__STRATA_LEVELS, KOKSMA__STRATA_THRESHOLD, KOKSMA__STRATA_PARAMS };
 
 koksma_status koksma__strata_open(koksma__adaptive *run);
 void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
-void koksma__strata_last(koksma__adaptive *run);
 
 /* ---- Strata for figures (adaptive_show.c) ----------------------------------------------------------------------- */
 

@@ -213,7 +213,7 @@ static void select_best(koksma__adaptive *run, candidate *list, size_t n, size_t
     const size_t most = (n + GREEDY - 1) / GREEDY;
     for (size_t i = 0; i < n && *selected < most; i++) {
         koksma__sample_demand *demand = &run->demands[list[i].pixel];
-        const uint64_t cost = (uint64_t)demand->now + demand->later;
+        const uint64_t cost = demand->now;
         if (cost <= run->budget - run->spent) {
             run->spent += cost;
             demand->selected = true;
@@ -269,29 +269,20 @@ static koksma_status render_rounds(job *j, const koksma_run *how)
 {
     koksma__adaptive *run = j->run;
     size_t selected = 0;
-    bool last = false;
     j->first = true;
     koksma_status status = render_round(j, how);
     j->first = false;
     for (; !status; run->report.rounds++) {
-        status = last ? KOKSMA_OK : choose(run, &selected);
-        if (status || (!selected && (last || !run->method->last))) {
+        status = choose(run, &selected);
+        if (status || !selected) {
             return status;
         }
-        if (!selected) {
-            last = true;
-            run->method->last(run);
-        }
-        if (run->method->family->probes && run->options->probes && !last) {
+        if (run->method->family->probes && run->options->probes) {
             run->probing = true;
             status = render_round(j, how);
             run->probing = false;
         }
         status = status ? status : render_round(j, how);
-        if (last) {
-            run->report.rounds++;
-            return status;
-        }
     }
     return status;
 }
@@ -368,7 +359,7 @@ static koksma_status open_run(koksma__adaptive *run)
     const koksma_status status = run->method->open(run);
     for (size_t p = 0; !status && p < run->pixels; p++) {
         run->demands[p].selected = true;
-        run->spent += (uint64_t)run->demands[p].now + run->demands[p].later;
+        run->spent += run->demands[p].now;
         run->report.first += run->demands[p].now;
     }
     KOKSMA__FAIL_IF(!status && run->spent > run->budget, KOKSMA_ARGUMENT,

@@ -46,15 +46,14 @@ typedef struct view {
     koksma__use_cells base, cells;
 } view;
 
-/* Computes the box of a stratum in the unit square; stage selects the pairing of the parts. */
-static void box_of(const view *v, const koksma__stratum *stratum, uint32_t stage, double *x, double *y, double *width,
-                   double *height)
+/* Computes the box of a stratum in the unit square. */
+static void box_of(const view *v, const koksma__stratum *stratum, double *x, double *y, double *width, double *height)
 {
     const koksma__strata *s = v->s;
     const int level = v->cells.split ? stratum->level : 0;
     const double side = ldexp(1.0 / s->m, -level);
     uint32_t cell[2];
-    koksma__stratum_cell_in(s, &v->base, &v->cells, stratum, stage, cell);
+    koksma__stratum_cell(s, &v->base, &v->cells, stratum, cell);
     *width = v->cells.line ? ldexp(1.0 / ((double)s->m * s->m), -2 * level) : side;
     *height = v->cells.line ? 1 : side;
     *x = cell[0] * *width;
@@ -88,8 +87,8 @@ static void fill_strata(const view *v, koksma_space *space)
         const koksma__stratum *from = &v->tree->strata[i];
         koksma_stratum *to = &space->strata[i];
         float place[2];
-        koksma__stratum_place(v->s, &v->base, &v->cells, from, v->tree->stage, place);
-        box_of(v, from, v->tree->stage, &to->x, &to->y, &to->width, &to->height);
+        koksma__stratum_place(v->s, &v->base, &v->cells, from, KOKSMA__STAGE_TREE, place);
+        box_of(v, from, &to->x, &to->y, &to->width, &to->height);
         to->at[0] = (double)place[0];
         to->at[1] = v->cells.line ? 0.5 : (double)place[1];
         to->value = v->cells.split ? value_of(v, from) : mean_of(v, i);
@@ -112,7 +111,7 @@ static size_t splits_of(const view *v, uint32_t level, koksma_split *to)
             at.level = (uint8_t)level;
             at.digits = (uint16_t)(at.digits >> further);
             to[n] = (koksma_split){.level = v->cells.split ? (int)level : 0, .needless = at.needless >> level & 1};
-            box_of(v, &at, KOKSMA__STAGE_TREE, &to[n].x, &to[n].y, &to[n].width, &to[n].height);
+            box_of(v, &at, &to[n].x, &to[n].y, &to[n].width, &to[n].height);
         }
         n++;
     }
@@ -148,8 +147,7 @@ static koksma_status fill_space(view *v, uint32_t use, size_t n_splits, koksma_s
 }
 
 /* The first entry of out->spaces is for the base use, in which neighbouring strata are compared; the other uses
-   follow in the order of koksma__list_spaces. The phase moves the samples of a use but not its strata, so the cells
-   are shown without the phase. */
+   follow in the order of koksma__list_spaces. */
 koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, koksma_strata *out)
 {
     const koksma__strata *s = run->state;
@@ -172,7 +170,6 @@ koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, kok
     for (int i = -1; !status && i < n; i++) {
         const uint32_t use = i < 0 ? tree->base : uses[i];
         koksma__use_cells_init(run, pixel, use, permutations + cells, &v.cells);
-        v.cells.turned = false;
         const bool overlap = koksma_use_at((size_t)koksma__use_index(use))->dim == 1 && !v.cells.line;
         if ((i < 0 || use != tree->base) && !overlap) {
             status = fill_space(&v, use, n_splits, &out->spaces[out->n_spaces++]);

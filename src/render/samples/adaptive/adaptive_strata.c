@@ -40,7 +40,7 @@ static koksma_status open_trees(koksma__adaptive *run, koksma__strata *s)
         for (uint32_t i = 0; i < n; i++) {
             tree->strata[i] = (koksma__stratum){.number = i, .pending = true};
         }
-        run->demands[p] = (koksma__sample_demand){.now = n, .later = s->reuse == KOKSMA__REUSE_FRESH ? n : 0};
+        run->demands[p] = (koksma__sample_demand){.now = n};
     }
     return KOKSMA_OK;
 }
@@ -56,7 +56,6 @@ koksma_status koksma__strata_open(koksma__adaptive *run)
     s->m = m;
     s->levels = (uint32_t)params[KOKSMA__STRATA_LEVELS];
     s->threshold = (float)params[KOKSMA__STRATA_THRESHOLD];
-    s->reuse = (int)params[KOKSMA__STRATA_REUSE];
     KOKSMA__FAIL_IF(m * m != spp, KOKSMA_N, "%s: spp = %u is not m^2; %u or %u would do", name, spp,
                     (unsigned)(floor(sqrt(spp)) * floor(sqrt(spp))), (unsigned)(ceil(sqrt(spp)) * ceil(sqrt(spp))));
     KOKSMA__FAIL_IF(m << s->levels > KOKSMA__MAX_STRATA_SIDE, KOKSMA_ARGUMENT,
@@ -98,7 +97,7 @@ static void paint(const koksma__adaptive *run, size_t pixel, uint32_t depth, uin
     for (uint32_t i = 0; i < tree->n; i++) {
         const uint32_t below = depth - tree->strata[i].level, side = 1u << below << (base.line ? below : 0);
         uint32_t cell[2];
-        koksma__stratum_cell(s, &base, &tree->strata[i], cell);
+        koksma__stratum_cell(s, &base, &base, &tree->strata[i], cell);
         for (uint32_t y = 0; y < (base.line ? 1 : side); y++) {
             for (uint32_t x = 0; x < side; x++) {
                 grid[(cell[1] * side + y) * *width + cell[0] * side + x] = i;
@@ -146,9 +145,6 @@ void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, k
     uint32_t depth = 0, width, *grid = scratch, *permutation = grid + finest;
     float *most = (float *)(grid + finest + (size_t)s->m * s->m);
     double gain = 0;
-    if (tree->stage == KOKSMA__STAGE_LAST) {
-        return;
-    }
     for (uint32_t i = 0; i < tree->n; i++) {
         depth = tree->strata[i].level > depth ? tree->strata[i].level : depth;
         most[i] = 0;
@@ -163,8 +159,7 @@ void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, k
         tree->marked += stratum->marked;
         gain += stratum->marked ? part * part : 0;
     }
-    demand->now = tree->marked * (s->reuse == KOKSMA__REUSE_RENEWED ? 4 : 3);
-    demand->later = s->reuse == KOKSMA__REUSE_FRESH ? tree->marked * 3 : 0;
+    demand->now = tree->marked * 3;
     demand->score = tree->marked ? (float)(gain / demand->now) : 0;
 }
 
@@ -190,7 +185,7 @@ static koksma_status prepare(koksma__adaptive *run, size_t pixel)
             *to++ = *from;
             continue;
         }
-        const int kept = s->reuse == KOKSMA__REUSE_RENEWED ? -1 : koksma__stratum_quarter(s, &base, from);
+        const int kept = koksma__stratum_quarter(s, &base, from);
         for (int k = 0; k < 4; k++) {
             *to = *from;
             to->level++;
@@ -230,7 +225,7 @@ static koksma_status draw(const koksma__adaptive *run, size_t pixel, uint32_t us
         const bool wanted = run->probing ? stratum->marked : stratum->pending;
         for (uint32_t k = 0; wanted && k < (run->probing ? probes : 1); k++) {
             koksma__stratum_place(s, use == tree->base ? &cells : &base, &cells, stratum,
-                                  run->probing ? KOKSMA__STAGE_PROBE + k : tree->stage, pairs);
+                                  run->probing ? KOKSMA__STAGE_PROBE + k : KOKSMA__STAGE_TREE, pairs);
             *pairs++ += offset[0];
             *pairs++ += offset[1];
         }
@@ -281,21 +276,6 @@ static void take(koksma__adaptive *run, size_t pixel, const koksma__sample_value
 }
 
 /* ---- The end ---------------------------------------------------------------------------------------------- */
-
-void koksma__strata_last(koksma__adaptive *run)
-{
-    koksma__strata *s = run->state;
-    for (size_t p = 0; s->reuse == KOKSMA__REUSE_FRESH && p < run->pixels; p++) {
-        koksma__tree *tree = &s->trees[p];
-        for (uint32_t i = 0; i < tree->n; i++) {
-            tree->strata[i].pending = true;
-            tree->strata[i].marked = false;
-        }
-        tree->marked = 0;
-        tree->stage = KOKSMA__STAGE_LAST;
-        run->demands[p] = (koksma__sample_demand){.now = tree->n, .selected = true};
-    }
-}
 
 static double volume_of(const koksma__strata *s, const koksma__stratum *stratum)
 {
