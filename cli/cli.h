@@ -290,6 +290,10 @@ bool cli_is_stdout(const char *path);
 /* Returns whether two paths lead to the same file, which is there. */
 bool cli_is_same_file(const char *a, const char *b);
 
+/* Refuses an --output that is a file which the command reads, but that of --from, which a search continues. Returns false
+   after an error. */
+bool cli_keeps_inputs(const cli_arguments *arguments);
+
 /* Tries, before work that takes long, whether the file `path` can be written: its folder is there and allows new files.
    Makes nothing; NULL and streams are not tried. Returns the exit code, which is not 0 after an error. */
 int cli_try_output(const cli_arguments *arguments, const char *path);

@@ -111,8 +111,7 @@ static int check_inputs(const cli_arguments *arguments, const koksma_datasheet_o
     for (size_t i = 0; i < o->n_scenes; i++) {
         input = cli_is_same_file(o->scenes[i], output) ? o->scenes[i] : input;
     }
-    return input ? cli_usage_error(arguments,
-                                   "--output %s: it would replace what the datasheet reads, %s; choose another file",
+    return input ? cli_usage_error(arguments, "--output %s: it would replace what is read, %s; choose another file",
                                    output, input)
                  : CLI_YES;
 }

@@ -154,12 +154,21 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
     opterr = 0;
     optind = 0; /* 0 resets glibc's getopt completely, even if the previous parse stopped in the middle of a word */
     for (int code; (code = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
+        if (code == '?' || code == ':') {
+            return parse_failure(arguments, code, argv);
+        }
+        const char *last = argv[optind - 1], *word = optarg == last ? argv[optind - 2] : last;
+        if (code >= LONG_BASE &&
+            strcspn(word + 2, "=") != strlen(code == HELP ? "help" : longs[code - LONG_BASE].name)) {
+            return unknown_option(arguments,
+                                  word); /* getopt_long takes --allow for --allow-exec, which runs programs */
+        }
         if (code == HELP || code == HELP_LETTER) {
             cli_print_help(command);
             return CLI_YES;
         }
-        if (code == '?' || code == ':') {
-            return parse_failure(arguments, code, argv);
+        if (code < LONG_BASE && optarg && *optarg == '=' && optarg == last + 2) {
+            return cli_usage_error(arguments, "%s: write -%c %s", last, code, optarg + 1);
         }
         int i = code - LONG_BASE;
         if (code < LONG_BASE) {
@@ -251,6 +260,9 @@ static int read_shared_options(cli_arguments *arguments)
         if (value && argument && !strncmp(argument, "FILE.", 5) && !ending_fits(arguments, argument, value)) {
             return CLI_USAGE;
         }
+    }
+    if (!cli_keeps_inputs(arguments)) {
+        return CLI_USAGE;
     }
     if (option_of(arguments->command, "digits")) {
         if (!cli_whole(arguments, "digits", CLI_DIGITS, 1, 17, &digits)) {

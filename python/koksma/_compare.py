@@ -113,6 +113,8 @@ def as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
         raise ArgumentError(f"an image must be an array, not the text {quoted(image)}; read_image(path) reads a file")
     if given.dtype.kind not in "buifO":
         raise ArgumentError(f"pixels must be real numbers, not {given.dtype}")
+    if given.dtype in (np.uint8, np.uint16):
+        raise ArgumentError(f"pixels of linear light are floats, not {given.dtype}; read_image reads files, and decodes them")
     if has_masked(given):
         raise ArgumentError("an image must not have masked pixels")
     try:

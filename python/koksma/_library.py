@@ -308,7 +308,7 @@ def refuse_unknown() -> Iterator[None]:
 
 _OF_PYTHON = (  # what the library says of the program and of C, as this package has it
     (r"'koksma list (\w+)'", r"koksma.\1()"),
-    (r"--allow-exec allows that \(koksma_allow_exec in C, koksma.allow_exec in Python\)", "koksma.allow_exec() allows that"),
+    (r"--allow-exec allows that \(koksma_allow_exec in C, koksma.allow_exec in Python\)", "'with koksma.allow_exec():' around the call allows that"),
     (r"^koksma_\w+: ", ""),
     (r"^n_(beside)\b", r"\1"),
     (r"^([a-z].*): the number of points is missing$", r"\1: n, the number of points, is missing"),

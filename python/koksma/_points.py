@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import warnings
 import weakref
 from ctypes import byref
 from dataclasses import dataclass
@@ -346,6 +347,8 @@ def as_points(points: npt.ArrayLike) -> PointArray:
     array = array if array.flags.aligned else array.copy()
     if array.ndim != 2 or 0 in array.shape:
         raise ArgumentError(f"points must be an array of shape (n, dim), with n and dim of at least 1, not {array.shape}")
+    if 2 <= array.shape[0] < array.shape[1] / 2 and array.shape[1] > 3:
+        warnings.warn(f"{array.shape[0]} points in {array.shape[1]} dimensions; are rows and columns swapped?", stacklevel=3)
     return array
 
 

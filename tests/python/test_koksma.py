@@ -198,11 +198,16 @@ class Errors(unittest.TestCase):
 class ErrorsSpeakPython(unittest.TestCase):
     """Messages name the arguments of Python: no option of the program, no function of C, no file that is gone."""
 
+    def test_transposed_points_are_named(self):
+        with self.assertWarnsRegex(UserWarning, "^2 points in 16 dimensions; are rows and columns swapped"):
+            koksma.measure(koksma.generate("sobol", 16).T, "star-lower")
+
     def test_wrong_calls(self):
         points = np.full((4, 2), .5)
         for call, said in (
                 (lambda: koksma.generate("sobol"), r"^sobol: n, the number of points, is missing$"),
-                (lambda: koksma.generate("exec:./x", 4), r"^exec:./x: the pattern runs external code; koksma.allow_exec\(\) allows that$"),
+                (lambda: koksma.write_image("x.png", np.full((2, 2), 200, np.uint8)), "^pixels of linear light are floats, not uint8; read_image"),
+                (lambda: koksma.generate("exec:./x", 4), r"^exec:./x: the pattern runs external code; 'with koksma.allow_exec\(\):' around the call allows that$"),
                 (lambda: koksma.generate("jittered", 16, first=4), r"koksma\.has_ranges"),
                 (lambda: koksma.render("ball", lights="q"), r"^lights must be one of all, one, .*, not 'q'$"),
                 (lambda: koksma.render("ball", size=4), r"^size must be \(width, height\), not 4$"),

@@ -1029,6 +1029,11 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     status = status ? status : name_space(&r, "world", r.now.matrix);
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);
     status = status ? status : read_source(&r, &s);
+    status =
+        status ? status
+               : koksma__import_unknown_if(!r.in_world, im, s.place,
+                                           "no WorldBegin, from which on the scene is described: what precedes it is "
+                                           "read as if it followed");
     status = status ? status : check_media(&r);
     status = status ? status : set_camera(&r);
     status = status ? status : set_medium(&r);
