@@ -221,8 +221,10 @@ static koksma_status bad_number(const reader *r, const char *field)
     while (length < SHOWN && field[length] && !is_separator(field[length])) {
         length++;
     }
-    return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: '%.*s' is not a number%s", r->name, r->line_number, length,
-                        field, field_hint(field));
+    const bool nameless = !r->points->dim && (*field == ',' || !strncmp(field, "\"\"", 2)); /* by pandas, and by R */
+    return koksma__fail(
+        KOKSMA_MALFORMED, "%s: line %zu: '%.*s' is not a number%s", r->name, r->line_number, length, field,
+        nameless ? "; a header whose first name is empty has an index column: leave that out" : field_hint(field));
 }
 
 /* Whether a line has decimal commas: a comma between digits, and another separator of fields. */
