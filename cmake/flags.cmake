@@ -13,6 +13,9 @@ if(WIN32 OR APPLE)
   include_directories(AFTER ${engine})
   add_compile_definitions($<IF:$<BOOL:${WIN32}>,__USE_MINGW_ANSI_STDIO=1,_DARWIN_C_SOURCE>)
 endif()
+if(APPLE)
+  set(CMAKE_SHARED_LIBRARY_RUNTIME_C_FLAG "-Wl,-rpath,") # for which CMake asks the system that it runs on
+endif()
 if(WIN32)
   add_compile_definitions(KOKSMA_BUILD _WIN32_WINNT=0x0602 _FILE_OFFSET_BITS=64 _CRT_RAND_S) # KOKSMA_BUILD: what is exported
   add_compile_options("SHELL:-include ${engine}/core/platform/windows.h")
