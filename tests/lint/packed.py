@@ -26,6 +26,7 @@ REASONS = {
     "batch_albedo": NO_BLEND,
     "batch_shade": NO_BLEND,
     "batch_land": NO_BLEND + "; clang 14 gives up on it everywhere",
+    "batch_meet_faces": NO_BLEND,
     "batch_step_off": NO_BLEND,
     "batch_beams": NO_BLEND,
     "batch_reflect": NO_BLEND,

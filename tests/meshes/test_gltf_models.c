@@ -10,7 +10,7 @@
 
 #include "meshes.h"
 #include "meshes/mesh_file.h"
-#include "render/lights/lights.h"
+#include "render/light_sample.h"
 #include "scene/scene.h"
 
 static void write_bytes(const char *path, const void *bytes, size_t size)
@@ -217,7 +217,7 @@ TEST_CASE(glow_is_sampled_by_its_texture)
     for (int i = 0; i < N * N; i++) {
         const float u[2] = {((float)(i / N) + 0.5f) / N, ((float)(i % N) + 0.5f) / N};
         koksma__beam beam;
-        assert_true(light->kind->sample(light, p, u, &beam));
+        assert_true(light_sample(light, p, u, &beam));
         /* where it meets the square, whose triangles are above and below the diagonal */
         const float x = -2 * beam.w[0] / beam.w[2], y = -2 * beam.w[1] / beam.w[2];
         const float uv[2] = {0.5f + 0.5f * x, 0.5f + 0.5f * y}, t = -2 / beam.w[2];

@@ -57,7 +57,11 @@ typedef struct koksma__mesh_host {
     void (*normal_matrix)(const double matrix[12], double out[9]);
     void (*placement_at)(const koksma__placement *placement, double t, double matrix[12]);
     bool (*matrix_mirrors)(const double matrix[12]);
+    bool (*face)(const float a[3], const float b[3], const float c[3], koksma__batch_face *out); /* koksma__face_of */
 } koksma__mesh_host;
+
+/* Prepares the triangle of these corners for rays that test all triangles; returns false if it has no area. */
+bool koksma__face_of(const float a[3], const float b[3], const float c[3], koksma__batch_face *out);
 
 /* Makes the geometry of the scene's shapes and meshes. Errors: UNSUPPORTED (the module is missing), ARGUMENT, MEMORY,
    SYSTEM. */

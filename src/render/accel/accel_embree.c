@@ -31,8 +31,7 @@
 #define HOST ((const koksma__mesh_host *)koksma__own_host->functions)
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
-#define FROM_CAMERA 1u            /* the id of rays that start at the camera, for the filter function */
-#define SHADOW_END (1 - 0x1p-16f) /* the same value as KOKSMA__SHADOW_END, which the analytic shapes use */
+#define FROM_CAMERA 1u /* the id of rays that start at the camera, for the filter function */
 
 /* ---- Triangles of placed meshes ----------------------------------------------------------------------------- */
 
@@ -205,6 +204,7 @@ typedef struct embree {
     size_t n_parts, n_meshes;
     int32_t n_shapes;
     bool moves, wide;
+    koksma__batch_faces few; /* all triangles, if they are few and at rest, in place of the tree; otherwise n = 0 */
     part parts[];
 } embree;
 
@@ -341,7 +341,7 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
             valid[i] = shadows->light[start + i] > 0 ? -1 : 0;                                                       \
             any |= valid[i];                                                                                         \
             packet.tnear[i] = 0;                                                                                     \
-            packet.tfar[i] = SHADOW_END;                                                                             \
+            packet.tfar[i] = KOKSMA__SHADOW_END;                                                                     \
             packet.mask[i] = ~0u;                                                                                    \
             packet.id[i] = packet.flags[i] = 0;                                                                      \
             packet.time[i] = e->moves ? hits->time[start + i] : 0;                                                   \
@@ -375,7 +375,10 @@ static int closest(const koksma__geometry *geometry, const koksma__rays *rays, c
     int count = e->shapes.closest(&e->shapes, rays, from, n, hits), landed = 0, fine = 0;
     set_starts(rays->ox, rays->oy, rays->oz, n, &s);
     start(e, from, rays->time, d, n, &s);
-    for (int i = 0; i < n; i += e->wide ? 16 : 8) {
+    if (e->few.n) {
+        landed = e->batch->meet_faces(&e->few, s.x, s.y, s.z, rays, hits, n, &on);
+    }
+    for (int i = 0; !e->few.n && i < n; i += e->wide ? 16 : 8) {
         landed +=
             e->wide ? intersect_16(e, &s, rays, i, !from, hits, &on) : intersect_8(e, &s, rays, i, !from, hits, &on);
     }
@@ -411,7 +414,10 @@ static void occlude(const koksma__geometry *geometry, const koksma__hits *hits, 
     e->shapes.occlude(&e->shapes, hits, n, shadows);
     set_starts(hits->px, hits->py, hits->pz, n, &s);
     start(e, hits->primitive, hits->time, d, n, &s);
-    for (int i = 0; i < n; i += e->wide ? 16 : 8) {
+    if (e->few.n) {
+        e->batch->shade_faces(&e->few, s.x, s.y, s.z, hits, n, shadows);
+    }
+    for (int i = 0; !e->few.n && i < n; i += e->wide ? 16 : 8) {
         if (e->wide) {
             shade_16(e, &s, hits, i, shadows);
         } else {
@@ -705,9 +711,36 @@ static koksma_status make_instance(embree *e, const koksma__placement *from, par
     return check(e);
 }
 
+/* Whether the scene has few triangles, all at rest and opaque to all rays. */
+static bool has_few(const koksma_scene *scene)
+{
+    size_t total = 0;
+    for (size_t i = 0; i < scene->n_placements; i++) {
+        const part p = make_part(scene, &scene->placements[i], 0);
+        total += p.moves || p.steps || p.see_through || p.front != 0 ? KOKSMA__MAX_FACES + 1 : p.mesh->n_triangles;
+    }
+    return total <= KOKSMA__MAX_FACES;
+}
+
+static void list_faces(embree *e)
+{
+    for (size_t i = 0; i < e->n_parts; i++) {
+        const part *p = &e->parts[i];
+        for (size_t t = 0; t < p->mesh->n_triangles; t++) {
+            koksma__batch_face *face = &e->few.faces[e->few.n];
+            const uint32_t *index = p->mesh->indices + 3 * t;
+            const float *a = p->placed + 3 * (size_t)index[0], *b = p->placed + 3 * (size_t)index[1];
+            e->few.n += HOST->face(a, b, p->placed + 3 * (size_t)index[2], face);
+            face->part = (int32_t)i;
+            face->triangle = (uint32_t)t;
+        }
+    }
+}
+
 static koksma_status build(const koksma_scene *scene, embree *e)
 {
     size_t first = scene->n_shapes;
+    const bool few = has_few(scene);
     koksma_status status = check(e);
     int *uses = calloc(scene->n_meshes + 1, sizeof *uses);
     KOKSMA__REQUIRE_MEMORY(uses, scene->n_meshes * sizeof *uses);
@@ -725,8 +758,9 @@ static koksma_status build(const koksma_scene *scene, embree *e)
         *p = make_part(scene, &scene->placements[i], (int32_t)first);
         e->moves |= p->moves;
         first += scene->meshes[m].n_triangles;
-        status = p->steps || (uses[m] > 1 && !p->see_through) ? make_instance(e, &scene->placements[i], p, m, &g)
-                                                              : make_triangles(e, p, true, &g);
+        status = p->steps || (uses[m] > 1 && !p->see_through && !few)
+                     ? make_instance(e, &scene->placements[i], p, m, &g)
+                     : make_triangles(e, p, true, &g);
         if (g) {
             rtcAttachGeometryByID(e->scene, g, (unsigned)i);
             rtcReleaseGeometry(g);
@@ -736,6 +770,9 @@ static koksma_status build(const koksma_scene *scene, embree *e)
     if (!status) {
         rtcCommitScene(e->scene);
         status = check(e);
+    }
+    if (!status && few) {
+        list_faces(e);
     }
     return status;
 }

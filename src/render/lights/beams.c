@@ -2,6 +2,8 @@
 /* What several kinds of lights share: emitters that are sampled by area, and lights that are treated as points. */
 #include "render/lights/beams.h"
 
+#include "render/scene_images.h"
+
 void koksma__emitter_open(koksma__shading_light *light, double area, float reach)
 {
     light->area = (float)area;
@@ -32,4 +34,16 @@ bool koksma__point_beam(const koksma__shading_light *light, const float p[3], fl
     out->pdf = 0;
     koksma__set_value(light, strength / square, out);
     return true;
+}
+
+void koksma__mesh_glow(const koksma__mesh_light *m, size_t t, float a, float b, float rgb[3])
+{
+    const float *uvs = m->mesh->uvs, w[3] = {1 - a - b, a, b};
+    const uint32_t *index = m->mesh->indices + 3 * t;
+    float at[2] = {0, 0};
+    for (int c = 0; c < 3; c++) {
+        at[0] += w[c] * uvs[2 * (size_t)index[c]];
+        at[1] += w[c] * uvs[2 * (size_t)index[c] + 1];
+    }
+    koksma__texture(m->map->image, &m->map->mapping, at[0], at[1], KOKSMA__BRIGHTEST, rgb);
 }

@@ -54,6 +54,28 @@ float koksma__area_pdf(const koksma__shading_light *light, const float p[3], con
                        const float n[3]);
 bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
 
+/* ---- Meshes (light_mesh.c) --------------------------------------------------------------------------------------- */
+
+#define KOKSMA__BRIGHTEST 1e6f /* pixels of an image of the emission are clamped to this */
+
+/* A triangle of a luminous mesh, in world coordinates; `largest` is its largest coordinate, without sign. */
+typedef struct koksma__mesh_light_face {
+    float corners[9], normal[3], largest;
+} koksma__mesh_light_face;
+
+typedef struct koksma__mesh_light {
+    size_t n;
+    double *cdf; /* running sums of the triangles' areas, or of their emission; n + 1 numbers */
+    const koksma__mesh *mesh;
+    const koksma__map *map; /* the image of the emission, or NULL */
+    /* if there is an image: the density over area of positions on each triangle; otherwise NULL */
+    float *densities;
+    koksma__mesh_light_face faces[];
+} koksma__mesh_light;
+
+/* The emission according to the image at the point of triangle t with the weights a and b of its corners 1 and 2. */
+void koksma__mesh_glow(const koksma__mesh_light *m, size_t t, float a, float b, float rgb[3]);
+
 /* ---- Environments ----------------------------------------------------------------------------------------------- */
 
 enum { KOKSMA__ENVIRONMENT_STEP = 16 }; /* the coarse table of a cumulative table has every 16th entry */

@@ -14,43 +14,31 @@
 #include "render/lights/beams.h"
 #include "render/scene_images.h"
 
-#define BRIGHT_F 1e6f /* pixels of the image are clamped to this */
-
-typedef struct mesh_light {
-    size_t n;
-    double *cdf; /* running sums of the triangles' areas, or of their emission; n + 1 numbers */
-    const koksma__mesh *mesh;
-    const koksma__map *map; /* the image of the emission, or NULL */
-    /* if there is an image: the density over area of positions on each triangle; otherwise NULL */
-    float *densities;
-    float corners[][9];
-} mesh_light;
-
 /* Copies the triangles in world coordinates and sums their areas. */
-static void fill(const koksma__mesh *mesh, const koksma__placement *placement, mesh_light *m)
+static void fill(const koksma__mesh *mesh, const koksma__placement *placement, koksma__mesh_light *m)
 {
     for (size_t t = 0; t < m->n; t++) {
-        m->cdf[t + 1] = m->cdf[t] + koksma__placed_triangle(mesh, placement->matrix, t, m->corners[t]);
+        koksma__mesh_light_face *face = &m->faces[t];
+        const float *c = face->corners;
+        float e[3], f[3];
+        m->cdf[t + 1] = m->cdf[t] + koksma__placed_triangle(mesh, placement->matrix, t, face->corners);
+        for (int k = 0; k < 3; k++) {
+            e[k] = c[3 + k] - c[k];
+            f[k] = c[6 + k] - c[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            face->normal[k] = e[(k + 1) % 3] * f[(k + 2) % 3] - e[(k + 2) % 3] * f[(k + 1) % 3];
+        }
+        for (int k = 0; k < 9; k++) {
+            face->largest = fmaxf(face->largest, fabsf(c[k]));
+        }
+        koksma__unit3(face->normal);
     }
-}
-
-/* The emission according to the image at the point of triangle t with the barycentric weights a and b of the second
-   and third corner. */
-static void glow_at(const mesh_light *m, size_t t, float a, float b, float rgb[3])
-{
-    const float *uvs = m->mesh->uvs, w[3] = {1 - a - b, a, b};
-    const uint32_t *index = m->mesh->indices + 3 * t;
-    float at[2] = {0, 0};
-    for (int c = 0; c < 3; c++) {
-        at[0] += w[c] * uvs[2 * (size_t)index[c]];
-        at[1] += w[c] * uvs[2 * (size_t)index[c] + 1];
-    }
-    koksma__texture(m->map->image, &m->map->mapping, at[0], at[1], BRIGHT_F, rgb);
 }
 
 /* Weighs the triangles by their emission; *mean is the luminance of the image, averaged over the area. Errors:
    MEMORY. */
-static koksma_status weigh(mesh_light *m, double *mean)
+static koksma_status weigh(koksma__mesh_light *m, double *mean)
 {
     const double area = m->cdf[m->n];
     double sum = 0;
@@ -64,7 +52,7 @@ static koksma_status weigh(mesh_light *m, double *mean)
                 a = 1 - a;
                 b = 1 - b;
             }
-            glow_at(m, t, a, b, rgb);
+            koksma__mesh_glow(m, t, a, b, rgb);
             luminance += (double)koksma__luminance3(rgb) / 16;
         }
         m->densities[t] = (float)luminance;
@@ -89,13 +77,13 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
 {
     const koksma__placement *placement = &scene->placements[from->placement];
     const koksma__mesh *mesh = &scene->meshes[placement->mesh];
-    mesh_light *m = calloc(1, sizeof *m + mesh->n_triangles * sizeof m->corners[0]);
+    koksma__mesh_light *m = calloc(1, sizeof *m + mesh->n_triangles * sizeof m->faces[0]);
     double *cdf = calloc(mesh->n_triangles + 1, sizeof *cdf);
     double square = 0;
     if (!m || !cdf) {
         free(m);
         free(cdf);
-        return koksma__fail_memory(mesh->n_triangles * sizeof m->corners[0]);
+        return koksma__fail_memory(mesh->n_triangles * sizeof m->faces[0]);
     }
     m->n = mesh->n_triangles;
     m->cdf = cdf;
@@ -124,64 +112,16 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
 
 static void close_light(void *data)
 {
-    mesh_light *m = data;
+    koksma__mesh_light *m = data;
     KOKSMA__FREE(m->cdf, m->densities, m);
-}
-
-static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
-{
-    const mesh_light *m = light->data;
-    const double target = (double)u[0] * m->cdf[m->n];
-    size_t low = 0, high = m->n;
-    while (high - low > 1) {
-        const size_t middle = (low + high) / 2;
-        *(m->cdf[middle] <= target ? &low : &high) = middle;
-    }
-    const double size = m->cdf[low + 1] - m->cdf[low];
-    const float *c = m->corners[low], root = sqrtf((float)(size > 0 ? (target - m->cdf[low]) / size : 0));
-    const float b = 1 - root, a = u[1] * root, rest = 1 - a - b;
-    float e[3], f[3], n[3], largest = 0;
-    for (int k = 0; k < 9; k++) {
-        largest = fmaxf(largest, fabsf(c[k]));
-    }
-    for (int k = 0; k < 3; k++) {
-        e[k] = c[3 + k] - c[k];
-        f[k] = c[6 + k] - c[k];
-        out->d[k] = rest * c[k] + a * c[3 + k] + b * c[6 + k] - p[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        n[k] = e[(k + 1) % 3] * f[(k + 2) % 3] - e[(k + 2) % 3] * f[(k + 1) % 3];
-    }
-    const float square = koksma__dot3(out->d, out->d), length = sqrtf(square);
-    koksma__unit3(n);
-    float at_light = -koksma__dot3(n, out->d);
-    if (light->two_sided && at_light < 0) {
-        at_light = -at_light;
-        n[0] = -n[0], n[1] = -n[1], n[2] = -n[2];
-    }
-    if (!(at_light > 0)) {
-        return false; /* no light: p is behind the triangle, or the triangle has no area */
-    }
-    float glow[3] = {1, 1, 1};
-    out->pdf = square * length / (at_light * light->area);
-    if (m->map) {
-        out->pdf = square * length * m->densities[low] / at_light;
-        glow_at(m, low, a, b, glow);
-    }
-    for (int k = 0; k < 3; k++) {
-        out->w[k] = out->d[k] / length;
-        out->value[k] = light->radiance[k] * glow[k] / out->pdf;
-        out->d[k] += 0x1p-20f * largest * n[k];
-    }
-    return true;
 }
 
 static float met(const koksma__shading_light *light, uint32_t triangle, const float uv[2], float radiance[3])
 {
-    const mesh_light *m = light->data;
+    const koksma__mesh_light *m = light->data;
     float glow[3] = {1, 1, 1};
     if (m->map) {
-        koksma__texture(m->map->image, &m->map->mapping, uv[0], uv[1], BRIGHT_F, glow);
+        koksma__texture(m->map->image, &m->map->mapping, uv[0], uv[1], KOKSMA__BRIGHTEST, glow);
     }
     for (int k = 0; k < 3; k++) {
         radiance[k] = light->radiance[k] * glow[k];
@@ -205,9 +145,9 @@ static bool centre(const koksma__shading_light *light, const float p[3], koksma_
 
 const koksma__light_kind koksma__light_mesh = {
     .kind = {.name = "mesh", .title = "a luminous mesh", .cite = "turk1990", .is_implied = true},
+    .form = KOKSMA__BEAMS_MESH,
     .open = open_light,
     .close = close_light,
-    .sample = sample,
     .centre = centre,
     .pdf = koksma__area_pdf,
     .met = met,

@@ -56,6 +56,7 @@ typedef enum koksma__beam_form {
     KOKSMA__BEAMS_DISK,
     KOKSMA__BEAMS_CONE, /* a sphere */
     KOKSMA__BEAMS_PARALLEL,
+    KOKSMA__BEAMS_MESH,
     KOKSMA__BEAMS_AROUND, /* an environment; a scene has at most one */
     KOKSMA__N_BEAM_FORMS
 } koksma__beam_form;

@@ -72,6 +72,9 @@ typedef struct koksma__shadows {
     const int32_t *aimed;
 } koksma__shadows;
 
+/* The t at which a shadow ray ends, just before the light at t = 1. */
+#define KOKSMA__SHADOW_END (1 - 0x1p-16f)
+
 /* How to weight light that can be found by light sampling, with density p, and by a ray along a lobe, with density q:
    by one of the heuristics of Veach 1997, section 9.2, or by using only one of the two strategies. */
 typedef enum koksma__light_weight {
@@ -117,6 +120,23 @@ typedef struct koksma__landings {
     KOKSMA__LANES(int32_t, material);
     KOKSMA__LANES(uint32_t, triangle); /* index of the triangle in its mesh */
 } koksma__landings;
+
+/* Triangles of a scene that has so few that every ray tests all of them. The ray o + t d meets the plane at t =
+   -normal.e / normal.d with e = o - corner; the weights of the corners 1 and 2 at q = e + t d are across[0].q and
+   across[1].q. A weight may be below 0 by slack (size + |e|), more than rounding errors, so that no ray passes between
+   two triangles; |e| is the sum of its coordinates without sign. */
+typedef struct koksma__batch_face {
+    float corner[3], normal[3], across[2][3], slack, size;
+    int32_t part; /* index of its placement */
+    uint32_t triangle;
+} koksma__batch_face;
+
+enum { KOKSMA__MAX_FACES = 64 };
+
+typedef struct koksma__batch_faces {
+    int n;
+    koksma__batch_face faces[KOKSMA__MAX_FACES];
+} koksma__batch_faces;
 
 /* A material: a constant albedo or a checker. The numbers su to t0 are the rotation, scale and offset of the checker:
    s = su u + sv v + s0, t = tu u + tv v + t0. */

@@ -123,6 +123,92 @@ INLINE void parallel_beams(const emitter *one, const emitters *restrict each, co
     }
 }
 
+/* ---- Meshes ----------------------------------------------------------------------------------------------------- */
+
+/* The triangles that the lanes sample: `root` is 1 minus the weight of corner 2; `mine` is 0 where the light is no mesh. */
+typedef struct mesh_samples {
+    _Alignas(64) koksma__lanes corners[9];
+    _Alignas(64) koksma__lanes normal[3];
+    _Alignas(64) koksma__lanes radiance[3];
+    _Alignas(64) koksma__lanes largest;
+    _Alignas(64) koksma__lanes density; /* over area */
+    _Alignas(64) koksma__lanes root;
+    KOKSMA__LANES(int32_t, mine);
+    KOKSMA__LANES(int32_t, two_sided);
+    KOKSMA__LANES(uint32_t, triangle);
+} mesh_samples;
+
+/* Chooses the triangle of lane i; returns whether it has an image. */
+static bool choose_face(const koksma__shading_light *light, float u, int i, mesh_samples *to)
+{
+    const koksma__mesh_light *m = light->data;
+    const double target = (double)u * m->cdf[m->n];
+    size_t low = 0, high = m->n;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        const bool up = m->cdf[middle] <= target;
+        low = up ? middle : low;
+        high = up ? high : middle;
+    }
+    const koksma__mesh_light_face *face = &m->faces[low];
+    const double size = m->cdf[low + 1] - m->cdf[low];
+    for (int k = 0; k < 9; k++) {
+        to->corners[k][i] = face->corners[k];
+    }
+    put(koksma__v3_of(face->normal), i, to->normal);
+    put(koksma__v3_of(light->radiance), i, to->radiance);
+    to->largest[i] = face->largest;
+    to->density[i] = m->map ? m->densities[low] : 1 / light->area;
+    to->root[i] = (float)(size > 0 ? (target - m->cdf[low]) / size : 0);
+    to->two_sided[i] = light->two_sided;
+    to->triangle[i] = (uint32_t)low;
+    return m->map != NULL;
+}
+
+static void mesh_lanes(const mesh_samples *restrict s, const koksma__hits *restrict h, const float *restrict u, int n,
+                       koksma__beams *restrict out)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const koksma__v3 normal = AT(s->normal, i), radiance = AT(s->radiance, i);
+        const float root = sqrtf(s->root[i]), b = 1 - root, a = u[i] * root, rest = 1 - a - b;
+        const koksma__v3 on = koksma__v3_add(
+            koksma__v3_scale(AT(s->corners, i), rest),
+            koksma__v3_add(koksma__v3_scale(AT(s->corners + 3, i), a), koksma__v3_scale(AT(s->corners + 6, i), b)));
+        const koksma__v3 d = koksma__v3_subtract(on, POSITION(h, i));
+        const float square = koksma__v3_dot(d, d), length = sqrtf(square), facing = -koksma__v3_dot(normal, d);
+        const float side = (float)(1 - 2 * (s->two_sided[i] & (facing < 0))), at_light = side * facing;
+        const float pdf = square * length * s->density[i] / at_light;
+        /* the light is 0 behind a triangle, and on one without area */
+        set_beam(out, i, s->mine[i], koksma__v3_add(d, koksma__v3_scale(normal, side * 0x1p-20f * s->largest[i])),
+                 koksma__v3_scale(d, 1 / length), koksma__v3_scale(radiance, 1 / pdf), pdf, at_light > 0);
+    }
+}
+
+static void mesh_beams(const koksma__light_lanes *l, const koksma__hits *h, const koksma__lanes *u, int n,
+                       koksma__beams *out)
+{
+    mesh_samples s;
+    bool images = false;
+    for (int i = 0; i < n; i++) {
+        const koksma__shading_light *light = l->light[i] < 0 ? NULL : &l->lights[l->light[i]];
+        s.mine[i] = light && light->kind->form == KOKSMA__BEAMS_MESH;
+        images |= s.mine[i] && choose_face(light, u[0][i], i, &s);
+    }
+    mesh_lanes(&s, h, u[1], n, out);
+    for (int i = 0; images && i < n; i++) {
+        const koksma__mesh_light *m = s.mine[i] ? l->lights[l->light[i]].data : NULL;
+        if (m && m->map && out->lit[i]) {
+            const float root = sqrtf(s.root[i]);
+            float glow[3];
+            koksma__mesh_glow(m, s.triangle[i], u[1][i] * root, 1 - root, glow);
+            for (int k = 0; k < 3; k++) {
+                out->value[k][i] *= glow[k];
+            }
+        }
+    }
+}
+
 /* ---- Environments --------------------------------------------------------------------------------------------- */
 
 /* Looks up the radiance of the environment and its sampling density along the directions w. */
@@ -304,6 +390,9 @@ static void shared_beams(const koksma__shading_light *light, const koksma__light
     case KOKSMA__BEAMS_PARALLEL:
         parallel_beams(&one, NULL, l, n, out);
         break;
+    case KOKSMA__BEAMS_MESH:
+        mesh_beams(l, h, u, n, out);
+        break;
     case KOKSMA__BEAMS_AROUND:
         around_beams(light->data, NULL, l, u, n, out);
         break;
@@ -343,6 +432,9 @@ static void own_beams(const koksma__light_lanes *l, const koksma__hits *h, const
     }
     if (forms & 1u << KOKSMA__BEAMS_PARALLEL) {
         parallel_beams(NULL, &each, l, n, out);
+    }
+    if (forms & 1u << KOKSMA__BEAMS_MESH) {
+        mesh_beams(l, h, u, n, out);
     }
     if (around) {
         around_beams(around, &each, l, u, n, out);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Computes hit positions on triangles, and offsets the origins of rays that start on triangles. A hit position is
+ * Intersects rays with few triangles, computes hit positions on triangles, and offsets the origins of rays that start on
+ * triangles. A hit position is
  * computed from the corners, (1 - u - v) a + u b + v c, and not from the ray, so that it is as exact as the corners.
  *
  * The origin of a ray that starts on a triangle is moved along the normal, to the side to which the ray goes, by
@@ -11,6 +12,7 @@
 #include <math.h>
 
 #include "render/pipelines/batch_kernel.h"
+#include "render/vector3.h"
 
 #define OFF 0x1p-20f
 
@@ -79,5 +81,74 @@ void BATCH_NAME(step_off)(const koksma__landings *restrict l, const float *restr
         ox[i] = on ? ox[i] + offset * nx : ox[i];
         oy[i] = on ? oy[i] + offset * ny : oy[i];
         oz[i] = on ? oz[i] + offset * nz : oz[i];
+    }
+}
+
+/* ---- Few triangles ---------------------------------------------------------------------------------------------- */
+
+typedef struct meeting {
+    float t, u, v;
+    int inside;
+} meeting;
+
+/* Where the line e + t d, from a face's corner, meets the face's plane, and whether that is within the face. */
+INLINE meeting meet(const koksma__batch_face *f, koksma__v3 e, koksma__v3 d)
+{
+    const float *n = f->normal, *a = f->across[0], *b = f->across[1];
+    const float slack = f->slack * (f->size + (fabsf(e.x) + fabsf(e.y) + fabsf(e.z)));
+    const float t = -(n[0] * e.x + n[1] * e.y + n[2] * e.z) / (n[0] * d.x + n[1] * d.y + n[2] * d.z);
+    const float x = e.x + t * d.x, y = e.y + t * d.y, z = e.z + t * d.z;
+    const float u = a[0] * x + a[1] * y + a[2] * z, v = b[0] * x + b[1] * y + b[2] * z;
+    return (meeting){t, u, v, (u >= -slack) & (v >= -slack) & (u + v <= 1 + slack)};
+}
+
+int BATCH_NAME(meet_faces)(const koksma__batch_faces *faces, const float *restrict x, const float *restrict y,
+                           const float *restrict z, const koksma__rays *restrict r, const koksma__hits *restrict h,
+                           int n, koksma__landings *restrict out)
+{
+    float *restrict ts = out->t, *restrict us = out->u, *restrict vs = out->v;
+    int32_t *restrict parts = out->primitive;
+    uint32_t *restrict triangles = out->triangle;
+    int count = 0;
+    for (int i = 0; i < STEP(n); i++) {
+        ts[i] = h->t[i];
+        parts[i] = -1;
+    }
+    for (int k = 0; k < faces->n; k++) {
+        const koksma__batch_face f = faces->faces[k];
+        LANES_APART
+        for (int i = 0; i < STEP(n); i++) {
+            const koksma__v3 e = {x[i] - f.corner[0], y[i] - f.corner[1], z[i] - f.corner[2]};
+            const meeting m = meet(&f, e, (koksma__v3){r->dx[i], r->dy[i], r->dz[i]});
+            const int hit = m.inside & (m.t > 0) & (m.t < ts[i]);
+            ts[i] = hit ? m.t : ts[i];
+            us[i] = hit ? m.u : us[i];
+            vs[i] = hit ? m.v : vs[i];
+            parts[i] = hit ? f.part : parts[i];
+            triangles[i] = hit ? f.triangle : triangles[i];
+        }
+    }
+    for (int i = 0; i < STEP(n); i++) {
+        count += parts[i] >= 0;
+    }
+    return count;
+}
+
+void BATCH_NAME(shade_faces)(const koksma__batch_faces *faces, const float *restrict x, const float *restrict y,
+                             const float *restrict z, const koksma__hits *restrict h, int n,
+                             koksma__shadows *restrict s)
+{
+    for (int k = 0; k < faces->n; k++) {
+        const koksma__batch_face f = faces->faces[k];
+        LANES_APART
+        for (int i = 0; i < STEP(n); i++) {
+            const koksma__v3 e = {x[i] - f.corner[0], y[i] - f.corner[1], z[i] - f.corner[2]};
+            /* the ray ends where it would if it began at the hit */
+            const meeting m = meet(&f, e,
+                                   (koksma__v3){s->dx[i] + (h->px[i] - x[i]), s->dy[i] + (h->py[i] - y[i]),
+                                                s->dz[i] + (h->pz[i] - z[i])});
+            const int hit = m.inside & (m.t > 0) & (m.t < KOKSMA__SHADOW_END);
+            s->light[i] *= hit ? 0.0f : 1.0f;
+        }
     }
 }

@@ -50,9 +50,6 @@ typedef struct koksma__shape_type {
     int (*only)(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits);
 } koksma__shape_type;
 
-/* The t at which a shadow ray ends, just before the light at t = 1. */
-#define KOKSMA__SHADOW_END (1 - 0x1p-16f)
-
 #ifdef KOKSMA_ISA
 #define KOKSMA__SHAPE(name) KOKSMA__JOIN(koksma__shape_, name, KOKSMA_ISA)
 #else

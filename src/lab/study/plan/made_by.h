@@ -15,7 +15,7 @@ enum { KOKSMA__MADE_BY = 512 };
 
 /* The renderer's revision, raised with every change of any bit of a rendered image, of its error or of its
    coherence. */
-enum { KOKSMA__RENDERER_REVISION = 3 };
+enum { KOKSMA__RENDERER_REVISION = 4 };
 
 /* Revisions as texts of the form "name revision, name revision". */
 typedef struct koksma__made_by {

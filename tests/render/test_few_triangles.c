@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Rays that test all triangles of a scene, beside the intersection by Cramer's rule in double precision (Moeller &
+   Trumbore 1997), and on a closed surface, through which no ray may pass. */
+#include "core/vector.h"
+#include "render/accel/accel.h"
+#include "rendering.h"
+
+typedef struct world {
+    koksma__batch_faces faces;
+    double corners[KOKSMA__MAX_FACES][3][3];
+    koksma__rays rays;
+    koksma__hits hits;
+    koksma__landings on;
+    koksma__shadows shadows;
+} world;
+
+static void add_face(world *w, const float a[3], const float b[3], const float c[3])
+{
+    const float *const corners[3] = {a, b, c};
+    const int n = w->faces.n++;
+    assert_true(koksma__face_of(a, b, c, &w->faces.faces[n]));
+    w->faces.faces[n].part = n;
+    w->faces.faces[n].triangle = (uint32_t)(1000 + n);
+    for (int i = 0; i < 9; i++) {
+        w->corners[n][i / 3][i % 3] = (double)corners[i / 3][i % 3];
+    }
+}
+
+/* Rays from a point of the box [-reach, reach]^3, as rays, and as shadow rays to hits at t = 0. */
+static void aim(world *w, double reach)
+{
+    for (int i = 0; i < KOKSMA__BLOCK; i++) {
+        w->hits.px[i] = w->rays.ox[i] = (float)uniform(-reach, reach);
+        w->hits.py[i] = w->rays.oy[i] = (float)uniform(-reach, reach);
+        w->hits.pz[i] = w->rays.oz[i] = (float)uniform(-reach, reach);
+        w->shadows.dx[i] = w->rays.dx[i] = (float)uniform(-4, 4);
+        w->shadows.dy[i] = w->rays.dy[i] = (float)uniform(-4, 4);
+        w->shadows.dz[i] = w->rays.dz[i] = (float)uniform(-4, 4);
+        w->shadows.light[i] = 1;
+        w->hits.t[i] = INFINITY;
+    }
+}
+
+static int trace(const koksma__batch_table *batch, world *w)
+{
+    batch->shade_faces(&w->faces, w->rays.ox, w->rays.oy, w->rays.oz, &w->hits, KOKSMA__BLOCK, &w->shadows);
+    return batch->meet_faces(&w->faces, w->rays.ox, w->rays.oy, w->rays.oz, &w->rays, &w->hits, KOKSMA__BLOCK,
+                             &w->on);
+}
+
+/* Where ray i meets triangle k: t and the weights; returns how far inside the triangle that is, or -1 for t <= 0. */
+static double meet(const world *w, int i, int k, double out[3])
+{
+    const double(*c)[3] = w->corners[k];
+    const double o[3] = {(double)w->rays.ox[i], (double)w->rays.oy[i], (double)w->rays.oz[i]};
+    const double d[3] = {(double)w->rays.dx[i], (double)w->rays.dy[i], (double)w->rays.dz[i]};
+    double e[3], f[3], s[3], p[3], q[3];
+    koksma__subtract(c[1], c[0], e);
+    koksma__subtract(c[2], c[0], f);
+    koksma__subtract(o, c[0], s);
+    koksma__cross(d, f, p);
+    koksma__cross(s, e, q);
+    const double determinant = koksma__dot(p, e);
+    out[0] = koksma__dot(q, f) / determinant;
+    out[1] = koksma__dot(p, s) / determinant;
+    out[2] = koksma__dot(q, d) / determinant;
+    return out[0] > 0 ? fmin(fmin(out[1], out[2]), 1 - out[1] - out[2]) : -1;
+}
+
+TEST_CASE(few_triangles_are_met_as_by_cramers_rule)
+{
+    const double near = 1e-4;
+    int met = 0, unclear = 0, lanes = 0;
+    for (int round = 0; round < test_repeats(60, 6); round++) {
+        static world w;
+        w.faces.n = 0;
+        for (int k = 0; k < 20; k++) {
+            float c[3][3];
+            for (int i = 0; i < 9; i++) {
+                c[i / 3][i % 3] = (float)uniform(-2, 2);
+            }
+            add_face(&w, c[0], c[1], c[2]);
+        }
+        aim(&w, 2);
+        const int count = trace(koksma__batch(), &w);
+        met += count;
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            double nearest = INFINITY, weights[2] = {0, 0};
+            int which = -1;
+            bool clear = true;
+            for (int k = 0; k < w.faces.n; k++) {
+                double found[3];
+                const double inside = meet(&w, i, k, found);
+                clear = clear && fabs(inside) > near && fabs(found[0]) > near && fabs(found[0] - 1) > near &&
+                        fabs(found[0] - nearest) > near;
+                if (inside > 0 && found[0] < nearest) {
+                    nearest = found[0];
+                    weights[0] = found[1];
+                    weights[1] = found[2];
+                    which = k;
+                }
+            }
+            lanes++;
+            unclear += !clear;
+            if (clear) {
+                assert_int_equal(w.on.primitive[i], which);
+                assert_true((w.shadows.light[i] == 0) == (nearest < 1));
+            }
+            if (clear && which >= 0) {
+                assert_int_equal(w.on.triangle[i], 1000 + which);
+                assert_near((double)w.on.t[i], nearest, 1e-3 * (1 + nearest));
+                assert_near((double)w.on.u[i], weights[0], 1e-3);
+                assert_near((double)w.on.v[i], weights[1], 1e-3);
+            }
+        }
+    }
+    assert_true(met > lanes / 4 && met < lanes);
+    assert_true(unclear < lanes / 10);
+}
+
+/* A box of random size whose corners are moved at random, far from the origin: from inside, every ray hits it. Rays are
+   aimed at its edges and corners, too, where rounding decides. */
+TEST_CASE(no_ray_passes_between_two_of_few_triangles)
+{
+    static const int quads[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                                    {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+    for (int round = 0; round < test_repeats(2000, 20); round++) {
+        static world w;
+        float corners[8][3];
+        const double away = uniform(0, 30), size = uniform(0.1, 3);
+        w.faces.n = 0;
+        for (int c = 0; c < 8; c++) {
+            for (int k = 0; k < 3; k++) {
+                corners[c][k] = (float)(away + size * ((c >> k & 1) * 2 - 1 + uniform(-0.3, 0.3)));
+            }
+        }
+        for (int q = 0; q < 6; q++) {
+            add_face(&w, corners[quads[q][0]], corners[quads[q][1]], corners[quads[q][2]]);
+            add_face(&w, corners[quads[q][0]], corners[quads[q][2]], corners[quads[q][3]]);
+        }
+        aim(&w, 0.2 * size);
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            const float *a = corners[i % 8], *b = corners[i / 8 % 8];
+            const float part = i % 3 ? (float)uniform(0, 1) : 0;
+            w.rays.ox[i] += (float)away;
+            w.rays.oy[i] += (float)away;
+            w.rays.oz[i] += (float)away;
+            w.rays.dx[i] = (1 - part) * a[0] + part * b[0] - w.rays.ox[i];
+            w.rays.dy[i] = (1 - part) * a[1] + part * b[1] - w.rays.oy[i];
+            w.rays.dz[i] = (1 - part) * a[2] + part * b[2] - w.rays.oz[i];
+        }
+        assert_int_equal(trace(koksma__batch(), &w), KOKSMA__BLOCK);
+    }
+}
+
+TEST_CASE(few_triangles_have_the_same_bits_for_every_instruction_set)
+{
+    static world first, w;
+    for (int isa = 0; isa < 4; isa++) {
+        const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
+        if (!batch) {
+            continue;
+        }
+        counter = 77;
+        memset(&w, 0, sizeof w);
+        for (int k = 0; k < 12; k++) {
+            float c[3][3];
+            for (int i = 0; i < 9; i++) {
+                c[i / 3][i % 3] = (float)uniform(-2, 2);
+            }
+            add_face(&w, c[0], c[1], c[2]);
+        }
+        aim(&w, 2);
+        trace(batch, &w);
+        if (isa == 0) {
+            memcpy(&first, &w, sizeof w);
+        }
+        assert_memory_equal(&w.on, &first.on, sizeof w.on);
+        assert_memory_equal(&w.shadows, &first.shadows, sizeof w.shadows);
+    }
+}
+
+TEST_CASE(a_triangle_without_area_is_no_face)
+{
+    koksma__batch_face face;
+    assert_true(
+        !koksma__face_of((const float[]){1, 2, 3}, (const float[]){2, 4, 6}, (const float[]){3, 6, 9}, &face));
+}
