@@ -244,10 +244,6 @@ KOKSMA_API void koksma_use_group_text(const koksma_use_group *group, char *text)
 
 /* ---- Rendering ------------------------------------------------------------------------------------------- */
 
-/* Returns the number of rays that one sample traces for its first hit: one from the camera and one to each
-   light. */
-KOKSMA_API int koksma_scene_rays_per_sample(const koksma_scene *scene);
-
 /* Returns the largest number of bounces with which these options render the scene. */
 KOKSMA_API int koksma_render_depth(const koksma_scene *scene, const koksma_render_options *options);
 

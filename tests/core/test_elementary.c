@@ -51,7 +51,6 @@ static const struct function {
                  ROW(hypot, 2, 1),
                  ROW(sinh, 1, 3),
                  ROW(cosh, 1, 2),
-                 ROW(tanh, 1, 4),
                  ROW(asinh, 1, 5),
                  ROW(erfc, 1, 20),
                  ROW(log_gamma, 1, 4)};
@@ -120,9 +119,9 @@ TEST_CASE(test_exact_values)
                 isnan(koksma__asin(nan_value)));
     assert_true(koksma__hypot(3, 4) == 5 && koksma__hypot(0, 0) == 0 && isnan(koksma__hypot(0, nan_value)) &&
                 koksma__hypot(-inf, nan_value) == inf && koksma__cbrt(27) == 3 && koksma__cbrt(-8) == -2 &&
-                koksma__tanh(50) == 1 && koksma__sinh(0) == 0 && koksma__cosh(0) == 1 &&
-                isinf(koksma__log_gamma(inf)) && isinf(koksma__log_gamma(0)) && koksma__erfc(30) == 0 &&
-                koksma__erfc(-30) == 2 && koksma__expm1(-80) == -1);
+                koksma__sinh(0) == 0 && koksma__cosh(0) == 1 && isinf(koksma__log_gamma(inf)) &&
+                isinf(koksma__log_gamma(0)) && koksma__erfc(30) == 0 && koksma__erfc(-30) == 2 &&
+                koksma__expm1(-80) == -1);
 }
 
 /* Beside long doubles, near multiples of pi / 2 too, where a sine is as small as 6e-17. */

@@ -146,12 +146,6 @@ double koksma__cosh(double x)
     return 0.5 * (e + 1 / e);
 }
 
-double koksma__tanh(double x)
-{
-    const double e = koksma__expm1(2 * fmin(fabs(x), 30));
-    return isnan(x) ? x : copysign(e / (e + 2), x);
-}
-
 double koksma__asinh(double x)
 {
     const double a = fabs(x);

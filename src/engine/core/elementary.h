@@ -33,7 +33,6 @@ KOKSMA__LAB double koksma__cbrt(double x);
 KOKSMA__LAB double koksma__hypot(double x, double y);
 KOKSMA__LAB double koksma__sinh(double x);
 KOKSMA__LAB double koksma__cosh(double x);
-KOKSMA__LAB double koksma__tanh(double x);
 KOKSMA__LAB double koksma__asinh(double x);
 KOKSMA__LAB double koksma__erfc(double x);
 

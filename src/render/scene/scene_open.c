@@ -241,9 +241,3 @@ uint64_t koksma_scene_hash(const koksma_scene *scene)
     KOKSMA__REQUIRE_OR(0, scene);
     return koksma__scene_hash(scene);
 }
-
-int koksma_scene_rays_per_sample(const koksma_scene *scene)
-{
-    KOKSMA__REQUIRE_OR(0, scene);
-    return 1 + (int)scene->n_lights;
-}
