@@ -377,7 +377,8 @@ static const cli_option options[] = {
     {0, "steps", "K",
      "number of steps, of eight searches each; equal --seed and --steps give equal sets; 0: the initial set"},
     {0, "time-limit", "SECONDS",
-     "time limit in seconds, which ends the search within a step; 0: no limit (default: 60; with --steps: 0)"},
+     "time limit in seconds, which ends the search within a step; the first set may take ten times as long; 0: no "
+     "limit (default: 60; with --steps: 0)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
     {'o', "output", "FILE.txt|.csv|.npy",
      "the best set; a file is rewritten after each gain, -, a pipe or a device gets only the last set"},

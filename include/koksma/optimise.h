@@ -97,9 +97,10 @@ KOKSMA_API const koksma_method *koksma_method_find(const char *name);
      measure  a measure whose answer is KOKSMA_ANSWER_EXACT, or NULL if options->power is set
      run      the time limit and keep_going end the search within a step; out then has the best set found so far, also
               in that step. A Latin hypercube (with KOKSMA_KEEP_NET and KOKSMA_KEEP_SEQUENCE Sobol' points) or the
-              given first set is made and measured without a time limit
-   Errors: ARGUMENT (a bad option or measure), N, DIM, MEMORY, INTERRUPTED (run->keep_going returned false; out then
-   has the best set so far, or is zeroed if the first set had not been made and measured). */
+              given first set is made and measured in up to ten times the limit, or 10 s
+   Errors: ARGUMENT (a bad option or measure), N (also: the first set takes longer than that), DIM, MEMORY, INTERRUPTED
+   (run->keep_going returned false; out then has the best set so far, or is zeroed if the first set had not been made and
+   measured). */
 KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
                                          const koksma_run *run, koksma_optimum *out);
 

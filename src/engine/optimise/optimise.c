@@ -37,7 +37,7 @@ static const koksma_method *const methods[] = {
 
 KOKSMA__LOOKUP(koksma_method, methods)
 
-enum { SEARCHES = 8, RANDOM_SHARE = 8 };
+enum { SEARCHES = 8, RANDOM_SHARE = 8, MOST_FIRST = 10 };
 
 size_t koksma__searches_made = SEARCHES;
 
@@ -222,8 +222,8 @@ static koksma_status look_for_better(step *s)
     return status;
 }
 
-/* Makes and measures the first set without a time limit, and then, if the caller has given none, looks for a better
-   one. */
+/* Makes and measures the first set, for which it takes up to ten times the time limit, and then, if the caller has given
+   none, looks for a better one. */
 static koksma_status find_first(step *s, koksma_optimum *out)
 {
     const koksma_optimise_options *o = s->options;
@@ -235,15 +235,19 @@ static koksma_status find_first(step *s, koksma_optimum *out)
         status = koksma__search_default(o, s->run, &out->points);
     }
     status = status || o->keep != KOKSMA_KEEP_SEQUENCE ? status : koksma__sequence_check(&out->points);
-    const double begin_s = koksma__now_s();
+    const double begin_s = koksma__now_s(), limit_s = s->run->time_limit_s;
+    s->end_s = limit_s > 0 ? begin_s + MOST_FIRST * fmax(limit_s, 1) : (double)INFINITY;
     status = status ? status : evaluate(s->measure, o, &out->points, &run, &out->value);
-    if (status) {
-        return status;
-    }
+    KOKSMA__FAIL_IF(
+        status && s->late, KOKSMA_N,
+        "%s: %zu points in %d dimensions: the first set alone takes more than %g s to measure; fewer points "
+        "or a longer time limit would do",
+        s->measure->measure->name, o->n, o->dim, MOST_FIRST * fmax(limit_s, 1));
+    KOKSMA__TRY(status);
     out->value = s->measure->measure->larger_is_better ? -out->value : out->value;
     out->method = s->method->name;
     s->measured_s = koksma__now_s() - begin_s;
-    s->end_s = s->run->time_limit_s > 0 ? s->start_s + s->run->time_limit_s : (double)INFINITY;
+    s->end_s = limit_s > 0 ? s->start_s + limit_s : (double)INFINITY;
     s->first = out;
     return o->first || o->power ? KOKSMA_OK : look_for_better(s);
 }
