@@ -326,9 +326,9 @@ int main(int argc, char **argv)
         }
     }
     printf("/* SPDX-License-Identifier: Apache-2.0 */\n"
-           "/* The keys of koksma/keys.h for %s, for 1, 2, 4 ... 64 samples a pixel. Made by tools/make_keys.c. */\n",
-           dims == 2 ? "pairs" : "quadruples");
-    for (int m = 0; m < TABLES; m++) {
+           "/* The keys of koksma/keys.h for %s ... 64 samples a pixel. Made by tools/make_keys.c. */\n",
+           dims == 2 ? "pairs, for 1, 2, 4" : "quadruples, for 2, 4, 8"); /* make_keys_single.c: quadruples for 1 */
+    for (int m = dims == 2 ? 0 : 1; m < TABLES; m++) {
         for (int p = 0; p < PIXELS; p++) {
             printf("%s%d", p % 20 ? ", " : p ? ",\n" : "{", keys[m][p]);
         }

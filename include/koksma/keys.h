@@ -38,9 +38,11 @@
  *     double xs[4];
  *     koksma_keys_4d(&pixel, i, xs);
  *
- * Errors are then blue whatever the four couple; one coordinate alone is less so than with pairs, and of the pairs of
- * coordinates within a quadruple only the first has (0,m,2)-nets. docs/findings/screen-noise.md has both beside each
- * other. Cells, seeds, distributions and orders of samples are as with pairs.
+ * With one sample a pixel the cells have 64 x 64 pixels, and the points, one in each of 8^4 boxes, are moved by random
+ * digits within their boxes in place of Owen scrambling, which would scatter neighbours. Errors are blue whatever the
+ * four couple; one coordinate alone is less so than with pairs, and of the pairs of coordinates within a quadruple only
+ * the first has (0,m,2)-nets. docs/findings/screen-noise.md has both beside each other. Seeds, distributions and orders
+ * of samples are as with pairs, and so are the cells of 2 and more samples.
  *
  * Number the pairs of dimensions 0, 1, 2 ... as you like: each number has its own cells and scramblings. Errors that
  * come from one pair of dimensions are blue noise, errors from several pairs together are white noise. In each pixel
@@ -53,7 +55,7 @@
 
 #include <koksma/sampler.h>
 
-enum { KOKSMA_KEYS_SIZE = 32, KOKSMA_KEYS_TABLES = 7 };
+enum { KOKSMA_KEYS_SIZE = 32, KOKSMA_KEYS_SINGLE_SIZE = 64, KOKSMA_KEYS_TABLES = 7 };
 
 /* The key and the scrambling of one pixel and pair or quadruple of dimensions. Compute them once for all samples. */
 typedef struct koksma_keys {
@@ -61,6 +63,7 @@ typedef struct koksma_keys {
     uint32_t key;      /* index of sample 0 in the sequence: the pixel's key XOR a random word of the cell */
     uint32_t order;    /* seed of the order of samples 2^k .. 2^(k+1) - 1, used if ordered is 1 */
     uint32_t ordered;
+    uint32_t single; /* 1: a quadruple with one sample a pixel; seeds are digits in place of those of a scrambling */
 } koksma_keys;
 
 /* Returns index i of a random order that permutes the indices 2^m .. 2^(m+1) - 1 among themselves, for each m. Owen
@@ -90,12 +93,21 @@ KOKSMA_INLINE uint32_t koksma__key(uint32_t m, uint32_t pixel)
     return keys[m][pixel];
 }
 
-KOKSMA_INLINE uint32_t koksma__key_4d(uint32_t m, uint32_t pixel)
+KOKSMA_INLINE uint32_t koksma__key_4d(uint32_t m, uint32_t pixel) /* m > 0 */
 {
-    static const uint16_t keys[KOKSMA_KEYS_TABLES][32 * 32] = {
+    static const uint16_t keys[KOKSMA_KEYS_TABLES - 1][32 * 32] = {
 #include <koksma/keys_4d.def>
     };
-    return keys[m][pixel];
+    return keys[m - 1][pixel];
+}
+
+/* Returns the key of a pixel of a cell of quadruples with one sample a pixel, 64 v + u. */
+KOKSMA_INLINE uint32_t koksma__key_single(uint32_t pixel)
+{
+    static const uint16_t keys[64 * 64] = {
+#include <koksma/keys_4d_single.def>
+    };
+    return keys[pixel];
 }
 
 /* Returns the key of a pixel and its scrambling for `group`, the number of a pair (dims = 2) or quadruple (dims = 4). */
@@ -104,21 +116,24 @@ KOKSMA_INLINE koksma_keys koksma__keys_of(uint64_t seed, uint32_t x, uint32_t y,
 {
     const uint64_t image = koksma__derived(seed, dims == 2 ? 0xbe5466cfu : 0x34e90c6cu, group);
     const uint64_t offset = koksma_mix(image);
-    const uint32_t last = KOKSMA_KEYS_SIZE - 1, largest = KOKSMA_KEYS_TABLES - 1;
+    const uint32_t single = dims == 4 && spp == 1, size = single ? KOKSMA_KEYS_SINGLE_SIZE : KOKSMA_KEYS_SIZE;
+    const uint32_t last = size - 1, largest = KOKSMA_KEYS_TABLES - 1;
     const uint32_t column = x + ((uint32_t)offset & last), row = y + ((uint32_t)(offset >> 32) & last);
-    const uint64_t cell = koksma_domain_of_pixel(image, column / KOKSMA_KEYS_SIZE, row / KOKSMA_KEYS_SIZE).key;
+    const uint64_t cell = koksma_domain_of_pixel(image, column / size, row / size).key;
     const uint64_t pixel = koksma__derived(koksma_domain_of_pixel(image, column, row).key, 0x38d01377u, 0);
     const uint32_t symmetry = koksma_seed_of(cell, 2);
     const uint32_t u = (column & last) ^ (symmetry & 1 ? last : 0), v = (row & last) ^ (symmetry & 2 ? last : 0);
-    const uint32_t place = symmetry & 4 ? u * KOKSMA_KEYS_SIZE + v : v * KOKSMA_KEYS_SIZE + u;
-    uint32_t m = 0, lower, key;
+    const uint32_t place = symmetry & 4 ? u * size + v : v * size + u;
+    uint32_t m = 0, lower, key, k;
     koksma_keys keys;
     KOKSMA_ASSERT(spp >= 1 && spp <= 1u << 22);
     while (m < 22 && 1u << m < spp) {
         m++;
     }
     lower = m > largest ? m - largest : 0;
-    key = dims == 2 ? koksma__key(m - lower, place) : koksma__key_4d(m - lower, place);
+    key = single      ? koksma__key_single(place)
+          : dims == 2 ? koksma__key(m - lower, place)
+                      : koksma__key_4d(m - lower, place);
     keys.seeds[0] = koksma_seed_of(cell, 0);
     keys.seeds[1] = koksma_seed_of(cell, 1);
     keys.seeds[2] = dims == 2 ? 0 : koksma_seed_of(cell, 4);
@@ -127,6 +142,13 @@ KOKSMA_INLINE koksma_keys koksma__keys_of(uint64_t seed, uint32_t x, uint32_t y,
                koksma_seed_of(cell, 3); /* indices whose bits are mostly 0 would have few different scramblings */
     keys.order = koksma_seed_of_order(pixel);
     keys.ordered = group > 0;
+    keys.single = single;
+    if (single) {
+        keys.key = key;
+        for (k = 0; k < 4; k++) { /* three digits equal, which mirrors the boxes or not, and 29 random ones */
+            keys.seeds[k] = keys.seeds[k] >> 2 | (0u - (keys.seeds[k] >> 31)) << 30;
+        }
+    }
     return keys;
 }
 
@@ -186,10 +208,9 @@ KOKSMA_INLINE void koksma_keys_2f(const koksma_keys *keys, uint32_t i, float xy[
     koksma__to_floats(koksma__keys_four(keys, i), 2, xy);
 }
 
-/* Returns sample i of a pixel and quadruple of dimensions as 32-bit fractions: the first four dimensions of the
-   sequence of Joe & Kuo (2008). Row b of the table is the product of 2^b with the matrices of dimensions 3 and 4, bits
-   in reverse order. */
-KOKSMA_INLINE koksma__four koksma__keys_quadruple(const koksma_keys *keys, uint32_t i)
+/* Computes a point of the first four dimensions of the sequence of Joe & Kuo (2008), bits in reverse order. Row b of the
+   table is the product of 2^b with the matrices of dimensions 3 and 4. */
+KOKSMA_INLINE void koksma__sobol_quadruple(uint32_t index, uint32_t words[4])
 {
     static const uint32_t matrices[32][2] = {
         {0x00000001u, 0x00000001u}, {0x00000003u, 0x00000003u}, {0x00000006u, 0x00000004u},
@@ -203,8 +224,7 @@ KOKSMA_INLINE koksma__four koksma__keys_quadruple(const koksma_keys *keys, uint3
         {0x01170001u, 0x0100011au}, {0x033a0003u, 0x030002a7u}, {0x06710006u, 0x0400079eu},
         {0x09a30009u, 0x0a000b6du}, {0x16160017u, 0x1f001001u}, {0x3939003au, 0x2e003003u},
         {0x77770071u, 0x45004004u}, {0xaaaa00a3u, 0xc900a00au}};
-    const uint32_t index = koksma__keys_index(keys, i);
-    uint32_t words[4], b;
+    uint32_t b;
     words[0] = index;
     words[1] = koksma_pascal(index);
     words[2] = words[3] = 0;
@@ -212,6 +232,19 @@ KOKSMA_INLINE koksma__four koksma__keys_quadruple(const koksma_keys *keys, uint3
         const uint32_t mask = 0u - (index >> b & 1u);
         words[2] ^= matrices[b][0] & mask;
         words[3] ^= matrices[b][1] & mask;
+    }
+}
+
+/* Returns sample i of a pixel and quadruple of dimensions as 32-bit fractions. */
+KOKSMA_INLINE koksma__four koksma__keys_quadruple(const koksma_keys *keys, uint32_t i)
+{
+    uint32_t words[4], k;
+    koksma__sobol_quadruple(koksma__keys_index(keys, i), words);
+    if (keys->single) {
+        for (k = 0; k < 4; k++) {
+            words[k] = koksma_mirror(words[k]) ^ keys->seeds[k];
+        }
+        return koksma__four_of_words(words);
     }
     return koksma__scramble_four(koksma__four_of_words(words), koksma__four_of_words(keys->seeds));
 }
