@@ -696,43 +696,95 @@ def renderers(table):
             found = re.search(r"jittered ([\d.]+) \((\d+) times\)", out)
             if found:
                 table.add(part, "ball, jittered, whole program", found[1], "Msamples/s", peer=name, ratio=found[2])
-    mitsuba_box(table, part)
+    mitsuba(table, part)
 
 
-def mitsuba_box(table, part):
-    """Mitsuba's own Cornell box: 6 bounces, 64 random samples of each of 128 x 128 pixels, by its scalar path tracer and by ours."""
-    what = "Mitsuba's Cornell box, path, random"
+def write_globe(path, rows=55):
+    """A sphere of radius .3 about (0, .3, 0) of 4 rows (rows - 1) triangles, with texture coordinates, as OBJ."""
+    columns = 2 * rows
+    with open(path, "w", encoding="utf-8") as file:
+        for i in range(rows + 1):
+            for j in range(columns + 1):
+                theta, phi = math.pi * i / rows, 2 * math.pi * j / columns
+                file.write("v %.6f %.6f %.6f\nvt %.6f %.6f\n" % (.3 * math.sin(theta) * math.cos(phi), .3 + .3 * math.cos(theta),
+                                                               .3 * math.sin(theta) * math.sin(phi), j / columns, i / rows))
+        for i in range(rows):
+            for j in range(columns):
+                a, b = i * (columns + 1) + j + 1, (i + 1) * (columns + 1) + j + 1
+                for corners in ((a, a + 1, b + 1), (a, b + 1, b))[i == 0:2 - (i == rows - 1)]:
+                    file.write("f " + " ".join("%d/%d" % (c, c) for c in corners) + "\n")
+
+
+MITSUBA_ROWS = (("Mitsuba's Cornell box, path", 2), ("a textured mesh, path", 1.5), ("a GGX mesh, path", 1.5), ("1.1 M triangles, path", 1.5))
+
+
+def mitsuba_scenes(mi, numpy):
+    """The scenes of MITSUBA_ROWS as Mitsuba's dictionaries; the meshes are above a floor under a lamp."""
+    globe, large, image = (os.path.join(WORK, name) for name in ("globe.obj", "large.ply", "squares.png"))
+    if not os.path.exists(large):
+        write_ply(large)
+    write_globe(globe)
+    squares = numpy.random.default_rng(1).integers(20, 236, (64, 64, 3), dtype=numpy.uint8)
+    mi.Bitmap(squares.repeat(8, 0).repeat(8, 1)).write(image)
+    box, turn = mi.cornell_box(), mi.ScalarTransform4f
+
+    def on_floor(kind, path, material, place):
+        return {"type": "scene", "integrator": {"type": "path"}, "sensor": {
+            "type": "perspective", "fov": 30, "to_world": turn().look_at(origin=[0, 1, 2], target=[0, .25, 0], up=[0, 1, 0]),
+            "film": {"type": "hdrfilm"}, "sampler": {"type": "independent"}},
+            "mesh": {"type": kind, "filename": path, "to_world": place, "material": material},
+            "floor": {"type": "rectangle", "to_world": turn().rotate([1, 0, 0], -90).scale(3), "material": {"type": "diffuse"}},
+            "lamp": {"type": "rectangle", "to_world": turn().translate([0, 2, 1]).rotate([1, 0, 0], 90).scale(.5),
+                     "emitter": {"type": "area", "radiance": {"type": "rgb", "value": 8.}}}}
+    ggx = {"type": "roughconductor", "distribution": "ggx", "alpha": .3}
+    images = {"type": "diffuse", "reflectance": {"type": "bitmap", "filename": image}}
+    sheet = turn().translate([-.5, .1, .5]).rotate([1, 0, 0], -90)
+    return (box, on_floor("obj", globe, images, turn()), on_floor("obj", globe, ggx, turn()),
+            on_floor("ply", large, {"type": "twosided", "material": {"type": "diffuse"}}, sheet))
+
+
+def mitsuba(table, part):
+    """6 bounces without roulette, 32 random samples of each of 256 x 256 pixels, by its path tracers and by ours; of ours the time
+    beyond that of one sample, of theirs the time after a first render, which compiles."""
+    if not any(table.has(part, what) for what, _ in MITSUBA_ROWS):
+        return
     try:
+        import drjit
         import mitsuba as mi
+        import numpy
     except ImportError:
         return
-    if not table.has(part, what):
-        return
-    mi.set_variant("scalar_rgb")
-    given, samples = mi.cornell_box(), 64
-    given["sensor"]["film"].update(width=128, height=128, rfilter={"type": "box"})
-    xml, picture = os.path.join(WORK, "box.xml"), os.path.join(WORK, "box.pfm")
-    mi.parser.write_file(mi.parser.parse_dict(mi.parser.ParserConfig(mi.variant()), given), xml)
-    scene, means = mi.load_dict(given), {}
+    side, samples, picture = 256, 32, os.path.join(WORK, "mitsuba.pfm")
+    for variant, name in (("scalar_rgb", "scalar"), ("llvm_ad_rgb", "LLVM")):
+        mi.set_variant(variant)
+        drjit.set_thread_count(1)
+        for (what, goal), given in zip(MITSUBA_ROWS, mitsuba_scenes(mi, numpy)):
+            xml, means = os.path.join(WORK, "mitsuba.xml"), {}
+            given["sensor"]["film"].update(width=side, height=side, rfilter={"type": "box"})
+            given["integrator"].update(max_depth=6, rr_depth=100)
+            mi.parser.write_file(mi.parser.parse_dict(mi.parser.ParserConfig(mi.variant()), given), xml)
+            scene = mi.load_dict(given)
 
-    def theirs():
-        start = time.process_time()
-        image = mi.render(scene, spp=samples)
-        seconds = time.process_time() - start
-        means["Mitsuba"] = sum(image.array) / (3 * 128 * 128)
-        return seconds
+            def theirs(scene=scene, means=means):
+                start = time.process_time()
+                image = mi.render(scene, spp=samples).array
+                means["Mitsuba"] = float(sum(image)) / len(image)
+                return time.process_time() - start
 
-    def ours():
-        seconds = run(KOKSMA, "render", xml, "--integrator", "path", "--depth", "6", "-p", "random", "-n", str(samples),
-                      "--threads", "1", "-o", picture)
-        with open(picture, "rb") as file:
-            values = array.array("f", file.read()[-12 * 128 * 128:])
-        means["koksma"] = sum(values) / len(values)
-        return seconds
-    table.versus(part, what, ours, theirs, "Mitsuba %s, scalar" % mi.__version__, unit="Msamples/s",
-                 figure=lambda s: 128 * 128 * samples * 1e-6 / s)
-    if means and abs(means["koksma"] - means["Mitsuba"]) > .03 * means["Mitsuba"]:
-        sys.exit("speed.py: the pictures of Mitsuba's box differ: %s" % means)
+            def ours(means=means, xml=xml):
+                first, seconds = (run(KOKSMA, "render", xml, "--integrator", "path", "--depth", "6", "-p", "random", "-n", str(n),
+                                      "--threads", "1", "-o", picture) for n in (1, samples))
+                with open(picture, "rb") as file:
+                    head, text = file.readline(), file.read()
+                values = array.array("f", text[-4 * side * side * (3 if head == b"PF\n" else 1):])
+                means["koksma"] = sum(values) / len(values)
+                return (seconds - first) * samples / (samples - 1)
+            if table.has(part, what):
+                theirs()
+                table.versus(part, what, ours, theirs, "Mitsuba %s, %s" % (mi.__version__, name),
+                             goal if name == "LLVM" else None, "Msamples/s", lambda s: side * side * samples * 1e-6 / s)
+                if abs(means["koksma"] - means["Mitsuba"]) > .03 * means["Mitsuba"]:
+                    sys.exit("speed.py: %s: the pictures differ: %s" % (what, means))
 
 
 # ---- The page ---------------------------------------------------------------------------------------------------
