@@ -271,13 +271,14 @@ def check_ties(folder, data):
     for q in data["questions"]:
         text = (folder / f"{q['id']}.html").read_text(encoding="utf-8")
         answer = re.search(r'<p class="decided">(.*?)</p>', text, re.S)[1]
-        ranked = [r for link in re.findall(r"rows/\w+\.json", text) for line in (folder / link).read_text(encoding="utf-8").splitlines()
+        ranked = [{**r, "link": link} for link in re.findall(r"rows/\w+\.json", text)
+                  for line in (folder / link).read_text(encoding="utf-8").splitlines()
                   for r in [json.loads(line)] if "position" in r and r["state"] == "ranked"]
         if any("--target-error" in r["command"] for r in q["runs"]):
             continue
-        for case in {(r["scene"], r["spp"]) for r in ranked}:
-            first = [r["pattern"] for r in ranked if (r["scene"], r["spp"]) == case and r["position"] == 1]
-            names = [f"<code>{n}</code>" for n in first]
+        for case in {(r["link"], r["scene"], r["spp"]) for r in ranked}:
+            first = [r["pattern"] for r in ranked if (r["link"], r["scene"], r["spp"]) == case and r["position"] == 1]
+            names = [f"<code>{n}</code>" for n in dict.fromkeys(first)]
             told = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}, not told apart"
             expect(told in answer, f"{q['id']}: {case}: {told} is not in the answer")
         for low, high in re.findall(r"\((\S+) to (\S+)\)</span>", text):
