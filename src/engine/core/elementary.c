@@ -162,6 +162,9 @@ double koksma__hypot(double x, double y)
     if (isnan(x) || isnan(y) || most == 0) {
         return x + y;
     }
+    if (most > 0x1p-400 && most < 0x1p500) {
+        return sqrt(x * x + y * y); /* the same bits as below */
+    }
     frexp(most, &e);
     const double a = ldexp(x, -e), b = ldexp(y, -e);
     return ldexp(sqrt(a * a + b * b), e);
