@@ -94,9 +94,33 @@ static double rectangle(koksma__line_law law, double a, double b)
     return (a * a * a * integral(law, b / a) + b * b * b * integral(law, a / b)) / 3;
 }
 
+/* The same of isotropic lines: over [0, a] x [0, b] it is (2 a b r + a^3 asinh(b/a) + b^3 asinh(a/b)) / 12 with r^2 = a^2 +
+   b^2, and asinh(b/a) = log((b + r) / a), so that two rectangles with a common side share a logarithm. */
+static double isotropic_potential(const double p[2])
+{
+    const double a[2] = {p[0], 1 - p[0]}, b[2] = {p[1], 1 - p[1]};
+    double sum = 0, far[2] = {1, 1}, high[2] = {1, 1};
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            const double r = sqrt(a[i] * a[i] + b[j] * b[j]);
+            sum += 2 * a[i] * b[j] * r;
+            far[i] *= b[j] + r;
+            high[j] *= a[i] + r;
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        sum += a[k] < 1e-90 ? 0 : a[k] * a[k] * a[k] * koksma__log(far[k] / (a[k] * a[k]));
+        sum += b[k] < 1e-90 ? 0 : b[k] * b[k] * b[k] * koksma__log(high[k] / (b[k] * b[k]));
+    }
+    return sum / 12;
+}
+
 double koksma__line_potential(koksma__line_law law, const double p[2])
 {
     const double x = p[0], y = p[1];
+    if (law == KOKSMA__LINES_ISOTROPIC) {
+        return isotropic_potential(p);
+    }
     return (rectangle(law, x, y) + rectangle(law, 1 - x, 1 - y)) +
            (rectangle(law, 1 - x, y) + rectangle(law, x, 1 - y));
 }
@@ -143,8 +167,8 @@ void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, do
     if (law == KOKSMA__LINES_ISOTROPIC) {
         /* the angle of the normal has a density proportional to cos + sin, which is the width of the square */
         const double angle = M_PI_4 + koksma__asin((2 * r[0] - 1) / M_SQRT2);
-        *a = koksma__cos(angle);
-        *b = r[1] < 0.5 ? koksma__sin(angle) : -koksma__sin(angle);
+        koksma__cos_sin(angle, a, b);
+        *b = r[1] < 0.5 ? *b : -*b;
         *c = s[0] * (*a + fabs(*b)) + (*b < 0 ? *b : 0);
         return;
     }
