@@ -290,6 +290,9 @@ bool cli_is_stdout(const char *path);
 /* Returns whether two paths lead to the same file, which is there. */
 bool cli_is_same_file(const char *a, const char *b);
 
+/* What an operand too many is probably for: "; -o FILE ..", "; -n N ..", or "". */
+const char *cli_operand_hint(const char *operand);
+
 /* Refuses an --output that is a file which the command reads, but that of --from, which a search continues. Returns false
    after an error. */
 bool cli_keeps_inputs(const cli_arguments *arguments);

@@ -77,7 +77,8 @@ static int run(const cli_arguments *arguments)
     cli_work work;
     uint64_t dim, seed, first;
     if (arguments->n_operands != 1) {
-        return cli_usage_error(arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2");
+        return cli_usage_error(arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2%s",
+                               arguments->n_operands > 1 ? cli_operand_hint(arguments->operands[1]) : "");
     }
     int code = cli_pattern_open(arguments, arguments->operands[0], &source);
     if (code) {

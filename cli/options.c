@@ -373,8 +373,8 @@ bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *
     errno = 0;
     const unsigned long long value = strtoull(text, &end, 10);
     if (text[0] < '0' || text[0] > '9' || *end || errno || value < min || value > max) {
-        cli_usage_error(arguments, "--%s %s: it takes a whole number from %llu to %llu", name, text,
-                        (unsigned long long)min, (unsigned long long)max);
+        cli_usage_error(arguments, "--%s %s: it takes a whole number from %llu to %llu", name,
+                        cli_text(arguments, name, text), (unsigned long long)min, (unsigned long long)max);
         return false;
     }
     *out = value;

@@ -26,9 +26,9 @@ int cli_one_scene(const cli_arguments *arguments)
 {
     return arguments->n_operands > 1
                ? cli_usage_error(arguments,
-                                 "it takes one scene, and '%s' is one operand more; lists have commas, as in "
+                                 "it takes one scene, and '%s' is one operand more%s; lists have commas, as in "
                                  "--spp 4,16 or -p random,n-rooks",
-                                 arguments->operands[1])
+                                 arguments->operands[1], cli_operand_hint(arguments->operands[1]))
                : cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
 }
 
