@@ -702,7 +702,7 @@ static void cut_everywhere(koksma_rank_options options, double step)
                 assert_true(i >= r.n || row->coherence.coherent == other->coherence.coherent);
                 assert_true((row->state == KOKSMA_RANK_RANKED) == (i < r.n) && (row->position > 0) == (i < r.n));
                 assert_true(row->position <= other->position);
-                assert_true(!r.settled || !row->decision || row->decision == other->decision);
+                assert_true(!r.settled || !kept || !row->decision || row->decision == other->decision);
                 assert_true((row->reason[0] != 0) == (row->state != KOKSMA_RANK_RANKED));
             }
         }
