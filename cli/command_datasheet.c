@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma datasheet`: compares one sampler with others in all respects, and writes an HTML page, or the JSON that the
    page shows. */
-#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,29 +86,15 @@ static int take_sampler(const cli_arguments *arguments, const char **text)
     return CLI_YES;
 }
 
-/* Whether the files of a sampler include `output`. */
-static bool sampler_reads(const char *sampler, const char *output)
-{
-    koksma_spec spec;
-    const char *path = koksma_pattern_spec(sampler, &spec) || !*spec.path ? sampler : spec.path;
-    glob_t found = {0};
-    bool same = false;
-    for (size_t i = cli_family_files(path, &found); i-- > 0;) {
-        same |= cli_is_same_file(found.gl_pathv[i], output);
-    }
-    globfree(&found);
-    return same;
-}
-
 /* Refuses an output that is a file of a sampler or a scene. Returns the exit code. */
 static int check_inputs(const cli_arguments *arguments, const koksma_datasheet_options *o, const char *output)
 {
-    const char *input = sampler_reads(o->sampler, output) ? o->sampler : NULL;
+    const char *input = cli_reads(o->sampler, output) ? o->sampler : NULL;
     for (size_t i = 0; i < o->n_beside; i++) {
-        input = sampler_reads(o->beside[i], output) ? o->beside[i] : input;
+        input = cli_reads(o->beside[i], output) ? o->beside[i] : input;
     }
     for (size_t i = 0; i < o->n_scenes; i++) {
-        input = cli_is_same_file(o->scenes[i], output) ? o->scenes[i] : input;
+        input = cli_reads(o->scenes[i], output) ? o->scenes[i] : input;
     }
     return input ? cli_usage_error(arguments, "--output %s: it would replace what is read, %s; choose another file",
                                    output, input)

@@ -158,10 +158,10 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
             return parse_failure(arguments, code, argv);
         }
         const char *last = argv[optind - 1], *word = optarg == last ? argv[optind - 2] : last;
-        if (code >= LONG_BASE &&
-            strcspn(word + 2, "=") != strlen(code == HELP ? "help" : longs[code - LONG_BASE].name)) {
-            return unknown_option(arguments,
-                                  word); /* getopt_long takes --allow for --allow-exec, which runs programs */
+        /* getopt_long takes --allow for --allow-exec, which runs programs */
+        const char *name = code < LONG_BASE ? NULL : code == HELP ? "help" : longs[code - LONG_BASE].name;
+        if (name && strcspn(word + 2, "=") != strlen(name)) {
+            return unknown_option(arguments, word);
         }
         if (code == HELP || code == HELP_LETTER) {
             cli_print_help(command);

@@ -16,6 +16,8 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include "source.h"
+
 static int reason; /* errno of the first write that failed */
 
 #ifndef __GLIBC__
@@ -93,17 +95,6 @@ bool cli_is_same_file(const char *a, const char *b)
     return !stat(a, &info) && !stat(b, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
 }
 
-/* Whether a text names a file that the output would replace: FILE, or PATTERN:FILE with parameters behind a comma. */
-static bool is_replaced(const char *text, const char *output)
-{
-    char path[PATH_MAX];
-    const char *at = strchr(text, ':');
-    if (at) {
-        snprintf(path, sizeof path, "%.*s", (int)strcspn(at + 1, ","), at + 1);
-    }
-    return cli_is_same_file(text, output) || (at && cli_is_same_file(path, output));
-}
-
 bool cli_keeps_inputs(const cli_arguments *arguments)
 {
     const cli_option *options = arguments->command->options;
@@ -116,12 +107,12 @@ bool cli_keeps_inputs(const cli_arguments *arguments)
         return true;
     }
     for (int i = 0; i < arguments->n_operands; i++) {
-        input = is_replaced(arguments->operands[i], output) ? arguments->operands[i] : input;
+        input = cli_reads(arguments->operands[i], output) ? arguments->operands[i] : input;
     }
     for (int i = 0; options[i].name; i++) {
         const char *name = options[i].name, *value = arguments->values[i];
         const bool is_read = value && value != output && strcmp(name, "from") != 0 && strcmp(name, "error-map") != 0;
-        input = is_read && is_replaced(value, output) ? value : input;
+        input = is_read && cli_reads(value, output) ? value : input;
     }
     return !input ||
            !cli_usage_error(arguments, "--output %s: it would replace what is read, %s; choose another file", output,

@@ -323,6 +323,19 @@ size_t cli_family_files(const char *family, glob_t *found)
     return n;
 }
 
+bool cli_reads(const char *text, const char *output)
+{
+    koksma_spec spec;
+    const char *path = koksma_pattern_spec(text, &spec) || !*spec.path ? text : spec.path;
+    glob_t found = {0};
+    bool same = false;
+    for (size_t i = cli_family_files(path, &found); i-- > 0;) {
+        same |= cli_is_same_file(found.gl_pathv[i], output);
+    }
+    globfree(&found);
+    return same;
+}
+
 /* ---- -p and -n --------------------------------------------------------------------------------------------- */
 
 bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC])

@@ -30,6 +30,9 @@ bool cli_is_family(const char *text);
    family. Returns how many there are: the first of found->gl_pathv, which the caller frees by globfree(). */
 size_t cli_family_files(const char *family, glob_t *found);
 
+/* Whether `output` is a file that an operand names: itself, or the file or one of the family of files of a pattern. */
+bool cli_reads(const char *text, const char *output);
+
 /* Returns the text behind "pattern:", or the text itself if it does not begin so. */
 const char *cli_spec_in(const char *text);
 
