@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which measure predicts the error: Holm's correction, rankings of measures and what of them holds without any one
-   scene, and rank regression on data with known answers. */
+/* Which measure predicts the error: Holm's correction, rankings of measures, and what of them holds without any one
+   scene. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -230,51 +230,4 @@ TEST_CASE(means_of_parts)
     r = koksma__rho_rank(&report, &s, &(koksma__rho_subset){.scenes = first_two, .spp = 4});
     assert_int_equal(r.n, 0);
     koksma__report_release(&report);
-}
-
-/* ---- Rank regression ----------------------------------------------------------------------------------- */
-
-enum { PATTERNS = 16, MOST_MEASURES = 10, MOST_CASES = 24 };
-
-typedef struct data {
-    koksma__rank_case cases[MOST_CASES];
-    double ranks[MOST_CASES][(MOST_MEASURES + 1) * PATTERNS];
-} data;
-
-/* Noise everywhere; tests/study/predictors.py computes regressions of data with signal again. */
-static void set_data(data *d, uint64_t seed, size_t n_cases, size_t n_scenes, size_t k)
-{
-    for (size_t c = 0; c < n_cases; c++) {
-        double x[MOST_MEASURES + 1][PATTERNS];
-        for (uint64_t i = 0; i < (k + 1) * PATTERNS; i++) {
-            x[i / PATTERNS][i % PATTERNS] = uniform(100 * seed + c, i);
-        }
-        for (size_t m = 0; m < k; m++) {
-            koksma__unit_ranks(x[m], PATTERNS, d->ranks[c] + m * PATTERNS);
-        }
-        koksma__unit_ranks(x[k], PATTERNS, d->ranks[c] + k * PATTERNS);
-        d->cases[c] = (koksma__rank_case){c % n_scenes, PATTERNS, d->ranks[c]};
-    }
-}
-
-/* One measure that is the error's order, or its reverse, in all scenes but s: s is predicted with the others' sign.
- */
-TEST_CASE(single_with_its_sign)
-{
-    data d;
-    koksma__held_out out[5];
-    set_data(&d, 3, 4, 4, 3);
-    for (size_t c = 0; c < 4; c++) {
-        for (size_t i = 0; i < PATTERNS; i++) {
-            d.ranks[c][2 * PATTERNS + i] = (c == 1 ? 1 : -1) * d.ranks[c][3 * PATTERNS + i];
-        }
-    }
-    assert_ok(koksma__rank_regression(d.cases, 4, 3, 5, NULL, out)); /* scene 4 has no case */
-    for (size_t s = 0; s < 4; s++) {
-        assert_int_equal(out[s].single, 2);
-        assert_near(out[s].rho_single, s == 1 ? -1 : 1, 1e-12);
-        assert_true(out[s].hindsight == 2 && fabs(out[s].rho_hindsight - 1) < 1e-12);
-    }
-    assert_int_equal(out[4].cases, 0);
-    assert_int_equal(koksma__rank_regression(d.cases, 2, 3, 5, NULL, out), KOKSMA_ARGUMENT);
 }

@@ -65,18 +65,6 @@ double koksma__spearman_limit(size_t n, double alpha)
     return limit;
 }
 
-void koksma__unit_ranks(const double *values, size_t n, double *out)
-{
-    double squares = 0;
-    for (size_t i = 0; i < n; i++) {
-        out[i] = centred_rank(values, n, i);
-        squares += out[i] * out[i];
-    }
-    for (size_t i = 0; i < n && squares > 0; i++) {
-        out[i] /= sqrt(squares);
-    }
-}
-
 /* tau-b (Kendall 1945): (concordant - discordant) / sqrt((pairs - ties in x) (pairs - ties in y)). */
 double koksma__kendall(const double *x, const double *y, size_t n)
 {

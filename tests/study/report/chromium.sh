@@ -10,7 +10,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 "$program" study new plan.json && sed -i 's/1024/64/' plan.json && "$program" study run ./plan.json -o study --trials 4 -q &&
-  echo '{"name": "wide", "title": "Wide", "questions": [{"id": "k", "kind": "inequality", "title": "K", "discrepancies": "d"}],
+  echo '{"name": "wide", "title": "Wide", "questions": [{"id": "k", "kind": "table", "title": "K", "discrepancies": "d"}],
     "discrepancies": [{"id": "d", "patterns": ["random", "jittered", "n-rooks", "regular", "halton", "sobol", "sobol:scramble=owen",
     "hammersley", "hammersley:shift=1", "zaremba", "multi-jittered", "pmj02", "faure", "sz", "cascaded-sobol",
     "larcher-pillichshammer"], "measures": ["star", "min-distance"], "n": [8, 16, 32, 64, 128, 256, 512, 1024],

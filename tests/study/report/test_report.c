@@ -72,8 +72,7 @@ TEST_CASE(questions_end_where_the_callback_says)
         "\"scenes\": [\"ball\", \"checker\", \"balls\"], \"size\": [8, 8], \"spp\": [4], \"trials\": 2, "
         "\"references\": [{\"name\": \"r\", \"pattern\": \"random\", \"spp\": 4}]}], \"questions\": ["
         "{\"id\": \"c\", \"title\": \"C\", \"kind\": \"correlation\", \"discrepancies\": \"d\", \"images\": \"i\"}, "
-        "{\"id\": \"s\", \"title\": \"S\", \"kind\": \"slopes\", \"discrepancies\": \"d\"}, "
-        "{\"id\": \"k\", \"title\": \"K\", \"kind\": \"inequality\", \"discrepancies\": \"d\"}]}"};
+        "{\"id\": \"s\", \"title\": \"S\", \"kind\": \"slopes\", \"discrepancies\": \"d\"}]}"};
     const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = "asking"};
     koksma_study *study;
     unlink("asking/report.json"); /* of an earlier run of this test */

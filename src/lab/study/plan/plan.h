@@ -156,13 +156,11 @@ typedef struct koksma__figure {
 } koksma__figure;
 
 /* Flags of a kind of question: which members it needs or takes. A kind with neither NEEDS_POINTS nor NEEDS_IMAGES
-   needs `discrepancies` or `images`. For a plan without questions the report answers all kinds except those with
-   ASKED_BY_NAME. */
+   needs `discrepancies` or `images`. */
 enum {
     KOKSMA__NEEDS_POINTS = 1, /* the question needs `discrepancies` */
     KOKSMA__NEEDS_IMAGES = 2, /* the question needs `images` */
-    KOKSMA__TAKES_GROUPS = 4, /* the question takes `groups` */
-    KOKSMA__ASKED_BY_NAME = 8
+    KOKSMA__TAKES_GROUPS = 4  /* the question takes `groups` */
 };
 
 /* Flags of a kind of conclusion, beside the first two above: which further members it needs. */

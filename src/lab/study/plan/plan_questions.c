@@ -28,7 +28,7 @@ const koksma__plan_kind koksma__conclusion_kinds[] = {
 #undef CONCLUSION
     {0}};
 
-/* Reads the member "kind"; the error names all of them as "table, correlation, ... or inequality". */
+/* Reads the member "kind"; the error names all of them as "table, correlation, ... or options". */
 static koksma_status parse_kind(const koksma__json_node *node, const koksma__plan_kind *kinds,
                                 const koksma__plan_kind **out)
 {

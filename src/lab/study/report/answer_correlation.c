@@ -4,8 +4,7 @@
  * samples it computes the rank correlation, over patterns, of the mean of a measure of n points with the mean error
  * of images of n samples per pixel. The interval of a correlation comes from a bootstrap over the patterns that also
  * redraws the means. All cases and measures are resampled together, so that the mean correlations of two measures
- * can be compared. The answer gives the means over all cases, then by group of scenes, by scene and by number of
- * samples, and then combinations of measures.
+ * can be compared. The answer gives the means over all cases, then by group of scenes, by scene and by number of samples.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,204 +16,12 @@
 #include "study/plan/plan.h"
 #include "study/report/rho.h"
 
-/* ---- Combinations of measures ------------------------------------------------------------------------------ */
-
-/* A case, with the ranks of the measures that were visited so far. */
-typedef struct combined {
-    const char *scene, *variant;
-    long long spp;
-    size_t n, n_measures;  /* number of patterns; number of measures added so far */
-    const char **patterns; /* n names */
-    double *ranks;         /* ranks of the measures, in the layout of koksma__rank_case */
-} combined;
-
 /* What is collected over all cases. */
 typedef struct listing {
     koksma__document list; /* the table of all cases */
     koksma__rho_means means;
     size_t most_patterns; /* largest number of patterns in a case */
-    size_t n_combined;
-    combined *combined; /* in the report's memory */
 } listing;
-
-static combined *open_case(const koksma__cases *c, listing *l, const koksma__case *at, const koksma__pairs *found)
-{
-    koksma__report *r = c->report;
-    combined of = {.scene = at->scene,
-                   .variant = at->variant,
-                   .spp = at->spp,
-                   .n = found->n,
-                   .patterns = koksma__report_memory(r, found->n, sizeof *of.patterns),
-                   .ranks = koksma__report_memory(r, (c->n + 1) * (found->n + 1), sizeof *of.ranks)};
-    if (r->status) {
-        return NULL;
-    }
-    memcpy(of.patterns, found->patterns, found->n * sizeof *of.patterns);
-    koksma__unit_ranks(found->y, found->n, of.ranks + c->n * found->n);
-    l->combined[l->n_combined] = of;
-    return &l->combined[l->n_combined++];
-}
-
-/* Adds a measure of a case. All measures of a case are visited one after another, in their order. */
-static void combine(const koksma__cases *c, listing *l, const koksma__case *at, const koksma__pairs *found)
-{
-    combined *of = l->n_combined ? &l->combined[l->n_combined - 1] : NULL;
-    if (!of || of->spp != at->spp || strcmp(of->scene, at->scene) != 0 || strcmp(of->variant, at->variant) != 0) {
-        of = open_case(c, l, at, found);
-    }
-    bool same = of && of->n == found->n;
-    for (size_t i = 0; same && i < of->n; i++) {
-        same = !strcmp(of->patterns[i], found->patterns[i]);
-    }
-    if (same) {
-        koksma__unit_ranks(found->x, found->n, of->ranks + (size_t)(at->of - c->measured) * of->n);
-        of->n_measures++;
-    }
-}
-
-/* Whether a case has ranks of all measures, and its errors are not all equal. */
-static bool is_complete(const koksma__cases *c, const combined *of)
-{
-    bool differ = false;
-    for (size_t i = 0; i < of->n; i++) {
-        differ |= of->ranks[c->n * of->n + i] != 0;
-    }
-    return differ && of->n_measures == c->n;
-}
-
-typedef struct findings {
-    size_t n_cases, n_scenes; /* number of complete cases, and number of scenes with such cases */
-    const char **scenes;
-    koksma__rank_case *cases;
-    koksma__held_out *held_out;
-} findings;
-
-static findings find(const koksma__cases *c, const listing *l)
-{
-    koksma__report *r = c->report;
-    findings f = {.scenes = koksma__report_memory(r, l->n_combined, sizeof *f.scenes),
-                  .cases = koksma__report_memory(r, l->n_combined, sizeof *f.cases),
-                  .held_out = koksma__report_memory(r, l->n_combined, sizeof *f.held_out)};
-    for (size_t i = 0; !r->status && i < l->n_combined; i++) {
-        const combined *of = &l->combined[i];
-        size_t scene = 0;
-        if (!is_complete(c, of)) {
-            continue;
-        }
-        while (scene < f.n_scenes && strcmp(f.scenes[scene], of->scene) != 0) {
-            scene++;
-        }
-        f.scenes[scene] = of->scene;
-        f.n_scenes += scene == f.n_scenes;
-        f.cases[f.n_cases++] = (koksma__rank_case){scene, of->n, of->ranks};
-    }
-    return f;
-}
-
-static void say_difference(koksma__document *d, const koksma__summary *s)
-{
-    koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, s->low, s->high);
-}
-
-/* Writes a mean correlation and its interval, which is clamped to -1 .. 1. */
-static void say_clamped(koksma__document *d, const koksma__summary *s)
-{
-    koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, fmax(s->low, -1), fmin(s->high, 1));
-}
-
-/* The number of scenes for which the same single measure (or pair) was chosen as for scene i. */
-static size_t times_chosen(const findings *f, size_t i, bool pair)
-{
-    size_t n = 0;
-    for (size_t s = 0; s < f->n_scenes; s++) {
-        const koksma__held_out *a = &f->held_out[i], *b = &f->held_out[s];
-        n += pair ? a->pair[0] == b->pair[0] && a->pair[1] == b->pair[1] : a->single == b->single;
-    }
-    return n;
-}
-
-static void say_chosen(koksma__document *d, const koksma__cases *cases, const findings *f, bool pair)
-{
-    size_t most = 0;
-    for (size_t i = 1; i < f->n_scenes; i++) {
-        most = times_chosen(f, i, pair) > times_chosen(f, most, pair) ? i : most;
-    }
-    const koksma__held_out *of = &f->held_out[most];
-    koksma__doc_say(d, " (`%s`", cases->measured[pair ? of->pair[0] : of->single].label);
-    if (pair) {
-        koksma__doc_say(d, " with `%s`", cases->measured[of->pair[1]].label);
-    }
-    koksma__doc_say(d, " in %zu of %zu scenes) ", times_chosen(f, most, pair), f->n_scenes);
-}
-
-static void say_findings(koksma__document *d, const koksma__cases *cases, const findings *f)
-{
-    enum { STRIDE = sizeof *f->held_out / sizeof(double) };
-    _Static_assert(sizeof *f->held_out % sizeof(double) == 0, "the stride must be a whole number of doubles");
-    const size_t n = f->n_scenes;
-    const koksma__held_out *of = f->held_out;
-    const koksma__summary single = koksma__summarize(&of->rho_single, n, STRIDE);
-    const koksma__summary pair = koksma__summarize(&of->rho_pair, n, STRIDE);
-    const koksma__summary all = koksma__summarize(&of->rho_all, n, STRIDE);
-    const koksma__summary gain = koksma__paired(&of->rho_pair, &of->rho_single, n, STRIDE);
-    const koksma__summary gain_of_all = koksma__paired(&of->rho_all, &of->rho_single, n, STRIDE);
-    const koksma__summary best = koksma__summarize(&of->rho_hindsight, n, STRIDE);
-    koksma__doc_paragraph_begin(d);
-    koksma__doc_say(d,
-                    "The errors of each scene are predicted from the ranks of the measures; the measures are chosen, "
-                    "and the regressions fitted, on the other %zu scenes (%zu cases). Mean Spearman correlation of "
-                    "the prediction with the error in the scene left out: the best single measure",
-                    n - 1, f->n_cases);
-    say_chosen(d, cases, f, false);
-    say_clamped(d, &single);
-    koksma__doc_say(d, ", the best pair");
-    say_chosen(d, cases, f, true);
-    say_clamped(d, &pair);
-    koksma__doc_say(d, ", ridge regression on all %zu measures ", cases->n);
-    say_clamped(d, &all);
-    koksma__doc_say(d, ". Compared with the single measure the pair changes the correlation by ");
-    say_difference(d, &gain);
-    koksma__doc_say(d, ", all measures by ");
-    say_difference(d, &gain_of_all);
-    koksma__doc_say(d,
-                    ". The measure that is best in the scene left out has %+.2f on average, but it is known only in "
-                    "hindsight. Intervals are by Student's t over the scenes; they are approximate, because any two "
-                    "fits have scenes in common, and all scenes have the same patterns.",
-                    best.mean);
-    koksma__doc_paragraph_end(d);
-}
-
-/* Reports the results of koksma__rank_regression: for each scene it chooses the single measure, the pair of measures and
-   the combination of all measures that fit the errors of the other scenes best, and finds how well each of the three
-   orders the errors of the scene itself. Appends nothing unless there are two or more measures, and three or more scenes
-   with cases whose patterns have all measures. */
-static void add_combinations(koksma__document *d, const koksma__cases *cases, const listing *l)
-{
-    koksma__report *r = cases->report;
-    const findings f = find(cases, l);
-    char text[2 * KOKSMA_MAX_SPEC + 64];
-    if (r->status || f.n_scenes < 3 || cases->n < 2 ||
-        !koksma__report_keep(r,
-                             koksma__rank_regression(f.cases, f.n_cases, cases->n, f.n_scenes, r->run, f.held_out))) {
-        return;
-    }
-    koksma__doc_section(d, NULL, "Combinations of measures, tried on the scene left out");
-    say_findings(d, cases, &f);
-    koksma__doc_table_begin(d, "combinations-%.40s", cases->topic->id);
-    koksma__doc_columns(d, "t scene left out;n7 cases;t single measure;n3 its Spearman;t pair;n3 pair's Spearman;n2 "
-                           "penalty of all;n3 all's Spearman;t best in hindsight;n3 hindsight's Spearman");
-    for (size_t s = 0; s < f.n_scenes; s++) {
-        const koksma__held_out *of = &f.held_out[s];
-        snprintf(text, sizeof text, "%s + %s", cases->measured[of->pair[0]].label,
-                 cases->measured[of->pair[1]].label);
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "tztntnnntn", f.scenes[s], of->cases, cases->measured[of->single].label, of->rho_single,
-                          text, of->rho_pair, of->penalty, of->rho_all, cases->measured[of->hindsight].label,
-                          of->rho_hindsight);
-    }
-    koksma__doc_table_end(d);
-    koksma__doc_end(d);
-}
 
 /* ---- Tables over parts of the cases ------------------------------------------------------------------------ */
 
@@ -376,8 +183,7 @@ static void list_case(const koksma__cases *cases, void *context, const koksma__c
     if (r->status || found.n < 4) {
         return;
     }
-    combine(cases, l, p, &found);
-    if (r->status || !koksma__report_keep(r, correlate(r->run, p, &found, draws, &rho, &tau)) || isnan(rho.value)) {
+    if (!koksma__report_keep(r, correlate(r->run, p, &found, draws, &rho, &tau)) || isnan(rho.value)) {
         return;
     }
     rho = koksma__rho_shown(&rho, found.n);
@@ -477,7 +283,6 @@ static void add_answer(koksma__document *d, const koksma__cases *cases, listing 
     say_limits(d, l);
     add_measures(d, cases->topic->id, &l->means, &jackknife);
     add_breakdowns(r, d, cases->topic, &l->means);
-    add_combinations(d, cases, l);
     koksma__doc_collapsed_section(d, NULL, "Every case, with intervals");
     koksma__doc_append(d, &l->list);
     koksma__doc_end(d);
@@ -488,12 +293,6 @@ void koksma__answer_correlation(koksma__report *r, koksma__document *d, const ko
 {
     const koksma__cases cases = koksma__cases_of(r, topic);
     listing l = {.most_patterns = 0};
-    size_t most = 0; /* cases, if no two blocks have the same */
-    for (size_t b = 0; b < topic->n_images; b++) {
-        const koksma__image_block *i = topic->images[b];
-        most += i->scenes.n * i->variants.n * i->spp.n;
-    }
-    l.combined = koksma__report_memory(r, most, sizeof *l.combined);
     koksma__doc_table_begin(&l.list, "correlations-%.40s", topic->id);
     koksma__doc_columns(&l.list, "t scene;t options;n7 samples;t measure;n7 patterns;i3 Spearman##%s;i3 Kendall##%s",
                         topic->metric, topic->metric);

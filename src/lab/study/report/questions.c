@@ -164,9 +164,6 @@ static void answer_all(koksma__report *r, koksma__document *d, size_t part)
         const koksma__plan_kind *kind = &koksma__question_kinds[k];
         koksma__document content = {0};
         char id[48]; /* the number of an answer: "1.2" for answer 2 of plan 1, or "2" if there is only one plan */
-        if (kind->fields & KOKSMA__ASKED_BY_NAME) {
-            continue;
-        }
         snprintf(id, sizeof id, "%zu.%zu", part + 1, ++number);
         topic.id = plan->n_parts > 1 ? id : strchr(id, '.') + 1;
         answers[k](r, &content, &topic);
