@@ -253,19 +253,18 @@ static bool same_keys(const cli_cell *row, size_t n, const cli_cell *other, size
 
 /* ---- Tables for other programs ------------------------------------------------------------------------- */
 
-/* A field of CSV (RFC 4180): in quotes where it needs them. */
+/* A field of CSV (RFC 4180): in quotes where it needs them, and behind an apostrophe where a spreadsheet would run it, as
+   koksma__csv_put has it. */
 static void print_csv(const cli_cell *c, bool head)
 {
     const char *text = head ? c->key : c->text;
-    if (!strpbrk(text, ",\"\n")) {
-        fputs(text, stdout);
-        return;
-    }
-    putchar('"');
+    const bool formula = !c->is_number && strspn(text, "=+@-\t") && strcmp(text, "-") != 0;
+    const char *quote = formula || strpbrk(text, ",\"\r\n") ? "\"" : "";
+    printf("%s%s", quote, formula ? "'" : "");
     for (; *text; text++) {
         printf(*text == '"' ? "\"\"" : "%c", *text);
     }
-    putchar('"');
+    fputs(quote, stdout);
 }
 
 /* A cell of a LaTeX table: numbers in mathematics, with powers of ten; of texts the special characters escaped. */
