@@ -332,7 +332,7 @@ static koksma_status look_at_strata(koksma__sample *s)
         return name(s, "stratified", centred ? "centred Latin hypercube (n-rooks)" : "Latin hypercube (n-rooks)",
                     "each of n intervals of every coordinate has one point", 0);
     }
-    size_t whole, columns = (size_t)nearbyint(koksma__pow((double)n, 1. / (double)dim)), cells = 1;
+    size_t whole = 0, columns = (size_t)nearbyint(koksma__pow((double)n, 1. / (double)dim)), cells = 1;
     char detail[120];
     KOKSMA__TRY(find_latin_part(s, &whole));
     if (whole) {

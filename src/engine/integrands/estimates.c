@@ -385,7 +385,7 @@ koksma_status koksma_estimate_integral(const koksma_estimate_options *options, c
     KOKSMA__REQUIRE(options, values, out);
     KOKSMA__REQUIRE_RUN(run);
     sample s = {.values = values, .n = n, .run = run};
-    const interval_row *interval;
+    const interval_row *interval = NULL;
     KOKSMA__TRY(parse(options, &s, &interval));
     KOKSMA__FAIL_IF(n < 2 || n > UINT32_MAX / 2, KOKSMA_ARGUMENT, "n: an interval takes 2 values or more, not %zu",
                     n);

@@ -403,7 +403,7 @@ koksma_status koksma_integrate_to(koksma_values_of *values, void *context, int d
              .least = HUGE_VAL,
              .largest = -HUGE_VAL};
     j.in_step = (koksma_run){.threads = run ? run->threads : 0, .keep_going = go_on, .context = &j};
-    size_t steps;
+    size_t steps = 0;
     KOKSMA__TRY(count_steps(&j, j.path.first_n, &steps));
     koksma_tolerance *t = calloc(1, sizeof *t);
     koksma_status status = t ? open_path(&j) : koksma__fail_memory(sizeof *t);

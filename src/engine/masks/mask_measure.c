@@ -157,7 +157,7 @@ static koksma_status measure_all(measuring *m, const koksma_run *run, koksma_mas
     KOKSMA__TRY(koksma__parallel(run, (size_t)m->tests, measure_test, m));
     const int free_x = m->width - m->filter->width + 1, free_y = m->height - m->filter->height + 1;
     const double n = (double)m->width * m->height, within = free_x > 0 && free_y > 0 ? (double)free_x * free_y : 0;
-    double inside = 0, seam = 0, random = 0, squares;
+    double inside = 0, seam = 0, random = 0, squares = 0;
     KOKSMA__TRY(squares_on_torus(m, &squares));
     for (int t = 0; t < m->tests; t++) {
         inside += m->inside[t] / m->tests;

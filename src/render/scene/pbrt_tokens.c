@@ -274,7 +274,7 @@ koksma_status koksma__pbrt_parameters_read(koksma__pbrt_source *s, koksma__pbrt_
     out->place = s->place;
     KOKSMA__TRY(inherit(s, out));
     for (;;) {
-        koksma__pbrt_parameter *p;
+        koksma__pbrt_parameter *p = NULL;
         KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
         if (t.kind != KOKSMA__PBRT_TEXT) {
             return out->judge ? out->judge(out->reader) : KOKSMA_OK;

@@ -549,7 +549,7 @@ static koksma_status mix_materials(koksma__pbrt_scene *scene, const koksma__pbrt
 {
     const koksma__pbrt_parameter *both = koksma__pbrt_find_typed(p, "materials", "string");
     koksma__import_colour share;
-    int second;
+    int second = 0;
     if (!both || both->n_texts != 2) {
         return koksma__import_fail(p->place, "materials: a mix has the names of two materials");
     }

@@ -76,7 +76,7 @@ koksma_status koksma_entry_text(const koksma_points *points, const koksma_spec *
     KOKSMA__REQUIRE_RUN(run);
     char name[KOKSMA_MAX_SPEC], digest[KOKSMA__SHA256_TEXT];
     koksma__json_writer w = {0};
-    double value;
+    double value = 0;
     size_t size;
     KOKSMA__FAIL_IF(!measure->measure, KOKSMA_ARGUMENT, "measure: it must be the spec of a measure");
     KOKSMA__FAIL_IF(!*author, KOKSMA_ARGUMENT, "author: it must not be empty");
