@@ -52,6 +52,23 @@ static bool method_uses_patterns(const char *method)
     return !method || koksma_adaptive_parse(method, &adaptive) || !adaptive.method->own_samples;
 }
 
+/* Returns the list of patterns with the names of lists replaced by what they stand for; the same text if it has none. */
+static const char *expand_lists(const char *list)
+{
+    static char out[MAX_PATTERNS * KOKSMA_MAX_SPEC];
+    char item[KOKSMA_MAX_SPEC];
+    size_t used = 0, named = 0;
+    for (size_t i = 0; cli_list_item(list, i, item, sizeof item); i++) {
+        const char *text = item;
+        for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
+            named += !strcmp(item, lists[k][0]);
+            text = strcmp(item, lists[k][0]) ? text : lists[k][1];
+        }
+        used += (size_t)snprintf(out + used, used < sizeof out ? sizeof out - used : 0, "%s%s", i ? "," : "", text);
+    }
+    return named && used < sizeof out ? out : list;
+}
+
 /* Reads --patterns. *spp receives N if a pattern is given as SPEC@N. Returns the exit code. */
 static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t *spp)
 {
@@ -59,11 +76,10 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
     if (cli_text(arguments, "with", NULL) && !cli_text(arguments, "patterns", NULL)) {
         return cli_usage_error(arguments, "--with needs --patterns, with names of samplers that the command knows");
     }
-    list = !method_uses_patterns(cli_text(arguments, "adaptive", NULL)) ? "n-rooks" : list;
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        list = !strcmp(list, lists[i][0]) ? lists[i][1] : list;
-    }
     char item[KOKSMA_MAX_SPEC];
+    const char *given = method_uses_patterns(cli_text(arguments, "adaptive", NULL)) ? list : "n-rooks";
+    list = expand_lists(given);
+    const bool many = list != given || !strcmp(list, "all");
     for (size_t at = 0; cli_pattern_item(list, at, item); at++) {
         if (!cli_text(arguments, "with", NULL) && !cli_take_counts(arguments, item, spp)) {
             return CLI_USAGE;
@@ -91,11 +107,12 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
         while (i < p->n && strcmp(p->texts[i], p->texts[p->n]) != 0) {
             i++;
         }
-        if (i < p->n && strcmp(list, "all") != 0) {
+        if (i < p->n && !many) {
             return cli_usage_error(arguments, "--patterns: '%s' is listed twice", p->texts[i]);
         }
         p->at[p->n] = p->texts[p->n];
-        p->n += i == p->n; /* "all" lists some patterns under two names; they are added once */
+        cli_warn_file(arguments, item);
+        p->n += i == p->n; /* "all" lists some patterns under two names, and a list may hold what is named, too */
     }
     return CLI_YES;
 }
@@ -438,12 +455,12 @@ static int ask_scene(const cli_arguments *arguments, request *r)
     const koksma_status status = with ? KOKSMA_OK : koksma_scene_open(r->options.scene, &scene);
     if (scene) {
         const koksma_scene_counts counts = koksma_scene_count(scene);
+        koksma_render_options defaults;
+        koksma_render_options_init(&defaults, scene);
         koksma_scene_close(scene);
         spp = counts.spp;
         most = counts.paths ? MOST_PATHS_SPP : MOST_SCENE_SPP;
-        if (counts.paths && !cli_text(arguments, "integrator", NULL)) {
-            r->options.integrator = koksma_integrator_find("path");
-        }
+        r->options.integrator = cli_text(arguments, "integrator", NULL) ? r->options.integrator : defaults.integrator;
     }
     if (spp && !r->spp && !cli_text(arguments, "spp", NULL) && !cli_text(arguments, "target-error", NULL)) {
         const size_t taken = spp < most ? spp : most;
@@ -566,9 +583,7 @@ static const cli_option options[] = {
      "process each image, not the reference: a Gaussian blur, or a shell command with {in} and {out}, such as a "
      "denoiser"},
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
-    {0, "integrator", "INTEGRATOR",
-     "see 'koksma list integrators' (default: distribution, or path in a medium and where a scene of pbrt or Mitsuba "
-     "asks for it)"},
+    CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
     {0, "depth", "D", "the most bounces (default: the integrator's)"},
     {0, "lights", "all|one|power|uniform|auto", "lights that get a shadow ray, as in 'koksma render' (default: all)"},

@@ -11,7 +11,9 @@
 
 #define CLI_INTEGRATOR_OPTION                                                                                        \
     {                                                                                                                \
-        0, "integrator", "INTEGRATOR", "see 'koksma list integrators' (default: distribution)"                       \
+        0, "integrator", "INTEGRATOR",                                                                               \
+            "see 'koksma list integrators' (default: distribution, or path in a medium "                             \
+            "and where a scene of pbrt or Mitsuba asks for it)"                                                      \
     }
 #define CLI_FILTER_OPTION                                                                                            \
     {                                                                                                                \

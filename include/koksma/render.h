@@ -222,7 +222,8 @@ typedef struct koksma_render_options {
 enum { KOKSMA_MAX_SPP = 1 << 20, KOKSMA_MAX_DEPTH = 64 };
 
 /* Sets the default options: pattern n-rooks, 16 samples per pixel, the image size in the scene file, seed 0,
-   pairing shuffled, scope pixel, lights auto, integrator distribution, depth -1, filter box, no splatting. */
+   pairing shuffled, scope pixel, lights auto, integrator path where the scene asks for it (koksma_scene_counts.paths), else
+   distribution, depth -1, filter box, no splatting. */
 KOKSMA_API void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene);
 
 /* Sets patterns from a text: "PATTERN" for all uses without a pattern, "USE=PATTERN" for one use, "USE+USE=PATTERN"

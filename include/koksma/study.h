@@ -272,7 +272,7 @@ typedef struct koksma_rank_options {
     int spp;
     int width, height;                   /* size of the image; 0: the size in the scene, halved until the image has
                                             at most 19,200 pixels */
-    const koksma_integrator *integrator; /* NULL: distribution */
+    const koksma_integrator *integrator; /* NULL: as koksma_render_options_init chooses it for the scene */
     const koksma_filter *filter;         /* NULL: box */
     const char *adaptive;                /* method of adaptive sampling for the images of all patterns, as
                                             koksma_adaptive_parse takes it, with spp as its budget and a quarter of it

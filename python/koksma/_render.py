@@ -318,7 +318,8 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         Which lights a sample takes: all, or one drawn by its estimated contribution, by its power or uniformly. auto: one for
         the integrator path with more than 8 lights, else all.
     integrator, filter : str, optional
-        koksma.integrators() and koksma.filters() name them.
+        koksma.integrators() and koksma.filters() name them. Integrator None: path in a medium
+        and where a scene of pbrt or Mitsuba asks for it, else distribution.
     depth : int, optional
         The longest path, in bounces.
     splat : bool

@@ -138,13 +138,14 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
 void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene)
 {
     KOKSMA__REQUIRE_OR(, options, scene);
-    *options = (koksma_render_options){.spp = 16,
-                                       .width = scene->width,
-                                       .height = scene->height,
-                                       .lights = KOKSMA_LIGHTS_AUTO,
-                                       .integrator = koksma_integrator_find("distribution"),
-                                       .depth = -1,
-                                       .filter = koksma_filter_find("box")};
+    *options = (koksma_render_options){
+        .spp = 16,
+        .width = scene->width,
+        .height = scene->height,
+        .lights = KOKSMA_LIGHTS_AUTO,
+        .integrator = koksma_integrator_find(koksma_scene_count(scene).paths ? "path" : "distribution"),
+        .depth = -1,
+        .filter = koksma_filter_find("box")};
     koksma_pattern_spec("n-rooks", &options->pattern);
 }
 

@@ -121,14 +121,19 @@ static koksma_status check(const koksma_rank_options *options)
     return status;
 }
 
-/* Writes the canonical text of the settings of all images. */
-static koksma_status write_variant(const koksma_rank_options *options, char out[KOKSMA__VARIANT_TEXT])
+/* Writes the canonical text of the settings of all images. scene: NULL for another renderer. */
+static koksma_status write_variant(const koksma_rank_options *options, const koksma_scene *scene,
+                                   char out[KOKSMA__VARIANT_TEXT])
 {
     char text[KOKSMA__VARIANT_TEXT];
     const char *more = options->variant ? options->variant : "";
+    koksma_render_options defaults = {.integrator = options->integrator};
+    if (scene && !options->integrator) {
+        koksma_render_options_init(&defaults, scene);
+    }
     KOKSMA__TRY(koksma__variant_check_names(more));
     const int length = snprintf(text, sizeof text, "integrator=%s;filter=%s;adaptive=%s;%s",
-                                options->integrator ? options->integrator->name : "distribution",
+                                defaults.integrator ? defaults.integrator->name : "distribution",
                                 options->filter ? options->filter->name : "box",
                                 options->adaptive ? options->adaptive : "none", more);
     KOKSMA__FAIL_IF(length >= (int)sizeof text, KOKSMA_ARGUMENT, "options->variant: longer than %zu characters",
@@ -142,6 +147,6 @@ koksma_status koksma__rank_open(const koksma_rank_options *options, koksma__run_
     *scene = (koksma__study_scene){
         .name = options->scene, .render = options->render, .render_context = options->render_context};
     KOKSMA__TRY(check(options));
-    KOKSMA__TRY(write_variant(options, variant));
-    return open_scene(options, control, scene);
+    KOKSMA__TRY(open_scene(options, control, scene));
+    return write_variant(options, scene->scene, variant);
 }

@@ -143,6 +143,7 @@ static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__docu
     koksma_layers layers;
     koksma_strata strata = {.x = (int)f->strata[0], .y = (int)f->strata[1]};
     koksma_render_options_init(options, scene->scene);
+    options->integrator = koksma_integrator_find("distribution"); /* a variant names another, also path */
     koksma_status status = koksma__image_pattern_set(f->pattern, options);
     status = status ? status : koksma__variant_apply(f->variant, false, &variant);
     status = status ? status : koksma_adaptive_parse(f->adaptive, &adaptive);

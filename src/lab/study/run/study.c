@@ -468,6 +468,7 @@ koksma_status koksma__picture_set(const koksma__study_scene *scene, const koksma
 {
     koksma_render_options *options = &variant->render;
     koksma_render_options_init(options, scene->scene);
+    options->integrator = koksma_integrator_find("distribution"); /* a variant names another, also path */
     koksma_status status = koksma__image_pattern_set(picture->pattern, options);
     status = status ? status : koksma__variant_apply(picture->variant, picture->of_reference, variant);
     options->spp = (int)picture->spp;
