@@ -4,6 +4,7 @@ what was meant."""
 from __future__ import annotations
 
 import inspect
+import re
 from difflib import get_close_matches
 from typing import Any, Callable, Sequence
 
@@ -19,6 +20,8 @@ _CALLS = {  # names of others, chiefly of scipy.stats.qmc
     "integral": "integrate(function, pattern, n)", "load": "read(path)", "save": "write(path, points)",
     "seed": "generate(pattern, n, seed=7): each call takes its seed", "warp": 'warp_points(points, "concentric-disk"); warps() names them',
     "curve": "spectrum(points), pair_correlation(points) and convergence(pattern, measure)",
+    "scramble": 'generate("sobol:scramble=owen", n)', "sampler": "Engine has the interface of scipy.stats.qmc, generate(pattern, n) makes points",
+    "qmc": "Engine has the interface of scipy.stats.qmc", "study": "Study",
     "draw": "plot(points)", "show": "plot(points)", "scrambled": 'generate("sobol:scramble=owen", n)', "owen": 'generate("sobol:scramble=owen", n)',
 }
 
@@ -40,6 +43,9 @@ def hint(name: str, known: Sequence[str]) -> str:
         return f'; koksma.generate("{words}", n) makes its points'
     if words in (m.name for m in measures()):
         return f'; koksma.measure(points, "{words}") computes it'
+    of_measure = words.replace("-discrepancy", "")
+    if of_measure in (m.name for m in measures()):
+        return f'; koksma.measure(points, "{of_measure}") computes it'
     near = get_close_matches(british.replace("list_", ""), [k for k in known if k.islower() or not name.islower()], 1)
     return f"; did you mean koksma.{near[0]}?" if near else "; help(koksma) names all that there is"
 
@@ -58,6 +64,7 @@ _MEANT = {  # what others call an argument, and what functions of this package c
 }
 _PARTS = {  # what is no argument here, but a part of a spec
     "scramble": 'is a part of the pattern: "sobol:scramble=owen"', "shift": 'is a part of the pattern: "korobov,shift=1"',
+    "trials": "is of koksma.trials(pattern, n, measure)", "output": "is the method save(path) of what it returns",
     "optimization": "is koksma.optimise(measure, n, d)", "bits": 'is a part of the pattern; koksma.patterns() has its parameters',
 }
 
@@ -67,5 +74,36 @@ def hint_of_argument(name: str, function: "Callable[..., Any]") -> str:
     word, known = name.lower(), [p for p in inspect.signature(function).parameters if p not in ("self", "cls")]
     meant = [k for k, others in _MEANT.items() if k in known and word in others.split()]
     near = meant or get_close_matches(word, known, 1)
-    return (f"; did you mean {near[0]}?" if near else f"; {name} {_PARTS[word]}" if word in _PARTS
+    return (f"; {name} {_PARTS[word]}" if word in _PARTS and not meant else f"; did you mean {near[0]}?" if near
             else f"; it takes {', '.join(known)}")
+
+
+_TEXTS = ("pattern", "measure", "measures", "path", "scene", "metrics", "sampler")
+_NO_TEXTS = ("points", "image", "a", "b", "x", "sets", "n", "dim", "spp")
+
+
+def hint_of_values(message: str, function: "Callable[..., Any]", values: Sequence[Any]) -> str:
+    """The end of a message on arguments in the wrong order, or on a name that is something else."""
+    from ._points import measures, patterns
+    from ._render import scenes
+
+    known = list(inspect.signature(function).parameters)
+    given = list(zip(known, values))
+    no_text = [name for name, value in given if name in _TEXTS and not isinstance(value, (str, list, tuple))]
+    if no_text and any(name in _NO_TEXTS and isinstance(value, str) for name, value in given):
+        return f"; the order is {function.__name__}({', '.join(known[:2])})"
+    if no_text == ["pattern"] and message.startswith("pattern must be a str"):
+        return "; a set of one's own is a file, 'file:PATH'"
+    found = re.match(r"no (\w+) '([^']*)'", message)
+    if not found:
+        return ""
+    kind, word = found[1], found[2]
+    if word == "all" and kind in ("pattern", "measure", "metric"):
+        return f"; [x.name for x in koksma.{kind}s()] is a list of all"
+    if "@" in word and kind == "pattern":
+        return f"; the number is an argument of its own: {word.split('@')[0]!r}, {word.split('@')[1]}"
+    if "," in word and kind in ("pattern", "measure", "metric"):
+        return f"; several are a list: {word.replace(' ', '').split(',')}"
+    families = (("pattern", [p.name for p in patterns()]), ("measure", [m.name for m in measures()]), ("scene", scenes()))
+    of = [what for what, names in families if what != kind and word in names]
+    return f"; {word!r} is a {of[0]}" if of else ""

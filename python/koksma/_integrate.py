@@ -382,7 +382,7 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
         source: Union[str, PointArray] = points
         sizes, dim, trials = [len(points)], points.shape[1], 1
     elif n is None:
-        raise TypeError("n must be the number of points of a pattern, or several numbers, not None")
+        raise TypeError("n must be the number of points of a pattern, or several numbers, not None: integrate(function, pattern, n)")
     else:
         source = _pattern(pattern)
         sizes = sizes_of("n", _each("n", n))

@@ -414,8 +414,10 @@ def quoted(value: Any) -> str:
 def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
     """A whole number within its range, so that it is itself in C: ctypes takes any, modulo 2^32 or 2^64."""
     try:
-        number = index(value)
+        number = index(value) if not isinstance(value, bool) else None
     except TypeError:
+        number = None
+    if number is None:
         raise TypeError(f"{name} must be an int, not {quoted(value)}") from None
     if not low <= number <= high:
         raise ArgumentError(f"{name} must be {low} to {high}, not {quoted(number)}")
@@ -484,6 +486,8 @@ def texts(name: str, values: Iterable[str]) -> List[str]:
     """Several texts. One alone would pass as the list of its letters."""
     if isinstance(values, str):
         raise ArgumentError(f"{name} must be a list of texts, not {quoted(values)}")
+    if isinstance(values, dict):
+        raise TypeError(f"{name} must be a list of texts, not a dict; a set of one's own is a file, 'file:PATH'")
     found = several(name, values)
     for value in found:
         if not isinstance(value, (str, bytes, os.PathLike)):
@@ -567,11 +571,14 @@ def with_hints(function: Any) -> Any:
     def called(*values: Any, **named: Any) -> Any:
         try:
             return function(*values, **named)
-        except TypeError as error:
-            found = re.search(r"^.*got an unexpected keyword argument '(\w+)'", str(error))
-            if not found or error.__traceback__ is None or error.__traceback__.tb_next is not None:
-                raise  # of another call
-            from ._hints import hint_of_argument
+        except (TypeError, ArgumentError) as error:
+            from ._hints import hint_of_argument, hint_of_values
 
-            raise TypeError(found[0] + hint_of_argument(found[1], function)) from None
+            found = re.search(r"^.*got an unexpected keyword argument '(\w+)'", str(error))
+            if found and error.__traceback__ is not None and error.__traceback__.tb_next is None:  # not of another call
+                raise TypeError(found[0] + hint_of_argument(found[1], function)) from None
+            more = hint_of_values(str(error), function, values) if type(error) in (TypeError, ArgumentError) else ""
+            if more and more not in str(error):
+                error.args = (str(error).split("; ")[0] + more, *error.args[1:])
+            raise
     return called

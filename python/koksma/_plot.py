@@ -51,6 +51,10 @@ class Picture:
         data = self.bytes(_FORMATS[format.value])
         check(lab().koksma_plot_write(name, data, len(data)))
 
+    def __getattr__(self, name: str) -> Any:
+        meant = {"savefig": "; save(path) writes it", "write": "; save(path) writes it", "show": "; a notebook shows it, save(path) writes it"}
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{meant.get(name, '')}")
+
     def _repr_svg_(self) -> str:
         return self.svg
 
@@ -110,6 +114,8 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
     >>> picture = koksma.plot(koksma.generate("n-rooks", 16), witness="star", titles=["n-rooks"])
     >>> picture.save("points.svg")
     """
+    if len(sets) == 1 and isinstance(sets[0], (list, tuple)) and all(getattr(points, "ndim", 0) == 2 for points in sets[0]):
+        sets = tuple(sets[0])
     if not 1 <= len(sets) <= 64:
         raise ArgumentError(f"{len(sets)} sets: give 1 to 64")
     for name, lines in (("captions", captions), ("titles", titles)):

@@ -333,20 +333,21 @@ def as_points(points: npt.ArrayLike) -> PointArray:
         given = np.asanyarray(points)
         kind, masked = given.dtype.kind, has_masked(given)
         refused = kind == "O" and any(isinstance(value, _NO_REAL_NUMBERS) for value in given.flat)
-        array = np.ascontiguousarray(given, dtype=np.float64) if kind in "buifO" and not refused else given
+        array = np.ascontiguousarray(given, dtype=np.float64) if kind in "uifO" and not refused else given
     except (TypeError, ValueError):
         raise ArgumentError(f"points must be an array of real numbers, not {quoted(points)}") from None
     if isinstance(points, (str, bytes)):
         raise ArgumentError(f"points must be an array, not the text {quoted(points)}; read(path) reads a file, generate(pattern, n) makes points")
-    if kind not in "buifO":
+    if kind not in "uifO":
         raise ArgumentError(f"points must be real numbers, not {given.dtype}")
     if refused:
         raise ArgumentError(f"points must be real numbers, not {quoted(points)}")
     if masked:
         raise ArgumentError("points must not have masked coordinates")
     array = array if array.flags.aligned else array.copy()
-    if array.ndim != 2 or 0 in array.shape:
-        raise ArgumentError(f"points must be an array of shape (n, dim), with n and dim of at least 1, not {array.shape}")
+    if given.ndim != 2 or 0 in array.shape:
+        column = "; points[:, None] has one dimension" if given.ndim == 1 and len(given) > 1 else ""
+        raise ArgumentError(f"points must be an array of shape (n, dim), with n and dim of at least 1, not {given.shape}{column}")
     if 2 <= array.shape[0] < array.shape[1] / 2 and array.shape[1] > 3:
         warnings.warn(f"{array.shape[0]} points in {array.shape[1]} dimensions; are rows and columns swapped?", stacklevel=3)
     return array
@@ -870,7 +871,7 @@ def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: 
     Parameters
     ----------
     path : str or path
-        Its ending says the format: .csv, .npy, anything else text.
+        Its ending says the format: .txt, .csv or .npy; without one it is text.
     points : array_like of shape (n, dim)
     comment : str, optional
         A line for the head of a text file.
@@ -882,6 +883,9 @@ def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: 
     """
     array = as_points(points)
     c_points = view(array)
+    ending = os.path.splitext(os.fsdecode(text(path, "path")))[1]
+    if ending not in ("", ".txt", ".csv", ".npy"):
+        raise ArgumentError(f"{quoted(path)}: its name must end in .txt, .csv or .npy")
     raw = None if comment is None else text(comment, "comment")
     call(core().koksma_points_write, text(path, "path"), byref(c_points), raw, run_at=3)
 

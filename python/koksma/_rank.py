@@ -234,16 +234,17 @@ class _Request:
         if process is not None and not callable(process):
             raise TypeError(f"process must be callable, not {quoted(process)}")
         self.other = _Renderer(renderer, process) if renderer is not None else None
-        if isinstance(patterns, str):
-            patterns = _LISTS.get(patterns, patterns)
-        self.names = [canonical(pattern) if self.other is None else pattern for pattern in texts("patterns", patterns)]
+        lists = [_LISTS.get(pattern, (pattern,)) for pattern in texts("patterns", [patterns] if isinstance(patterns, str) and patterns in _LISTS else patterns)]
+        self.names = [canonical(pattern) if self.other is None else pattern for members in lists for pattern in members]
+        if max(map(len, lists), default=0) > 1:  # a list may hold what is named, too
+            self.names = list(dict.fromkeys(self.names))
         if not self.names or len(set(self.names)) < len(self.names):
             raise ArgumentError("patterns must be one or more, each once")
         self.spec, self.metric = _metric(metric)
         self.array = (c_char_p * len(self.names))(*[text(name, "patterns") for name in self.names])
         self.options = options = s.RankOptions(
             scene=text(_scene_name(scene), "scene"), patterns=self.array, n_patterns=len(self.names), time_limit_s=time_limit or 0.0,
-            spp=whole("spp", spp, 1, s.MAX_SPP), integrator=_found("integrator", "distribution" if integrator is None else integrator),
+            spp=whole("spp", spp, 1, s.MAX_SPP), integrator=None if integrator is None else _found("integrator", integrator),
             filter=_found("filter", "box" if filter is None else filter), metric=pointer(self.spec),
             adaptive=None if adaptive is None else text(adaptive, "adaptive"), seed=seed_of(seed),
             variant=text(variant, "scope") if variant else None)
@@ -294,7 +295,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
     ----------
     scene : str or path
         As of `render`.
-    patterns : "modern", "thesis" or sequence of str
+    patterns : "modern", "thesis" or sequence of str, these among them
         Each once. "modern", the default: those that the project's own studies put first, and plainer ones to compare with;
         "thesis": the seven of Shirley 1991. One that has no set of spp points is not ranked (`reason` of its row);
         one whose file is missing or malformed, or whose program may not run, raises.
@@ -346,10 +347,9 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[st
     >>> ranking.best
     'jittered'
     """
-    if renderer is None and (spp is None or integrator is None):
+    if renderer is None and spp is None:
         found = check_scene(scene)
-        integrator = "path" if integrator is None and found.paths else integrator
-        spp = min(found.spp or 16, 16 if found.paths else 64) if spp is None else spp
+        spp = min(found.spp or 16, 16 if found.paths else 64)
     asked = _Request(scene, patterns, 16 if spp is None else spp, size, integrator, filter, adaptive, metric, time_limit, renderer, reference, seed, depth, lights,
                      scope, process)
     asked.options.one_size = flag("one_size", one_size)
@@ -410,8 +410,6 @@ def rank_to_error(scene: Union[str, "os.PathLike[str]"], target_error: float, pa
     >>> first.pattern, last.spp > first.spp, last.interval[0] < last.error < last.interval[1]
     ('jittered', True, True)
     """
-    if renderer is None and integrator is None and check_scene(scene).paths:
-        integrator = "path"
     asked = _Request(scene, patterns, 1, size, integrator, filter, adaptive, metric, time_limit, renderer, reference, seed, depth, lights,
                      scope, process)
     rows, out = (s.TargetRow * len(asked.names))(), s.TargetRanking()

@@ -74,8 +74,8 @@ def _result(raw: s.Spectrum) -> Spectrum:
 def _each(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]") -> "Iterable[npt.ArrayLike]":
     """The sets one by one. What has rows of numbers is one set; an iterator is not looked into beforehand."""
     rows: Any = np.asanyarray(sets) if hasattr(sets, "__array__") else sets
-    if isinstance(rows, np.ndarray):
-        return [rows] if rows.ndim == 2 else rows
+    if isinstance(rows, (str, bytes)) or isinstance(rows, np.ndarray) and rows.ndim != 3:
+        return [rows]
     try:
         single = isinstance(rows, Sequence) and len(rows) > 0 and np.ndim(rows[0]) == 1
         return [rows] if single else iter(rows)
