@@ -129,6 +129,23 @@ const char *cli_meant_option(const cli_option *options, const char *name, char t
    (koksma_closest_name()); if no name is close, or `word` is one, the text is empty. */
 const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96]);
 
+enum { CLI_KNOWN = 1024 };
+
+/* Writes what else `word` is, and where it goes, "; 'sobol' is a pattern, as in '-p sobol'": the name of a member of
+   another table, or a file; "" if it is unknown. arguments: those of the command, or NULL. Returns the text. */
+const char *cli_known_as(const cli_arguments *arguments, const char *word, char text[CLI_KNOWN]);
+
+/* Writes to `known` what the word is that an error of the library is about, "no pattern 'star'" or a missing file, as
+   cli_known_as does. Returns how much of the error's text stays before it. */
+int cli_explain(const cli_arguments *arguments, koksma_status status, const char *text, char known[CLI_KNOWN]);
+
+/* Prints that `word` is no command, and what it is or means; `command`: as in cli_say. */
+void cli_no_command(const char *command, const char *word);
+
+/* What an operand too many is probably for: "; -o FILE ..", "; -n N ..", what it is (cli_known_as), or "". Returns `text`
+   or a constant. */
+const char *cli_operand_hint(const cli_arguments *arguments, const char *operand, char text[CLI_KNOWN]);
+
 /* Like cli_meant, for a list of names as messages write it, such as "auto, always or never". */
 const char *cli_meant_of(const char *word, const char *list, char text[96]);
 
@@ -289,9 +306,6 @@ bool cli_is_stdout(const char *path);
 
 /* Returns whether two paths lead to the same file, which is there. */
 bool cli_is_same_file(const char *a, const char *b);
-
-/* What an operand too many is probably for: "; -o FILE ..", "; -n N ..", or "". */
-const char *cli_operand_hint(const char *operand);
 
 /* Refuses an --output that is a file which the command reads, but that of --from, which a search continues. Returns false
    after an error. */

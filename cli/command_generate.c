@@ -65,6 +65,10 @@ static int stream(const cli_arguments *arguments, const cli_source *source, uint
     if (first) {
         snprintf(comment + used, sizeof comment - (size_t)used, "\nfirst %llu", (unsigned long long)first);
     }
+    if (cli_flag(arguments, "seed") && koksma_has_one_set(&source->spec) && !cli_flag(arguments, "quiet")) {
+        cli_say("generate",
+                "warning: %s has one set, whatever the seed; a random modifier, such as shift=1, gives others", text);
+    }
     const koksma_status status = koksma_generate_write(&source->spec, seed, first, source->n, source->dim,
                                                        cli_text(arguments, "output", "-"), comment, &work->run);
     return status ? cli_fail(arguments, status) : CLI_YES;
@@ -77,8 +81,13 @@ static int run(const cli_arguments *arguments)
     cli_work work;
     uint64_t dim, seed, first;
     if (arguments->n_operands != 1) {
-        return cli_usage_error(arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2%s",
-                               arguments->n_operands > 1 ? cli_operand_hint(arguments->operands[1]) : "");
+        char known[CLI_KNOWN];
+        const char *n = cli_text(arguments, "n", "");
+        return strchr(n, ',')
+                   ? cli_usage_error(arguments, "-n %s: it takes one number of points, without commas", n)
+                   : cli_usage_error(
+                         arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2%s",
+                         arguments->n_operands > 1 ? cli_operand_hint(arguments, arguments->operands[1], known) : "");
     }
     int code = cli_pattern_open(arguments, arguments->operands[0], &source);
     if (code) {

@@ -42,9 +42,8 @@ static int run(const cli_arguments *arguments)
     }
     const cli_command *command = cli_command_find(arguments->operands[0]);
     if (!command) {
-        char meant[96];
-        return cli_usage_error(arguments, "no command '%s'; %s'koksma --help' names them", arguments->operands[0],
-                               cli_meant(arguments->operands[0], cli_command_name, NULL, meant));
+        cli_no_command(arguments->command->name, arguments->operands[0]);
+        return CLI_USAGE;
     }
     cli_print_help(command);
     return CLI_YES;

@@ -334,7 +334,10 @@ static int run(const cli_arguments *arguments)
         found = found || !strcmp(which, lists[i].name);
     }
     if (!found || arguments->n_operands > 1) {
-        char meant[96] = "";
+        char meant[96] = "", known[CLI_KNOWN];
+        if (!found && arguments->n_operands == 1 && *cli_known_as(arguments, which, known)) {
+            return cli_usage_error(arguments, "no list '%s'%s", which, known);
+        }
         cli_list_names(", ", names, sizeof names);
         return cli_usage_error(arguments, "%sit takes one of %s", found ? "" : cli_meant_of(which, names, meant),
                                names);

@@ -144,9 +144,8 @@ static int run(const cli_arguments *arguments)
         return CLI_YES;
     }
     if (arguments->n_operands == 1) {
-        char meant[96];
-        return cli_usage_error(arguments, "no command '%s'; %s'koksma --help' names them", arguments->operands[0],
-                               cli_meant(arguments->operands[0], cli_command_name, NULL, meant));
+        cli_no_command(arguments->command->name, arguments->operands[0]);
+        return CLI_USAGE;
     }
     return cli_usage_error(arguments, "it takes the name of one command, or nothing for the page of koksma itself");
 }

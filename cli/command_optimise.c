@@ -303,10 +303,12 @@ static bool check_arguments(const cli_arguments *arguments)
 {
     const char *power = cli_text(arguments, "power", NULL), *output = cli_text(arguments, "output", NULL);
     if (arguments->n_operands != !power) {
+        char known[CLI_KNOWN] = "";
+        const bool more = !power && arguments->n_operands > 1;
         cli_usage_error(arguments,
                         power ? "it takes a measure or --power, not both%s"
                               : "it takes one measure, such as star or l2-disk:r=0.25%s",
-                        !power && arguments->n_operands > 1 ? cli_operand_hint(arguments->operands[1]) : "");
+                        more ? cli_operand_hint(arguments, arguments->operands[1], known) : "");
         return false;
     }
     if (!output) {

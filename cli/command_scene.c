@@ -13,7 +13,7 @@ static int run(const cli_arguments *arguments)
 {
     koksma_scene *scene;
     if (arguments->n_operands != 2 || strcmp(arguments->operands[0], "check") != 0) {
-        return cli_usage_error(arguments, "it takes check FILE, as in 'koksma scene check ball'");
+        return cli_usage_error(arguments, "it takes check and one scene, as in 'koksma scene check ball'");
     }
     const koksma_status status = koksma_scene_open(arguments->operands[1], &scene);
     if (status) {

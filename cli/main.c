@@ -95,9 +95,7 @@ int main(int argc, char **argv)
                                                   : !strcmp(first, "--version") || !strcmp(first, "-V") ? "version"
                                                                                                         : first);
     if (!command) {
-        char meant[96];
-        cli_say("", "no command '%s'; %s'koksma --help' names them", first,
-                cli_meant(first, cli_command_name, NULL, meant));
+        cli_no_command("", first);
         return CLI_USAGE;
     }
     return cli_run(command, argc - 1, argv + 1);

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a word that the program does not know probably means: the nearest name of a table or list, or the option that has
-   the meaning of one of other programs. */
+/* What a word that the program does not know probably means: the nearest name of a table or list, the option that has
+   the meaning of one of other programs, or a name or file that belongs elsewhere. */
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
+
+#include <koksma/integrate.h>
+#include <koksma/render.h>
 
 #include "cli.h"
+#include "curves.h"
 
 const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96])
 {
@@ -83,6 +88,59 @@ static const struct {
     {"random-state", {"seed"}},
     {"dimension", {"dim"}},
     {"ndim", {"dim"}},
+    {"outfile", {"output"}},
+    {"json", {"output"}},
+    {"type", {"curve"}},
+    {"quick", {"time-limit"}},
+};
+
+/* Options of other programs for what is no option here. */
+static const struct {
+    const char *name, *why;
+} no_options[] = {
+    {"scene", "a scene is an operand, as in 'koksma rank ball'; "},
+    {"input", "files are operands, without an option; "},
+    {"i", "files are operands, without an option; "},
+    {"f", "files are operands, without an option; "},
+    {"o", "it writes to standard output, as in '> FILE'; "},
+    {"gpu", "it runs on processors alone; "},
+    {"scramble", "it is a parameter of patterns, as in sobol:scramble=owen; "},
+    {"scrambling", "it is a parameter of patterns, as in sobol:scramble=owen; "},
+};
+
+/* What names stand for, and a command that takes one, or an option, if the command has it. */
+#define NAME(function, entry)                                                                                        \
+    static const char *function(const void *table, size_t i)                                                         \
+    {                                                                                                                \
+        (void)table;                                                                                                 \
+        return entry;                                                                                                \
+    }
+NAME(pattern, koksma_pattern_at(i) ? koksma_pattern_at(i)->name : NULL)
+NAME(measure, koksma_measure_at(i) ? koksma_measure_at(i)->name : NULL)
+NAME(scene, koksma_scene_name_at(i))
+NAME(integrand, koksma_integrand_at(i) ? koksma_integrand_at(i)->name : NULL)
+NAME(curve, cli_curve_at(i) ? cli_curve_at(i)->name : NULL)
+
+static const struct {
+    koksma_name_at *name;
+    const char *what, *option, *before, *after;
+} families[] = {
+    {scene, "a scene", "", "koksma rank ", ""},
+    {pattern, "a pattern", "patterns", "koksma generate ", " -n 16"},
+    {measure, "a measure", "measures", "koksma measure points.txt -m ", ""},
+    {integrand, "an integrand", "", "koksma integrate ", " -p sobol -n 16"},
+    {cli_integrator_name, "an integrator", "integrator", "koksma rank ball --integrator ", ""},
+    {curve, "a curve", "curve", "koksma curve ", " sobol@64"},
+    {cli_command_name, "a command", "", "koksma ", " --help"},
+};
+
+/* What files with an ending hold, and a command for them. */
+static const struct {
+    const char *endings, *holds, *before, *after;
+} files[] = {
+    {".txt .csv .npy", "a file of points", "koksma measure ", ""},
+    {".json .pbrt .xml .gltf .glb .obj .ply", "a scene", "koksma rank ", ""},
+    {".exr .png .pfm .jpg .jpeg", "an image", "koksma compare ", " other.exr"},
 };
 
 static const cli_option *find(const cli_option *options, const char *name)
@@ -107,10 +165,117 @@ const char *cli_meant_option(const cli_option *options, const char *name, char t
         snprintf(text, 128, "did you mean --%s%s%s? ", meant->name, is_choice ? " " : "", is_choice ? name : "");
         return text;
     }
-    if (!strncmp(name, "scramble", 8)) {
-        return "it is a parameter of patterns, as in sobol:scramble=owen; ";
+    for (size_t i = 0; i < sizeof no_options / sizeof *no_options; i++) {
+        if (!strcmp(name, no_options[i].name)) {
+            return no_options[i].why;
+        }
     }
     const char *closest = koksma_closest_name(name, option_name, options);
-    snprintf(text, 128, closest ? "did you mean --%s? " : "%.0s", closest ? closest : "");
+    size_t used = (size_t)snprintf(text, 128, closest ? "did you mean --%s? " : "%.0s", closest ? closest : "");
+    for (size_t i = 0; !closest && strlen(name) > 1 && options[i].name; i++) {
+        if (!strncmp(options[i].name, name, strlen(name)) && used < 100) {
+            used += (size_t)snprintf(text + used, 128 - used, used ? "or --%s? " : "did you mean --%s? ",
+                                     options[i].name);
+        }
+    }
     return text;
+}
+
+/* Writes "; 'WORD' is WHAT, as in '..'". */
+static const char *say_known(const char *word, const char *what, const char *before, const char *after,
+                             char text[CLI_KNOWN])
+{
+    snprintf(text, CLI_KNOWN, "; '%s' is %s, as in '%s%s%s'", word, what, before, word, after);
+    return text;
+}
+
+const char *cli_known_as(const cli_arguments *arguments, const char *word, char text[CLI_KNOWN])
+{
+    char name[64];
+    *text = '\0';
+    const char *base = strrchr(word, '/') ? strrchr(word, '/') + 1 : word, *dot = strrchr(base, '.');
+    if (strlen(word) >= CLI_KNOWN / 4 || strpbrk(word, "'\n")) {
+        return text;
+    }
+    if (!strncmp(word, "http://", 7) || !strncmp(word, "https://", 8) || !strcmp(word, "help")) {
+        snprintf(text, CLI_KNOWN,
+                 *word == 'h' && word[1] == 't' ? "; only files are read: download it first"
+                                                : "; --help describes the command");
+        return text;
+    }
+    for (size_t i = 0; dot && dot[1] && i < sizeof files / sizeof *files && !access(word, R_OK); i++) {
+        const char *at = strstr(files[i].endings, dot);
+        if (at && (!at[strlen(dot)] || at[strlen(dot)] == ' ')) {
+            const bool as_pattern = i == 0 && arguments && find(arguments->command->options, "patterns");
+            return say_known(word, files[i].holds, as_pattern ? "-p file:" : files[i].before, files[i].after, text);
+        }
+    }
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(base, ":@."), base);
+    const bool whole = base == word && !dot;
+    const char *member = "";
+    for (size_t f = 0; f < (whole ? sizeof families / sizeof *families : 1); f++) {
+        const cli_option *option = arguments ? find(arguments->command->options, families[f].option) : NULL;
+        const char letter = option ? option->letter : '\0', before[] = {'-', letter, ' ', '\0'};
+        size_t i = 0;
+        while ((member = families[f].name(NULL, i)) && strcmp(member, name) != 0) {
+            i++;
+        }
+        if (member && !whole) {
+            snprintf(text, CLI_KNOWN, "; did you mean '%s'?", member);
+            return text;
+        }
+        if (member) {
+            return letter ? say_known(word, families[f].what, before, "", text)
+                          : say_known(name, families[f].what, families[f].before, families[f].after, text);
+        }
+    }
+    return text;
+}
+
+int cli_explain(const cli_arguments *arguments, koksma_status status, const char *text, char known[CLI_KNOWN])
+{
+    const char *quote = strncmp(text, "no ", 3) ? NULL : strchr(text, '\'');
+    const char *word = quote ? quote + 1 : text;
+    const char *end = quote                      ? strchr(word, '\'')
+                      : status == KOKSMA_MISSING ? strstr(text, ": can't be read: No such")
+                                                 : NULL;
+    char name[CLI_KNOWN];
+    snprintf(name, sizeof name, "%.*s", end ? (int)(end - word) : 0, word);
+    return *cli_known_as(arguments, name, known) && quote ? (int)(end + 1 - text) : (int)strlen(text);
+}
+
+void cli_no_command(const char *command, const char *word)
+{
+    static const struct {
+        const char *name, *ours;
+    } elsewhere[] = {{"check", "scene check"}, {"diff", "compare"},  {"-v", "--version"},
+                     {"sample", "generate"},   {"error", "compare"}, {"convert", "generate"},
+                     {"evaluate", "measure"}};
+    char known[CLI_KNOWN], meant[96];
+    const char *name = !strncmp(word, "koksma-", 7) ? word + 7 : word;
+    for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
+        if (!strcmp(name, elsewhere[i].name)) {
+            cli_say(command, "no command '%s'; did you mean 'koksma %s'?", word, elsewhere[i].ours);
+            return;
+        }
+    }
+    if (*cli_known_as(NULL, name, known)) {
+        cli_say(command, "no command '%s'%s", word, known);
+    } else {
+        cli_say(command, "no command '%s'; %s'koksma --help' names them", word,
+                cli_meant(word, cli_command_name, NULL, meant));
+    }
+}
+
+const char *cli_operand_hint(const cli_arguments *arguments, const char *operand, char text[CLI_KNOWN])
+{
+    static const char *const outputs[] = {".txt", ".csv", ".npy", ".png", ".exr", ".pfm", ".jpg", ".svg", ".pdf"};
+    const size_t length = strlen(operand);
+    for (size_t i = 0; find(arguments->command->options, "output") && i < sizeof outputs / sizeof *outputs; i++) {
+        if (length > 4 && !strcmp(operand + length - 4, outputs[i])) {
+            return "; -o FILE names the file to write";
+        }
+    }
+    return *operand && strspn(operand, "0123456789") == length ? "; -n N gives a number of points or samples"
+                                                               : cli_known_as(arguments, operand, text);
 }

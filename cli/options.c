@@ -89,9 +89,13 @@ static int unknown_option(const cli_arguments *arguments, const char *word)
     if (!strcmp(name, "help") || option_of(arguments->command, name)) {
         return cli_usage_error(arguments, "option --%s takes no argument", name);
     }
-    char meant[128];
-    return cli_usage_error(arguments, "no option --%s; %s'koksma %s --help' names them", name,
-                           cli_meant_option(arguments->command->options, name, meant), arguments->command->name);
+    char meant[128], known[CLI_KNOWN] = "";
+    const char *hint = cli_meant_option(arguments->command->options, name, meant);
+    if (!*hint && *cli_known_as(arguments, name, known)) {
+        return cli_usage_error(arguments, "no option --%s%s", name, known);
+    }
+    return cli_usage_error(arguments, "no option --%s; %s'koksma %s --help' names them", name, hint,
+                           arguments->command->name);
 }
 
 static int parse_failure(const cli_arguments *arguments, int code, char **argv)
@@ -102,9 +106,12 @@ static int parse_failure(const cli_arguments *arguments, int code, char **argv)
         while (o->name && (!o->letter || (o->letter ^ optopt) != ('a' ^ 'A'))) { /* the other case of the letter */
             o++;
         }
-        char meant[32];
-        snprintf(meant, sizeof meant, "did you mean -%c? ", o->letter);
-        meant[0] = o->name ? meant[0] : '\0';
+        char known[128];
+        const char name[] = {(char)optopt, '\0'};
+        const char *meant = o->name ? known : cli_meant_option(arguments->command->options, name, known);
+        if (o->name) {
+            snprintf(known, sizeof known, "did you mean -%c? ", o->letter);
+        }
         return code == ':' ? cli_usage_error(arguments, "option -%c takes an argument", optopt)
                            : cli_usage_error(arguments, "no option -%c; %s'koksma %s --help' names them", optopt,
                                              meant, arguments->command->name);
@@ -343,7 +350,9 @@ bool cli_choice(const cli_arguments *arguments, const char *name, int *choice)
         snprintf(all + used, sizeof all - used, "%s%.*s", !used ? "" : at[length] ? ", " : " or ", (int)length, at);
         at += length + (at[length] == '|');
     }
-    if (text) {
+    if (text && option_of(arguments->command, text)) {
+        cli_usage_error(arguments, "--%s %s: it takes %s; did you mean --%s?", name, text, all, text);
+    } else if (text) {
         cli_usage_error(arguments, "--%s %s: %sit takes %s", name, text, cli_meant_of(text, all, meant), all);
     }
     return !text;
@@ -373,8 +382,11 @@ bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *
     errno = 0;
     const unsigned long long value = strtoull(text, &end, 10);
     if (text[0] < '0' || text[0] > '9' || *end || errno || value < min || value > max) {
-        cli_usage_error(arguments, "--%s %s: it takes a whole number from %llu to %llu", name,
-                        cli_text(arguments, name, text), (unsigned long long)min, (unsigned long long)max);
+        cli_usage_error(arguments, "%s%s %s: it takes %s from %llu to %llu", name[1] ? "--" : "-", name,
+                        cli_text(arguments, name, text),
+                        strchr(cli_text(arguments, name, text), ',') ? "one whole number, without commas,"
+                                                                     : "a whole number",
+                        (unsigned long long)min, (unsigned long long)max);
         return false;
     }
     *out = value;
@@ -522,8 +534,10 @@ int cli_usage_error(const cli_arguments *arguments, const char *format, ...)
 
 int cli_fail(const cli_arguments *arguments, koksma_status status)
 {
+    char known[CLI_KNOWN];
+    const char *text = koksma_error_text();
     complained = true;
-    cli_say(arguments->command->name, "%s", koksma_error_text());
+    cli_say(arguments->command->name, "%.*s%s", cli_explain(arguments, status, text, known), text, known);
     return koksma_status_exit_code(status);
 }
 

@@ -119,18 +119,6 @@ bool cli_keeps_inputs(const cli_arguments *arguments)
                             input);
 }
 
-const char *cli_operand_hint(const char *operand)
-{
-    static const char *const endings[] = {".txt", ".csv", ".npy", ".png", ".exr", ".pfm", ".jpg", ".svg", ".pdf"};
-    const size_t length = strlen(operand);
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        if (length > 4 && !strcmp(operand + length - 4, endings[i])) {
-            return "; -o FILE names the file to write";
-        }
-    }
-    return *operand && strspn(operand, "0123456789") == length ? "; -n N gives a number of points or samples" : "";
-}
-
 enum { MOST_LINKS = 40 }; /* as many as the system follows */
 
 /* Follows links, of which the last may lead to a file that isn't there yet. Returns the place where they end, to be freed,
@@ -179,7 +167,9 @@ int cli_try_output(const cli_arguments *arguments, const char *path)
     const int why = !path || cli_is_stream(path) ? 0 : why_not(path);
     if (why) {
         cli_usage_error(arguments, "%s: can't be written: %s", path,
-                        why == EISDIR ? "it is a directory" : strerror(why));
+                        why == EISDIR   ? "it is a directory"
+                        : why == ENOENT ? "its folder isn't there"
+                                        : strerror(why));
         return koksma_status_exit_code(KOKSMA_IO);
     }
     return CLI_YES;

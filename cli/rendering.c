@@ -24,11 +24,12 @@ const char *cli_filter_name(const void *table, size_t i)
 
 int cli_one_scene(const cli_arguments *arguments)
 {
+    char known[CLI_KNOWN];
     return arguments->n_operands > 1
                ? cli_usage_error(arguments,
                                  "it takes one scene, and '%s' is one operand more%s; lists have commas, as in "
                                  "--spp 4,16 or -p random,n-rooks",
-                                 arguments->operands[1], cli_operand_hint(arguments->operands[1]))
+                                 arguments->operands[1], cli_operand_hint(arguments, arguments->operands[1], known))
                : cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
 }
 
@@ -99,6 +100,7 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
                 line);
             return false;
         }
+        cli_warn_file(arguments, line);
         common = common || options->pattern.pattern;
         options->pattern = options->pattern.pattern ? options->pattern : before;
     }

@@ -18,6 +18,10 @@
         'd', "dim", "DIM", "number of dimensions of patterns without @N (default: 2)"                                \
     }
 
+/* Warns, unless --quiet, about columns of the file of a pattern file:PATH that are no coordinates, and about swapped rows
+   and columns. Other patterns and what can't be read give no warning here. */
+void cli_warn_file(const cli_arguments *arguments, const char *pattern);
+
 /* Reads the points of an operand, which is a file or "-" for stdin, or generates them, with `seed`, for
    "[pattern:]SPEC@N[@DIM]". Allocates the points. Returns the exit code, which is not 0 after an error on stderr. */
 int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,

@@ -87,6 +87,9 @@ enum { KOKSMA__TEMPORARY_PATH = KOKSMA__MAX_PATH + 64 };
    plain files. */
 KOKSMA__LAB void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA__TEMPORARY_PATH]);
 
+/* Returns the bytes that the disk of the open file has left; UINT64_MAX: unknown, or the target is not a plain file. */
+KOKSMA__LAB uint64_t koksma__atomic_space(const koksma__atomic_file *file);
+
 /* Closes the file. If keep is true, the file is synced and renamed to its final name; if keep is false, or a step
    fails, an older file of that name stays. Errors: IO; the message has the system's reason for the first write that
    failed. */

@@ -74,6 +74,14 @@ koksma_status koksma__writer_open(const char *path, uint64_t n, int dim, const c
                                                                           : KOKSMA__POINTS_TEXT,
                                       .n = n};
     KOKSMA__TRY(koksma__atomic_open(NULL, path, &writer->file));
+    const uint64_t least = writer->format == KOKSMA__POINTS_NPY ? sizeof(double) : 2; /* bytes a coordinate: "0 " */
+    const double needed = (double)n * (double)dim * (double)least;
+    const double left = (double)koksma__atomic_space(&writer->file);
+    if (needed > left) {
+        koksma__atomic_close(&writer->file, false);
+        return koksma__fail(KOKSMA_IO, "%s: can't be written: it needs at least %.3g GB, and the disk has %.3g GB",
+                            path, needed / 1e9, left / 1e9);
+    }
     if (writer->format == KOKSMA__POINTS_NPY) {
         char shape[64];
         snprintf(shape, sizeof shape, "(%llu, %d)", (unsigned long long)n, dim);

@@ -101,7 +101,9 @@ static koksma_status parse_header(const char *name, const char *header, layout *
     const bool typed = type[0] == '\'' && type[1] && strchr("<>|", type[1]) && type[2] && strchr("fui", type[2]) &&
                        type[3] && strchr("1248", type[3]) && type[4] == '\'';
     if (!typed || (type[1] == '|') != (type[3] == '1') || (type[2] == 'f' && type[3] == '1')) {
-        return malformed(name, "the type is not float16, float32, float64 or an integer");
+        return koksma__fail(KOKSMA_MALFORMED,
+                            "%s: npy header: the type is %.*s, not float16, float32, float64 or an integer", name,
+                            *type == '[' ? 10 : (int)strcspn(type, ","), *type == '[' ? "structured" : type);
     }
     out->big_endian = type[1] == '>';
     out->kind = type[2];

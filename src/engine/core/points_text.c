@@ -200,11 +200,15 @@ static const char *field_hint(const char *field)
     } hints[] = {
         {"[({\"'", "; write one point a line, bare numbers between blanks or commas"},
         {"%/!", "; a comment begins with #"},
+        {"<", "; this looks like a page of the web in place of the file"},
     };
     char *end;
     koksma__strtod(field, &end);
     if (end != field) {
-        return *end == '%' ? "; write 0.5 for 50%" : "; write bare numbers, without units or suffixes";
+        return *end == '%'          ? "; write 0.5 for 50%"
+               : strchr("dD", *end) ? "; write an exponent with e, as in 5e-1"
+               : *end == '/'        ? "; write 0.5 for 1/2"
+                                    : "; write bare numbers, without units or suffixes";
     }
     for (size_t i = 0; i < sizeof hints / sizeof *hints; i++) {
         if (strchr(hints[i].first, *field)) {
@@ -254,6 +258,9 @@ static const char *outside_hint(const reader *r, double x, int field, const char
     }
     if (field == 0 && rows == 0 && !more && x == floor(x)) {
         return "; if the line says how many points follow, write it as a comment, '# n N'";
+    }
+    if (x < 0 && x >= -1) {
+        return "; points of [-1,1] are (x + 1) / 2 here";
     }
     return "";
 }
@@ -323,6 +330,8 @@ static koksma_status take_line(reader *r)
     if (control) {
         return malformed(r, r->line_number == 1 && !strncmp(r->line, "PK", 2)
                                 ? "an archive, such as .npz or .xlsx; save one array as .npy, or points as text"
+                            : r->line_number == 1 && head[0] == 0x1f && head[1] == 0x8b
+                                ? "packed by gzip; unpack it with gunzip"
                                 : "not text (a control character); it takes text, or an array of numpy.save");
     }
     /* the byte order mark that Excel writes before UTF-8 */

@@ -148,6 +148,8 @@ koksma_status koksma__spec_split(const char *text, char *name, const char **rest
                             "the spec is empty; it takes a text such as name or name:key=value,key=value");
     }
     const size_t length = strcspn(text, ":");
+    KOKSMA__FAIL_IF(length == 0 && !*text, KOKSMA_ARGUMENT,
+                    "a name is empty; commas and @ stand without blanks, as in star,extreme or sobol@16");
     if (length == 0 || length >= 64) {
         return koksma__fail(KOKSMA_ARGUMENT, "'%.64s' is not of the form name or name:key=value,key=value", text);
     }

@@ -102,6 +102,10 @@ static const struct {
     {"measure", "discrepancy", "star", "l2-centered has scipy's default CD as its square"},
     {"measure", "centered-l2", "l2-centered", "Hickernell 1998"},
     {"measure", "mindist", "min-distance", "the smallest distance between two points"},
+    {"measure", "maximin", "min-distance", "the smallest distance between two points"},
+    {"measure", "phi_p", "min-distance", "the limit of phi_p for large p"},
+    {"measure", "l2", "l2-star", "l2-centered has scipy's default CD as its square"},
+    {"measure", "t", "t-value", "of (t,m,s)-nets"},
     {"pattern", "independent", "random", "pbrt and Mitsuba call it so"},
     {"pattern", "mt19937", "random", "its numbers are hashes of seed and index"},
     {"pattern", "stratified", "jittered", "pbrt and Mitsuba call it so"},
@@ -141,6 +145,11 @@ static const struct {
     {"pattern", "low-discrepancy", "sobol:scramble=owen", "or halton, r-sequence, lattice-sequence"},
     {"pattern", "qmc", "sobol:scramble=owen", "or halton, r-sequence, lattice-sequence"},
     {"pattern", "orthogonal", "orthogonal-array", "Mitsuba calls it so"},
+    {"pattern", "02sequence", "sobol:scramble=digital-shift", "its first two dimensions are a (0,2)-sequence"},
+    {"pattern", "zerotwosequence", "sobol:scramble=digital-shift", "its first two dimensions are a (0,2)-sequence"},
+    {"pattern", "maxmindist", "pmj02bn", "a (0,2)-sequence with large distances"},
+    {"pattern", "mj", "multi-jittered", "Chiu, Shirley and Wang 1994"},
+    {"pattern", "lloyd", "gaussian-blue-noise", "or sample-elimination: even distances without a lattice"},
     {"metric", "mse", "rmse", "its square is the mean squared error"},
     {"metric", "l2", "rmse", "the root of the mean square"},
     {"metric", "psnr", "rmse", "it falls where PSNR rises, by the same numbers"},
@@ -161,6 +170,16 @@ koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_na
         KOKSMA__FAIL_IF(!strcmp(what, foreign[i].what) && !edits(word, strlen(word), name_there, strlen(name_there)),
                         KOKSMA_UNKNOWN, "no %s '%s'; did you mean '%s'? %s", what, word, foreign[i].ours,
                         foreign[i].there);
+    }
+    static const char *const endings[] = {"sequence", "sampler"}; /* HaltonSequence, SobolSampler of libraries */
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        const size_t length = strlen(word), ending = strlen(endings[i]), rest = length - ending;
+        const char *member;
+        for (size_t k = 0; length > ending && (member = name(table, k)); k++) {
+            KOKSMA__FAIL_IF(strlen(member) == rest && !edits(word, rest, member, rest) &&
+                                !edits(word + rest, ending, endings[i], ending),
+                            KOKSMA_UNKNOWN, "no %s '%s'; did you mean '%s'? %s", what, word, member, where);
+        }
     }
     return koksma__fail(KOKSMA_UNKNOWN, "no %s '%s'; %s%s", what, word, koksma__meant(word, name, table, meant),
                         where);

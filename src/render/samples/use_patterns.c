@@ -290,6 +290,10 @@ static koksma_status parse_part(const char *part, koksma_render_options *options
     const char *pattern;
     koksma_use_group group = {0};
     koksma__use_part(part, &pattern);
+    for (const char *comma = strchr(part, ','); comma; comma = strchr(comma + 1, ',')) {
+        KOKSMA__FAIL_IF(find_use(comma + 1, strcspn(comma + 1, "+=")) >= 0, KOKSMA_ARGUMENT,
+                        "%s: a semicolon separates uses, as in 'lens=random;time=sobol'", part);
+    }
     if (pattern == part) {
         koksma_spec spec;
         const koksma_status status = koksma_pattern_spec(part, &spec);

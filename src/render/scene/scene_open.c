@@ -105,6 +105,21 @@ static bool is_import_file(const char *path)
     return is_pbrt(path) || (dot && !strcmp(dot, ".xml"));
 }
 
+/* Returns the status of reading a scene's text. A failure names the format that the text begins as, if the ending of the
+   file's name is that of another: XML, JSON, glTF with its "asset", or pbrt's directives and comments. */
+static koksma_status check_ending(koksma_status status, const char *path, const char *text)
+{
+    const char first = text[strspn(text, " \t\r\n")], *dot = strrchr(path, '.');
+    const char *meant = first == '<'                                                   ? ".xml"
+                        : first == '{' && strstr(text, "\"asset\"")                    ? ".gltf"
+                        : first == '{'                                                 ? ".json"
+                        : first == '#' || ((first | 32) >= 'a' && (first | 32) <= 'z') ? ".pbrt"
+                                                                                       : NULL;
+    KOKSMA__FAIL_IF(status == KOKSMA_MALFORMED && meant && dot && strcmp(dot, meant) != 0, KOKSMA_MALFORMED,
+                    "scene '%s': its text is no %s but looks like %s; name it so", path, dot, meant);
+    return status;
+}
+
 static koksma_status read_import_text(const char *path, const char *text, size_t size, koksma_scene *scene)
 {
     const char *slash = strrchr(path, '/');
@@ -132,7 +147,8 @@ static koksma_status read_import(const char *path, koksma__named by, koksma_scen
     unsigned char *bytes;
     size_t size;
     KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_SCENE, by, koksma__check_text, &bytes, &size));
-    const koksma_status status = read_import_text(path, (const char *)bytes, size, scene);
+    const koksma_status status =
+        check_ending(read_import_text(path, (const char *)bytes, size, scene), path, (const char *)bytes);
     free(bytes);
     return status;
 }
@@ -190,6 +206,7 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
     koksma_status status = koksma__read_file(name_or_path, KOKSMA__FILE_SCENE, by, koksma__check_text, &bytes, &size);
     if (!status) {
         status = koksma__scene_open_text(name_or_path, (const char *)bytes, size, out);
+        status = check_ending(status, name_or_path, (const char *)bytes);
         free(bytes);
     }
     return status;

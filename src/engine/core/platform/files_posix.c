@@ -22,6 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 #ifdef __APPLE__
 #include <sys/random.h>
@@ -290,6 +291,13 @@ koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__
     }
     file->output = o;
     return KOKSMA_OK;
+}
+
+uint64_t koksma__atomic_space(const koksma__atomic_file *file)
+{
+    struct statvfs info;
+    const output *o = file->output;
+    return o->folder < 0 || fstatvfs(o->descriptor, &info) ? UINT64_MAX : (uint64_t)info.f_bavail * info.f_frsize;
 }
 
 void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA__TEMPORARY_PATH])

@@ -118,6 +118,22 @@ koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__
     return KOKSMA_OK;
 }
 
+uint64_t koksma__atomic_space(const koksma__atomic_file *file)
+{
+    ULARGE_INTEGER left = {.QuadPart = UINT64_MAX};
+    char *slash = file->output->temporary ? strrchr(file->output->temporary, '/') : NULL;
+    if (slash) {
+        *slash = '\0';
+    }
+    wchar_t *folder = koksma__wide_path(slash ? file->output->temporary : ".");
+    if (slash) {
+        *slash = '/';
+    }
+    const bool known = file->output->temporary && folder && GetDiskFreeSpaceExW(folder, &left, NULL, NULL);
+    free(folder);
+    return known ? left.QuadPart : UINT64_MAX;
+}
+
 void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA__TEMPORARY_PATH])
 {
     snprintf(path, KOKSMA__TEMPORARY_PATH, "%s", file->output->temporary);

@@ -151,8 +151,9 @@ static koksma_status look_at(const char *path, bool follow_link, bool *exists, l
     struct stat info;
     *exists = !(follow_link ? stat(path, &info) : lstat(path, &info));
     *size = *exists ? (long long)info.st_size : 0;
-    KOKSMA__FAIL_IF(!*exists && errno != ENOENT, errno == ENOTDIR ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path,
-                    strerror(errno));
+    KOKSMA__FAIL_IF(!*exists && errno == ENOTDIR, KOKSMA_MISSING,
+                    "%s: %s; a study is the folder that 'koksma study run' makes", path, strerror(errno));
+    KOKSMA__FAIL_IF(!*exists && errno != ENOENT, KOKSMA_IO, "%s: %s", path, strerror(errno));
     return *exists && !S_ISREG(info.st_mode) ? koksma__fail(KOKSMA_MALFORMED, "%s: not a regular file", path)
                                              : KOKSMA_OK;
 }

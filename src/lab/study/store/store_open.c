@@ -305,7 +305,7 @@ static koksma_status open_to_read(const char *path, koksma__store **out)
     bool exists;
     koksma_status status = look(path, &exists, &database);
     if (!status && !exists) {
-        status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, strerror(ENOENT));
+        status = koksma__fail(KOKSMA_MISSING, "%s: %s; 'koksma study run' makes it", path, strerror(ENOENT));
     }
     status = status ? status : check_pages(database);
     if (status) {
