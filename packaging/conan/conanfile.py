@@ -4,7 +4,7 @@ import os
 
 from conan import ConanFile
 from conan.tools.cmake import CMake, CMakeToolchain, cmake_layout
-from conan.tools.files import copy
+from conan.tools.files import copy, rm, rmdir
 
 
 class Koksma(ConanFile):
@@ -44,7 +44,11 @@ class Koksma(ConanFile):
 
     def package(self):
         copy(self, "LICENSE", self.source_folder, os.path.join(self.package_folder, "licenses"))
-        CMake(self).install()
+        CMake(self).install()  # both kinds of library, and files for CMake and pkg-config, in whose place Conan writes its own
+        libraries = os.path.join(self.package_folder, "lib")
+        rm(self, "*.a" if self.options.shared else "*.so*", libraries)
+        for folder in ("cmake", "pkgconfig"):
+            rmdir(self, os.path.join(libraries, folder))
 
     def package_info(self):
         self.cpp_info.set_property("cmake_file_name", "koksma")
