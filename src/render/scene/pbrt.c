@@ -907,8 +907,8 @@ static koksma_status set_motion(reader *r, double motion[3])
 {
     double largest = 0;
     bool turns = false;
-    for (int i = 0; i < 12; i++) {
-        largest = fmax(largest, i % 4 < 3 ? fabs(r->camera[0][i]) : 0);
+    for (int i = 0; i < 9; i++) {
+        largest = fmax(largest, fabs(r->camera[0][i / 3 * 4 + i % 3]));
     }
     for (int i = 0; i < 12; i++) {
         const double change = r->camera[1][i] - r->camera[0][i];
