@@ -144,6 +144,7 @@ TEST_CASE(headline_without_one_scene)
     assert_near(koksma__rho_range(&j, c).low, (0.9 + 0.9 - 0.4) / 3, 1e-15);
     assert_near(koksma__rho_range(&j, c).high, 0.9, 1e-15);
     koksma__rho_say(&words, &s, &j);
+    koksma__doc_close(&words);
     said(&words, text, sizeof text);
     assert_non_null(strstr(text, "Best predictor: A (mean Spearman +0.92 over 4 cases"));
     assert_non_null(strstr(text, "It comes first whichever one of the 4 scenes is left out (+0.92 to +0.92)"));
@@ -165,6 +166,7 @@ TEST_CASE(headline_that_depends_on_a_scene)
     add_means(&report, &s, rho, 2, 0.03, SCENES);
     const koksma__rho_jackknife j = koksma__rho_leave_out(&report, &s);
     koksma__rho_say(&words, &s, &j);
+    koksma__doc_close(&words);
     said(&words, text, sizeof text);
     assert_non_null(strstr(text, "The best predictor depends on the scenes. Over all of them it is B (mean Spearman "
                                  "+0.60 over 4 cases"));

@@ -432,6 +432,7 @@ TEST_CASE(correlations_as_shown)
     koksma__rho_order(&report, &means);
     const koksma__rho_jackknife jackknife = koksma__rho_leave_out(&report, &means);
     koksma__rho_say(&words, &means, &jackknife);
+    koksma__doc_close(&words);
     assert_non_null(
         strstr(said(&words, text, sizeof text),
                "over 5 cases; the interval excludes 0 in 1 of them; 2 have fewer than 7 patterns, too few "

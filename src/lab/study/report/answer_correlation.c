@@ -55,8 +55,7 @@ static void add_part(koksma__report *report, koksma__document *d, const koksma__
             append(worse, sizeof worse, ", ", s->of[r.at[i].measure].measure);
         }
     }
-    koksma__doc_row(d);
-    koksma__doc_cells(d, "tztt", of->name, r.at[0].cases, s->of[r.at[0].measure].measure, worse[0] ? worse : "none");
+    koksma__doc_row(d, "tztt", of->name, r.at[0].cases, s->of[r.at[0].measure].measure, worse[0] ? worse : "none");
     for (size_t m = 0; m < s->n; m++) {
         koksma__estimate mean = {NAN, NAN, NAN};
         for (size_t i = 0; i < r.n; i++) {
@@ -71,7 +70,7 @@ static void add_parts(koksma__report *r, koksma__document *d, const koksma__rho_
                       const char *id, const char *title, const part *parts, size_t n)
 {
     koksma__doc_section(d, NULL, "%s", title);
-    koksma__doc_table_begin(d, "correlation-%.10s-%.40s", name, id);
+    koksma__doc_table(d, "correlation-%.10s-%.40s", name, id);
     koksma__doc_columns(d, "t %s;n7 cases;t best;t significantly worse than the best", name);
     for (size_t m = 0; m < s->n; m++) {
         koksma__doc_columns(d, "i2 %s", s->of[m].measure);
@@ -79,7 +78,6 @@ static void add_parts(koksma__report *r, koksma__document *d, const koksma__rho_
     for (size_t i = 0; !r->status && i < n; i++) {
         add_part(r, d, s, &parts[i]);
     }
-    koksma__doc_table_end(d);
     koksma__doc_end(d);
 }
 
@@ -187,9 +185,8 @@ static void list_case(const koksma__cases *cases, void *context, const koksma__c
         return;
     }
     rho = koksma__rho_shown(&rho, found.n);
-    koksma__doc_row(d);
-    koksma__doc_cells(d, "ttdtzii", p->scene, p->variant[0] ? p->variant : "defaults", p->spp, p->of->label, found.n,
-                      rho, koksma__rho_shown(&tau, found.n));
+    koksma__doc_row(d, "ttdtzii", p->scene, p->variant[0] ? p->variant : "defaults", p->spp, p->of->label, found.n,
+                    rho, koksma__rho_shown(&tau, found.n));
     const koksma__rho_source source = {p->of->label, p->scene, p->variant, p->spp, found.n};
     koksma__rho_add(r, &l->means, &source, &rho, draws);
 }
@@ -201,7 +198,7 @@ static void add_measures(koksma__document *d, const char *id, const koksma__rho_
     const size_t n_variants = s->n_variants < KOKSMA__RHO_VARIANTS ? s->n_variants : KOKSMA__RHO_VARIANTS;
     const koksma__rho_ranking *r = &j->of[0];
     const koksma__estimate none = {NAN, NAN, NAN};
-    koksma__doc_table_begin(d, "correlation-%.40s", id);
+    koksma__doc_table(d, "correlation-%.40s", id);
     koksma__doc_columns(d, "t measure;i3 mean Spearman;n2 p of 0 (Holm);n3 lowest without a scene;n3 highest without "
                            "a scene;i2 less the first;n2 p of that (Holm);n7 cases;n7 cases that exclude 0");
     for (size_t v = 0; v < n_variants; v++) {
@@ -210,14 +207,12 @@ static void add_measures(koksma__document *d, const char *id, const koksma__rho_
     for (size_t i = 0; i < r->n; i++) {
         const koksma__rho_sums *m = &s->of[r->at[i].measure];
         const koksma__estimate range = j->n > 1 ? koksma__rho_range(j, r->at[i].measure) : none;
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "tinnninzz", m->measure, r->at[i].mean, r->at[i].p, range.low, range.high,
-                          i ? r->at[i].less : none, i ? r->p[i] : (double)NAN, m->all, m->sure);
+        koksma__doc_row(d, "tinnninzz", m->measure, r->at[i].mean, r->at[i].p, range.low, range.high,
+                        i ? r->at[i].less : none, i ? r->p[i] : (double)NAN, m->all, m->sure);
         for (size_t v = 0; v < n_variants; v++) {
             koksma__doc_cells(d, "n", m->cases[v] ? m->rho[v] / (double)m->cases[v] : (double)NAN);
         }
     }
-    koksma__doc_table_end(d);
 }
 
 /* Writes what the answer leaves out. */
@@ -259,13 +254,11 @@ static void add_scatter(const koksma__cases *cases, void *context, const koksma_
     koksma__case_name(p->scene, p->variant, name, sizeof name);
     koksma__snprintf(title, sizeof title, "%.120s, %lld sample%s: error against %.60s, Spearman %.2f", name, p->spp,
                      koksma__plural((double)p->spp), p->of->label, koksma__spearman(found.x, found.y, found.n));
-    koksma__doc_chart_begin(d, &(koksma__chart){title, p->of->label, cases->topic->metric, true, true, 0, NULL});
+    koksma__doc_chart(d, &(koksma__chart){title, p->of->label, cases->topic->metric, true, true, 0, NULL});
     for (size_t i = 0; i < found.n; i++) {
-        koksma__doc_series_begin(d, found.patterns[i], NULL, KOKSMA__SERIES_MARKS);
+        koksma__doc_series(d, found.patterns[i], NULL, KOKSMA__SERIES_MARKS);
         koksma__doc_point(d, found.x[i], found.y[i], found.low[i], found.high[i]);
-        koksma__doc_end(d);
     }
-    koksma__doc_end(d);
     to->left--;
 }
 
@@ -293,11 +286,10 @@ void koksma__answer_correlation(koksma__report *r, koksma__document *d, const ko
 {
     const koksma__cases cases = koksma__cases_of(r, topic);
     listing l = {.most_patterns = 0};
-    koksma__doc_table_begin(&l.list, "correlations-%.40s", topic->id);
+    koksma__doc_table(&l.list, "correlations-%.40s", topic->id);
     koksma__doc_columns(&l.list, "t scene;t options;n7 samples;t measure;n7 patterns;i3 Spearman##%s;i3 Kendall##%s",
                         topic->metric, topic->metric);
     koksma__cases_visit(&cases, list_case, &l);
-    koksma__doc_table_end(&l.list);
     if (!r->status && l.means.n) {
         add_answer(d, &cases, &l);
     }

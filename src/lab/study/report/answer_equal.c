@@ -32,12 +32,11 @@ static void add_rows(koksma__report *r, koksma__document *d, const koksma__subje
         const koksma__estimate e =
             i ? koksma__samples_for(&p, target.mean, target.sd / sqrt((double)target.n), &outside)
               : (koksma__estimate){EQUAL_TO, EQUAL_TO, EQUAL_TO};
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "ttit", s->name, s->patterns->at[i], e,
-                          i == 0           ? "itself"
-                          : isnan(e.value) ? "its error does not fall"
-                          : outside        ? "extrapolated"
-                                           : "between sizes");
+        koksma__doc_row(d, "ttit", s->name, s->patterns->at[i], e,
+                        i == 0           ? "itself"
+                        : isnan(e.value) ? "its error does not fall"
+                        : outside        ? "extrapolated"
+                                         : "between sizes");
     }
 }
 
@@ -52,7 +51,7 @@ void koksma__answer_equal(koksma__report *r, koksma__document *d, const koksma__
         if (block->spp.n < 2 || !has_target) {
             continue;
         }
-        koksma__doc_table_begin(d, "equal-%.32s-%zu", topic->id, b + 1);
+        koksma__doc_table(d, "equal-%.32s-%zu", topic->id, b + 1);
         koksma__doc_columns(d, "t scene;t pattern;i3 samples as good as %lld of %s##%s;t how", (long long)EQUAL_TO,
                             block->patterns.at[0], topic->metric);
         for (size_t k = 0; k < block->scenes.n * block->variants.n; k++) {
@@ -61,6 +60,5 @@ void koksma__answer_equal(koksma__report *r, koksma__document *d, const koksma__
                                           block->variants.at[k % block->variants.n], topic->metric);
             add_rows(r, d, &s);
         }
-        koksma__doc_table_end(d);
     }
 }

@@ -80,12 +80,11 @@ static void say_change(koksma__document *d, const char *base, const char *other,
     if (!t->cases) {
         return;
     }
-    koksma__doc_answer_begin(d, t->better + t->worse + t->equal > 0);
-    koksma__doc_say(d,
-                    "*%s instead of %s:* %+.1f %% (geometric mean over %zu cases); surely smaller in %zu, surely "
-                    "larger in %zu, too close to tell in %zu",
-                    name_of(other), name_of(base), 100 * (koksma__exp(t->logs / (double)t->cases) - 1), t->cases,
-                    t->better, t->worse, t->cases - t->better - t->worse - t->equal - t->unknown);
+    koksma__doc_answer(d, t->better + t->worse + t->equal > 0,
+                       "*%s instead of %s:* %+.1f %% (geometric mean over %zu cases); surely smaller in %zu, surely "
+                       "larger in %zu, too close to tell in %zu",
+                       name_of(other), name_of(base), 100 * (koksma__exp(t->logs / (double)t->cases) - 1), t->cases,
+                       t->better, t->worse, t->cases - t->better - t->worse - t->equal - t->unknown);
     if (t->equal) {
         koksma__doc_say(d, ", equal bit for bit in %zu", t->equal);
     }
@@ -93,7 +92,6 @@ static void say_change(koksma__document *d, const char *base, const char *other,
         koksma__doc_say(d, ", unknown in %zu with a single trial", t->unknown);
     }
     koksma__doc_say(d, ".");
-    koksma__doc_paragraph_end(d);
 }
 
 /* The options of a block and their comparisons. */
@@ -110,8 +108,7 @@ static void add_rows(koksma__report *r, koksma__document *d, koksma__subject s, 
         const char *pattern = s.patterns->at[i / s.n->n];
         const long long n = s.n->at[i % s.n->n];
         side base = {0};
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "ttd", s.images ? s.scene : s.measure, pattern, n);
+        koksma__doc_row(d, "ttd", s.images ? s.scene : s.measure, pattern, n);
         for (size_t v = 0; !r->status && v < o->of->n; v++) {
             side other = {0};
             *(s.images ? &s.variant : &s.warp) = o->of->at[v];
@@ -135,7 +132,7 @@ static void add_block(koksma__report *r, koksma__document *d, const char *id, si
     const koksma__texts *cases = s.images ? &s.images->scenes : &s.points->measures;
     const options o = {of, koksma__report_memory(r, of->n, sizeof *o.changes)};
     koksma__document rows = {0};
-    koksma__doc_table_begin(&rows, "options-%.32s-%zu", id, number);
+    koksma__doc_table(&rows, "options-%.32s-%zu", id, number);
     koksma__doc_columns(&rows, s.images ? "t scene;t pattern;n7 N" : "t measure;t pattern;n7 N");
     for (size_t v = 0; v < of->n; v++) {
         koksma__doc_columns(&rows, "i3 %s%s##%s", v ? "relative change: " : "", name_of(of->at[v]), s.metric);
@@ -144,7 +141,6 @@ static void add_block(koksma__report *r, koksma__document *d, const char *id, si
         *(s.images ? &s.scene : &s.measure) = cases->at[i];
         add_rows(r, &rows, s, &o);
     }
-    koksma__doc_table_end(&rows);
     for (size_t v = 1; !r->status && v < of->n; v++) {
         say_change(d, of->at[0], of->at[v], &o.changes[v]);
     }

@@ -251,11 +251,10 @@ static void say_slopes(koksma__document *d, slopes *s)
         return;
     }
     if (s->sense == FALLS) {
-        koksma__doc_answer_begin(d, s->tied == 1);
+        koksma__doc_answer(d, s->tied == 1, "*%s:* ", s->of->name);
     } else {
-        koksma__doc_paragraph_begin(d);
+        koksma__doc_paragraph(d, "*%s:* ", s->of->name);
     }
-    koksma__doc_say(d, "*%s:* ", s->of->name);
     if (s->sense != FALLS) {
         koksma__doc_say(d, s->sense == LARGER
                                ? "larger values are better, so patterns are not compared by how fast values fall"
@@ -272,7 +271,6 @@ static void say_slopes(koksma__document *d, slopes *s)
     }
     say_zeros(d, s);
     koksma__doc_say(d, ".");
-    koksma__doc_paragraph_end(d);
 }
 
 /* ---- The table and the chart ------------------------------------------------------------------------------- */
@@ -300,13 +298,11 @@ static void add_pattern(koksma__document *d, koksma__document *chart, const slop
                         const koksma__curve *c)
 {
     const koksma__subject *of = s->of;
-    koksma__doc_series_begin(chart, of->patterns->at[p], NULL, KOKSMA__SERIES_LINE);
+    koksma__doc_series(chart, of->patterns->at[p], NULL, KOKSMA__SERIES_LINE);
     for (size_t i = 0; i < c->n; i++) {
         koksma__doc_point(chart, c->x[i], c->y[i].mean, c->y[i].low, c->y[i].high);
     }
-    koksma__doc_end(chart);
-    koksma__doc_row(d);
-    koksma__doc_cells(d, "tit", of->patterns->at[p], s->trends[p].slope, s->trends[p].off_line ? "no" : "");
+    koksma__doc_row(d, "tit", of->patterns->at[p], s->trends[p].slope, s->trends[p].off_line ? "no" : "");
     for (size_t k = 0; k < of->n->n; k++) {
         const koksma__summary *mean = &s->means[p * of->n->n + k];
         const koksma__estimate none = {NAN, NAN, NAN};
@@ -323,14 +319,12 @@ static void add_bound(koksma__document *d, koksma__document *chart, const char *
     koksma__estimate slope = trend_of(bound).slope;
     slope.low = slope.high = slope.value;
     snprintf(text, sizeof text, "lower bound (%s), scaled", who);
-    koksma__doc_series_begin(chart, text, NULL, KOKSMA__SERIES_THEORY);
+    koksma__doc_series(chart, text, NULL, KOKSMA__SERIES_THEORY);
     for (size_t i = 0; i < bound->n; i++) {
         koksma__doc_point(chart, bound->x[i], bound->y[i].mean * scale, NAN, NAN);
     }
-    koksma__doc_end(chart);
     snprintf(text, sizeof text, "slope of the bound itself over these sizes (%s)", who);
-    koksma__doc_row(d);
-    koksma__doc_cells(d, "ti", text, slope);
+    koksma__doc_row(d, "ti", text, slope);
 }
 
 /* Adds the rows and curves of all patterns, and finds their slopes and their numbers of means that are 0. */
@@ -368,17 +362,15 @@ static void add_subject(koksma__report *r, koksma__document *d, const char *id, 
         return;
     }
     snprintf(title, sizeof title, "%.200s against N", of->name);
-    koksma__doc_chart_begin(&chart, &(koksma__chart){title, of->images ? "samples a pixel" : "points",
-                                                     of->images ? of->metric : of->measure, true, true,
-                                                     s.sense == LARGER ? 1 : -1, NULL});
-    koksma__doc_sorted_table_begin(&rows, "slope", true, false, "slopes-%.32s-%zu", id, number);
+    koksma__doc_chart(&chart, &(koksma__chart){title, of->images ? "samples a pixel" : "points",
+                                               of->images ? of->metric : of->measure, true, true,
+                                               s.sense == LARGER ? 1 : -1, NULL});
+    koksma__doc_sorted_table(&rows, "slope", true, false, "slopes-%.32s-%zu", id, number);
     koksma__doc_columns(&rows, "t pattern;i3 slope##%s;t power law?", of->metric);
     for (size_t i = 0; i < of->n->n; i++) {
         koksma__doc_columns(&rows, "i3h N = %lld", of->n->at[i]);
     }
     add_rows(r, &rows, &chart, &s);
-    koksma__doc_table_end(&rows);
-    koksma__doc_end(&chart);
     say_slopes(d, &s);
     koksma__doc_append(d, &rows);
     koksma__doc_append(d, &chart);

@@ -115,8 +115,7 @@ static void say_standing(koksma__document *d, const standing *s)
         next = is_tied(s, i) ? i : next;
         tied += is_tied(s, i);
     }
-    koksma__doc_answer_begin(d, !tied);
-    koksma__doc_say(d, "*%s, %s:* ", s->of->name, s->last);
+    koksma__doc_answer(d, !tied, "*%s, %s:* ", s->of->name, s->last);
     if (tied) {
         koksma__doc_say(d, "undecided between %zu of %zu patterns: %s %.4g", tied + 1, s->known, name_at(s, 0),
                         mean->mean);
@@ -196,8 +195,7 @@ static void say_reference(koksma__report *r, koksma__document *d, const koksma__
     const koksma__image_block *block = s->images;
     const koksma__reference *last = &block->references[block->n_references - 1];
     const double error = koksma__reference_error(r, s);
-    koksma__doc_paragraph_begin(d);
-    koksma__doc_say(
+    koksma__doc_paragraph(
         d, "Errors by `%s` against the reference _%s_, the mean of %lld render%s with %lld samples a pixel of %s; ",
         s->metric, last->name, last->replicates, koksma__plural((double)last->replicates), last->spp, last->pattern);
     if (isfinite(error)) {
@@ -212,7 +210,6 @@ static void say_reference(koksma__report *r, koksma__document *d, const koksma__
     if (block->n_references > 1) {
         koksma__doc_say(d, " `koksma study export` also writes the errors against the plan's other references.");
     }
-    koksma__doc_paragraph_end(d);
 }
 
 /* ---- The other metrics ------------------------------------------------------------------------------------- */
@@ -245,8 +242,7 @@ static void add_metrics(koksma__report *r, koksma__document *d, const char *id, 
             koksma__read_metric(r, s->of, patterns->at[i / n], s->of->n->at[s->of->n->n - 1], metrics->at[i % n]);
     }
     koksma__doc_section(d, NULL, "By all metrics");
-    koksma__doc_paragraph_begin(d);
-    koksma__doc_say(d, "The least error with %s, by each metric:", s->last);
+    koksma__doc_paragraph(d, "The least error with %s, by each metric:", s->last);
     for (size_t m = 0; m < n; m++) {
         const char *best = NULL;
         for (size_t p = patterns->n; p-- > 0;) {
@@ -255,8 +251,7 @@ static void add_metrics(koksma__report *r, koksma__document *d, const char *id, 
         koksma__doc_say(d, "%s `%s` %s", m ? "," : "", metrics->at[m], best ? best : "not measured");
     }
     koksma__doc_say(d, ".");
-    koksma__doc_paragraph_end(d);
-    koksma__doc_table_begin(d, "metrics-%.32s-%zu", id, number);
+    koksma__doc_table(d, "metrics-%.32s-%zu", id, number);
     koksma__doc_columns(d, "t pattern");
     for (size_t m = 0; m < n; m++) {
         const char *metric = metrics->at[m];
@@ -266,15 +261,13 @@ static void add_metrics(koksma__report *r, koksma__document *d, const char *id, 
             metric, metric, metric, metric, metric, metric, metric, metric);
     }
     for (size_t i = 0; i < patterns->n; i++) {
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "t", name_at(s, i));
+        koksma__doc_row(d, "t", name_at(s, i));
         for (size_t m = 0; m < n; m++) {
             const koksma__metric_means *of = &means[s->by[i] * n + m];
             koksma__doc_cells(d, "innn", koksma__estimate_of(&of->value),
                               position_of(means, patterns->n, n, s->by[i], m), of->robust.mean, of->top_share.mean);
         }
     }
-    koksma__doc_table_end(d);
     koksma__doc_end(d);
 }
 
@@ -295,8 +288,7 @@ static bool add_means(koksma__report *r, koksma__document *d, const standing *s)
         koksma__doc_columns(d, "t in bands with");
     }
     for (size_t i = 0; i < of->patterns->n; i++) {
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "t", name_at(s, i));
+        koksma__doc_row(d, "t", name_at(s, i));
         for (size_t k = 0; k < of->n->n; k++) {
             const koksma__summary *mean = &s->means[s->by[i] * of->n->n + k];
             gaps |= !mean->n;
@@ -306,7 +298,6 @@ static bool add_means(koksma__report *r, koksma__document *d, const standing *s)
             add_bands(r, d, of, name_at(s, i));
         }
     }
-    koksma__doc_table_end(d);
     return gaps;
 }
 
@@ -326,12 +317,11 @@ static void add_table(koksma__report *r, koksma__document *d, const char *id, si
         if (of->images) {
             say_bands(r, d, &s);
         }
-        koksma__doc_paragraph_end(d);
     }
     if (of->images) {
         say_reference(r, d, of);
     }
-    koksma__doc_sorted_table_begin(d, s.last, false, of->larger, "means-%.32s-%zu", id, number);
+    koksma__doc_sorted_table(d, s.last, false, of->larger, "means-%.32s-%zu", id, number);
     if (add_means(r, d, &s) && koksma_study_left_out_at(r->study, 0)) {
         koksma__doc_paragraph(d, "A cell without a number has no results: the section *Left out* gives the reasons.");
     }

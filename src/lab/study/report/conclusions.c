@@ -363,7 +363,6 @@ static void conclude_predictor(koksma__report *r, koksma__document *d, const kok
 {
     const double least = koksma__spearman_limit(c->patterns.n, 0.025);
     averages means = {.least = {INFINITY, INFINITY}, .worst = {"", ""}, .printed = true};
-    koksma__doc_words_begin(&means.words);
     for (size_t i = 0; i < c->by.n + c->than.n; i++) {
         const koksma__table *of = table_of(r, c, i < c->by.n ? c->by.at[i] : c->than.at[i - c->by.n]);
         const double *rho = correlate(r, c, of, &all->open);
@@ -389,7 +388,7 @@ static void conclude_predictor(koksma__report *r, koksma__document *d, const kok
         say_exact(r, c, of, &all->more);
         say_least(r, c, of, &all->more);
     }
-    koksma__doc_words_append(d, &means.words);
+    koksma__doc_say_words(d, &means.words);
     if (c->by.n + c->than.n > 2) {
         koksma__doc_say(d, ": %s predicts worst", means.worst[0]);
         koksma__doc_say(d, means.printed ? ", in print %s" : "%s",
@@ -457,12 +456,11 @@ static void conclude_before(koksma__report *r, koksma__document *d, const koksma
                         n[0].of[0], n[0].smaller[1], n[0].of[1]);
     }
     if (all->other) {
-        koksma__doc_say(
-            all->tests ? &all->more : d,
-            "By our rows' procedure (`%s`) it is the other way round in %zu of %zu comparisons, in print in "
-            "%zu of %zu.%s",
-            procedure, n[1].of[0] - n[1].smaller[0], n[1].of[0], n[1].of[1] - n[1].smaller[1], n[1].of[1],
-            all->tests ? " " : "");
+        koksma__doc_say(all->tests ? &all->more : d,
+                        "By our rows' procedure (`%s`) it is the other way round in %zu of %zu comparisons, in print "
+                        "in %zu of %zu.%s",
+                        procedure, n[1].of[0] - n[1].smaller[0], n[1].of[0], n[1].of[1] - n[1].smaller[1], n[1].of[1],
+                        all->tests ? " " : "");
     }
 }
 
@@ -530,7 +528,6 @@ static void conclude_bands(koksma__report *r, koksma__document *d, const koksma_
     koksma__subject s;
     long long spp;
     coherences found = {.low = {INFINITY, INFINITY}};
-    koksma__doc_words_begin(&found.beside);
     koksma__doc_say(&all->more, "Coherence of the errors in ");
     for (size_t i = 0; i < c->tables.n; i++) {
         const koksma__table *t = table_of(r, c, c->tables.at[i]);
@@ -549,7 +546,7 @@ static void conclude_bands(koksma__report *r, koksma__document *d, const koksma_
     }
     koksma__doc_say(d, found.shades ? ", and %zu a shade, one slow wave." : ".", found.shades);
     if (!koksma__doc_is_empty(&found.beside)) {
-        koksma__doc_words_append(d, &found.beside);
+        koksma__doc_say_words(d, &found.beside);
         koksma__doc_say(d, ".");
     }
 }
@@ -814,28 +811,23 @@ void koksma__conclude(koksma__report *r, koksma__document *d, const koksma__conc
                                            [KOKSMA__ANSWER_PARTLY] = "Holds in part",
                                            [KOKSMA__ANSWER_FAILS] = "Does not hold"};
     tested all = {0};
-    koksma__document words;
-    koksma__doc_words_begin(&words);
-    koksma__doc_words_begin(&all.more);
+    koksma__document words = {0};
     functions[c->kind - koksma__conclusion_kinds](r, &words, c, &all);
     const koksma__answer_kind answer = all.open || !all.tests    ? KOKSMA__ANSWER_UNDECIDED
                                        : all.passed == all.tests ? KOKSMA__ANSWER_HOLDS
                                        : all.passed              ? KOKSMA__ANSWER_PARTLY
                                                                  : KOKSMA__ANSWER_FAILS;
-    koksma__doc_answer_begin(d, answer);
-    koksma__doc_say(d, "*%s%s%s:* %s ",
-                    answer                   ? verdicts[answer]
-                    : all.other && !all.open ? "Not decided, as our rows are by another procedure"
-                                             : "Not decided, as rows are missing",
-                    all.other && answer ? ", as far as our procedure is the printed one" : "",
-                    is_fitted(r, c) ? " (scenes fitted)" : "", c->says);
-    koksma__doc_words_append(d, &words);
-    koksma__doc_paragraph_end(d);
+    koksma__doc_answer(d, answer, "*%s%s%s:* %s ",
+                       answer                   ? verdicts[answer]
+                       : all.other && !all.open ? "Not decided, as our rows are by another procedure"
+                                                : "Not decided, as rows are missing",
+                       all.other && answer ? ", as far as our procedure is the printed one" : "",
+                       is_fitted(r, c) ? " (scenes fitted)" : "", c->says);
+    koksma__doc_say_words(d, &words);
     if (c->remark || !koksma__doc_is_empty(&all.more)) {
-        koksma__doc_paragraph_begin(d);
-        koksma__doc_words_append(d, &all.more);
+        koksma__doc_paragraph(d, "%s", "");
+        koksma__doc_say_words(d, &all.more);
         koksma__doc_say(d, "%s", c->remark ? c->remark : "");
-        koksma__doc_paragraph_end(d);
     }
 }
 

@@ -2,13 +2,13 @@
 /*
  * The report's document model, written as JSON while it is built: no tree is kept, because blocks are written in the
  * order in which they are shown. A block that is finished before one that is shown above it, such as a table before
- * the sentence that sums it up, is written into a separate document and appended later (koksma__doc_append).
+ * the sentence that sums it up, is written into a separate document and appended later (koksma__doc_append). What a block
+ * has open when the next one begins is closed by the depth of the JSON.
  * docs/report-format.md describes the members, and docs/report.schema.json checks them. Whoever changes the members
  * must change both files and the page.
  *
  * Words are a list of runs; a run is a text, or an object with a style or with the value of a number. A run is
- * extended as long as words of the same style follow. The file is long because all kinds of blocks share the state of
- * the writer.
+ * extended as long as words of the same style follow. Long because all kinds of blocks share the state of the writer.
  */
 #include "study/report/document.h"
 
@@ -23,35 +23,14 @@
 #include "core/status.h"
 #include "study/report/page_text.h"
 
-void koksma__doc_append(koksma__document *d, koksma__document *part)
-{
-    if (part->json.status && !d->json.status) {
-        d->json.status = part->json.status;
-    }
-    if (part->json.size && !part->json.status) {
-        koksma__json_write_json(&d->json, NULL, part->json.text);
-    }
-    koksma__json_writer_fini(&part->json);
-}
-
-void koksma__doc_head(koksma__document *d, const char *format, const char *title, const char *about, const char *plan)
-{
-    d->json.in_html = true;
-    koksma__json_begin_object(&d->json, NULL);
-    koksma__json_write_text(&d->json, "format", format);
-    koksma__json_write_whole(&d->json, "version", 1);
-    koksma__json_write_text(&d->json, "title", title);
-    koksma__json_write_text(&d->json, "about", about);
-    if (plan) {
-        koksma__json_write_text(&d->json, "plan", plan);
-    }
-    koksma__json_write_text(&d->json, "koksma", koksma_version());
-}
-
-bool koksma__doc_is_empty(const koksma__document *d)
-{
-    return !d->json.size && !d->json.status;
-}
+/* Calls say() with the arguments that follow `format`. */
+#define SAY(d, format)                                                                                               \
+    do {                                                                                                             \
+        va_list arguments;                                                                                           \
+        va_start(arguments, format);                                                                                 \
+        say(d, format, &arguments);                                                                                  \
+        va_end(arguments);                                                                                           \
+    } while (0)
 
 /* Writes a number with the fewest digits, from 15 to 17, that read back as the same number; null if it is not
    finite. */
@@ -65,6 +44,15 @@ static void put_number(koksma__document *d, const char *key, double value)
         }
     }
     koksma__json_write_rounded(&d->json, key, value, digits);
+}
+
+static void put_numbers(koksma__document *d, const char *key, const double *values, size_t n)
+{
+    koksma__json_begin_array(&d->json, key);
+    for (size_t i = 0; i < n; i++) {
+        put_number(d, NULL, values[i]);
+    }
+    koksma__json_end(&d->json);
 }
 
 static void put_text(koksma__document *d, const char *key, const char *text)
@@ -83,9 +71,11 @@ static void put_flag(koksma__document *d, const char *key, bool flag)
 
 /* ---- Words ------------------------------------------------------------------------------------------------- */
 
-static const char *name_of_style(char style)
+static void put_style(koksma__document *d)
 {
-    return style == '`' ? "code" : style == '*' ? "strong" : style == '_' ? "em" : style == '^' ? "sup" : NULL;
+    static const char marks[] = "`*_^";
+    static const char *const names[] = {"code", "strong", "em", "sup"};
+    put_text(d, "style", d->style ? names[strchr(marks, d->style) - marks] : NULL);
 }
 
 static void end_run(koksma__document *d)
@@ -101,10 +91,11 @@ static void end_run(koksma__document *d)
 
 static void add_words(koksma__document *d, const char *text)
 {
+    d->json.in_html = true;
     if (*text && !d->in_text) {
         if (d->style) {
             koksma__json_begin_object(&d->json, NULL);
-            put_text(d, "style", name_of_style(d->style));
+            put_style(d);
         }
         koksma__json_begin_text(&d->json, d->style ? "text" : NULL);
         d->in_text = true;
@@ -116,71 +107,37 @@ static void add_value(koksma__document *d, double value, const char *text)
 {
     end_run(d);
     koksma__json_begin_object(&d->json, NULL);
-    put_text(d, "style", name_of_style(d->style));
+    put_style(d);
     koksma__json_write_text(&d->json, "text", text);
     put_number(d, "value", value);
     koksma__json_end(&d->json);
 }
 
-/* A conversion specification, such as %+.2f, in the format of koksma__doc_say. */
-typedef struct conversion {
-    bool sign;
-    int precision, longs;
-    bool is_size;
-    char type;
-} conversion;
-
-/* Reads the conversion that follows a '%' and returns the rest of the format. */
-static const char *read_conversion(const char *at, conversion *c)
-{
-    *c = (conversion){.precision = 6};
-    c->sign = *at == '+';
-    at += c->sign;
-    if (*at == '.') {
-        char *end;
-        c->precision = (int)strtol(at + 1, &end, 10);
-        at = end;
-    }
-    for (; *at == 'l' || *at == 'z'; at++) {
-        c->longs += *at == 'l';
-        c->is_size |= *at == 'z';
-    }
-    c->type = *at;
-    return at + 1;
-}
-
-static void add_whole(koksma__document *d, const conversion *c, long long value)
-{
-    char text[32];
-    snprintf(text, sizeof text, c->sign ? "%+lld" : "%lld", value);
-    add_value(d, (double)value, text);
-}
-
-static void add_real(koksma__document *d, const conversion *c, double value)
+/* Writes the next argument as the conversion after a '%' specifies, such as +.2f, and returns the rest of the format. */
+static const char *say_argument(koksma__document *d, const char *at, va_list *arguments)
 {
     char text[400];
-    if (c->type == 'f') {
-        koksma__snprintf(text, sizeof text, c->sign ? "%+.*f" : "%.*f", c->precision, value);
-    } else {
-        koksma__snprintf(text, sizeof text, c->sign ? "%+.*g" : "%.*g", c->precision, value);
-    }
-    add_value(d, value, text);
-}
-
-/* Writes the next argument as the conversion specifies. */
-static void say_argument(koksma__document *d, const conversion *c, va_list *arguments)
-{
-    if (c->type == 's') {
+    const bool sign = *at == '+';
+    const char *type = at + strcspn(at, "sfgdu"), *dot = memchr(at, '.', (size_t)(type - at));
+    const int precision = dot ? (int)strtol(dot + 1, NULL, 10) : 6;
+    if (*type == 's') {
         add_words(d, va_arg(*arguments, const char *));
-    } else if (c->type == 'f' || c->type == 'g') {
-        add_real(d, c, va_arg(*arguments, double));
-    } else if (c->is_size) {
-        add_whole(d, c, (long long)va_arg(*arguments, size_t));
-    } else if (c->longs == 2) {
-        add_whole(d, c, va_arg(*arguments, long long));
+    } else if (*type == 'f' || *type == 'g') {
+        const double value = va_arg(*arguments, double);
+        koksma__snprintf(text, sizeof text,
+                         *type == 'f' ? sign ? "%+.*f" : "%.*f"
+                         : sign       ? "%+.*g"
+                                      : "%.*g",
+                         precision, value);
+        add_value(d, value, text);
     } else {
-        add_whole(d, c, va_arg(*arguments, int));
+        const long long value = type[-1] == 'z'   ? (long long)va_arg(*arguments, size_t)
+                                : type[-1] == 'l' ? va_arg(*arguments, long long)
+                                                  : va_arg(*arguments, int);
+        snprintf(text, sizeof text, sign ? "%+lld" : "%lld", value);
+        add_value(d, (double)value, text);
     }
+    return type + 1;
 }
 
 static void say(koksma__document *d, const char *format, va_list *arguments)
@@ -197,17 +154,15 @@ static void say(koksma__document *d, const char *format, va_list *arguments)
         plain[n] = '\0';
         add_words(d, plain);
         at += n;
-        if (n < run) {
+        if (n < run || !*at) {
             continue;
         }
         if (at[0] == '%' && at[1] == '%') {
             add_words(d, "%");
             at += 2;
         } else if (*at == '%') {
-            conversion c;
-            at = read_conversion(at + 1, &c);
-            say_argument(d, &c, arguments);
-        } else if (*at) {
+            at = say_argument(d, at + 1, arguments);
+        } else {
             end_run(d);
             d->style = d->style == *at ? 0 : *at;
             at++;
@@ -217,16 +172,35 @@ static void say(koksma__document *d, const char *format, va_list *arguments)
 
 void koksma__doc_say(koksma__document *d, const char *format, ...)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    say(d, format, &arguments);
-    va_end(arguments);
+    SAY(d, format);
 }
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------ */
 
+/* Ends what is open beyond a depth of the JSON. */
+static void close_to(koksma__document *d, int depth)
+{
+    end_run(d);
+    d->style = 0;
+    while (d->json.depth > depth && !d->json.status) {
+        koksma__json_end(&d->json);
+    }
+}
+
+/* Ends the open block. */
+static void end_block(koksma__document *d)
+{
+    if (d->in_columns) { /* a table without rows */
+        close_to(d, d->level + 1);
+        koksma__json_begin_array(&d->json, "rows");
+        d->in_columns = false;
+    }
+    close_to(d, d->level);
+}
+
 static void begin_block(koksma__document *d, const char *kind, const char *id)
 {
+    end_block(d);
     d->json.in_html = true;
     koksma__json_break(&d->json);
     koksma__json_begin_object(&d->json, NULL);
@@ -234,43 +208,108 @@ static void begin_block(koksma__document *d, const char *kind, const char *id)
     put_text(d, "id", id);
 }
 
-static void end_words(koksma__document *d)
+/* Begins a member of the open block that is a list. */
+static void begin_member(koksma__document *d, const char *key)
 {
+    close_to(d, d->level + 1);
+    koksma__json_begin_array(&d->json, key);
+}
+
+/* Begins an item of the list that is a member of the open block. */
+static void begin_item(koksma__document *d, bool is_object)
+{
+    close_to(d, d->level + 2);
+    (is_object ? koksma__json_begin_object : koksma__json_begin_array)(&d->json, NULL);
+}
+
+static void append(koksma__document *d, koksma__document *part)
+{
+    if (part->json.status && !d->json.status) {
+        d->json.status = part->json.status;
+    }
+    if (part->json.size && !part->json.status) {
+        koksma__json_write_json(&d->json, NULL, part->json.text);
+    }
+    koksma__json_writer_fini(&part->json);
+}
+
+void koksma__doc_say_words(koksma__document *d, koksma__document *words)
+{
+    end_run(words);
     end_run(d);
-    d->style = 0;
-    koksma__json_end(&d->json);
+    append(d, words);
 }
 
-void koksma__doc_end(koksma__document *d)
+void koksma__doc_append(koksma__document *d, koksma__document *part)
 {
-    koksma__json_end(&d->json);
-    koksma__json_end(&d->json);
+    end_block(part);
+    end_block(d);
+    append(d, part);
 }
 
-static void begin_section(koksma__document *d, const char *id, bool collapsed, const char *format, va_list *arguments)
+bool koksma__doc_is_empty(const koksma__document *d)
+{
+    return !d->json.size && !d->json.status;
+}
+
+void koksma__doc_head(koksma__document *d, const char *format, const char *title, const char *about, const char *plan)
+{
+    d->json.in_html = true;
+    koksma__json_begin_object(&d->json, NULL);
+    koksma__json_write_text(&d->json, "format", format);
+    koksma__json_write_whole(&d->json, "version", 1);
+    koksma__json_write_text(&d->json, "title", title);
+    koksma__json_write_text(&d->json, "about", about);
+    put_text(d, "plan", plan);
+    koksma__json_write_text(&d->json, "koksma", koksma_version());
+}
+
+void koksma__doc_content(koksma__document *d)
+{
+    koksma__json_begin_array(&d->json, "content");
+    d->level = d->json.depth;
+}
+
+void koksma__doc_close(koksma__document *d)
+{
+    end_block(d);
+    if (d->level) {
+        koksma__json_end(&d->json);
+    }
+}
+
+static void begin_section(koksma__document *d, const char *id, bool collapsed)
 {
     begin_block(d, "section", id);
     put_flag(d, "collapsed", collapsed);
     koksma__json_begin_array(&d->json, "heading");
-    say(d, format, arguments);
-    end_words(d);
-    koksma__json_begin_array(&d->json, "content");
+}
+
+static void begin_content(koksma__document *d)
+{
+    begin_member(d, "content");
+    d->level = d->json.depth;
 }
 
 void koksma__doc_section(koksma__document *d, const char *id, const char *format, ...)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    begin_section(d, id, false, format, &arguments);
-    va_end(arguments);
+    begin_section(d, id, false);
+    SAY(d, format);
+    begin_content(d);
 }
 
 void koksma__doc_collapsed_section(koksma__document *d, const char *id, const char *format, ...)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    begin_section(d, id, true, format, &arguments);
-    va_end(arguments);
+    begin_section(d, id, true);
+    SAY(d, format);
+    begin_content(d);
+}
+
+void koksma__doc_end(koksma__document *d)
+{
+    end_block(d);
+    d->level -= 2;
+    close_to(d, d->level);
 }
 
 /* Begins a paragraph, after a member that marks it unless `key` is NULL. */
@@ -283,12 +322,13 @@ static void begin_paragraph(koksma__document *d, const char *key, const char *va
     koksma__json_begin_array(&d->json, "text");
 }
 
-void koksma__doc_paragraph_begin(koksma__document *d)
+void koksma__doc_paragraph(koksma__document *d, const char *format, ...)
 {
     begin_paragraph(d, NULL, NULL);
+    SAY(d, format);
 }
 
-void koksma__doc_answer_begin(koksma__document *d, koksma__answer_kind kind)
+void koksma__doc_answer(koksma__document *d, koksma__answer_kind kind, const char *format, ...)
 {
     static const char *const names[] = {[KOKSMA__ANSWER_UNDECIDED] = "undecided",
                                         [KOKSMA__ANSWER_DECIDED] = "decided",
@@ -296,72 +336,34 @@ void koksma__doc_answer_begin(koksma__document *d, koksma__answer_kind kind)
                                         [KOKSMA__ANSWER_PARTLY] = "partly",
                                         [KOKSMA__ANSWER_FAILS] = "fails"};
     begin_paragraph(d, "answer", names[kind]);
+    SAY(d, format);
 }
 
-void koksma__doc_metric_begin(koksma__document *d, const char *metric)
+void koksma__doc_metric(koksma__document *d, const char *metric, const char *format, ...)
 {
     begin_paragraph(d, "metric", metric);
+    SAY(d, format);
 }
 
-void koksma__doc_warning_begin(koksma__document *d)
+void koksma__doc_warning(koksma__document *d, const char *format, ...)
 {
     begin_block(d, "paragraph", NULL);
     koksma__json_write_flag(&d->json, "warning", true);
     koksma__json_begin_array(&d->json, "text");
+    SAY(d, format);
 }
 
-void koksma__doc_words_begin(koksma__document *words)
-{
-    *words = (koksma__document){.json.in_html = true};
-}
-
-void koksma__doc_words_append(koksma__document *d, koksma__document *words)
-{
-    end_run(words);
-    end_run(d);
-    koksma__doc_append(d, words);
-}
-
-void koksma__doc_paragraph_end(koksma__document *d)
-{
-    end_words(d);
-    koksma__json_end(&d->json);
-}
-
-void koksma__doc_paragraph(koksma__document *d, const char *format, ...)
-{
-    va_list arguments;
-    koksma__doc_paragraph_begin(d);
-    va_start(arguments, format);
-    say(d, format, &arguments);
-    va_end(arguments);
-    koksma__doc_paragraph_end(d);
-}
-
-void koksma__doc_list_begin(koksma__document *d, const char *id, bool numbered)
+void koksma__doc_list(koksma__document *d, const char *id, bool numbered)
 {
     begin_block(d, "list", id);
     koksma__json_write_flag(&d->json, "numbered", numbered);
     koksma__json_begin_array(&d->json, "items");
-    d->in_rows = false;
 }
 
-void koksma__doc_item(koksma__document *d)
+void koksma__doc_item(koksma__document *d, const char *format, ...)
 {
-    if (d->in_rows) {
-        end_words(d);
-    }
-    koksma__json_begin_array(&d->json, NULL);
-    d->in_rows = true;
-}
-
-void koksma__doc_list_end(koksma__document *d)
-{
-    if (d->in_rows) {
-        end_words(d);
-    }
-    koksma__json_end(&d->json);
-    koksma__json_end(&d->json);
+    begin_item(d, false);
+    SAY(d, format);
 }
 
 void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t n)
@@ -371,8 +373,6 @@ void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t 
     for (size_t i = 0; i < n; i++) {
         koksma__json_write_text(&d->json, NULL, lines[i]);
     }
-    koksma__json_end(&d->json);
-    koksma__json_end(&d->json);
 }
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
@@ -392,10 +392,10 @@ static void begin_table(koksma__document *d, const char *column, bool by_width, 
         koksma__json_end(&d->json);
     }
     koksma__json_begin_array(&d->json, "columns");
-    d->in_rows = false;
+    d->in_columns = true;
 }
 
-void koksma__doc_table_begin(koksma__document *d, const char *format, ...)
+void koksma__doc_table(koksma__document *d, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -403,8 +403,8 @@ void koksma__doc_table_begin(koksma__document *d, const char *format, ...)
     va_end(arguments);
 }
 
-void koksma__doc_sorted_table_begin(koksma__document *d, const char *column, bool by_width, bool descending,
-                                    const char *format, ...)
+void koksma__doc_sorted_table(koksma__document *d, const char *column, bool by_width, bool descending,
+                              const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -463,47 +463,48 @@ void koksma__doc_columns(koksma__document *d, const char *columns, ...)
     va_end(arguments);
 }
 
-void koksma__doc_row(koksma__document *d)
+static void put_cells(koksma__document *d, const char *types, va_list *arguments)
 {
-    koksma__json_end(&d->json);
-    if (!d->in_rows) {
-        koksma__json_begin_array(&d->json, "rows");
+    for (; *types; types++) {
+        switch (*types) {
+        case 't':
+            koksma__json_write_text(&d->json, NULL, va_arg(*arguments, const char *));
+            break;
+        case 'n':
+            put_number(d, NULL, va_arg(*arguments, double));
+            break;
+        case 'z':
+            put_number(d, NULL, (double)va_arg(*arguments, size_t));
+            break;
+        case 'd':
+            put_number(d, NULL, (double)va_arg(*arguments, long long));
+            break;
+        default: {
+            const koksma__estimate e = va_arg(*arguments, koksma__estimate);
+            put_numbers(d, NULL, (const double[]){e.value, e.low, e.high}, 3);
+        }
+        }
     }
-    d->in_rows = true;
-    koksma__json_begin_array(&d->json, NULL);
 }
 
-static void put_interval(koksma__document *d, koksma__estimate e)
+void koksma__doc_row(koksma__document *d, const char *types, ...)
 {
-    koksma__json_begin_array(&d->json, NULL);
-    put_number(d, NULL, e.value);
-    put_number(d, NULL, e.low);
-    put_number(d, NULL, e.high);
-    koksma__json_end(&d->json);
+    va_list arguments;
+    if (d->in_columns) {
+        begin_member(d, "rows");
+        d->in_columns = false;
+    }
+    begin_item(d, false);
+    va_start(arguments, types);
+    put_cells(d, types, &arguments);
+    va_end(arguments);
 }
 
 void koksma__doc_cells(koksma__document *d, const char *types, ...)
 {
     va_list arguments;
     va_start(arguments, types);
-    for (; *types; types++) {
-        switch (*types) {
-        case 't':
-            koksma__json_write_text(&d->json, NULL, va_arg(arguments, const char *));
-            break;
-        case 'n':
-            put_number(d, NULL, va_arg(arguments, double));
-            break;
-        case 'z':
-            put_number(d, NULL, (double)va_arg(arguments, size_t));
-            break;
-        case 'd':
-            put_number(d, NULL, (double)va_arg(arguments, long long));
-            break;
-        default:
-            put_interval(d, va_arg(arguments, koksma__estimate));
-        }
-    }
+    put_cells(d, types, &arguments);
     va_end(arguments);
 }
 
@@ -536,16 +537,6 @@ void koksma__doc_cell(koksma__document *d, const koksma__cell_data *c)
     koksma__json_end(&d->json);
 }
 
-void koksma__doc_table_end(koksma__document *d)
-{
-    koksma__json_end(&d->json);
-    if (!d->in_rows) {
-        koksma__json_begin_array(&d->json, "rows");
-    }
-    koksma__json_end(&d->json);
-    koksma__json_end(&d->json);
-}
-
 /* ---- Charts ------------------------------------------------------------------------------------------------ */
 
 static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log, int better,
@@ -567,7 +558,7 @@ static void put_axis(koksma__document *d, const char *key, const char *title, bo
     koksma__json_end(&d->json);
 }
 
-void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *c)
+void koksma__doc_chart(koksma__document *d, const koksma__chart *c)
 {
     begin_block(d, "chart", NULL);
     koksma__json_write_text(&d->json, "title", c->title);
@@ -577,14 +568,14 @@ void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *c)
     memset(d->curves, 0, sizeof d->curves);
 }
 
-void koksma__doc_series_begin(koksma__document *d, const char *label, const char *pattern, koksma__series_style style)
+void koksma__doc_series(koksma__document *d, const char *label, const char *pattern, koksma__series_style style)
 {
     static const char *const styles[] = {[KOKSMA__SERIES_LINE] = "line",
                                          [KOKSMA__SERIES_MARKS] = "marks",
                                          [KOKSMA__SERIES_THEORY] = "theory",
                                          [KOKSMA__SERIES_HOLLOW] = "hollow"};
     const char *of = pattern ? pattern : label;
-    koksma__json_begin_object(&d->json, NULL);
+    begin_item(d, true);
     koksma__json_write_text(&d->json, "label", label);
     koksma__json_write_text(&d->json, "style", styles[style]);
     if (style == KOKSMA__SERIES_LINE || style == KOKSMA__SERIES_MARKS) {
@@ -616,7 +607,7 @@ void koksma__doc_point(koksma__document *d, double x, double y, double low, doub
 
 /* ---- Figures and pictures ---------------------------------------------------------------------------------- */
 
-void koksma__doc_figure_begin(koksma__document *d, const char *id)
+void koksma__doc_figure(koksma__document *d, const char *id)
 {
     begin_block(d, "figure", id);
     koksma__json_begin_array(&d->json, "images");
@@ -625,23 +616,17 @@ void koksma__doc_figure_begin(koksma__document *d, const char *id)
 /* Begins an image or drawing with the members that both have. */
 static void begin_image(koksma__document *d, const char *type, int width, int height, const char *alt)
 {
-    koksma__json_begin_object(&d->json, NULL);
+    begin_item(d, true);
     put_text(d, "type", type);
     put_number(d, "width", width);
     put_number(d, "height", height);
     put_text(d, "alt", alt);
 }
 
-static void put_image(koksma__document *d, const unsigned char *bytes, size_t size)
-{
-    koksma__json_write_bytes(&d->json, "data", bytes, size);
-    koksma__json_end(&d->json);
-}
-
 void koksma__doc_svg(koksma__document *d, const unsigned char *svg, size_t size, int width, const char *alt)
 {
     begin_image(d, "image/svg+xml", width, width, alt);
-    put_image(d, svg, size);
+    koksma__json_write_bytes(&d->json, "data", svg, size);
 }
 
 koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, int scale, const char *alt)
@@ -650,21 +635,12 @@ koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, 
     size_t size;
     KOKSMA__TRY(koksma_image_png_bytes(image, &bytes, &size));
     begin_image(d, "image/png", image->width * scale, image->height * scale, alt);
-    put_image(d, bytes, size);
+    koksma__json_write_bytes(&d->json, "data", bytes, size);
     free(bytes);
     return KOKSMA_OK;
 }
 
-static void put_numbers(koksma__document *d, const char *key, const double *values, size_t n)
-{
-    koksma__json_begin_array(&d->json, key);
-    for (size_t i = 0; i < n; i++) {
-        put_number(d, NULL, values[i]);
-    }
-    koksma__json_end(&d->json);
-}
-
-void koksma__doc_drawing_begin(koksma__document *d, int width, const double view[4], const char *alt)
+void koksma__doc_drawing(koksma__document *d, int width, const double view[4], const char *alt)
 {
     begin_image(d, "drawing", width, width, alt);
     put_numbers(d, "view", view, 4);
@@ -681,19 +657,13 @@ void koksma__doc_dot(koksma__document *d, double x, double y)
     put_numbers(d, NULL, (const double[]){x, y}, 2);
 }
 
-void koksma__doc_caption(koksma__document *d)
+void koksma__doc_caption(koksma__document *d, const char *format, ...)
 {
-    koksma__json_end(&d->json);
-    koksma__json_begin_array(&d->json, "caption");
+    begin_member(d, "caption");
+    SAY(d, format);
 }
 
-void koksma__doc_figure_end(koksma__document *d)
-{
-    end_words(d);
-    koksma__json_end(&d->json);
-}
-
-void koksma__doc_pictures_begin(koksma__document *d, const char *scene, int width, int height)
+void koksma__doc_pictures(koksma__document *d, const char *scene, int width, int height)
 {
     begin_block(d, "pictures", NULL);
     koksma__json_write_text(&d->json, "scene", scene);
@@ -716,11 +686,10 @@ void koksma__doc_picture(koksma__document *d, const koksma_image *image, const c
             bytes[4 * i + (size_t)k] = (unsigned char)(bits >> 8 * k);
         }
     }
-    koksma__json_begin_object(&d->json, NULL);
+    begin_item(d, true);
     koksma__json_write_text(&d->json, "name", name);
     put_number(d, "channels", image->channels);
     koksma__json_write_bytes(&d->json, "pixels", bytes, bytes ? 4 * n : 0);
-    koksma__json_end(&d->json);
     free(bytes);
 }
 
@@ -728,9 +697,8 @@ void koksma__doc_picture(koksma__document *d, const koksma_image *image, const c
 
 /* The build embeds page/page.html with its script, cut in two where the data are inserted. The first half has the
    placeholders {{title}} and {{numbers}}, in this order, for texts that depend on the kind of the page. */
-static const char *const titles[] = {[KOKSMA__PAGE_STUDY] = "koksma: report of a study",
-                                     [KOKSMA__PAGE_IMAGES] = "koksma: errors of images",
-                                     [KOKSMA__PAGE_DATASHEET] = "koksma: datasheet of a sampler"};
+static const char *const titles[] = {
+    [KOKSMA__PAGE_STUDY] = "koksma: report of a study", [KOKSMA__PAGE_DATASHEET] = "koksma: datasheet of a sampler"};
 
 static const char beside[] = "All of its numbers are in <a href=\"report.json\">report.json</a> beside it.";
 static const char inside[] = "All of its numbers are in this file, in the element with the id <code>data</code>, as "

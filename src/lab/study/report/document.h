@@ -2,8 +2,9 @@
 /*
  * A report as data: sections that hold paragraphs, lists, tables, charts, figures and pictures, in the order in
  * which they are shown. Each call appends to the JSON text of the report (docs/report-format.md), which the page
- * (page/report.mjs) shows. A failure is stored in json.status, and later calls then do nothing. A document is all
- * zero at first, and koksma__doc_append or koksma__json_writer_fini frees it.
+ * (page/report.mjs) shows. A block ends where the next one begins, or its section ends: only sections have an end. A failure
+ * is stored in json.status, and later calls then do nothing. A document is all zero at first, and koksma__doc_append or
+ * koksma__json_writer_fini frees it.
  */
 #ifndef KOKSMA_STUDY_REPORT_DOCUMENT_H
 #define KOKSMA_STUDY_REPORT_DOCUMENT_H
@@ -16,18 +17,23 @@
 
 typedef struct koksma__document {
     koksma__json_writer json;
-    char style;   /* style of the next words: '`' code, '*' strong, '_' emphasised, '^' superscript; 0: none */
-    bool in_text; /* whether a run of words is open */
-    bool in_rows; /* whether the open table has rows */
+    int level;       /* depth of the JSON in which blocks are written */
+    char style;      /* style of the next words: '`' code, '*' strong, '_' emphasised, '^' superscript; 0: none */
+    bool in_text;    /* whether a run of words is open */
+    bool in_columns; /* whether a table is open that has no row yet */
     bool curves[KOKSMA__CURVE_STYLES]; /* which style numbers the series of the open chart use */
 } koksma__document;
 
 /* Appends the content of `part`, and empties `part`. */
 void koksma__doc_append(koksma__document *d, koksma__document *part);
 
-/* Begins the text of a page: its format and version, title and description; plan: the name of a study's plan, or NULL. */
+/* Begins the text of a page: its format and version, title and description; plan: the name of a study's plan, or NULL.
+   Members of the caller may follow, then koksma__doc_content begins the content, and koksma__doc_close ends it (and of a
+   part its last block). */
 void koksma__doc_head(koksma__document *d, const char *format, const char *title, const char *about,
                       const char *plan);
+void koksma__doc_content(koksma__document *d);
+void koksma__doc_close(koksma__document *d);
 
 /* Whether nothing was written and nothing failed. */
 bool koksma__doc_is_empty(const koksma__document *d);
@@ -45,21 +51,18 @@ static inline const char *koksma__plural(double n)
    with a precision and '+'; each number is written as a value with its text. */
 void koksma__doc_say(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* Ends the innermost section, series, chart, drawing or pictures. */
-void koksma__doc_end(koksma__document *d);
+/* Appends words that were said in a document of their own, and empties it. */
+void koksma__doc_say_words(koksma__document *d, koksma__document *words);
 
 /* Begins a section with a heading, and its content; sections nest. id = NULL: no id; if ids repeat, the page makes them
-   unique. A collapsed section is hidden until its heading is clicked. */
+   unique. A collapsed section is hidden until its heading is clicked. koksma__doc_end ends the innermost section. */
 void koksma__doc_section(koksma__document *d, const char *id, const char *format, ...) KOKSMA_PRINTF(3, 4);
 void koksma__doc_collapsed_section(koksma__document *d, const char *id, const char *format, ...) KOKSMA_PRINTF(3, 4);
+void koksma__doc_end(koksma__document *d);
 
-/* koksma__doc_paragraph writes a whole paragraph; between koksma__doc_paragraph_begin and koksma__doc_paragraph_end
-   a paragraph is written by calls of koksma__doc_say. */
-void koksma__doc_paragraph(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
-void koksma__doc_paragraph_begin(koksma__document *d);
-void koksma__doc_paragraph_end(koksma__document *d);
-/* Begins a paragraph that answers the question of its section, which the page also shows in its overview. kind: whether the
-   data decide the question (true or false), or what they say of a conclusion. */
+/* Each begins a paragraph with its first words: one that names the metric (its canonical spec) of the image errors in its
+   section; that warns of doubtful or missing numbers; or that answers the question of its section, which the page also shows
+   in its overview. kind: whether the data decide the question (true or false), or what they say of a conclusion. */
 typedef enum koksma__answer_kind {
     KOKSMA__ANSWER_UNDECIDED,
     KOKSMA__ANSWER_DECIDED,
@@ -67,21 +70,15 @@ typedef enum koksma__answer_kind {
     KOKSMA__ANSWER_PARTLY,
     KOKSMA__ANSWER_FAILS
 } koksma__answer_kind;
-void koksma__doc_answer_begin(koksma__document *d, koksma__answer_kind kind);
-/* Words that are written before those in front of them: begin them in a document of their own, write them with
-   koksma__doc_say, and append them to the open words of d. */
-void koksma__doc_words_begin(koksma__document *words);
-void koksma__doc_words_append(koksma__document *d, koksma__document *words);
-/* Begins a paragraph that names the metric of the image errors in its section. metric: its canonical spec. */
-void koksma__doc_metric_begin(koksma__document *d, const char *metric);
-/* Begins a paragraph that warns of doubtful or missing numbers. */
-void koksma__doc_warning_begin(koksma__document *d);
+void koksma__doc_paragraph(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
+void koksma__doc_metric(koksma__document *d, const char *metric, const char *format, ...) KOKSMA_PRINTF(3, 4);
+void koksma__doc_warning(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
+void koksma__doc_answer(koksma__document *d, koksma__answer_kind kind, const char *format, ...) KOKSMA_PRINTF(3, 4);
 
-/* A list. koksma__doc_item begins each item, and koksma__doc_say writes its words. numbered: the items are notes
-   that table cells refer to by number. */
-void koksma__doc_list_begin(koksma__document *d, const char *id, bool numbered);
-void koksma__doc_item(koksma__document *d);
-void koksma__doc_list_end(koksma__document *d);
+/* A list; koksma__doc_item begins each item with its first words. numbered: the items are notes that table cells refer to by
+   number. */
+void koksma__doc_list(koksma__document *d, const char *id, bool numbered);
+void koksma__doc_item(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* Command lines that reproduce the numbers above them, for the reader to copy. */
 void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t n);
@@ -103,10 +100,10 @@ koksma__cell_data koksma__cell_of(double value);
 
 /* Begins a table: write its columns first, then its rows. The format gives the name of its CSV file without the extension.
    A row may have fewer cells than columns. */
-void koksma__doc_table_begin(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
+void koksma__doc_table(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 /* Begins a table that the page sorts by a column: by the column's values, or by the widths of its intervals. */
-void koksma__doc_sorted_table_begin(koksma__document *d, const char *column, bool by_width, bool descending,
-                                    const char *format, ...) KOKSMA_PRINTF(5, 6);
+void koksma__doc_sorted_table(koksma__document *d, const char *column, bool by_width, bool descending,
+                              const char *format, ...) KOKSMA_PRINTF(5, 6);
 /* Columns, such as "t pattern;n7 cases;i3fh %s, slope#slope#%s". Each has a letter for its type: t text, n number, i value
    with its 95 % interval, s value with its standard deviation, v verdict on a published number; then the digits on the
    page; then letters: f the digits are decimal places, h the page hides the column, m it merges cells of neighbouring rows
@@ -114,12 +111,11 @@ void koksma__doc_sorted_table_begin(koksma__document *d, const char *column, boo
    differs; after another '#' a common head above neighbouring columns. The conversions are %s and %lld; a head that is
    empty, or "%s" alone for NULL, is left out. */
 void koksma__doc_columns(koksma__document *d, const char *columns, ...) KOKSMA_PRINTF(2, 3);
-void koksma__doc_row(koksma__document *d);
-/* Cells of the open row. types has a letter for each, which is the type of its argument: t a text, n a double, z a size_t,
-   d a long long, i a koksma__estimate. NAN: a dash. */
+/* Begins a row with its first cells; koksma__doc_cells adds more. types has a letter for each, which is the type of its
+   argument: t a text, n a double, z a size_t, d a long long, i a koksma__estimate. NAN: a dash. */
+void koksma__doc_row(koksma__document *d, const char *types, ...);
 void koksma__doc_cells(koksma__document *d, const char *types, ...);
 void koksma__doc_cell(koksma__document *d, const koksma__cell_data *cell);
-void koksma__doc_table_end(koksma__document *d);
 
 /* ---- Charts ------------------------------------------------------------------------------------------------ */
 
@@ -140,39 +136,37 @@ typedef enum koksma__series_style {
     KOKSMA__SERIES_HOLLOW
 } koksma__series_style;
 
-/* Begins a chart; write its series, then koksma__doc_end. A series of lines or marks has the colour of its
+/* Begins a chart; write its series, and the points of each. A series of lines or marks has the colour of its
    pattern, which is the same in all plots; pattern NULL: of the pattern with whose name its label begins. */
-void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *chart);
-void koksma__doc_series_begin(koksma__document *d, const char *label, const char *pattern,
-                              koksma__series_style style);
+void koksma__doc_chart(koksma__document *d, const koksma__chart *chart);
+void koksma__doc_series(koksma__document *d, const char *label, const char *pattern, koksma__series_style style);
 /* Adds a point to the open series. low, high: the ends of the error bar of y; NAN: no bar. */
 void koksma__doc_point(koksma__document *d, double x, double y, double low, double high);
 
 /* ---- Figures and pictures ---------------------------------------------------------------------------------- */
 
-/* Begins a figure: write its images or a drawing, then koksma__doc_caption and the words of its caption. */
-void koksma__doc_figure_begin(koksma__document *d, const char *id);
+/* Begins a figure: write its images or a drawing, then its caption. */
+void koksma__doc_figure(koksma__document *d, const char *id);
 /* An image `width` CSS pixels wide and high. */
 void koksma__doc_svg(koksma__document *d, const unsigned char *svg, size_t size, int width, const char *alt);
 /* An image as PNG, with `scale` CSS pixels per pixel. */
 koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, int scale, const char *alt);
 /* Begins a drawing of lines and dots, `width` CSS pixels wide. view: x and y of the lower left corner, then of the
    upper right corner. */
-void koksma__doc_drawing_begin(koksma__document *d, int width, const double view[4], const char *alt);
+void koksma__doc_drawing(koksma__document *d, int width, const double view[4], const char *alt);
 void koksma__doc_line(koksma__document *d, double x0, double y0, double x1, double y1);
 void koksma__doc_dot(koksma__document *d, double x, double y);
-void koksma__doc_caption(koksma__document *d);
-void koksma__doc_figure_end(koksma__document *d);
+void koksma__doc_caption(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* Begins a set of images of one scene and size, stored as little-endian 32-bit floats in base 64. The first image is
    the reference; the page shows the others with their errors, and compares any two. */
-void koksma__doc_pictures_begin(koksma__document *d, const char *scene, int width, int height);
+void koksma__doc_pictures(koksma__document *d, const char *scene, int width, int height);
 void koksma__doc_picture(koksma__document *d, const koksma_image *image, const char *name);
 
 /* ---- The page ---------------------------------------------------------------------------------------------- */
 
 /* What a page is about: a browser without JavaScript shows only that and where the numbers are. */
-typedef enum koksma__page_kind { KOKSMA__PAGE_STUDY, KOKSMA__PAGE_IMAGES, KOKSMA__PAGE_DATASHEET } koksma__page_kind;
+typedef enum koksma__page_kind { KOKSMA__PAGE_STUDY, KOKSMA__PAGE_DATASHEET } koksma__page_kind;
 
 /* A page that is published does not show where its author keeps files. koksma__folder_join makes `folder`, at first empty,
    the folder that it and an absolute path have in common, with a slash at its end; koksma__doc_hide_folder removes it from

@@ -219,7 +219,7 @@ static void add_lines(koksma__document *d, const koksma__figure *f)
 {
     const double square[4] = {0, 0, 1, 1}, plane[4] = {-MOST_SLOPE, -MOST_SLOPE, MOST_SLOPE, MOST_SLOPE + 1};
     const uint64_t seed = koksma__job_seed("figure|lines|%lld", f->n);
-    koksma__doc_drawing_begin(d, POINTS_WIDTH, f->dual ? plane : square, f->title);
+    koksma__doc_drawing(d, POINTS_WIDTH, f->dual ? plane : square, f->title);
     add_outline(d, f->dual);
     for (long long i = 0; i < f->n; i++) {
         double a, b, c, ends[2][2];
@@ -230,7 +230,6 @@ static void add_lines(koksma__document *d, const koksma__figure *f)
             koksma__doc_dot(d, -a / b, c / b);
         }
     }
-    koksma__doc_end(d);
 }
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
@@ -245,22 +244,20 @@ static void add_figure(koksma__report *r, koksma__document *d, const koksma__fig
 {
     char id[96], note[NOTE] = "";
     snprintf(id, sizeof id, "figure-%.80s", f->id);
-    koksma__doc_figure_begin(d, id);
+    koksma__doc_figure(d, id);
     if (f->lines) {
         add_lines(d, f);
     } else {
         koksma__report_keep(r, f->scene ? add_scene(r->study, d, f, r->run, report, note)
                                         : add_points(d, f, r->run, note));
     }
-    koksma__doc_caption(d);
-    koksma__doc_say(d, "Figure %s: %s%s", f->id, f->title, note);
+    koksma__doc_caption(d, "Figure %s: %s%s", f->id, f->title, note);
     if (f->exposure != 1) {
         koksma__doc_say(d, ". Shown %g times as bright as rendered", f->exposure);
     }
     if (f->printed) {
         koksma__doc_say(d, ". In the text: %s", f->printed);
     }
-    koksma__doc_figure_end(d);
 }
 
 static void write_figures(koksma__report *r, koksma__document *d)

@@ -253,21 +253,18 @@ static void add_coherence(koksma__document *d, const koksma__task *first, const 
                           size_t n)
 {
     const char *id = first->image->id; /* blocks may have scenes in common */
-    koksma__doc_table_begin(d, "coherence-%.20s%s%.20s-%lld", id ? id : "", id ? "-" : "", first->scene->name,
-                            first->n);
+    koksma__doc_table(d, "coherence-%.20s%s%.20s-%lld", id ? id : "", id ? "-" : "", first->scene->name, first->n);
     koksma__doc_columns(d, "t pattern;n3 coherence;n3 noise from;n3 to;n2 p;n2 in common;n2 cycles a pixel;t error");
     for (size_t p = 0; p < n; p++) {
         const koksma_coherence_values *v = &values[p];
         if (is_served(first->image, p)) {
-            koksma__doc_row(d);
-            koksma__doc_cells(d, "tnnnnnnt", first->image->patterns.at[p], v->coherence, v->noise_low, v->noise_high,
-                              v->p, v->common, koksma__hypot(v->frequency_x, v->frequency_y),
-                              v->images == 0 ? "none"
-                              : v->coherent  ? "coherent"
-                                             : "noise");
+            koksma__doc_row(d, "tnnnnnnt", first->image->patterns.at[p], v->coherence, v->noise_low, v->noise_high,
+                            v->p, v->common, koksma__hypot(v->frequency_x, v->frequency_y),
+                            v->images == 0 ? "none"
+                            : v->coherent  ? "coherent"
+                                           : "noise");
         }
     }
-    koksma__doc_table_end(d);
 }
 
 /* Adds the mean spectra of the errors of the block's first n patterns as a chart, and their coherences. */
@@ -279,7 +276,7 @@ static void add_spectra(koksma__report *r, koksma__document *d, const koksma__ta
     snprintf(title, sizeof title,
              "Spectrum of the image error: %.200s, %lld sample%s a pixel, mean over rings and %d trial%s", name,
              first->n, koksma__plural((double)first->n), (int)averaged(first), koksma__plural((double)first->trials));
-    koksma__doc_chart_begin(d, &(koksma__chart){title, "cycles a pixel", "power", false, true, 0, NULL});
+    koksma__doc_chart(d, &(koksma__chart){title, "cycles a pixel", "power", false, true, 0, NULL});
     for (size_t p = 0; !r->status && p < n; p++) {
         const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
         koksma__error_spectrum spectrum = {0};
@@ -287,13 +284,11 @@ static void add_spectra(koksma__report *r, koksma__document *d, const koksma__ta
             continue;
         }
         values[p] = average(r, &task, r->run, &spectrum);
-        koksma__doc_series_begin(d, task.pattern, NULL, KOKSMA__SERIES_LINE);
+        koksma__doc_series(d, task.pattern, NULL, KOKSMA__SERIES_LINE);
         for (size_t k = 0; k < spectrum.n; k++) {
             koksma__doc_point(d, ((double)k + 0.5) / (2 * (double)spectrum.n), spectrum.power[k], NAN, NAN);
         }
-        koksma__doc_end(d);
     }
-    koksma__doc_end(d);
     if (!r->status) {
         add_coherence(d, first, values, n);
     }
@@ -313,7 +308,7 @@ static bool are_done(koksma__report *r, const koksma__task *first, size_t n, lon
 /* Adds the pictures of the reference and of the first trial of each of the block's first n patterns. */
 static void add_pictures(koksma__report *r, koksma__document *d, const koksma__task *first, size_t n, size_t *used)
 {
-    koksma__doc_pictures_begin(d, first->scene->name, first->width, first->height);
+    koksma__doc_pictures(d, first->scene->name, first->width, first->height);
     koksma__doc_picture(d, &reference_of(r, first)->image, "reference");
     for (size_t p = 0; !r->status && p < n; p++) {
         const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
@@ -324,7 +319,6 @@ static void add_pictures(koksma__report *r, koksma__document *d, const koksma__t
             koksma_image_fini(&image);
         }
     }
-    koksma__doc_end(d);
 }
 
 static void add_scene(koksma__report *r, koksma__document *d, const koksma__task *first, size_t *used,

@@ -66,26 +66,22 @@ static metric_facts find_facts(koksma__report *r, const koksma__topic *topic)
 static void say_metric(koksma__document *d, const char *metric, const metric_facts *f)
 {
     koksma_metric_spec spec;
-    koksma__doc_metric_begin(d, metric);
-    koksma__doc_say(d, "Images are compared, and patterns ranked, by `%s`: %s.", metric,
-                    koksma_metric_parse(metric, &spec) ? "" : spec.metric->title);
+    koksma__doc_metric(d, metric, "Images are compared, and patterns ranked, by `%s`: %s.", metric,
+                       koksma_metric_parse(metric, &spec) ? "" : spec.metric->title);
     if (f->measured < f->images) {
         koksma__doc_say(d,
                         " It is not measured in %zu of %zu images, whose rows are older than its mention in the "
                         "plan; the next run renders these again and adds it.",
                         f->images - f->measured, f->images);
     }
-    koksma__doc_paragraph_end(d);
     if (f->few) {
-        koksma__doc_warning_begin(d);
-        koksma__doc_say(
+        koksma__doc_warning(
             d,
             "Warning: 0.1 %% of the pixels carry most of the error in %zu of %zu means, and decide the order there. "
             "They carry most in %s with %lld sample%s of %s: %.0f %% of the error; without them `%s` is %.4g instead "
             "of %.4g. A metric that weighs them less, such as `smape`, may give another order.",
             f->few, f->means, f->name, f->spp, koksma__plural((double)f->spp), f->pattern,
             100 * f->worst.top_share.mean, metric, f->worst.robust.mean, f->worst.value.mean);
-        koksma__doc_paragraph_end(d);
     }
 }
 

@@ -455,7 +455,7 @@ void koksma__rho_say(koksma__document *d, const koksma__rho_means *s, const koks
     const size_t last = j->of[0].at[j->of[0].n - 1].measure;
     const size_t first = j->of[0].at[0].measure;
     const bool too_few = s->of[first].few == s->of[first].all;
-    koksma__doc_answer_begin(d, !too_few && (j->n == 1 || koksma__rho_always(j, KOKSMA__RHO_FIRST, first, 0)));
+    koksma__doc_answer(d, !too_few && (j->n == 1 || koksma__rho_always(j, KOKSMA__RHO_FIRST, first, 0)), "%s", "");
     if (too_few) {
         koksma__doc_say(d,
                         "*Undecided:* a rank correlation needs %d patterns or more for an interval. The largest "
@@ -471,7 +471,6 @@ void koksma__rho_say(koksma__document *d, const koksma__rho_means *s, const koks
             koksma__doc_say(d, " The last is `%s` with %+.2f.", s->of[last].measure, mean_of(&s->of[last]));
         }
     }
-    koksma__doc_paragraph_end(d);
     koksma__doc_paragraph(
         d,
         "A case is the rank correlation, over patterns, of a measure of n points with the error of images of n "

@@ -45,20 +45,17 @@ static void begin_table(koksma__document *d, const koksma__table *t)
     char id[96];
     snprintf(id, sizeof id, "table-%.80s", t->id);
     koksma__doc_section(d, id, "Table %s: %s", t->id, t->title);
-    koksma__doc_table_begin(d, "%s", id);
+    koksma__doc_table(d, "%s", id);
 }
 
 /* Ends the table and writes its notes. The section stays open for further paragraphs. */
 static void end_table(koksma__document *d, const koksma__table *t)
 {
-    koksma__doc_table_end(d);
     if (t->n_notes) {
-        koksma__doc_list_begin(d, NULL, true);
+        koksma__doc_list(d, NULL, true);
         for (size_t i = 0; i < t->n_notes; i++) {
-            koksma__doc_item(d);
-            koksma__doc_say(d, "%s", t->notes[i].reason);
+            koksma__doc_item(d, "%s", t->notes[i].reason);
         }
-        koksma__doc_list_end(d);
     }
 }
 
@@ -105,8 +102,7 @@ static void add_mean(koksma__document *d, const koksma__summary *mean, size_t se
 static void begin_row(koksma__document *d, const koksma__table *t, const koksma__table_row *row,
                       const koksma__verdict *verdict)
 {
-    koksma__doc_row(d);
-    koksma__doc_cells(d, "tt", row->label, row->pattern);
+    koksma__doc_row(d, "tt", row->label, row->pattern);
     add_mean(d, &(koksma__summary){.mean = NAN, .low = NAN, .high = NAN}, 0, verdict);
     for (int s = 0; s < 3; s++) {
         add_published(d, &row->published[s], koksma__table_note(t, row->pattern, 0, s));
@@ -213,8 +209,7 @@ static void add_printed_line(sizes_table *s, const koksma__table_row *row)
 {
     const koksma__wholes *n = &s->table->n;
     const double slope = koksma__table_printed_slope(s->table, row);
-    koksma__doc_row(s->document);
-    koksma__doc_cells(s->document, "ttt", row->label, row->pattern, "printed");
+    koksma__doc_row(s->document, "ttt", row->label, row->pattern, "printed");
     for (size_t i = 0; i < n->n; i++) {
         add_published(s->document, &row->published[i], koksma__table_note(s->table, row->pattern, n->at[i], 0));
     }
@@ -227,10 +222,9 @@ static void add_our_line(sizes_table *s, const koksma__table_row *row, const cha
 {
     const koksma__wholes *n = &s->table->n;
     koksma__curve curve = koksma__curve_of(s->report, n->n);
-    koksma__doc_row(s->document);
-    koksma__doc_cells(s->document, "ttt", row->label, row->pattern, measure);
+    koksma__doc_row(s->document, "ttt", row->label, row->pattern, measure);
     if (own) {
-        koksma__doc_series_begin(&s->chart, row->label, row->pattern, KOKSMA__SERIES_LINE);
+        koksma__doc_series(&s->chart, row->label, row->pattern, KOKSMA__SERIES_LINE);
     }
     for (size_t i = 0; i < n->n; i++) {
         const koksma__cell cell = koksma__points_cell(s->report, s->table, measure, row->pattern, n->at[i]);
@@ -243,7 +237,6 @@ static void add_our_line(sizes_table *s, const koksma__table_row *row, const cha
         koksma__curve_add(&curve, n->at[i], cell.mean);
     }
     if (own) {
-        koksma__doc_end(&s->chart);
     }
     koksma__doc_cells(s->document, "i", koksma__trend_of(curve.x, curve.y, curve.n).slope);
 }
@@ -251,25 +244,22 @@ static void add_our_line(sizes_table *s, const koksma__table_row *row, const cha
 /* Adds the published means of a row to the chart, as hollow marks in the style of our curve. */
 static void add_printed_marks(sizes_table *s, const koksma__table_row *row)
 {
-    koksma__doc_series_begin(&s->chart, row->label, row->pattern, KOKSMA__SERIES_HOLLOW);
+    koksma__doc_series(&s->chart, row->label, row->pattern, KOKSMA__SERIES_HOLLOW);
     for (size_t i = 0; i < s->table->n.n; i++) {
         koksma__doc_point(&s->chart, (double)s->table->n.at[i], row->published[i].value, NAN, NAN);
     }
-    koksma__doc_end(&s->chart);
 }
 
 /* Says over how many sets the means are, and how slopes are computed: of published means, too, if the table has some. */
 static void say_means(koksma__document *d, bool published, size_t sets, bool differ)
 {
-    koksma__doc_paragraph_begin(d);
-    koksma__doc_say(d,
-                    published ? "Published means are taken to be over 100 sets, ours are over %s%zu"
-                              : "Means are over %s%zu sets",
-                    differ ? "up to " : "", sets);
+    koksma__doc_paragraph(d,
+                          published ? "Published means are taken to be over 100 sets, ours are over %s%zu"
+                                    : "Means are over %s%zu sets",
+                          differ ? "up to " : "", sets);
     koksma__doc_say(d, ". Slopes are least squares over all columns; _theory_ is the exponent of the pattern for "
                        "large N, which a slope over these columns need not have reached, and _× random_ the factor, "
                        "where known, of its mean there to that of random points.");
-    koksma__doc_paragraph_end(d);
 }
 
 static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma__table *t)
@@ -280,7 +270,7 @@ static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma
     sizes_table s = {.report = r, .document = d, .table = t};
     snprintf(title, sizeof title, "Table %.60s: %.110s%s", t->id, t->title,
              t->rows[0].n_published ? ". Hollow: printed" : "");
-    koksma__doc_chart_begin(&s.chart, &(koksma__chart){title, "points", t->measure, true, true, 0, NULL});
+    koksma__doc_chart(&s.chart, &(koksma__chart){title, "points", t->measure, true, true, 0, NULL});
     begin_table(d, t);
     add_size_columns(d, t);
     for (size_t i = 0; i < t->n_rows; i++) {
@@ -300,7 +290,6 @@ static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma
     koksma__z_say(d, &s.together);
     count_sets(r, t, &sets, &differ);
     say_means(d, published, sets, differ);
-    koksma__doc_end(&s.chart);
     koksma__doc_append(d, &s.chart);
     koksma__doc_end(d);
 }
@@ -319,10 +308,9 @@ static void write_point_tables(koksma__report *r, koksma__document *d)
         "ours, divided by the sum of SD √(1/100 + 1/T) and half of the last published digit, where SD and T are the "
         "standard deviation and the number of our sets: it accounts for the errors of both means, the published one "
         "taken to be over 100 sets, and for the rounding. A single |z| below %.1f is attributed to chance (✓ and z); "
-        "the text below each table tests its "
-        "values of z together. _Largest of 100_ is the mean of the largest values in blocks of 100 sets; "
-        "its ±, from five blocks on, is the SD of these largest values, whereas the other intervals "
-        "are " KOKSMA__MEAN_INTERVALS ". With fewer than 100 sets it is the largest value of all.",
+        "the text below each table tests its values of z together. _Largest of 100_ is the mean of the largest "
+        "values in blocks of 100 sets; its ±, from five blocks on, is the SD of these largest values, whereas the "
+        "other intervals are " KOKSMA__MEAN_INTERVALS ". With fewer than 100 sets it is the largest value of all.",
         KOKSMA__AGREEMENT_Z);
     for (const koksma__table *t; !r->status && (t = next_table(r, false, &i));) {
         (koksma__table_is_over_n(t) ? add_sizes_table : add_table)(r, d, t);
@@ -435,7 +423,7 @@ static void say_reference(koksma__report *r, koksma__document *d, const koksma__
         order_rows(means + k, 2, n, order[k]);
     }
     const double error = koksma__reference_error(r, &s);
-    koksma__doc_paragraph_begin(d);
+    koksma__doc_paragraph(d, "%s", "");
     say_changes(d, t, means, order);
     if (isfinite(error)) {
         koksma__doc_say(d,
@@ -443,7 +431,6 @@ static void say_reference(koksma__report *r, koksma__document *d, const koksma__
                         "error in the table.",
                         error, error / smallest);
     }
-    koksma__doc_paragraph_end(d);
 }
 
 static void add_image_table(koksma__report *r, koksma__document *d, const koksma__table *t)
@@ -504,8 +491,8 @@ static void add_order(koksma__report *r, koksma__document *d)
         return;
     }
     order_rows(ranks, 1, first->n_rows, order);
-    koksma__doc_paragraph_begin(d);
-    koksma__doc_say(d, "Best to worst over the %zu tables, by mean rank against the paper's reference: ", tables);
+    koksma__doc_paragraph(d,
+                          "Best to worst over the %zu tables, by mean rank against the paper's reference: ", tables);
     for (size_t k = 0; k < first->n_rows; k++) {
         koksma__doc_say(d, "%s (%.4g)%s", first->rows[order[k]].label, ranks[order[k]] / (double)tables,
                         k + 1 < first->n_rows ? "; " : ".");
@@ -513,7 +500,6 @@ static void add_order(koksma__report *r, koksma__document *d)
     if (koksma__plan_of(r)->order) {
         koksma__doc_say(d, " The overall order that the paper's text gives: %s.", koksma__plan_of(r)->order);
     }
-    koksma__doc_paragraph_end(d);
 }
 
 static bool has_image_tables(const koksma__report *r)
@@ -524,15 +510,15 @@ static bool has_image_tables(const koksma__report *r)
 static void write_image_tables(koksma__report *r, koksma__document *d)
 {
     size_t i = 0;
-    koksma__doc_paragraph(d,
-                          "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
-                          "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get "
-                          "no verdict. Coherence (defined in the section _Pictures_) is that of the errors of the "
-                          "first %d trials: that of "
-                          "white noise is below _noise below_ in 97.5 %% of cases, and as large as here with "
-                          "probability p. An error with p "
-                          "below %g is coherent: in bands, a slow shade or another pattern that the eye sees.",
-                          KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
+    koksma__doc_paragraph(
+        d,
+        "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
+        "are " KOKSMA__MEAN_INTERVALS
+        ". A maximum is the error of one pixel; maxima get no verdict. Coherence (defined in the section _Pictures_) "
+        "is that of the errors of the first %d trials: that of white noise is below _noise below_ in 97.5 %% of "
+        "cases, and as large as here with probability p. An error with p below %g is coherent: in bands, a slow "
+        "shade or another pattern that the eye sees.",
+        KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
     for (const koksma__table *t; !r->status && (t = next_table(r, true, &i));) {
         add_image_table(r, d, t);
     }

@@ -93,12 +93,12 @@ static koksma_status build(koksma__report *r, const koksma_run *run, koksma__doc
                      plan->name);
     koksma__json_write_flag(&d->json, "quick", r->study->quick);
     koksma__json_write_text(&d->json, "rows_sha256", r->rows);
-    koksma__json_begin_array(&d->json, "content");
+    koksma__doc_content(d);
     for (; !r->status && r->part < plan->n_parts; r->part++) {
         add_plan(r, &p, d);
     }
     add_sections(r, &p, false, d);
-    koksma__json_end(&d->json);
+    koksma__doc_close(d);
     koksma__json_end(&d->json);
     return r->status ? r->status : d->json.status;
 }
@@ -167,12 +167,10 @@ static void write_undone(koksma__report *r, koksma__document *d)
 {
     size_t jobs = 0, undone = 0;
     if (koksma__report_keep(r, koksma__count_undone(r->study, &jobs, &undone)) && undone) {
-        koksma__doc_warning_begin(d);
-        koksma__doc_say(d,
-                        "%zu of %zu jobs have no rows: a run ended before them, or made rows of files, scenes or "
-                        "code that have changed since. `koksma study run` does them.",
-                        undone, jobs);
-        koksma__doc_paragraph_end(d);
+        koksma__doc_warning(d,
+                            "%zu of %zu jobs have no rows: a run ended before them, or made rows of files, scenes or "
+                            "code that have changed since. `koksma study run` does them.",
+                            undone, jobs);
     }
 }
 
@@ -188,12 +186,10 @@ static void write_left_out(koksma__report *r, koksma__document *d)
 {
     const char *line;
     koksma__doc_paragraph(d, "These combinations have no results; where trials are counted, only those have none:");
-    koksma__doc_list_begin(d, NULL, false);
+    koksma__doc_list(d, NULL, false);
     for (size_t i = 0; koksma__report_goes_on(r) && (line = koksma_study_left_out_at(r->study, i)); i++) {
-        koksma__doc_item(d);
-        koksma__doc_say(d, "%s", line);
+        koksma__doc_item(d, "%s", line);
     }
-    koksma__doc_list_end(d);
 }
 
 const koksma__section koksma__section_left_out = {"Left out", false, has_left_out, write_left_out};
@@ -220,17 +216,15 @@ static void write_origin(koksma__report *r, koksma__document *d)
         "store, but no line here):",
         koksma_version(), r->study->plan.name, r->study->quick ? ", with the fewer trials of `--quick`" : "",
         r->rows);
-    koksma__doc_list_begin(d, "runs", false);
+    koksma__doc_list(d, "runs", false);
     for (long long i = 0; koksma__report_keep(r, koksma__store_run(r->study->store, i, &run, &found)) && found; i++) {
-        koksma__doc_item(d);
-        koksma__doc_say(d,
-                        "%s: %lld jobs in %.1f s with %lld workers on %s, koksma %s; idle %.1f %% of the time, in "
-                        "the database %.1f %% of the processor time",
-                        run.started, run.jobs, run.seconds, run.workers, run.machine, run.version,
-                        percent(run.idle_seconds, (double)run.workers * run.seconds),
-                        percent(run.store_seconds, run.processor_seconds));
+        koksma__doc_item(d,
+                         "%s: %lld jobs in %.1f s with %lld workers on %s, koksma %s; idle %.1f %% of the time, in "
+                         "the database %.1f %% of the processor time",
+                         run.started, run.jobs, run.seconds, run.workers, run.machine, run.version,
+                         percent(run.idle_seconds, (double)run.workers * run.seconds),
+                         percent(run.store_seconds, run.processor_seconds));
     }
-    koksma__doc_list_end(d);
     koksma__doc_paragraph(d, "Intervals of means are " KOKSMA__MEAN_INTERVALS
                              ". Simulated 95 %% intervals of slopes and of relative changes hold in 94 to 98 %%, "
                              "those of numbers of samples in 92 to 96 %%.");

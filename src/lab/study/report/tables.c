@@ -179,13 +179,13 @@ void koksma__z_say(koksma__document *d, const koksma__z_sums *z)
     if (!z->count && !z->untested) {
         return;
     }
-    koksma__doc_paragraph_begin(d);
+    koksma__doc_paragraph(d, "%s", "");
     if (z->count > 1) {
         const bool one_side = koksma__z_deviates(z, 0.05), spread = koksma__z_spreads(z, 0.05);
         koksma__doc_say(d,
-                        "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by "
-                        "chance between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one "
-                        "side), and the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
+                        "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by chance "
+                        "between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one side), and "
+                        "the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
                         z->count,
                         one_side && spread   ? "fail both tests"
                         : one_side || spread ? "fail one of two tests"
@@ -209,7 +209,6 @@ void koksma__z_say(koksma__document *d, const koksma__z_sums *z)
         koksma__doc_say(d, " %zu cell%s that a note calls no test.", z->untested,
                         koksma__plural((double)z->untested));
     }
-    koksma__doc_paragraph_end(d);
 }
 
 /* ---- The section that counts them -------------------------------------------------------------------------- */
@@ -278,9 +277,9 @@ static void say_group(koksma__document *d, int group, const counts *all, size_t 
         return;
     }
     if (group == FITTED) {
-        koksma__doc_paragraph_begin(d); /* by construction, so that it answers nothing */
+        koksma__doc_paragraph(d, "%s", ""); /* by construction, so that it answers nothing */
     } else {
-        koksma__doc_answer_begin(d, !unexplained);
+        koksma__doc_answer(d, !unexplained, "%s", "");
     }
     koksma__doc_say(d, "%zu of %zu published means ", agree, agree + explained + unexplained);
     if (group == MEASURES) {
@@ -314,7 +313,6 @@ static void say_group(koksma__document *d, int group, const counts *all, size_t 
         koksma__doc_say(d, "; %zu more are no test", of[KOKSMA_VERDICT_UNTESTED]);
     }
     koksma__doc_say(d, ".");
-    koksma__doc_paragraph_end(d);
     if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
         koksma__doc_paragraph(d, "The %zu that are no test, as their notes say: %s.", of[KOKSMA_VERDICT_UNTESTED],
                               all->untested);
@@ -355,11 +353,12 @@ static void say_joint(koksma__document *d, const koksma__plan *plan, const koksm
     if (!tested) {
         return;
     }
-    koksma__doc_answer_begin(d, strictly ? KOKSMA__ANSWER_FAILS
-                                : failed ? KOKSMA__ANSWER_UNDECIDED
-                                         : KOKSMA__ANSWER_DECIDED);
-    koksma__doc_say(d, "The values of z of %zu of %zu tables pass their joint tests (of sum and squares, 5 %% each)",
-                    tested - failed, tested);
+    koksma__doc_answer(d,
+                       strictly ? KOKSMA__ANSWER_FAILS
+                       : failed ? KOKSMA__ANSWER_UNDECIDED
+                                : KOKSMA__ANSWER_DECIDED,
+                       "The values of z of %zu of %zu tables pass their joint tests (of sum and squares, 5 %% each)",
+                       tested - failed, tested);
     if (strictly) {
         koksma__doc_say(d, "; chance alone does not explain the tables that fail: table ");
         list_failed(d, plan, z, all_tests, true);
@@ -375,7 +374,6 @@ static void say_joint(koksma__document *d, const koksma__plan *plan, const koksm
         }
     }
     koksma__doc_say(d, ".");
-    koksma__doc_paragraph_end(d);
 }
 
 static void write_agreement(koksma__report *r, koksma__document *d)

@@ -24,7 +24,7 @@ static void put_head(const koksma__sheet *sheet, koksma__document *d)
         koksma__json_write_text(&d->json, NULL, sheet->samplers[s]->text);
     }
     koksma__json_end(&d->json);
-    koksma__json_begin_array(&d->json, "content");
+    koksma__doc_content(d);
 }
 
 /* Writes the last section: what was left out and why, and the version and seeds behind the numbers. */
@@ -40,7 +40,6 @@ static void put_origin(koksma__sheet *sheet, koksma__document *d)
         koksma_version(), "--seed", koksma__sheet_trials(sheet->samplers[0], sheet->trials), sheet->max_trials);
     if (sheet->n_notes) {
         koksma__doc_paragraph(d, "Left out:");
-        koksma__doc_list_end(&notes);
         koksma__doc_append(d, &notes);
     }
     koksma__doc_end(d);
@@ -76,7 +75,7 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
     status = status ? status : koksma__sheet_verify(sheet, d);
     status = status ? status : koksma__sheet_projections(sheet, d);
     put_origin(sheet, d);
-    koksma__json_end(&d->json);
+    koksma__doc_close(d);
     char folder[KOKSMA__FOLDER] = "";
     for (size_t i = 0; i < sheet->n_samplers; i++) {
         const char *text = sheet->samplers[i]->text;

@@ -54,43 +54,38 @@ static void put_chart(const koksma__sheet *sheet, const char *name, const koksma
     for (size_t k = 0; k < sheet->n_samplers * sheet->n_sizes; k++) {
         positive = positive && results[k / sheet->n_sizes].rows[k % sheet->n_sizes].rmse > 0;
     }
-    koksma__doc_chart_begin(d, &(koksma__chart){name, "points n", "RMSE", true, positive, -1, NULL});
+    koksma__doc_chart(d, &(koksma__chart){name, "points n", "RMSE", true, positive, -1, NULL});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
-        koksma__doc_series_begin(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
+        koksma__doc_series(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < sheet->n_sizes; i++) {
             const koksma_integration_row *row = &results[s].rows[i];
             koksma__doc_point(d, (double)row->n, row->rmse, row->low, row->high);
         }
-        koksma__doc_end(d);
     }
-    koksma__doc_end(d);
 }
 
 static void put_table(const koksma__sheet *sheet, const koksma_integration *results, koksma__document *d)
 {
-    koksma__doc_table_begin(d, "integrals");
+    koksma__doc_table(d, "integrals");
     koksma__doc_columns(d, "tm integrand;t sampler;i3 RMSE;i2f slope;n3 gain;n9 sets");
     size_t approximate = 0;
     for (size_t k = 0; k < N_INTEGRANDS * sheet->n_samplers; k++) {
         const koksma_integration *r = &results[k];
         const koksma_integration_row *last = &r->rows[sheet->n_sizes - 1];
         const bool biased = sheet->bias.biased && k % sheet->n_samplers == 0;
-        koksma__doc_row(d);
+        koksma__doc_row(d, "");
         const koksma__sheet_sampler *sampler = sheet->samplers[k % sheet->n_samplers];
         koksma__doc_cells(d, "ttiinn", integrands[k / sheet->n_samplers], sampler->text, rmse_of(last, sampler),
                           (koksma__estimate){r->slope.value, r->slope.low, r->slope.high},
                           biased ? (double)NAN : last->gain, (double)last->trials);
         approximate += last->approximate || r->slope.approximate;
     }
-    koksma__doc_table_end(d);
     if (approximate) {
-        koksma__doc_paragraph_begin(d);
-        koksma__doc_say(d,
-                        "Intervals of %zu of the %zu rows are approximate and may hold in less than 93 %% of cases: "
-                        "there are fewer than 16 sets, or their errors are much more skewed or heavy-tailed than "
-                        "normal ones (`koksma integrate` marks each).",
-                        approximate, (size_t)N_INTEGRANDS * sheet->n_samplers);
-        koksma__doc_paragraph_end(d);
+        koksma__doc_paragraph(d,
+                              "Intervals of %zu of the %zu rows are approximate and may hold in less than 93 %% of "
+                              "cases: there are fewer than 16 sets, or their errors are much more skewed or "
+                              "heavy-tailed than normal ones (`koksma integrate` marks each).",
+                              approximate, (size_t)N_INTEGRANDS * sheet->n_samplers);
     }
 }
 

@@ -229,7 +229,7 @@ static size_t best_beside(const koksma__sheet_values *v, size_t m)
 static void put_summary(const koksma__sheet_values *v, koksma__document *d)
 {
     const size_t last = v->n_sizes - 1;
-    koksma__doc_table_begin(d, "measures");
+    koksma__doc_table(d, "measures");
     const bool one = v->n_sizes == 1, others = v->n_samplers > 1; /* one size has no slope */
     koksma__doc_columns(d, one && others ? "t measure;i3 mean;t best of the others;i3 its mean"
                            : one         ? "t measure;i3 mean"
@@ -239,8 +239,7 @@ static void put_summary(const koksma__sheet_values *v, koksma__document *d)
         if (v->measures[m].left_out) {
             continue;
         }
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "ti", v->measures[m].name, mean_of(v, 0, m, last));
+        koksma__doc_row(d, "ti", v->measures[m].name, mean_of(v, 0, m, last));
         if (!one) {
             koksma__doc_cells(d, "i", slope_of(v, 0, m));
         }
@@ -249,7 +248,6 @@ static void put_summary(const koksma__sheet_values *v, koksma__document *d)
             koksma__doc_cells(d, "ti", v->samplers[best]->text, mean_of(v, best, m, last));
         }
     }
-    koksma__doc_table_end(d);
 }
 
 static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document *d)
@@ -262,17 +260,15 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
     for (size_t k = 0; k < v->n_samplers * v->n_sizes; k++) {
         positive &= koksma__sheet_tally(v, k / v->n_sizes, m, k % v->n_sizes)->mean > 0;
     }
-    koksma__doc_chart_begin(d, &(koksma__chart){title, "points n", v->measures[m].name, true, positive,
-                                                measure->larger_is_better ? 1 : -1, NULL});
+    koksma__doc_chart(d, &(koksma__chart){title, "points n", v->measures[m].name, true, positive,
+                                          measure->larger_is_better ? 1 : -1, NULL});
     for (size_t s = 0; s < v->n_samplers; s++) {
-        koksma__doc_series_begin(d, v->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
+        koksma__doc_series(d, v->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < v->n_sizes; i++) {
             const koksma__estimate e = mean_of(v, s, m, i);
             koksma__doc_point(d, (double)v->sizes[i], e.value, e.low, e.high);
         }
-        koksma__doc_end(d);
     }
-    koksma__doc_end(d);
 }
 
 void koksma__sheet_put_dots(const koksma__sheet *sheet, const char *what, const char *const *names, size_t n,
@@ -285,16 +281,14 @@ void koksma__sheet_put_dots(const koksma__sheet *sheet, const char *what, const 
     for (size_t i = 0; i < n; i++) {
         upwards[n - 1 - i] = names[i];
     }
-    koksma__doc_chart_begin(d, &(koksma__chart){title, axis, "", .log_x = true, .names = upwards});
+    koksma__doc_chart(d, &(koksma__chart){title, axis, "", .log_x = true, .names = upwards});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
-        koksma__doc_series_begin(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_MARKS);
+        koksma__doc_series(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_MARKS);
         for (size_t i = 0; i < n; i++) {
             const double ratio = values[i * sheet->n_samplers + s] / values[i * sheet->n_samplers + 1];
             koksma__doc_point(d, ratio > 0 ? ratio : (double)NAN, (double)(n - i), NAN, NAN);
         }
-        koksma__doc_end(d);
     }
-    koksma__doc_end(d);
 }
 
 /* A dot for each measure and sampler: what a sheet of one size has in place of lines against n. */
@@ -325,35 +319,31 @@ static void put_dots(const koksma__sheet *sheet, const koksma__sheet_values *v, 
 /* Writes a table with every number in its own row. */
 static void put_values(const koksma__sheet_values *v, const char *name, koksma__document *d)
 {
-    koksma__doc_table_begin(d, "%s", name);
+    koksma__doc_table(d, "%s", name);
     koksma__doc_columns(d, "tm measure;tm sampler;n9 n;i4 mean;n2 SD;n9 sets");
     for (size_t m = 0; m < v->n_measures; m++) {
         for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
             for (size_t i = 0; i < v->n_sizes; i++) {
                 const koksma_tally *t = koksma__sheet_tally(v, s, m, i);
-                koksma__doc_row(d);
-                koksma__doc_cells(d, "ttninn", v->measures[m].name, v->samplers[s]->text, (double)v->sizes[i],
-                                  mean_of(v, s, m, i), koksma_tally_sd(t), t->count);
+                koksma__doc_row(d, "ttninn", v->measures[m].name, v->samplers[s]->text, (double)v->sizes[i],
+                                mean_of(v, s, m, i), koksma_tally_sd(t), t->count);
             }
         }
     }
-    koksma__doc_table_end(d);
 }
 
 /* Writes a table of all samplers' slopes, fitted as `koksma measure --sizes` does. */
 static void put_slopes(const koksma__sheet_values *v, koksma__document *d)
 {
-    koksma__doc_table_begin(d, "slopes");
+    koksma__doc_table(d, "slopes");
     koksma__doc_columns(d, "tm measure;t sampler;i3f slope;n2 theory;n2 best possible");
     for (size_t m = 0; m < v->n_measures; m++) {
         for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
-            koksma__doc_row(d);
-            koksma__doc_cells(d, "ttinn", v->measures[m].name, v->samplers[s]->text, slope_of(v, s, m),
-                              -koksma_rate(&v->samplers[s]->spec, v->measures[m].spec.measure, v->dim),
-                              -koksma_best_rate(v->measures[m].spec.measure, v->dim));
+            koksma__doc_row(d, "ttinn", v->measures[m].name, v->samplers[s]->text, slope_of(v, s, m),
+                            -koksma_rate(&v->samplers[s]->spec, v->measures[m].spec.measure, v->dim),
+                            -koksma_best_rate(v->measures[m].spec.measure, v->dim));
         }
     }
-    koksma__doc_table_end(d);
 }
 
 void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *v, const char *name,

@@ -54,13 +54,12 @@ koksma_run koksma__sheet_one_set(koksma__sheet *sheet)
 void koksma__sheet_note_error(koksma__sheet *sheet, const char *what)
 {
     if (!sheet->n_notes++) {
-        koksma__doc_list_begin(&sheet->notes, "left-out", false);
+        koksma__doc_list(&sheet->notes, "left-out", false);
     }
-    koksma__doc_item(&sheet->notes);
     const char *text = koksma_error_text();
     const size_t length = strlen(what);
     const bool named = !strncmp(text, what, length) && !strncmp(text + length, ": ", 2);
-    koksma__doc_say(&sheet->notes, "`%s`: %s", what, text + (named ? length + 2 : 0));
+    koksma__doc_item(&sheet->notes, "`%s`: %s", what, text + (named ? length + 2 : 0));
 }
 
 static bool is_plain(char c)

@@ -20,8 +20,8 @@ static void draw(koksma__document *d, const koksma_points *points, int a, int b,
                  const char *caption)
 {
     static const double square[4] = {0, 0, 1, 1};
-    koksma__doc_figure_begin(d, width == WIDTH ? "set" : "projection");
-    koksma__doc_drawing_begin(d, width, square, what);
+    koksma__doc_figure(d, width == WIDTH ? "set" : "projection");
+    koksma__doc_drawing(d, width, square, what);
     koksma__doc_line(d, 0, 0, 1, 0);
     koksma__doc_line(d, 1, 0, 1, 1);
     koksma__doc_line(d, 1, 1, 0, 1);
@@ -30,10 +30,7 @@ static void draw(koksma__document *d, const koksma_points *points, int a, int b,
         const double *x = points->xs + i * (size_t)points->dim;
         koksma__doc_dot(d, x[a], x[b]);
     }
-    koksma__doc_end(d);
-    koksma__doc_caption(d);
-    koksma__doc_say(d, "%s", caption);
-    koksma__doc_figure_end(d);
+    koksma__doc_caption(d, "%s", caption);
 }
 
 static const koksma_run alone = {.threads = 1};
@@ -107,33 +104,29 @@ static void count_findings(const koksma_findings *findings, const char *property
 static void put_matrix(const koksma__sheet *sheet, const koksma_findings *findings, koksma__document *d)
 {
     const koksma_property *property;
-    koksma__doc_table_begin(d, "properties");
+    koksma__doc_table(d, "properties");
     koksma__doc_columns(d, "t property");
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__doc_columns(d, "t %s", sheet->samplers[s]->text);
     }
     for (size_t p = 0; (property = koksma_property_at(p)) && !property->of_sets; p++) { /* those of sets come last */
         char text[48];
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "t", property->name);
+        koksma__doc_row(d, "t", property->name);
         for (size_t s = 0; s < sheet->n_samplers; s++) {
             count_findings(&findings[s], property->name, text, sizeof text);
             koksma__doc_cells(d, "t", text);
         }
     }
-    koksma__doc_table_end(d);
 }
 
 static void put_findings(const koksma_findings *findings, const char *name, koksma__document *d)
 {
-    koksma__doc_table_begin(d, "%s", name);
+    koksma__doc_table(d, "%s", name);
     koksma__doc_columns(d, "tm property;t subject;t holds;n6 value;t detail");
     for (size_t i = 0; i < findings->count; i++) {
         const koksma_finding *f = &findings->items[i];
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "tttnt", f->property, f->subject, f->holds ? "yes" : "no", f->value, f->detail);
+        koksma__doc_row(d, "tttnt", f->property, f->subject, f->holds ? "yes" : "no", f->value, f->detail);
     }
-    koksma__doc_table_end(d);
 }
 
 static void put_verify_command(koksma__sheet *sheet, const koksma__sheet_sampler *sampler, size_t n, int dim)

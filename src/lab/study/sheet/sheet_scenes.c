@@ -78,7 +78,7 @@ static const char *decision_of(const koksma_rank_row *row)
 
 static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
-    koksma__doc_table_begin(d, "scene-%s", sheet->scenes[scene]);
+    koksma__doc_table(d, "scene-%s", sheet->scenes[scene]);
     koksma__doc_columns(d,
                         "n9m samples a pixel#samples;t sampler;i4 error;i2f behind the first#behind;t "
                         "coherent#bands;n3h position;n3h coherence;th decision;n9h images;n4h robust;n3h top share");
@@ -86,19 +86,17 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
         const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
         for (size_t i = 0; i < sheet->n_samplers; i++) {
             const koksma_rank_row *row = &r->rows[i];
-            koksma__doc_row(d);
-            koksma__doc_cells(d, "ntiitnntnnn", (double)r->spp, sheet->samplers[row->pattern]->text,
-                              (koksma__estimate){row->mean, row->low, row->high},
-                              (koksma__estimate){row->behind, row->behind_low, row->behind_high},
-                              !row->coherence.images    ? "–"
-                              : row->coherence.coherent ? "yes"
-                                                        : "no",
-                              row->position ? (double)row->position : (double)NAN,
-                              row->coherence.images ? row->coherence.coherence : (double)NAN, decision_of(row),
-                              (double)row->trials, row->robust, row->top_share);
+            koksma__doc_row(d, "ntiitnntnnn", (double)r->spp, sheet->samplers[row->pattern]->text,
+                            (koksma__estimate){row->mean, row->low, row->high},
+                            (koksma__estimate){row->behind, row->behind_low, row->behind_high},
+                            !row->coherence.images    ? "–"
+                            : row->coherence.coherent ? "yes"
+                                                      : "no",
+                            row->position ? (double)row->position : (double)NAN,
+                            row->coherence.images ? row->coherence.coherence : (double)NAN, decision_of(row),
+                            (double)row->trials, row->robust, row->top_share);
         }
     }
-    koksma__doc_table_end(d);
 }
 
 /* Warns if a few pixels carry most of the error in some rows of a scene's table. */
@@ -120,15 +118,13 @@ static void warn_of_few_pixels(const koksma__sheet *sheet, size_t scene, koksma_
         }
     }
     if (worst) {
-        koksma__doc_warning_begin(d);
-        koksma__doc_say(
+        koksma__doc_warning(
             d,
             "Warning: 0.1 %% of the pixels carry most of the error in %zu of %zu rows, and decide the order there. "
             "They carry most with %d samples of %s: %.0f %% of the error; without them `%s` is %.4g instead of %.4g. "
             "A metric that weighs them less, such as `smape`, may give another order.",
             few, ranked, spp, sheet->samplers[worst->pattern]->text, 100 * worst->top_share, sheet->metric_text,
             worst->robust, worst->mean);
-        koksma__doc_paragraph_end(d);
     }
 }
 
@@ -137,10 +133,10 @@ static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document
 {
     char title[128];
     snprintf(title, sizeof title, "Error in %s", sheet->scenes[scene]);
-    koksma__doc_chart_begin(
-        d, &(koksma__chart){title, "samples a pixel", sheet->metric.metric->title, true, true, -1, NULL});
+    koksma__doc_chart(d,
+                      &(koksma__chart){title, "samples a pixel", sheet->metric.metric->title, true, true, -1, NULL});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
-        koksma__doc_series_begin(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
+        koksma__doc_series(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t k = 0; k < sheet->n_spp; k++) {
             const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
             for (size_t i = 0; i < sheet->n_samplers; i++) {
@@ -149,9 +145,7 @@ static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document
                 }
             }
         }
-        koksma__doc_end(d);
     }
-    koksma__doc_end(d);
 }
 
 /* Writes the command that gives a scene's numbers. No list of patterns can have a path with a comma. */
@@ -193,15 +187,13 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_paragraph(d, "No scene was rendered: a pixel needs a set with one point for each of its samples, "
                                  "and the sampler has no set of 4, 16, 64 or any other number of up to 256 points.");
     } else {
-        koksma__doc_metric_begin(d, sheet->metric_text);
-        koksma__doc_say(
-            d,
+        koksma__doc_metric(
+            d, sheet->metric_text,
             "Error of an image: %s (%s). Samplers are used as in a renderer: one set for each pixel and each use "
             "(lens, light, ...). Behind: the relative difference of the error to that of the first row with as many "
             "samples. Bands: the error has a pattern, which eyes notice more than noise. Intervals and decisions of "
             "a scene hold together with 95 %%; coherence and decisions are in the CSV files.",
             sheet->metric_text, sheet->metric.metric->title);
-        koksma__doc_paragraph_end(d);
     }
     if (sheet->samplers[0]->sets != SIZE_MAX && sheet->n_spp) {
         koksma__doc_paragraph(

@@ -76,11 +76,9 @@ static koksma_status put_picture(const spectra *s, koksma__document *d)
     }
     snprintf(what, sizeof what, "%s, %zu set%s of %zu", s->sampler->text, s->trials, s->trials == 1 ? "" : "s", s->n);
     if (!status) {
-        koksma__doc_figure_begin(d, "spectrum");
+        koksma__doc_figure(d, "spectrum");
         status = koksma__doc_image(d, &image, scale, what);
-        koksma__doc_caption(d);
-        koksma__doc_say(d, "%s", what);
-        koksma__doc_figure_end(d);
+        koksma__doc_caption(d, "%s", what);
         koksma_image_fini(&image);
     }
     return status;
@@ -88,10 +86,9 @@ static koksma_status put_picture(const spectra *s, koksma__document *d)
 
 static void put_level(double from, double to, koksma__document *d)
 {
-    koksma__doc_series_begin(d, "random points", NULL, KOKSMA__SERIES_THEORY);
+    koksma__doc_series(d, "random points", NULL, KOKSMA__SERIES_THEORY);
     koksma__doc_point(d, from, 1, NAN, NAN);
     koksma__doc_point(d, to, 1, NAN, NAN);
-    koksma__doc_end(d);
 }
 
 static koksma_status put_radial(const spectra *all, size_t n, koksma__document *d)
@@ -99,50 +96,44 @@ static koksma_status put_radial(const spectra *all, size_t n, koksma__document *
     const int half = all->radial.half;
     koksma_ring *rings = malloc((size_t)half * sizeof *rings);
     koksma_status status = rings ? KOKSMA_OK : koksma__fail_memory((size_t)half * sizeof *rings);
-    koksma__doc_chart_begin(
+    koksma__doc_chart(
         d, &(koksma__chart){"Radial mean of the power", "frequency / sqrt(n)", "power", false, false, 0, NULL});
     for (size_t s = 0; s < n && !status; s++) {
         status = koksma_spectrum_rings(&all[s].radial, rings);
-        koksma__doc_series_begin(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
+        koksma__doc_series(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
         for (int r = 0; r < half && !status; r++) {
             koksma__doc_point(d, rings[r].frequency / sqrt((double)all[s].n), rings[r].power, NAN, NAN);
         }
-        koksma__doc_end(d);
     }
     put_level(0, half / sqrt((double)all->n), d);
-    koksma__doc_end(d);
     free(rings);
     return status;
 }
 
 static void put_pairs(const spectra *all, size_t n, koksma__document *d)
 {
-    koksma__doc_chart_begin(d, &(koksma__chart){"Pair correlation", "distance on the torus × sqrt(n)",
-                                                "pairs, relative to random points", false, false, 0, NULL});
+    koksma__doc_chart(d, &(koksma__chart){"Pair correlation", "distance on the torus × sqrt(n)",
+                                          "pairs, relative to random points", false, false, 0, NULL});
     for (size_t s = 0; s < n; s++) {
-        koksma__doc_series_begin(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
+        koksma__doc_series(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t b = 0; b < BINS; b++) {
             koksma__doc_point(d, ((double)b + 0.5) * all[s].r_max / BINS * sqrt((double)all[s].n),
                               all[s].pairs[b].mean, NAN, NAN);
         }
-        koksma__doc_end(d);
     }
     put_level(0, all->r_max * sqrt((double)all->n), d);
-    koksma__doc_end(d);
 }
 
 static void put_quality(const spectra *all, size_t n, koksma__document *d)
 {
-    koksma__doc_table_begin(d, "spectra");
+    koksma__doc_table(d, "spectra");
     koksma__doc_columns(d, "t sampler;n4 effective Nyquist;n3 over sqrt(n)/2;n3 oscillation;n9 sets");
     for (size_t s = 0; s < n; s++) {
         koksma_spectrum_quality_values q;
         koksma_spectrum_quality(&all[s].wide, &q);
-        koksma__doc_row(d);
-        koksma__doc_cells(d, "tnnnn", all[s].sampler->text, q.effective_nyquist, q.relative_nyquist, q.oscillation,
-                          (double)all[s].trials);
+        koksma__doc_row(d, "tnnnn", all[s].sampler->text, q.effective_nyquist, q.relative_nyquist, q.oscillation,
+                        (double)all[s].trials);
     }
-    koksma__doc_table_end(d);
 }
 
 static void put_commands(koksma__sheet *sheet, const spectra *all, koksma__document *d)

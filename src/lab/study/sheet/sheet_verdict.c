@@ -82,24 +82,22 @@ static void put_bias(koksma__sheet *sheet, koksma__document *d)
     const koksma__sheet_bias *bias = &sheet->bias;
     const koksma__sheet_sampler *sampler = sheet->samplers[0];
     char source[2 * KOKSMA_MAX_SPEC];
-    koksma__doc_paragraph_begin(d);
     if (bias->biased) {
-        koksma__doc_say(d,
-                        "*Biased*: over %zu sets of %zu points the mean share of the points in a box is not its "
-                        "volume (%s). No number of sets averages this error away, so that this sheet calls the "
-                        "sampler best in nothing, and its gains are no gains.",
-                        bias->sets, bias->n, bias->detail);
+        koksma__doc_paragraph(d,
+                              "*Biased*: over %zu sets of %zu points the mean share of the points in a box is not "
+                              "its volume (%s). No number of sets averages this error away, so that this sheet calls "
+                              "the sampler best in nothing, and its gains are no gains.",
+                              bias->sets, bias->n, bias->detail);
     } else if (bias->sets) {
-        koksma__doc_say(d,
-                        "Unbiased, as far as %zu sets of %zu points show: the mean share of the points agrees with "
-                        "the volume in every box that `koksma verify --seeds` tests.",
-                        bias->sets, bias->n);
+        koksma__doc_paragraph(d,
+                              "Unbiased, as far as %zu sets of %zu points show: the mean share of the points agrees "
+                              "with the volume in every box that `koksma verify --seeds` tests.",
+                              bias->sets, bias->n);
     } else {
-        koksma__doc_say(
+        koksma__doc_paragraph(
             d, "Whether the sampler is unbiased is not known: that takes %d different sets, one for each seed.",
             KOKSMA_VERIFY_SETS);
     }
-    koksma__doc_paragraph_end(d);
     if (bias->sets) {
         koksma__sheet_source(sampler, bias->n, 2, source, sizeof source);
         koksma__sheet_command(sheet, "verify %s --seeds %zu --seed %llu", source, bias->sets,
@@ -188,8 +186,7 @@ static void put_measures(const koksma__sheet_values *v, const score *result, out
             continue;
         }
         if (first) {
-            koksma__doc_item(d);
-            koksma__doc_say(d, "*%s", head);
+            koksma__doc_item(d, "*%s", head);
             koksma__doc_say(d, which == LOST ? " %s*: " : "*: ", v->samplers[winner]->text);
         }
         koksma__doc_say(d, first ? "%s" : ", %s", v->measures[m].name);
@@ -208,8 +205,7 @@ static void put_scenes(const koksma__sheet *sheet, koksma__document *d)
         const koksma__sheet_ranking *r = &sheet->rankings[(i + 1) * sheet->n_spp - 1];
         const koksma_rank_row *row;
         const outcome o = judge_scene(r, &row);
-        koksma__doc_item(d);
-        koksma__doc_say(d, "Scene %s at %d samples a pixel: ", r->scene, r->spp);
+        koksma__doc_item(d, "Scene %s at %d samples a pixel: ", r->scene, r->spp);
         if (!row) {
             koksma__doc_say(d, "not ranked");
         } else if (sheet->bias.biased && o != LOST) {
@@ -249,27 +245,25 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     }
     koksma__doc_section(d, "verdict", "Verdict");
     put_bias(sheet, d);
-    koksma__doc_paragraph_begin(d);
     if (sheet->n_samplers == 1) {
-        koksma__doc_say(d, "This sheet compares %s with no other sampler.", sheet->samplers[0]->text);
-        koksma__doc_paragraph_end(d);
+        koksma__doc_paragraph(d, "This sheet compares %s with no other sampler.", sheet->samplers[0]->text);
         koksma__doc_end(d);
         return;
     }
-    if (!sheet->bias.biased) {
-        koksma__doc_say(d, "`%s` is better than every other sampler here in *", sheet->samplers[0]->text);
+    if (sheet->bias.biased) {
+        koksma__doc_paragraph(d, "It is beaten in *");
+    } else {
+        koksma__doc_paragraph(d, "`%s` is better than every other sampler here in *", sheet->samplers[0]->text);
         say_count(d, s.n[WON], n, scenes[WON], of_scenes);
-        koksma__doc_say(d, "*. ");
+        koksma__doc_say(d, "*. It is beaten in *");
     }
-    koksma__doc_say(d, "It is beaten in *");
     say_count(d, s.n[LOST], n, scenes[LOST], of_scenes);
     koksma__doc_say(d, "*");
     if (!sheet->bias.biased && (s.n[WON] + s.n[LOST] < n || scenes[WON] + scenes[LOST] < of_scenes)) {
         koksma__doc_say(d, "; in the rest it is equal to the best, or not decided");
     }
     koksma__doc_say(d, ".");
-    koksma__doc_paragraph_end(d);
-    koksma__doc_list_begin(d, NULL, false);
+    koksma__doc_list(d, NULL, false);
     if (!sheet->bias.biased) {
         put_measures(v, &s, WON, 0, "Best", d);
         put_measures(v, &s, EQUAL, 0, "Equal to the best", d);
@@ -279,12 +273,10 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     }
     put_measures(v, &s, OPEN, 0, "Not decided", d);
     put_scenes(sheet, d);
-    koksma__doc_list_end(d);
-    koksma__doc_paragraph_begin(d);
-    koksma__doc_say(d,
-                    "How sure: measures at n = %zu over %zu set%s of the sampler; all %zu comparisons hold together "
-                    "with 95 %% (Welch, Bonferroni).",
-                    v->sizes[v->n_sizes - 1], v->trials[0], v->trials[0] == 1 ? "" : "s", s.tests);
+    koksma__doc_paragraph(d,
+                          "How sure: measures at n = %zu over %zu set%s of the sampler; all %zu comparisons hold "
+                          "together with 95 %% (Welch, Bonferroni).",
+                          v->sizes[v->n_sizes - 1], v->trials[0], v->trials[0] == 1 ? "" : "s", s.tests);
     bool exact = false;
     for (size_t k = 0; k < v->n_samplers; k++) {
         exact |= v->samplers[k]->same;
@@ -295,6 +287,5 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     if (of_scenes) {
         koksma__doc_say(d, " Decisions of each scene hold together with 95 %%.");
     }
-    koksma__doc_paragraph_end(d);
     koksma__doc_end(d);
 }
