@@ -2,9 +2,9 @@
 /*
  * A report as data: sections that hold paragraphs, lists, tables, charts, figures and pictures, in the order in
  * which they are shown. Each call appends to the JSON text of the report (docs/report-format.md), which the page
- * (page/report.mjs) shows. A block ends where the next one begins, or its section ends: only sections have an end. A failure
- * is stored in json.status, and later calls then do nothing. A document is all zero at first, and koksma__doc_append or
- * koksma__json_writer_fini frees it.
+ * (page/report.mjs) shows. A block ends where the next one begins, or its section ends: only sections have an end. A
+ * failure is stored in json.status, and later calls then do nothing. A document is all zero at first, and
+ * koksma__doc_append or koksma__json_writer_fini frees it.
  */
 #ifndef KOKSMA_STUDY_REPORT_DOCUMENT_H
 #define KOKSMA_STUDY_REPORT_DOCUMENT_H
@@ -61,8 +61,8 @@ void koksma__doc_collapsed_section(koksma__document *d, const char *id, const ch
 void koksma__doc_end(koksma__document *d);
 
 /* Each begins a paragraph with its first words: one that names the metric (its canonical spec) of the image errors in its
-   section; that warns of doubtful or missing numbers; or that answers the question of its section, which the page also shows
-   in its overview. kind: whether the data decide the question (true or false), or what they say of a conclusion. */
+   section; that warns of doubtful or missing numbers; or that answers the question of its section, which the page also
+   shows in its overview. kind: whether the data decide the question (true or false), or what they say of a conclusion. */
 typedef enum koksma__answer_kind {
     KOKSMA__ANSWER_UNDECIDED,
     KOKSMA__ANSWER_DECIDED,
@@ -75,8 +75,8 @@ void koksma__doc_metric(koksma__document *d, const char *metric, const char *for
 void koksma__doc_warning(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 void koksma__doc_answer(koksma__document *d, koksma__answer_kind kind, const char *format, ...) KOKSMA_PRINTF(3, 4);
 
-/* A list; koksma__doc_item begins each item with its first words. numbered: the items are notes that table cells refer to by
-   number. */
+/* A list; koksma__doc_item begins each item with its first words. numbered: the items are notes that table cells refer to
+   by number. */
 void koksma__doc_list(koksma__document *d, const char *id, bool numbered);
 void koksma__doc_item(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
