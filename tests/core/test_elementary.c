@@ -64,7 +64,7 @@ TEST_CASE(test_true_values)
     size_t rows[sizeof functions / sizeof *functions] = {0};
     while (fgets(line, sizeof line, file)) {
         char name[20], *end = line + strcspn(line, " ");
-        double x[3];
+        double x[3] = {0};
         if (*line == '#') {
             continue;
         }

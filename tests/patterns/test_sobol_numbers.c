@@ -7,7 +7,7 @@
 #include "patterns/nets/nets.h"
 #include "test.h"
 
-enum { DIM = 128, LEAST_M = 4, MOST_M = 12, MOST_N = 1 << MOST_M };
+enum { DIM = 128, DIMS = 4, LEAST_M = 4, MOST_M = 12, MOST_N = 1 << MOST_M };
 
 /* The order of x modulo the polynomial is 2^degree - 1: x generates all nonzero residues. */
 static bool is_primitive(unsigned polynomial, int degree)
@@ -100,7 +100,7 @@ static bool is_even(const koksma_points *points, size_t n, size_t first, int dim
 /* Whether all boxes of volume 2^-left, cut in the coordinates from number c on, are even. */
 static bool are_even(const koksma_points *points, size_t n, size_t first, int dims, int *cuts, int c, int left)
 {
-    if (c == dims - 1) {
+    if (c == dims - 1 || c == DIMS - 1) {
         cuts[c] = left;
         return is_even(points, n, first, dims, cuts);
     }
@@ -116,7 +116,7 @@ static bool are_even(const koksma_points *points, size_t n, size_t first, int di
 
 static int t_of(const koksma_points *points, int m, size_t first, int dims)
 {
-    int cuts[4] = {0}, t = 0;
+    int cuts[DIMS] = {0}, t = 0;
     while (!are_even(points, (size_t)1 << m, first, dims, cuts, 0, m - t)) {
         t++;
     }
