@@ -58,9 +58,7 @@ static inline koksma_status open_text(const char *text, koksma_scene **scene)
 static inline koksma_scene *scene_of(const char *text)
 {
     koksma_scene *scene;
-    if (open_text(text, &scene)) {
-        fail_msg("%s", koksma_error_text());
-    }
+    assert_that(!open_text(text, &scene), "%s", koksma_error_text());
     return scene;
 }
 

@@ -52,6 +52,14 @@ void test_around(CMFixtureFunction begin, CMFixtureFunction end);
    A tolerance that depends on the number of trials is computed from it, so that both runs can fail. */
 #define test_repeats(full, sanitized) (TEST_SANITIZED ? (sanitized) : (full))
 
+/* Fails with a message that has the values, unless the condition holds. */
+#define assert_that(condition, ...)                                                                                  \
+    do {                                                                                                             \
+        if (!(condition)) {                                                                                          \
+            fail_msg(__VA_ARGS__);                                                                                   \
+        }                                                                                                            \
+    } while (0)
+
 /* Fails with both numbers unless |a - b| <= bound; NaN fails. */
 #define assert_near(a, b, bound)                                                                                     \
     do {                                                                                                             \

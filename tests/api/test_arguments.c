@@ -34,9 +34,8 @@ static void all_refuse(const koksma_points *p, const char *reason)
                                      : call == 7 ? koksma_smallest_distance(p, true, NULL, &distance)
                                      : call == 8 ? koksma_smallest_distance(p, false, NULL, &distance)
                                                  : koksma_points_write("test_arguments.txt", p, NULL, NULL);
-        if (status != KOKSMA_ARGUMENT || !strstr(koksma_error_text(), reason)) {
-            fail_msg("call %d: status %d, \"%s\", not %s", call, (int)status, koksma_error_text(), reason);
-        }
+        assert_that(status == KOKSMA_ARGUMENT && strstr(koksma_error_text(), reason),
+                    "call %d: status %d, \"%s\", not %s", call, (int)status, koksma_error_text(), reason);
     }
     if (p->xs && p->n) {
         assert_int_equal(koksma_evaluate_prefixes(&star, p, &size, 1, NULL, &value), KOKSMA_ARGUMENT);

@@ -13,9 +13,8 @@
 
 static void refused(koksma_status status, const char *word)
 {
-    if (status != KOKSMA_ARGUMENT || !strstr(koksma_error_text(), word)) {
-        fail_msg("status %d, \"%s\", without \"%s\"", (int)status, koksma_error_text(), word);
-    }
+    assert_that(status == KOKSMA_ARGUMENT && strstr(koksma_error_text(), word), "status %d, \"%s\", without \"%s\"",
+                (int)status, koksma_error_text(), word);
 }
 
 TEST_CASE(patterns_and_measures)

@@ -74,9 +74,7 @@ static size_t specs_of(const koksma_pattern *p, koksma_spec *specs, size_t room)
             found = generates(&specs[count]);
             count += found;
         }
-        if (!found) {
-            fail_msg("%s: no spec with %s=%g", p->name, param->name, 1 - param->fallback);
-        }
+        assert_that(found, "%s: no spec with %s=%g", p->name, param->name, 1 - param->fallback);
     }
     return count;
 }
@@ -86,13 +84,12 @@ static void assert_refusal(const koksma_spec *spec, koksma_status status)
     char text[KOKSMA_MAX_SPEC];
     koksma_spec_text(spec, text);
     const char *said = koksma_error_text();
-    if (status != KOKSMA_N && status != KOKSMA_IMPOSSIBLE && status != KOKSMA_ARGUMENT && status != KOKSMA_DIM) {
-        fail_msg("%s: status %d: %s", text, (int)status, said);
-    }
-    if (koksma_status_exit_code(status) != 2 || !strstr(said, spec->pattern->name) || strchr(said, '\n') ||
-        !strpbrk(said, "0123456789")) {
-        fail_msg("%s refused with '%s'", text, said);
-    }
+    assert_that(status == KOKSMA_N || status == KOKSMA_IMPOSSIBLE || status == KOKSMA_ARGUMENT ||
+                    status == KOKSMA_DIM,
+                "%s: status %d: %s", text, (int)status, said);
+    assert_that(koksma_status_exit_code(status) == 2 && strstr(said, spec->pattern->name) && !strchr(said, '\n') &&
+                    strpbrk(said, "0123456789"),
+                "%s refused with '%s'", text, said);
 }
 
 static void assert_common(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
@@ -101,18 +98,16 @@ static void assert_common(const koksma_spec *spec, const koksma_points *points, 
     koksma_spec_text(spec, text);
     const size_t count = points->n * (size_t)points->dim;
     for (size_t i = 0; i < count; i++) {
-        if (!(points->xs[i] >= 0 && points->xs[i] < 1)) {
-            fail_msg("%s: n = %zu: coordinate %.17g", text, points->n, points->xs[i]);
-        }
+        assert_that(points->xs[i] >= 0 && points->xs[i] < 1, "%s: n = %zu: coordinate %.17g", text, points->n,
+                    points->xs[i]);
     }
     koksma_points again;
     const koksma_run run = {.threads = 3};
     assert_ok(koksma_points_init(&again, points->n, points->dim));
     memset(again.xs, 0x5a, count * sizeof *again.xs); /* what was there must not matter */
     assert_ok(koksma_generate(spec, seed, &run, &again));
-    if (memcmp(again.xs, points->xs, count * sizeof *again.xs)) {
-        fail_msg("%s: n = %zu, dim = %d: the same seed gave other bits", text, points->n, points->dim);
-    }
+    assert_that(!memcmp(again.xs, points->xs, count * sizeof *again.xs),
+                "%s: n = %zu, dim = %d: the same seed gave other bits", text, points->n, points->dim);
     koksma_points_fini(&again);
 }
 
@@ -234,9 +229,7 @@ TEST_CASE(patterns_keep_their_claims)
                     served |= walk(&specs[s], dims[d]);
                 }
             }
-            if (!served) {
-                fail_msg("%s served no n at all: %s", p->name, koksma_error_text());
-            }
+            assert_that(served, "%s served no n at all: %s", p->name, koksma_error_text());
         }
     }
 }
@@ -290,9 +283,7 @@ TEST_CASE(patterns_with_operands_keep_their_claims)
                 served |= walk(&spec, dims[d]);
             }
         }
-        if (!served) {
-            fail_msg("%s claims something; the table `operands` needs a spec of it", p->name);
-        }
+        assert_that(served, "%s claims something; the table `operands` needs a spec of it", p->name);
     }
 }
 
@@ -319,9 +310,8 @@ TEST_CASE(others_change_with_the_dimension)
             }
             koksma_points_fini(&points);
         }
-        if (served && !changes) {
-            fail_msg("%s keeps its coordinates when a dimension is added, and does not claim it", p->name);
-        }
+        assert_that(!served || changes, "%s keeps its coordinates when a dimension is added, and does not claim it",
+                    p->name);
     }
 }
 

@@ -14,9 +14,8 @@ static void assert_reads(const char *text)
     char *end = NULL, *expected_end;
     const double expected = strtod(text, &expected_end);
     const double found = koksma__strtod(text, &end);
-    if (end != expected_end || memcmp(&found, &expected, sizeof found) != 0) {
-        fail_msg("'%s' is read as %.17g up to '%s', not %.17g up to '%s'", text, found, end, expected, expected_end);
-    }
+    assert_that(end == expected_end && memcmp(&found, &expected, sizeof found) == 0,
+                "'%s' is read as %.17g up to '%s', not %.17g up to '%s'", text, found, end, expected, expected_end);
 }
 
 static void assert_writes(double x)

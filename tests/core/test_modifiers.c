@@ -201,9 +201,8 @@ TEST_CASE(measures_are_kept)
     }
     for (size_t at = 0; (m = koksma_modifier_at(at)); at++) {
         for (size_t j = 0; (measure = koksma_measure_at(j)); j++) {
-            if (measure->answer == KOKSMA_ANSWER_EXACT && !changed[at][j] && !keeps(m, measure->name)) {
-                fail_msg("%s changes no value of %s, and does not say so", m->name, measure->name);
-            }
+            assert_that(measure->answer != KOKSMA_ANSWER_EXACT || changed[at][j] || keeps(m, measure->name),
+                        "%s changes no value of %s, and does not say so", m->name, measure->name);
         }
     }
 }
@@ -260,9 +259,8 @@ static void assert_uniform_pairs(const char *what, uint32_t base, bool same, con
             squared += same || i != j ? pow((double)seen[i][j] - expected, 2) / expected : 0;
         }
     }
-    if (!(squared < df * cube * cube * cube)) {
-        fail_msg("base %u, %s: chi-squared is %g with %g degrees of freedom", base, what, squared, df);
-    }
+    assert_that(squared < df * cube * cube * cube, "base %u, %s: chi-squared is %g with %g degrees of freedom", base,
+                what, squared, df);
 }
 
 /* Owen's definition in a base: images agree in as many leading digits as x and y do and differ in the next; the pair of

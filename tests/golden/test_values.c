@@ -41,9 +41,7 @@ static double factor_of(const char **at)
     } else {
         char *end;
         x = strtod(*at, &end);
-        if (end == *at) {
-            fail_msg("no number at '%s'", *at);
-        }
+        assert_that(end != *at, "no number at '%s'", *at);
         *at = end;
     }
     skip_blanks(at);
@@ -157,9 +155,8 @@ static size_t check_means(char *spec, uint64_t sets, double factor, char *rest)
         const char *at = equals + 3, *margin = give ? give + 4 : "0";
         double error;
         const double expected = sum_of(&at), known = sum_of(&margin), mean = mean_of(spec, sets, item, &error);
-        if (!(fabs(mean - expected) <= factor * hypot(error, known) + 1e-8)) {
-            fail_msg("%s: the mean of %s is %.7g +- %.2g, and should be %.7g", spec, item, mean, error, expected);
-        }
+        assert_that(fabs(mean - expected) <= factor * hypot(error, known) + 1e-8,
+                    "%s: the mean of %s is %.7g +- %.2g, and should be %.7g", spec, item, mean, error, expected);
     }
     return count;
 }

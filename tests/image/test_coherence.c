@@ -118,10 +118,9 @@ TEST_CASE(noise_is_within_its_interval)
     static const int sizes[][3] = {{32, 24, 1}, {31, 23, 1}, {24, 16, 4}, {1, 199, 1}, {97, 1, 3}, {7, 5, 1}};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         const counts c = count(sizes[s][0], sizes[s][1], sizes[s][2], 0, 0, 400);
-        if (c.in < 366 || c.in > 396 || c.coherent > 8) {
-            fail_msg("%d x %d, %d images: %d of 400 within, %d above, %d coherent", sizes[s][0], sizes[s][1],
-                     sizes[s][2], c.in, c.above, c.coherent);
-        }
+        assert_that(c.in >= 366 && c.in <= 396 && c.coherent <= 8,
+                    "%d x %d, %d images: %d of 400 within, %d above, %d coherent", sizes[s][0], sizes[s][1],
+                    sizes[s][2], c.in, c.above, c.coherent);
     }
 }
 
@@ -132,10 +131,9 @@ TEST_CASE(uneven_noise_is_not_coherent)
         for (int where = 0; where < 3; where++) {
             for (int images = 1; images <= 4; images += 3) {
                 const counts c = count(48, 32, images, law, where, 100);
-                if (c.above > 9 || c.coherent > 5) {
-                    fail_msg("law %d, place %d, %d images: %d of 100 above, %d coherent", law, where, images, c.above,
-                             c.coherent);
-                }
+                assert_that(c.above <= 9 && c.coherent <= 5,
+                            "law %d, place %d, %d images: %d of 100 above, %d coherent", law, where, images, c.above,
+                            c.coherent);
             }
         }
     }

@@ -31,9 +31,7 @@ static koksma_image picture(int width, int height, int channels, uint64_t seed)
 static koksma__bytes file_of(const koksma__image_format *format, const koksma_layer *layers, size_t n)
 {
     koksma__bytes bytes = {0};
-    if (format->write(layers, n, "made by a test", &bytes)) {
-        fail_msg("%s: %s", format->name, koksma_error_text());
-    }
+    assert_that(!format->write(layers, n, "made by a test", &bytes), "%s: %s", format->name, koksma_error_text());
     return bytes;
 }
 
@@ -56,15 +54,13 @@ TEST_CASE(images_come_back)
             koksma_image image = picture(shapes[s / 2][0], shapes[s / 2][1], channels, 70 + (uint64_t)s), back = {0};
             koksma__bytes bytes = file_of(format, &(koksma_layer){"", &image}, 1);
             for (size_t g = 0; koksma__image_format_at(g); g++) {
-                if (koksma__image_format_at(g)->recognises(bytes.data, bytes.size) != (f == g)) {
-                    fail_msg("a file of %s asked of %s", format->name, koksma__image_format_at(g)->name);
-                }
+                assert_that(koksma__image_format_at(g)->recognises(bytes.data, bytes.size) == (f == g),
+                            "a file of %s asked of %s", format->name, koksma__image_format_at(g)->name);
             }
             assert_ok(koksma__image_read_bytes(bytes.data, bytes.size, KOKSMA__FILE_IMAGE, &back));
-            if (back.width != image.width || back.height != image.height || back.channels != channels) {
-                fail_msg("%s: %d x %d x %d came back as %d x %d x %d", format->name, image.width, image.height,
-                         channels, back.width, back.height, back.channels);
-            }
+            assert_that(back.width == image.width && back.height == image.height && back.channels == channels,
+                        "%s: %d x %d x %d came back as %d x %d x %d", format->name, image.width, image.height,
+                        channels, back.width, back.height, back.channels);
             for (size_t i = 0; i < (size_t)image.width * (size_t)image.height * (size_t)channels; i++) {
                 assert_kept(format, image.pixels[i], back.pixels[i], i);
             }
@@ -104,9 +100,8 @@ TEST_CASE(every_layer_is_in_the_file)
                 const float before = images[l].pixels[i];
                 images[l].pixels[i] = before > 0.5f ? 0 : 1;
                 koksma__bytes other = file_of(format, layers, LAYERS);
-                if (other.size == bytes.size && !memcmp(other.data, bytes.data, other.size)) {
-                    fail_msg("%s: number %d of layer %d is not in the file", format->name, i, l);
-                }
+                assert_that(other.size != bytes.size || memcmp(other.data, bytes.data, other.size),
+                            "%s: number %d of layer %d is not in the file", format->name, i, l);
                 images[l].pixels[i] = before;
                 free(other.data);
             }

@@ -62,9 +62,7 @@ static koksma_metric_value evaluate(const char *text, const pair *p)
 static void expect(const char *text, const pair *p, double value, double within)
 {
     const double ours = evaluate(text, p).value;
-    if (!(fabs(ours - value) <= within)) {
-        fail_msg("%s: %.9g, not %.9g within %g", text, ours, value, within);
-    }
+    assert_that(fabs(ours - value) <= within, "%s: %.9g, not %.9g within %g", text, ours, value, within);
 }
 
 static void fill(koksma_image *image, double r, double g, double b)
@@ -88,9 +86,7 @@ TEST_CASE(all_metrics_are_errors)
         for (int i = 0; i < WIDTH * HEIGHT * 3; i++) {
             more.image.pixels[i] += 3 * (more.image.pixels[i] - more.reference.pixels[i]);
         }
-        if (!(evaluate(m->name, &more).value > 1.2 * error)) {
-            fail_msg("%s: no larger of four times the error", m->name);
-        }
+        assert_that(evaluate(m->name, &more).value > 1.2 * error, "%s: no larger of four times the error", m->name);
         release(&more);
         pair one = make(8, 5, 1), three = make(8, 5, 3);
         for (int i = 0; i < 40; i++) {
@@ -293,9 +289,8 @@ TEST_CASE(bits_go_by_revision)
         assert_true(k < sizeof kept / sizeof *kept); /* a new metric needs a line above */
         assert_int_equal(koksma_metric_find(kept[k].name)->revision, kept[k].revision);
         const koksma_metric_value v = evaluate(kept[k].name, &p);
-        if (v.value != kept[k].value || v.robust != kept[k].robust || v.top_share != kept[k].top_share) {
-            fail_msg("{\"%s\", %d, %a, %a, %a}", kept[k].name, kept[k].revision, v.value, v.robust, v.top_share);
-        }
+        assert_that(v.value == kept[k].value && v.robust == kept[k].robust && v.top_share == kept[k].top_share,
+                    "{\"%s\", %d, %a, %a, %a}", kept[k].name, kept[k].revision, v.value, v.robust, v.top_share);
     }
     release(&p);
 }

@@ -158,9 +158,8 @@ TEST_CASE(intervals_cover)
             width += (e.high - e.low) / (double)runs;
         }
         const double least = interval->proved ? 0.95 : 0.91, noise = 4 * sqrt(0.05 * 0.95 / (double)runs);
-        if ((double)covered < (least - noise) * (double)runs || width > 0.6 || width < 0.2) {
-            fail_msg("%s covers in %zu of %zu runs, mean width %g", interval->name, covered, runs, width);
-        }
+        assert_that((double)covered >= (least - noise) * (double)runs && width <= 0.6 && width >= 0.2,
+                    "%s covers in %zu of %zu runs, mean width %g", interval->name, covered, runs, width);
     }
     koksma_points_fini(&u);
 }

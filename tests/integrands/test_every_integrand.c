@@ -210,11 +210,10 @@ static void look_at_values(const char *spec, koksma_integral *f)
     double sum = 0, mean;
     for (size_t i = 0; i < points.n; i++) {
         const double *x = points.xs + i * (size_t)f->dim, expected = defined(f, x);
-        if (!(fabs(values[i] - expected) <= 1e-11 * (1 + fabs(expected)) &&
-              values[i] >= f->lowest * (1 - 1e-14) - 1e-300 && values[i] <= f->highest * (1 + 1e-14))) {
-            fail_msg("%s in %d dimensions at %.17g, ..: %.17g, by definition %.17g; range %g to %g", spec, f->dim,
-                     x[0], values[i], expected, f->lowest, f->highest);
-        }
+        assert_that(fabs(values[i] - expected) <= 1e-11 * (1 + fabs(expected)) &&
+                        values[i] >= f->lowest * (1 - 1e-14) - 1e-300 && values[i] <= f->highest * (1 + 1e-14),
+                    "%s in %d dimensions at %.17g, ..: %.17g, by definition %.17g; range %g to %g", spec, f->dim,
+                    x[0], values[i], expected, f->lowest, f->highest);
         sum += values[i] / 500;
     }
     assert_ok(koksma_integrate(f, &points, NULL, &mean));
@@ -282,11 +281,10 @@ static void look_at_sums(const char *spec, koksma_integral *f)
     const sums s = sums_of(f);
     const double tail = isinf(f->highest) ? 10 : 1; /* the grid ends half a cell before the singularity */
     const double sd = sqrt(f->variance), part = tail * (f->dim == 1 ? 2e-5 : f->dim == 2 ? 3e-3 : 2e-2);
-    if (!(fabs(s.mean - f->value) <= part * sd &&
-          fabs(s.square - s.mean * s.mean - f->variance) <= 2 * part * f->variance)) {
-        fail_msg("%s in %d dimensions: integral %.10g, on a grid %.10g; variance %.10g, on a grid %.10g", spec,
-                 f->dim, f->value, s.mean, f->variance, s.square - s.mean * s.mean);
-    }
+    assert_that(fabs(s.mean - f->value) <= part * sd &&
+                    fabs(s.square - s.mean * s.mean - f->variance) <= 2 * part * f->variance,
+                "%s in %d dimensions: integral %.10g, on a grid %.10g; variance %.10g, on a grid %.10g", spec, f->dim,
+                f->value, s.mean, f->variance, s.square - s.mean * s.mean);
 }
 
 TEST_CASE(integrals_and_variances_hold)
@@ -327,10 +325,9 @@ static void look_in_high_dimensions(const char *spec, int dim)
     assert_ok(koksma_pattern_spec("random", &pattern));
     assert_ok(koksma_integration_errors(f, &pattern, &options, NULL, &result));
     const koksma_integration_row *row = &result.rows[0];
-    if (!(fabs(row->mean - f->value) <= 4 * sqrt(f->variance / 4096 / 16) && row->gain > 0.3 && row->gain < 3)) {
-        fail_msg("%s in %d dimensions: %g, estimated %g; gain of random points %g", spec, dim, f->value, row->mean,
-                 row->gain);
-    }
+    assert_that(fabs(row->mean - f->value) <= 4 * sqrt(f->variance / 4096 / 16) && row->gain > 0.3 && row->gain < 3,
+                "%s in %d dimensions: %g, estimated %g; gain of random points %g", spec, dim, f->value, row->mean,
+                row->gain);
     koksma_integral_close(f);
 }
 

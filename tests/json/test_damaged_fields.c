@@ -55,9 +55,8 @@ static void read_damaged(walk *w)
     const koksma_status status = w->read(text, strlen(text));
     if (status) {
         const char *error = koksma_error_text();
-        if (strncmp(error, w->name, strlen(w->name)) != 0 || strchr(error, '\n')) {
-            fail_msg("\"%s\" for %s", error, text);
-        }
+        assert_that(strncmp(error, w->name, strlen(w->name)) == 0 && !strchr(error, '\n'), "\"%s\" for %s", error,
+                    text);
         assert_true(status == KOKSMA_MALFORMED || status == KOKSMA_MISSING || status == KOKSMA_ARGUMENT);
     }
     free(text);

@@ -37,9 +37,7 @@ static void assert_wrong(const char *text, const char *message)
     koksma_status status = koksma__json_only(&root, keys);
     status = status ? status : koksma__json_get_number(&root, "centre", true, 0, 10, &value);
     assert_int_equal(status, KOKSMA_MALFORMED);
-    if (!strstr(koksma_error_text(), message)) {
-        fail_msg("'%s' has no '%s'", koksma_error_text(), message);
-    }
+    assert_that(strstr(koksma_error_text(), message), "'%s' has no '%s'", koksma_error_text(), message);
     koksma__json_close(document);
 }
 

@@ -297,9 +297,7 @@ TEST_CASE(masks_are_better_than_void_and_cluster)
     koksma_mask_quality ours, other;
     assert_ok(koksma_mask_measure(SIZE, SIZE, NULL, v, &o.filter, 64, NULL, &ours));
     assert_ok(koksma_mask_measure(SIZE, SIZE, NULL, ulichney, &o.filter, 64, NULL, &other));
-    if (!(ours.error < other.error)) {
-        fail_msg("error %.5f, void-and-cluster %.5f", ours.error, other.error);
-    }
+    assert_that(ours.error < other.error, "error %.5f, void-and-cluster %.5f", ours.error, other.error);
 }
 
 /* A random arrangement has the error `white`; also one whose tile is smaller than the filter, of 7 x 7 pixels. */

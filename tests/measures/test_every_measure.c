@@ -54,9 +54,7 @@ static void walk(look_at *look)
             }
             koksma_points_fini(&points);
         }
-        if (looked < SIZES) {
-            fail_msg("%s: %zu sets: %s", m->name, looked, koksma_error_text());
-        }
+        assert_that(looked >= SIZES, "%s: %zu sets: %s", m->name, looked, koksma_error_text());
     }
 }
 

@@ -100,9 +100,8 @@ static void expect_plain_value(const char *name, koksma_points *p)
         count += v.witness.closed ? x[0] >= lo[0] && x[0] <= hi[0] && x[1] >= lo[1] && x[1] <= hi[1]
                                   : x[0] > lo[0] && x[0] < hi[0] && x[1] > lo[1] && x[1] < hi[1];
     }
-    if (fabs(v.value - plain.value) > 1e-15 || count != v.witness.count) {
-        fail_msg("%s: %.17g, by the plain search %.17g", name, v.value, plain.value);
-    }
+    assert_that(fabs(v.value - plain.value) <= 1e-15 && count == v.witness.count,
+                "%s: %.17g, by the plain search %.17g", name, v.value, plain.value);
     koksma_points_fini(p);
 }
 

@@ -277,10 +277,9 @@ TEST_CASE(exact_agrees_with_sampled)
         koksma_points p = sets_points(2 + (size_t)s, 3, s % SETS_KINDS, (uint64_t)s);
         for (size_t m = 0; m < sizeof pairs / sizeof *pairs; m++) {
             const koksma_value exact = test_measure(pairs[m][0], &p), sampled = test_measure(pairs[m][1], &p);
-            if (!(fabs(exact.value - sampled.value) <= 4.5 * sampled.standard_error)) {
-                fail_msg("%s of set %d: %.10g, sampled %.10g +- %.3g", pairs[m][0], s, exact.value, sampled.value,
-                         sampled.standard_error);
-            }
+            assert_that(fabs(exact.value - sampled.value) <= 4.5 * sampled.standard_error,
+                        "%s of set %d: %.10g, sampled %.10g +- %.3g", pairs[m][0], s, exact.value, sampled.value,
+                        sampled.standard_error);
         }
         koksma_points_fini(&p);
     }

@@ -45,9 +45,8 @@ TEST_CASE(every_measure_asks)
             assert_ok(koksma_measure_spec(m->name, &spec));
             const koksma_run run = {.threads = 1, .keep_going = stop_at_once, .context = &asked};
             const koksma_status status = koksma_evaluate(&spec, &p, &run, &v);
-            if (status != KOKSMA_INTERRUPTED || asked == 0) {
-                fail_msg("%s in %d dimensions: status %d, asked %d times", m->name, dim, (int)status, asked);
-            }
+            assert_that(status == KOKSMA_INTERRUPTED && asked != 0, "%s in %d dimensions: status %d, asked %d times",
+                        m->name, dim, (int)status, asked);
             koksma_points_fini(&p);
         }
     }
@@ -210,10 +209,9 @@ TEST_CASE(every_pattern_asks_often)
             const clock_t start = clock();
             const koksma_status status = koksma_generate(&spec, 0, &run, &p);
             const double all_s = (double)(clock() - start) / CLOCKS_PER_SEC;
-            if (w.longest_s > 1 || (all_s > 2 && w.asked < 2)) {
-                fail_msg("%s in %d dimensions: status %d, asked %d times in %g s, longest %g s", pattern->name, dim,
-                         (int)status, w.asked, all_s, w.longest_s);
-            }
+            assert_that(w.longest_s <= 1 && (all_s <= 2 || w.asked >= 2),
+                        "%s in %d dimensions: status %d, asked %d times in %g s, longest %g s", pattern->name, dim,
+                        (int)status, w.asked, all_s, w.longest_s);
             koksma_points_fini(&p);
         }
     }

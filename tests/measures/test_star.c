@@ -185,9 +185,8 @@ TEST_CASE(search_reaches_star)
             koksma_points p = test_points(patterns[s], n, dim, 1);
             const double exact = test_measure("star", &p).value;
             const koksma_value lower = test_measure("star-lower:restarts=3", &p);
-            if (!(lower.value >= exact - 1e-15 && lower.value <= exact + 1e-15)) {
-                fail_msg("%s, n = %zu, dim = %d: %.17g, exact %.17g", patterns[s], n, dim, lower.value, exact);
-            }
+            assert_that(lower.value >= exact - 1e-15 && lower.value <= exact + 1e-15,
+                        "%s, n = %zu, dim = %d: %.17g, exact %.17g", patterns[s], n, dim, lower.value, exact);
             koksma_points_fini(&p);
         }
     }

@@ -93,9 +93,8 @@ TEST_CASE(known_sets)
             known_point(known[k].set, i, p.n, p.xs + 2 * i);
         }
         const double value = test_measure("l2-disk:r=0.25", &p).value;
-        if (!(fabs(value - known[k].value) <= 6e-10)) {
-            fail_msg("set %d of %zu points: %.12f, not %.9f", known[k].set, p.n, value, known[k].value);
-        }
+        assert_that(fabs(value - known[k].value) <= 6e-10, "set %d of %zu points: %.12f, not %.9f", known[k].set, p.n,
+                    value, known[k].value);
         koksma_points_fini(&p);
     }
 }

@@ -203,10 +203,8 @@ TEST_CASE(concentric_beats_polar)
             koksma_points_fini(&p);
         }
         const double error = sqrt((squares - sum * sum) / (sets - 1));
-        if (!(sum > 3 * error)) {
-            fail_msg("%s at n = %zu: polar minus concentric is %.6f with standard error %.6f", measures[c / 2], n,
-                     sum, error);
-        }
+        assert_that(sum > 3 * error, "%s at n = %zu: polar minus concentric is %.6f with standard error %.6f",
+                    measures[c / 2], n, sum, error);
     }
 }
 

@@ -139,10 +139,11 @@ static int clean_up(void **state)
     return 0;
 }
 
+TEST_GROUP(NULL, clean_up)
+
 /* Every index of every width, one beyond the vertices and the largest that there is. */
-static void indices_beyond_vertices_are_refused(void **state)
+TEST_CASE(indices_beyond_vertices_are_refused)
 {
-    (void)state;
     need_meshes();
     static const struct {
         int first, width;
@@ -171,9 +172,8 @@ static void indices_beyond_vertices_are_refused(void **state)
     }
 }
 
-static void numbers_out_of_range_are_refused(void **state)
+TEST_CASE(numbers_out_of_range_are_refused)
 {
-    (void)state;
     need_meshes();
     static const struct {
         const char *from, *to, *reason;
@@ -224,9 +224,8 @@ static void numbers_out_of_range_are_refused(void **state)
 }
 
 /* A buffer that is shorter than it should be, whichever bytes are missing. */
-static void buffers_cut_short_are_refused(void **state)
+TEST_CASE(buffers_cut_short_are_refused)
 {
-    (void)state;
     need_meshes();
     unsigned char bytes[BYTES];
     fill(bytes);
@@ -242,14 +241,4 @@ static void buffers_cut_short_are_refused(void **state)
     expect_refusal(WITHIN, "no base64", "buffers[0]: uri: character 0 of the data is not base64");
     put_model(WITHIN, bytes, BYTES, ";base64,", ",");
     expect_refusal(WITHIN, "no base64", "buffers[0]: uri: only data in base64 can be read");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(indices_beyond_vertices_are_refused, clean_up),
-        cmocka_unit_test_teardown(numbers_out_of_range_are_refused, clean_up),
-        cmocka_unit_test_teardown(buffers_cut_short_are_refused, clean_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -156,12 +156,10 @@ static const struct {
 static void look_at_error(const char *name, koksma_status status, const char *reason)
 {
     const char *text = koksma_error_text();
-    if (status == KOKSMA_OK || status == KOKSMA_MEMORY || koksma_status_exit_code(status) == 4) {
-        fail_msg("case %s: status %d, '%s'", name, (int)status, text);
-    }
-    if (!*text || strchr(text, '\n') || !strstr(text, reason)) {
-        fail_msg("case %s: '%s' does not say '%s' in one line", name, text, reason);
-    }
+    assert_that(status != KOKSMA_OK && status != KOKSMA_MEMORY && koksma_status_exit_code(status) != 4,
+                "case %s: status %d, '%s'", name, (int)status, text);
+    assert_that(*text && !strchr(text, '\n') && strstr(text, reason), "case %s: '%s' does not say '%s' in one line",
+                name, text, reason);
 }
 
 TEST_CASE(malformed_scenes_and_meshes)

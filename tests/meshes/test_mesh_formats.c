@@ -24,15 +24,12 @@ static void write_bytes(const char *path, const void *bytes, size_t size)
 static koksma__mesh read_mesh(const char *path, size_t n_corners, const float (*places)[3])
 {
     koksma__mesh mesh = {0};
-    if (koksma__mesh_read(path, KOKSMA__BY_FILE, NULL, &mesh)) {
-        fail_msg("%s", koksma_error_text());
-    }
+    assert_that(!koksma__mesh_read(path, KOKSMA__BY_FILE, NULL, &mesh), "%s", koksma_error_text());
     assert_int_equal(3 * mesh.n_triangles, n_corners);
     for (size_t i = 0; i < n_corners; i++) {
         const float *v = mesh.vertices + 3 * mesh.indices[i];
-        if (memcmp(v, places[i], sizeof places[i]) != 0) {
-            fail_msg("%s: corner %zu is at %g %g %g", path, i, (double)v[0], (double)v[1], (double)v[2]);
-        }
+        assert_that(memcmp(v, places[i], sizeof places[i]) == 0, "%s: corner %zu is at %g %g %g", path, i,
+                    (double)v[0], (double)v[1], (double)v[2]);
     }
     unlink(path);
     return mesh;

@@ -39,18 +39,15 @@ TEST_CASE(ways_to_write_a_mesh_are_one)
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
         koksma_scene *scene;
         write_text(ways[i].file, ways[i].text);
-        if (koksma_scene_open(ways[i].file, &scene)) {
-            fail_msg("way %zu: %s", i, koksma_error_text());
-        }
+        assert_that(!koksma_scene_open(ways[i].file, &scene), "way %zu: %s", i, koksma_error_text());
         const koksma__mesh *mesh = scene->meshes;
         assert_int_equal(scene->n_meshes, 1);
         assert_int_equal(mesh->n_triangles, 2);
         for (size_t c = 0; c < 6; c++) {
             static const float corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
             const float *v = mesh->vertices + 3 * (size_t)mesh->indices[c];
-            if (v[0] != corners[c][0] || v[1] != corners[c][1] || v[2] != 0) {
-                fail_msg("way %zu: corner %zu is at %g %g %g", i, c, (double)v[0], (double)v[1], (double)v[2]);
-            }
+            assert_that(v[0] == corners[c][0] && v[1] == corners[c][1] && v[2] == 0,
+                        "way %zu: corner %zu is at %g %g %g", i, c, (double)v[0], (double)v[1], (double)v[2]);
         }
         koksma_scene_close(scene);
         unlink(ways[i].file);

@@ -339,9 +339,7 @@ TEST_CASE(methods_gain_and_keep)
         for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
             found += !strcmp(searches[i].method, koksma_method_at(m)->name);
         }
-        if (found == 0) {
-            fail_msg("no search of this test is done by %s", koksma_method_at(m)->name);
-        }
+        assert_that(found != 0, "no search of this test is done by %s", koksma_method_at(m)->name);
     }
 }
 
@@ -649,10 +647,8 @@ TEST_CASE(interrupted_searches_return_what_they_have)
             gained = status && sign * after < sign * before - 1e-9;
             expect_kept(&from, &points, keep);
         }
-        if (!gained) {
-            fail_msg("%s of %zu points: %s keeps nothing of a search that is interrupted", measure, from.n,
-                     searches[i].method);
-        }
+        assert_that(gained, "%s of %zu points: %s keeps nothing of a search that is interrupted", measure, from.n,
+                    searches[i].method);
         koksma_points_fini(&points);
         koksma_points_fini(&from);
     }

@@ -67,9 +67,7 @@ TEST_CASE(relative_radii_are_those_of_the_table)
             found = !strncmp(rows[r].spec, p->name, strcspn(rows[r].spec, ":")) &&
                     strlen(p->name) == strcspn(rows[r].spec, ":");
         }
-        if (!found) {
-            fail_msg("%s claims a blue-noise distance and is not in this table", p->name);
-        }
+        assert_that(found, "%s claims a blue-noise distance and is not in this table", p->name);
     }
     for (size_t r = 0; r < ROWS; r++) {
         double sum = 0, mean;
@@ -80,9 +78,8 @@ TEST_CASE(relative_radii_are_those_of_the_table)
             sum += rho / SETS;
             koksma_points_fini(&points);
         }
-        if (!(sum >= rows[r].low && sum <= rows[r].high)) {
-            fail_msg("%s: relative radius %.4f, not %g to %g", rows[r].spec, sum, rows[r].low, rows[r].high);
-        }
+        assert_that(sum >= rows[r].low && sum <= rows[r].high, "%s: relative radius %.4f, not %g to %g", rows[r].spec,
+                    sum, rows[r].low, rows[r].high);
     }
 }
 
@@ -202,9 +199,8 @@ TEST_CASE(prefixes_of_progressive_elimination)
         double rho, mean, rho_drawn;
         nearest(ordered.xs, n, &rho, &mean);
         nearest(drawn.xs, n, &rho_drawn, &mean);
-        if (!(rho > 0.57 && rho > rho_drawn + 0.05)) {
-            fail_msg("%zu of 1024 points: relative radius %.3f ordered, %.3f as drawn", n, rho, rho_drawn);
-        }
+        assert_that(rho > 0.57 && rho > rho_drawn + 0.05,
+                    "%zu of 1024 points: relative radius %.3f ordered, %.3f as drawn", n, rho, rho_drawn);
     }
     koksma_spec spec;
     koksma_points more;
@@ -248,9 +244,8 @@ TEST_CASE(gaussian_blue_noise_has_converged)
     koksma_points done = test_points("gaussian-blue-noise", 1024, 2, 0);
     koksma_points early = test_points("gaussian-blue-noise:steps=128", 1024, 2, 0);
     const double converged = low_power(&done), before = low_power(&early);
-    if (!(converged < 0.0025 && converged > 1e-5 && before > 10 * converged)) {
-        fail_msg("power below 0.75 sqrt n: %.5f, after 128 steps %.5f", converged, before);
-    }
+    assert_that(converged < 0.0025 && converged > 1e-5 && before > 10 * converged,
+                "power below 0.75 sqrt n: %.5f, after 128 steps %.5f", converged, before);
     koksma_points_fini(&done);
     koksma_points_fini(&early);
 }

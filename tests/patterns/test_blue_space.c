@@ -177,9 +177,8 @@ TEST_CASE(low_frequencies_are_weak_in_space)
             p = test_points(rows[r].spec, N, 3, 1);
         }
         const double power = power_within(&p, rows[r].radius);
-        if (!(power >= rows[r].low && power <= rows[r].high)) {
-            fail_msg("%s: the power within %g is %g", rows[r].spec, rows[r].radius, power);
-        }
+        assert_that(power >= rows[r].low && power <= rows[r].high, "%s: the power within %g is %g", rows[r].spec,
+                    rows[r].radius, power);
     }
     koksma_points_fini(&p);
 }
@@ -198,9 +197,7 @@ TEST_CASE(relative_radii_in_space)
         koksma_points p = test_points(rows[r].spec, 1000, 3, 2);
         const double rho = smallest(&p) / cbrt(sqrt(2) / 1000);
         assert_near(cbrt(sqrt(2) / 1000), koksma__elimination_radius(1000, 3), 1e-12);
-        if (!(rho >= rows[r].low && rho <= rows[r].high)) {
-            fail_msg("%s: relative radius %.3f", rows[r].spec, rho);
-        }
+        assert_that(rho >= rows[r].low && rho <= rows[r].high, "%s: relative radius %.3f", rows[r].spec, rho);
         koksma_points_fini(&p);
     }
 }
@@ -236,9 +233,8 @@ TEST_CASE(blue_noise_keeps_apart_in_all_dimensions)
             snprintf(text, sizeof text, has_length ? "%s:length=%zu" : "%s", p->name, n);
             const double found = mean_smallest(text, n, dim, 1);
             print_message("%s, dim = %d: %.4f, %.2f times that of random points\n", text, dim, found, found / random);
-            if (!(found >= 2 * random)) {
-                fail_msg("%s, n = %zu, dim = %d: smallest distance %g, random %g", text, n, dim, found, random);
-            }
+            assert_that(found >= 2 * random, "%s, n = %zu, dim = %d: smallest distance %g, random %g", text, n, dim,
+                        found, random);
         }
     }
 }
@@ -257,9 +253,8 @@ TEST_CASE(prefixes_are_blue_in_space)
             const koksma_points prefix = {.n = n, .dim = dim, .xs = all.xs};
             const double radius = pow(filled[dim - 3] / (ball[dim - 3] * (double)n), 1.0 / dim);
             const double rho = smallest(&prefix) / (2 * radius);
-            if (!(rho > 0.6 && rho < 0.75)) {
-                fail_msg("%d dimensions, first %zu of 512: relative radius %.3f", dim, n, rho);
-            }
+            assert_that(rho > 0.6 && rho < 0.75, "%d dimensions, first %zu of 512: relative radius %.3f", dim, n,
+                        rho);
         }
         koksma_points_fini(&all);
     }

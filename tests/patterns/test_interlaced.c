@@ -67,9 +67,8 @@ TEST_CASE(errors_have_their_order)
         for (int m = -4; m <= 4; m++) {
             order -= m * log2(rmse(cases[c].text, (size_t)1 << (9 + m), cases[c].dim, cases[c].seeds)) / 60;
         }
-        if (!(order >= cases[c].least && order <= cases[c].most)) {
-            fail_msg("%s, dim = %d: errors fall as n^-%.2f", cases[c].text, cases[c].dim, order);
-        }
+        assert_that(order >= cases[c].least && order <= cases[c].most, "%s, dim = %d: errors fall as n^-%.2f",
+                    cases[c].text, cases[c].dim, order);
     }
 }
 
@@ -131,10 +130,9 @@ TEST_CASE(nets_are_of_higher_order)
             koksma_points base = test_points("sobol", (size_t)1 << m, order * dim, 0);
             const int t = (int)test_measure("t-value", &base).value, found = counted_t(&points, m, order);
             const int most = order * t + (order - 1) * dim * order / 2 - (order - 1);
-            if (found > most) {
-                fail_msg("order %d, %d dimensions, 2^%d points: t = %d, more than the %d of the theorem", order, dim,
-                         m, found, most);
-            }
+            assert_that(found <= most,
+                        "order %d, %d dimensions, 2^%d points: t = %d, more than the %d of the theorem", order, dim,
+                        m, found, most);
             koksma_points_fini(&points);
             koksma_points_fini(&base);
         }

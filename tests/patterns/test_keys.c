@@ -212,10 +212,9 @@ TEST_CASE(a_pixel_has_the_distribution_of_independent_pixels)
             }
             const double error = sqrt(square / SEEDS);
             const double difference = kolmogorov_smirnov(own[k], others[k], SEEDS);
-            if (!(fabs(mean) < 4 * error && difference < 2.2 * sqrt(2.0 / SEEDS))) {
-                fail_msg("%u samples, %s: mean error %g, standard error %g; distributions differ by %g", spp,
-                         integrands[k].name, mean, error, difference);
-            }
+            assert_that(fabs(mean) < 4 * error && difference < 2.2 * sqrt(2.0 / SEEDS),
+                        "%u samples, %s: mean error %g, standard error %g; distributions differ by %g", spp,
+                        integrands[k].name, mean, error, difference);
         }
     }
 }
@@ -267,11 +266,10 @@ TEST_CASE(errors_are_blue_and_small)
             if (getenv("RATIOS")) {
                 printf(" | %.2f, %.2f", sqrt(ratio[0]), sqrt(ratio[1]));
             }
-            if (!(ratio[0] < 1 + 4 * deviation[0] && ratio[1] < 0.8)) {
-                fail_msg(
-                    "%u samples, %s: mean squares are %.3f (plain), %.3f (blurred) of those of independent pixels",
-                    spps[t], integrands[k].name, ratio[0], ratio[1]);
-            }
+            assert_that(
+                ratio[0] < 1 + 4 * deviation[0] && ratio[1] < 0.8,
+                "%u samples, %s: mean squares are %.3f (plain), %.3f (blurred) of those of independent pixels",
+                spps[t], integrands[k].name, ratio[0], ratio[1]);
         }
         if (getenv("RATIOS")) {
             printf(" |\n");
@@ -321,10 +319,9 @@ TEST_CASE(prefixes_are_blue)
             if (getenv("RATIOS")) {
                 printf("%u of 64 samples, %s: %.3f\n", spp, integrands[k].name, sums[0][k] / sums[1][k]);
             }
-            if (!(sums[0][k] < 0.8 * sums[1][k])) {
-                fail_msg("%u of 64 samples, %s: blurred mean squares are %.2f of those of independent pixels", spp,
-                         integrands[k].name, sums[0][k] / sums[1][k]);
-            }
+            assert_that(sums[0][k] < 0.8 * sums[1][k],
+                        "%u of 64 samples, %s: blurred mean squares are %.2f of those of independent pixels", spp,
+                        integrands[k].name, sums[0][k] / sums[1][k]);
         }
     }
 }

@@ -114,9 +114,8 @@ TEST_CASE(sums_are_those_of_the_definition)
             }
             const double sum = sum_of(n, z, product);
             one = z == 1 ? values[1] - sum : one;
-            if (!(fabs(values[z] - sum - one) <= bound / 2)) {
-                fail_msg("n = %zu, z = %zu: %.17g is %.3g off", n, z, values[z], values[z] - sum - one);
-            }
+            assert_that(fabs(values[z] - sum - one) <= bound / 2, "n = %zu, z = %zu: %.17g is %.3g off", n, z,
+                        values[z], values[z] - sum - one);
         }
         koksma__unit_sums_close(sums);
         free(product);
@@ -145,9 +144,8 @@ TEST_CASE(components_are_the_best_of_all)
                 least = lattices_common_divisor(other, n) == 1 ? fmin(least, sum_of(n, other, product)) : least;
             }
             const double own = sum_of(n, z[k], product);
-            if (k > 0 && !(own <= least + 1e-12 * (double)n)) {
-                fail_msg("n = %zu: coordinate %d adds %.17g, another %.17g", n, k, own, least);
-            }
+            assert_that(k <= 0 || own <= least + 1e-12 * (double)n,
+                        "n = %zu: coordinate %d adds %.17g, another %.17g", n, k, own, least);
             for (size_t i = 1; i <= n / 2; i++) {
                 product[i] *= 1 + WEIGHT * kernel(i * z[k] % n, n);
             }
@@ -215,9 +213,7 @@ TEST_CASE(order_two_is_no_worse_than_others)
         for (int v = 0; v < PUBLISHED; v++) {
             least = fmin(least, p2_of_pairs(n, published[v], 10, WEIGHT));
         }
-        if (!(own <= least)) {
-            fail_msg("n = 2^%d: %.4g with order=2, %.4g by others", bits, own, least);
-        }
+        assert_that(own <= least, "n = 2^%d: %.4g with order=2, %.4g by others", bits, own, least);
         /* the vector was made for 2^10 to 2^20 points at once: worst-case errors of at most 1.6 times those of a
            construction for one n, as its paper reports */
         assert_true(bits < 10 || p2_of_pairs(n, published[0], 10, WEIGHT) < 1.6 * 1.6 * own);
@@ -242,9 +238,8 @@ TEST_CASE(search_is_no_worse_than_others)
         for (int v = 0; v < PUBLISHED; v++) {
             least = fmin(least, p2(n, published[v], 10, WEIGHT));
         }
-        if (!(own <= korobov * (1 + 1e-12) && own <= least)) {
-            fail_msg("n = %zu: %.4g; korobov %.4g, the best published %.4g", n, own, korobov, least);
-        }
+        assert_that(own <= korobov * (1 + 1e-12) && own <= least,
+                    "n = %zu: %.4g; korobov %.4g, the best published %.4g", n, own, korobov, least);
         if (c <= 20 && !(own < before / 2.2)) { /* it falls to .36 on average */
             fail_msg("n = %zu: %.4g after %.4g with half as many points", n, own, before);
         }
@@ -297,9 +292,8 @@ TEST_CASE(embedded_lattices_cost_little)
         for (int d = 2; d <= DIM; d++) {
             const double ratio = sqrt(embedded[d] / single[d]);
             largest = fmax(largest, ratio);
-            if (!(ratio < 1.53)) {
-                fail_msg("n = 2^%d, dim = %d: %.3f times the worst-case error of lattice-rank1", bits, d, ratio);
-            }
+            assert_that(ratio < 1.53, "n = 2^%d, dim = %d: %.3f times the worst-case error of lattice-rank1", bits, d,
+                        ratio);
         }
     }
     assert_true(largest > 1.525);

@@ -115,9 +115,8 @@ TEST_CASE(multipliers_are_distinct)
         lattices_multipliers(cases[c].pattern, cases[c].n, cases[c].dim, z);
         for (int k = 0; k < cases[c].dim; k++) {
             const int first = k - k % cases[c].distinct;
-            if (is_among(z[k], cases[c].n, z + first, k - first)) {
-                fail_msg("%s, n = %zu: multiplier %zu comes again at %d", cases[c].pattern, cases[c].n, z[k], k);
-            }
+            assert_that(!is_among(z[k], cases[c].n, z + first, k - first),
+                        "%s, n = %zu: multiplier %zu comes again at %d", cases[c].pattern, cases[c].n, z[k], k);
         }
     }
 }
@@ -270,10 +269,9 @@ TEST_CASE(components_of_weights_are_the_best)
                                 : least;
                 }
                 const double own = (double)error_of_weights(n, z, k + 1, cases[t].weights);
-                if (!(own <= (double)least + 1e-11 * fabs((double)least))) {
-                    fail_msg("%s, n = %zu: with %d coordinates %.15g, the best has %.15g", cases[t].spec, n, k + 1,
-                             own, (double)least);
-                }
+                assert_that(own <= (double)least + 1e-11 * fabs((double)least),
+                            "%s, n = %zu: with %d coordinates %.15g, the best has %.15g", cases[t].spec, n, k + 1,
+                            own, (double)least);
             }
         }
     }

@@ -287,10 +287,9 @@ TEST_CASE(pixels_err_like_independent_ones)
         for (int k = 0; k < INTEGRANDS; k++) {
             const double variance = square[0][k] - sum[0][k] * sum[0][k] + square[1][k] - sum[1][k] * sum[1][k];
             const double deviation = sqrt(fmax(variance, 0) / TILES);
-            if (!(sum[1][k] < sum[0][k] + 3 * deviation + 1e-12)) {
-                fail_msg("%zu samples, %s: mean square error %.3g, independent pixels %.3g +- %.2g", spps[t],
-                         integrands[k].name, sum[1][k], sum[0][k], deviation);
-            }
+            assert_that(sum[1][k] < sum[0][k] + 3 * deviation + 1e-12,
+                        "%zu samples, %s: mean square error %.3g, independent pixels %.3g +- %.2g", spps[t],
+                        integrands[k].name, sum[1][k], sum[0][k], deviation);
             assert_near(bias[k], 0, 4 * sqrt(biases[k] / TILES));
         }
     }
@@ -332,10 +331,9 @@ TEST_CASE(neighbours_errors_cancel)
             }
         }
         for (int k = 0; k < INTEGRANDS; k++) {
-            if (!(blocks[k] < cases[t].most[k] * pixels[k])) {
-                fail_msg("%zu samples, %s: the share of low frequencies is %.2f", cases[t].spp, integrands[k].name,
-                         blocks[k] / pixels[k]);
-            }
+            assert_that(blocks[k] < cases[t].most[k] * pixels[k],
+                        "%zu samples, %s: the share of low frequencies is %.2f", cases[t].spp, integrands[k].name,
+                        blocks[k] / pixels[k]);
         }
     }
     for (size_t m = 0; m < TILES * 3; m++) {

@@ -140,9 +140,8 @@ static void assert_uniform(const uint32_t *counts, uint32_t cells, const char *w
     }
     /* Wilson & Hilferty: the cube root is normal. About 60 tests: 4.5 standard deviations. */
     const double freedom = cells - 1, z = (cbrt(chi / freedom) - 1 + 2 / (9 * freedom)) / sqrt(2 / (9 * freedom));
-    if (!(fabs(z) < 4.5)) {
-        fail_msg("%s, coordinate %d: chi-square %.1f with %.0f degrees of freedom", what, k, chi, freedom);
-    }
+    assert_that(fabs(z) < 4.5, "%s, coordinate %d: chi-square %.1f with %.0f degrees of freedom", what, k, chi,
+                freedom);
 }
 
 /* n = b^2 points show the root's permutation and those of its b children. Counted over seeds: the root's and child

@@ -431,10 +431,9 @@ TEST_CASE(bad_files_are_refused)
         snprintf(text, sizeof text, "%s:bad.txt", files[f].pattern);
         write_file("bad.txt", files[f].text);
         const koksma_status status = points_of(text, 2, 2, &points);
-        if (status != files[f].status || !strstr(koksma_error_text(), files[f].says) ||
-            !strstr(koksma_error_text(), "bad.txt")) {
-            fail_msg("%s of %s: %d, %s", files[f].pattern, files[f].text, (int)status, koksma_error_text());
-        }
+        assert_that(status == files[f].status && strstr(koksma_error_text(), files[f].says) &&
+                        strstr(koksma_error_text(), "bad.txt"),
+                    "%s of %s: %d, %s", files[f].pattern, files[f].text, (int)status, koksma_error_text());
         koksma_points_fini(&points);
     }
     koksma_points points;

@@ -74,9 +74,8 @@ TEST_CASE(samples_are_the_librarys)
         for (uint32_t i = 0; i < n; i += t % 2 ? 61 : 1) {
             double xs[4];
             pairs[p].f(domain, i, xs);
-            if (memcmp(xs, points.xs + i * (size_t)pairs[p].dim, (size_t)pairs[p].dim * sizeof *xs)) {
-                fail_msg("%s: point %u", pairs[p].pattern, i);
-            }
+            assert_that(!memcmp(xs, points.xs + i * (size_t)pairs[p].dim, (size_t)pairs[p].dim * sizeof *xs),
+                        "%s: point %u", pairs[p].pattern, i);
         }
         koksma_points_fini(&points);
     }

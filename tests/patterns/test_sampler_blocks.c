@@ -43,10 +43,9 @@ static bool one_in_each(const double *xs, size_t dim, uint32_t n, uint32_t colum
 static void assert_is_net(const char *name, const double *xs, size_t dim, uint32_t first, uint32_t n)
 {
     for (uint32_t columns = 1; columns <= n; columns *= 2) {
-        if (!one_in_each(xs, dim, n, columns)) {
-            fail_msg("%s: samples %u and the next %u are no net: not one in each of %u columns and %u rows", name,
-                     first, n, columns, n / columns);
-        }
+        assert_that(one_in_each(xs, dim, n, columns),
+                    "%s: samples %u and the next %u are no net: not one in each of %u columns and %u rows", name,
+                    first, n, columns, n / columns);
     }
 }
 

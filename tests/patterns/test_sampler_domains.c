@@ -222,15 +222,13 @@ static void assert_independent(const char *what, double n)
         const double error = 1 / sqrt(2 * p->sets), uv = even(c) ? 1.0 : 1.3, limits[ERRORS] = {1.3, uv, 1.3};
         for (int k = 0; k < ERRORS && p->sets > 0; k++) {
             const double rms = sqrt(p->squares[k] / p->sets);
-            if (!(rms < limits[k] * (1 + 4.5 * error))) {
-                fail_msg("%s, %s and %s, N = %g: the mean of %s has %.3f times the error of independent numbers",
-                         what, f, g, n, names[k], rms);
-            }
+            assert_that(rms < limits[k] * (1 + 4.5 * error),
+                        "%s, %s and %s, N = %g: the mean of %s has %.3f times the error of independent numbers", what,
+                        f, g, n, names[k], rms);
         }
         const double correlation = p->sum / p->samples;
-        if (p->sets > 0 && !(fabs(correlation) < 4.5 * 1.3 / sqrt(p->samples))) {
-            fail_msg("%s, %s and %s, N = %g: correlation %.4f", what, f, g, n, correlation);
-        }
+        assert_that(p->sets <= 0 || fabs(correlation) < 4.5 * 1.3 / sqrt(p->samples),
+                    "%s, %s and %s, N = %g: correlation %.4f", what, f, g, n, correlation);
     }
 }
 

@@ -172,10 +172,9 @@ static void assert_uniform(size_t f, const relation *r, uint32_t i, size_t a, si
         squared += off * off / expected;
     }
     const double free = CELLS * CELLS - 1; /* degrees of freedom: the mean; the variance is twice that */
-    if (!(fabs(squared - free) < 6 * sqrt(2 * free))) {
-        fail_msg("%s, %s, sample %u, coordinates %zu and %zu: chi-squared is %.0f in place of %.0f",
-                 functions[f].name, r->name, i, a, b, squared, free);
-    }
+    assert_that(fabs(squared - free) < 6 * sqrt(2 * free),
+                "%s, %s, sample %u, coordinates %zu and %zu: chi-squared is %.0f in place of %.0f", functions[f].name,
+                r->name, i, a, b, squared, free);
 }
 
 static void compare(size_t f, const relation *r, uint32_t i)

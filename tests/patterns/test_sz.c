@@ -68,10 +68,8 @@ static void assert_net(const char *pattern, uint64_t at, size_t base, int m, int
     assert_ok(koksma_generate_range(&spec, 3, 0, at, NULL, &points));
     unsigned char *seen = malloc(points.n);
     assert_non_null(seen);
-    if (!all_divisions(&b, 0, m, seen)) {
-        fail_msg("%s: %zu points from %g on, coordinates %d to %d: no net in base %zu", pattern, points.n, (double)at,
-                 first, first + b.count - 1, base);
-    }
+    assert_that(all_divisions(&b, 0, m, seen), "%s: %zu points from %g on, coordinates %d to %d: no net in base %zu",
+                pattern, points.n, (double)at, first, first + b.count - 1, base);
     free(seen);
     koksma_points_fini(&points);
 }
@@ -124,9 +122,7 @@ TEST_CASE(all_are_a_sequence_in_base_256)
         block b = {&points, BASE, 0, BASE, {0}};
         const int k = pair * 37 % BASE;
         b.parts[k] = b.parts[k ^ 1 << pair % 8] = 1;
-        if (!one_in_each(&b, seen)) {
-            fail_msg("coordinates %d and %d do not fill their cells", k, k ^ 1 << pair % 8);
-        }
+        assert_that(one_in_each(&b, seen), "coordinates %d and %d do not fill their cells", k, k ^ 1 << pair % 8);
     }
     free(seen);
     koksma_points_fini(&points);

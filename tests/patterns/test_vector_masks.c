@@ -33,9 +33,8 @@ TEST_CASE(every_interval_has_one_value)
                 const double x = values[p * dim + k];
                 assert_true(x >= 0 && x < 1);
                 const int interval = (int)(x * n);
-                if (seen[interval]) {
-                    fail_msg("size %d, dim %d: coordinate %d has two values in interval %d", size, dim, k, interval);
-                }
+                assert_that(!seen[interval], "size %d, dim %d: coordinate %d has two values in interval %d", size,
+                            dim, k, interval);
                 seen[interval] = true;
             }
         }
@@ -51,9 +50,7 @@ TEST_CASE(vectors_have_a_low_discrepancy)
     double *values = mask_of(SIZE, 2, 3);
     const koksma_points points = {N, 2, values};
     const koksma_value star = test_measure("star", &points);
-    if (!(star.value < 2.2 * log(N) / N)) {
-        fail_msg("star discrepancy %.4f", star.value);
-    }
+    assert_that(star.value < 2.2 * log(N) / N, "star discrepancy %.4f", star.value);
     free(values);
 }
 
@@ -169,9 +166,8 @@ TEST_CASE(the_energy_is_small)
             at[i] = i;
         }
         const double energy = energy_of(&f, at);
-        if (!(random - energy > 0.97 * (random - least))) {
-            fail_msg("dim %d: energy %.4f; random %.4f, descents %.4f", dim, energy, random, least);
-        }
+        assert_that(random - energy > 0.97 * (random - least), "dim %d: energy %.4f; random %.4f, descents %.4f", dim,
+                    energy, random, least);
         double gain = 0;
         for (int pair = 0; pair < N * N; pair++) {
             int swapped[N];
@@ -180,9 +176,8 @@ TEST_CASE(the_energy_is_small)
                 gain = fmax(gain, -descend(&f, swapped, pair / N, pair % N));
             }
         }
-        if (!(gain < 0.01 * (random - energy))) {
-            fail_msg("dim %d: a swap lowers the energy by %.4f, of %.4f below random", dim, gain, random - energy);
-        }
+        assert_that(gain < 0.01 * (random - energy), "dim %d: a swap lowers the energy by %.4f, of %.4f below random",
+                    dim, gain, random - energy);
         forget(&f);
         free(values);
     }

@@ -54,9 +54,7 @@ TEST_CASE(every_method_is_tried)
         for (size_t m = 0; m < N_METHODS; m++) {
             tried |= !strncmp(methods[m], name, strlen(name));
         }
-        if (!tried) {
-            fail_msg("no test of %s", name);
-        }
+        assert_that(tried, "no test of %s", name);
     }
 }
 
@@ -89,10 +87,9 @@ TEST_CASE(constant_pictures_cost_the_first_samples)
         const char *method = methods[m / 2];
         koksma_adaptive_report report;
         koksma_layers layers = render(scene, method, m % 2 ? 0 : 50, 2, &report);
-        if (report.samples != report.first || layers.rays != report.samples) {
-            fail_msg("%s took %llu samples, %llu of them at first", method, (unsigned long long)report.samples,
-                     (unsigned long long)report.first);
-        }
+        assert_that(report.samples == report.first && layers.rays == report.samples,
+                    "%s took %llu samples, %llu of them at first", method, (unsigned long long)report.samples,
+                    (unsigned long long)report.first);
         for (int i = 0; i < PIXELS; i++) {
             assert_near((double)layers.image.pixels[i], (double)0.3f, 1e-7);
             assert_true(layers.variance.pixels[i] == 0);
@@ -191,9 +188,8 @@ TEST_CASE(shuffled_strata_are_split_needlessly)
     const double aligned = needless(scene, "hierarchical:levels=1");
     const double shuffled = needless(scene, "hierarchical:levels=1,pairing=shuffled");
     const double selective = needless(scene, "selective:levels=1");
-    if (!(aligned < shuffled - 0.05 && selective < shuffled)) {
-        fail_msg("needless: aligned %.3f, shuffled %.3f, selective %.3f", aligned, shuffled, selective);
-    }
+    assert_that(aligned < shuffled - 0.05 && selective < shuffled,
+                "needless: aligned %.3f, shuffled %.3f, selective %.3f", aligned, shuffled, selective);
     koksma_scene_close(scene);
 }
 

@@ -43,9 +43,7 @@ static koksma_scene *made(const koksma__bsdf *bsdf, uint64_t stream)
             assert_ptr_equal(scene->materials[0].bsdf, bsdf);
             return scene;
         }
-        if (!bsdf->check) {
-            fail_msg("%s: %s: %s", bsdf->kind.name, text, koksma_error_text());
-        }
+        assert_that(bsdf->check, "%s: %s: %s", bsdf->kind.name, text, koksma_error_text());
     }
     fail_msg("%s refuses all parameters of its ranges", bsdf->kind.name);
     return NULL;
@@ -104,26 +102,19 @@ static void check_sample(const koksma__surface *s, unsigned lobes, const koksma_
     float value[3] = {0, 0, 0};
     const double length = sqrt((double)koksma__dot3(out->w, out->w));
     const float pdf = s->material->bsdf->value(s, out->w, lobes, value);
-    if (!(fabs(length - 1) < 1e-4)) {
-        fail_msg("%s: a direction of length %g", what, length);
-    }
-    if (!(out->lobe & lobes)) {
-        fail_msg("%s: a direction of lobe %u", what, out->lobe);
-    }
+    assert_that(fabs(length - 1) < 1e-4, "%s: a direction of length %g", what, length);
+    assert_that(out->lobe & lobes, "%s: a direction of lobe %u", what, out->lobe);
     if (out->lobe == KOKSMA__LOBE_SPECULAR) {
-        if (out->pdf != 0 || pdf != 0 || koksma__max3(value) != 0) {
-            fail_msg("%s: a specular direction with a density", what);
-        }
+        assert_that(out->pdf == 0 && pdf == 0 && koksma__max3(value) == 0, "%s: a specular direction with a density",
+                    what);
         return;
     }
-    if (!(fabs((double)(pdf - out->pdf)) <= 2e-3 * (double)out->pdf)) {
-        fail_msg("%s: sample() says pdf %g, value() %g", what, (double)out->pdf, (double)pdf);
-    }
+    assert_that(fabs((double)(pdf - out->pdf)) <= 2e-3 * (double)out->pdf, "%s: sample() says pdf %g, value() %g",
+                what, (double)out->pdf, (double)pdf);
     for (int k = 0; k < 3; k++) {
-        if (!(fabs((double)(value[k] - out->weight[k] * out->pdf)) <= 2e-3 * (double)value[k] + 1e-9)) {
-            fail_msg("%s: value %g is not weight %g times pdf %g", what, (double)value[k], (double)out->weight[k],
-                     (double)out->pdf);
-        }
+        assert_that(fabs((double)(value[k] - out->weight[k] * out->pdf)) <= 2e-3 * (double)value[k] + 1e-9,
+                    "%s: value %g is not weight %g times pdf %g", what, (double)value[k], (double)out->weight[k],
+                    (double)out->pdf);
     }
 }
 
@@ -183,21 +174,15 @@ static void check_density(const koksma__surface *s, unsigned lobes, uint64_t str
             }
         }
         const double share = (double)kept / SAMPLES, error = sqrt(share * (1 - share) / SAMPLES);
-        if (!(fabs(density - share) <= 5 * error + 2e-3)) {
-            fail_msg("%s: the density integrates to %g, and %g of the samples are not lost", what, density, share);
-        }
+        assert_that(fabs(density - share) <= 5 * error + 2e-3,
+                    "%s: the density integrates to %g, and %g of the samples are not lost", what, density, share);
         const double chi = chi_square(&t, &limit);
-        if (!(chi <= limit)) {
-            fail_msg("%s: samples don't match the density: chi-square %g, limit %g", what, chi, limit);
-        }
+        assert_that(chi <= limit, "%s: samples don't match the density: chi-square %g, limit %g", what, chi, limit);
         for (int k = 0; k < 3; k++) {
             const double spread = sqrt(fmax(squares[k] - sums[k] * sums[k], 0) / SAMPLES);
-            if (!(energy[k] <= 1 + 2e-3)) {
-                fail_msg("%s: reflects %g of what it gets (quadrature)", what, energy[k]);
-            }
-            if (!(fabs(energy[k] - sums[k]) <= 5 * spread + 2e-3)) {
-                fail_msg("%s: reflects %g by quadrature, %g +- %g by samples", what, energy[k], sums[k], spread);
-            }
+            assert_that(energy[k] <= 1 + 2e-3, "%s: reflects %g of what it gets (quadrature)", what, energy[k]);
+            assert_that(fabs(energy[k] - sums[k]) <= 5 * spread + 2e-3,
+                        "%s: reflects %g by quadrature, %g +- %g by samples", what, energy[k], sums[k], spread);
         }
     }
     free(points);
@@ -241,9 +226,7 @@ static void check_energy(const koksma__surface *s, uint64_t stream, const char *
     }
     for (int k = 0; k < 3; k++) {
         const double spread = sqrt(fmax(squares[k] - sums[k] * sums[k], 0) / N);
-        if (!(sums[k] <= 1 + 5 * spread + 1e-4)) {
-            fail_msg("%s: reflects %g +- %g of what it gets", what, sums[k], spread);
-        }
+        assert_that(sums[k] <= 1 + 5 * spread + 1e-4, "%s: reflects %g +- %g of what it gets", what, sums[k], spread);
     }
 }
 
@@ -262,12 +245,10 @@ static void check_reciprocity(const koksma__surface *s, uint64_t stream, const c
         s->material->bsdf->value(&other, s->out, s->material->bsdf->lobes, back);
         for (int k = 0; k < 3; k++) {
             const double a = (double)(there[k] / cosine), b = (double)(back[k] / seen);
-            if (!(fabs(a - b) <= 2e-3 * fmax(a, b) + 1e-6)) {
-                fail_msg("%s: claims reciprocity, but has %g one way and %g the other", what, a, b);
-            }
-            if (s->material->bsdf->is_lambert && !(fabs(a - (double)s->albedo[k] / M_PI) <= 1e-5)) {
-                fail_msg("%s: claims to be Lambert, but has %g with albedo %g", what, a, (double)s->albedo[k]);
-            }
+            assert_that(fabs(a - b) <= 2e-3 * fmax(a, b) + 1e-6,
+                        "%s: claims reciprocity, but has %g one way and %g the other", what, a, b);
+            assert_that(!s->material->bsdf->is_lambert || fabs(a - (double)s->albedo[k] / M_PI) <= 1e-5,
+                        "%s: claims to be Lambert, but has %g with albedo %g", what, a, (double)s->albedo[k]);
         }
     }
 }
@@ -294,9 +275,7 @@ static void check_specular(const koksma__surface *s, const koksma__scatter *out,
             nearest = fmin(nearest, square);
         }
     }
-    if (!(nearest < 1e-6)) {
-        fail_msg("%s: no way back from a specular direction (off by %g)", what, sqrt(nearest));
-    }
+    assert_that(nearest < 1e-6, "%s: no way back from a specular direction (off by %g)", what, sqrt(nearest));
 }
 
 TEST_CASE(no_energy_is_gained_at_any_angle)
@@ -324,10 +303,9 @@ TEST_CASE(no_energy_is_gained_at_any_angle)
                                 out.weight[k] + other.weight[k] < 1.00001f);
                 }
             }
-            if (bsdf->value(&s, s.n, ~bsdf->lobes, value) != 0 || koksma__max3(value) != 0 ||
-                sample_of(&s, ~bsdf->lobes & 7u, trial, 0, &out)) {
-                fail_msg("%s: gives light of lobes that it doesn't have", what);
-            }
+            assert_that(bsdf->value(&s, s.n, ~bsdf->lobes, value) == 0 && koksma__max3(value) == 0 &&
+                            !sample_of(&s, ~bsdf->lobes & 7u, trial, 0, &out),
+                        "%s: gives light of lobes that it doesn't have", what);
             koksma_scene_close(scene);
         }
     }

@@ -183,23 +183,19 @@ static void check_hit(const koksma__shape *s, const line *l, const koksma__hits 
     const double front = koksma__dot(g, l->d) < 0 ? 1 : -1, across = fabs(koksma__dot(g, l->d)) / length;
     for (int k = 0; k < 3; k++) {
         q[k] = p[k] + 1e-4 * g[k];
-        if (!(fabs(p[k] - l->o[k] - t * l->d[k]) < 1e-5 * (1 + t * length))) {
-            fail_msg("%s: position %g of the hit isn't on the ray", NAME(s), p[k]);
-        }
-        if (across > 0.01 && !(fabs(n[k] - front * g[k]) < 2e-4 / across)) {
-            fail_msg("%s: normal (%g, %g, %g), the gradient is (%g, %g, %g)", NAME(s), n[0], n[1], n[2], front * g[0],
-                     front * g[1], front * g[2]);
-        }
+        assert_that(fabs(p[k] - l->o[k] - t * l->d[k]) < 1e-5 * (1 + t * length),
+                    "%s: position %g of the hit isn't on the ray", NAME(s), p[k]);
+        assert_that(across <= 0.01 || fabs(n[k] - front * g[k]) < 2e-4 / across,
+                    "%s: normal (%g, %g, %g), the gradient is (%g, %g, %g)", NAME(s), n[0], n[1], n[2], front * g[0],
+                    front * g[1], front * g[2]);
     }
     /* the distance from the surface: F over the length of its gradient */
     const double off = 1e-4 * s->type->equation(s, p, &beyond) / fabs(s->type->equation(s, q, &before));
-    if (!(fabs(off) < 2e-5 * (1 + t * length)) || beyond > 1e-4) {
-        fail_msg("%s: a hit at (%g, %g, %g) is %g off the surface, %g beyond the edge", NAME(s), p[0], p[1], p[2],
-                 off, beyond);
-    }
-    if (across > 0.01 && (h->back[i] != 0) != (front < 0)) {
-        fail_msg("%s: a hit of the front says back = %d", NAME(s), h->back[i]);
-    }
+    assert_that(fabs(off) < 2e-5 * (1 + t * length) && beyond <= 1e-4,
+                "%s: a hit at (%g, %g, %g) is %g off the surface, %g beyond the edge", NAME(s), p[0], p[1], p[2], off,
+                beyond);
+    assert_that(across <= 0.01 || (h->back[i] != 0) == (front < 0), "%s: a hit of the front says back = %d", NAME(s),
+                h->back[i]);
     double e[3];
     koksma__subtract(p, s->centre, e);
     const double u = koksma__dot(e, s->axis_u), v = koksma__dot(e, s->axis_v);
@@ -210,10 +206,9 @@ static void check_hit(const koksma__shape *s, const line *l, const koksma__hits 
     }
     const double coordinates[2] = {s->type->takes_checker ? u / s->turn.scale : 0,
                                    s->type->takes_checker ? v / s->turn.scale : 0};
-    if (!(fabs(coordinates[0] - (double)h->u[i]) < 1e-4 && fabs(coordinates[1] - (double)h->v[i]) < 1e-4)) {
-        fail_msg("%s: coordinates (%g, %g), which are (%g, %g)", NAME(s), (double)h->u[i], (double)h->v[i],
-                 coordinates[0], coordinates[1]);
-    }
+    assert_that(fabs(coordinates[0] - (double)h->u[i]) < 1e-4 && fabs(coordinates[1] - (double)h->v[i]) < 1e-4,
+                "%s: coordinates (%g, %g), which are (%g, %g)", NAME(s), (double)h->u[i], (double)h->v[i],
+                coordinates[0], coordinates[1]);
 }
 
 typedef struct tally {
@@ -241,9 +236,8 @@ static void check_closest(const koksma__shape *shape, uint64_t stream, const kok
         if (edge || (hit && got < t - 1e-3) || (t >= high) != !(got < high)) {
             sum->unclear++;
         }
-        if (!edge && t < high && got > t + 1e-3) {
-            fail_msg("%s: is crossed at t = %g, the hit is at %g", NAME(shape), t, got);
-        }
+        assert_that(edge || t >= high || got <= t + 1e-3, "%s: is crossed at t = %g, the hit is at %g", NAME(shape),
+                    t, got);
     }
 }
 
@@ -268,10 +262,9 @@ TEST_CASE(hits_are_those_of_the_equation)
             check_closest(scene->shapes, 100 * kind + trial, &rays, NULL, &two, &sum);
             koksma_scene_close(scene);
         }
-        if (sum.hits < sum.rays / 10 || sum.unclear > sum.rays / 50) {
-            fail_msg("%s: %d of %d rays hit, %d are unclear", koksma__shape_kinds[kind]->name, sum.hits, sum.rays,
-                     sum.unclear);
-        }
+        assert_that(sum.hits >= sum.rays / 10 && sum.unclear <= sum.rays / 50,
+                    "%s: %d of %d rays hit, %d are unclear", koksma__shape_kinds[kind]->name, sum.hits, sum.rays,
+                    sum.unclear);
     }
 }
 
@@ -305,9 +298,8 @@ TEST_CASE(starts_are_not_met_again)
             check_closest(scene->shapes, 100 * kind + trial, &rays, from, &next, &sum);
             koksma_scene_close(scene);
         }
-        if (sum.unclear > sum.rays / 25) {
-            fail_msg("%s: %d of %d rays are unclear", koksma__shape_kinds[kind]->name, sum.unclear, sum.rays);
-        }
+        assert_that(sum.unclear <= sum.rays / 25, "%s: %d of %d rays are unclear", koksma__shape_kinds[kind]->name,
+                    sum.unclear, sum.rays);
     }
 }
 
@@ -355,10 +347,9 @@ TEST_CASE(shadows_are_those_of_the_equation)
                     continue;
                 }
                 const float lit = t < 1 ? 0 : 1;
-                if (shadows[0].light[i] != lit || shadows[1].light[i] != (i % 2 ? 1 : lit)) {
-                    fail_msg("%s: is crossed at t = %g, and leaves %g of the light (%g of its own)", NAME(&s), t,
-                             (double)shadows[0].light[i], (double)shadows[1].light[i]);
-                }
+                assert_that(shadows[0].light[i] == lit && shadows[1].light[i] == (i % 2 ? 1 : lit),
+                            "%s: is crossed at t = %g, and leaves %g of the light (%g of its own)", NAME(&s), t,
+                            (double)shadows[0].light[i], (double)shadows[1].light[i]);
             }
             koksma_scene_close(scene);
         }
@@ -395,10 +386,9 @@ static void check_moved_lanes(const koksma_scene *scene, const koksma__rays *ray
             const int lane = i % KOKSMA__BLOCK, k = all ? hitting : (lane + 13) % KOKSMA__BLOCK;
             assert_int_equal(hit.primitive[lane], h->primitive[k]);
             assert_int_equal(hit.back[lane], h->back[k]);
-            if (!(fabsf(got[i / KOKSMA__BLOCK][lane] - wanted[i / KOKSMA__BLOCK][k]) <= 1e-5f)) {
-                fail_msg("%s: number %d is %g in one lane and %g in another", NAME(scene->shapes), i / KOKSMA__BLOCK,
-                         (double)wanted[i / KOKSMA__BLOCK][k], (double)got[i / KOKSMA__BLOCK][lane]);
-            }
+            assert_that(fabsf(got[i / KOKSMA__BLOCK][lane] - wanted[i / KOKSMA__BLOCK][k]) <= 1e-5f,
+                        "%s: number %d is %g in one lane and %g in another", NAME(scene->shapes), i / KOKSMA__BLOCK,
+                        (double)wanted[i / KOKSMA__BLOCK][k], (double)got[i / KOKSMA__BLOCK][lane]);
         }
     }
 }

@@ -166,10 +166,8 @@ TEST_CASE(variance_is_told)
             }
             koksma_layers_fini(&layers);
         }
-        if (fabs(told / seen - 1) > 0.06) {
-            fail_msg("%s, %d samples%s: told %.5f, seen %.5f", cases[c].filter, cases[c].spp,
-                     cases[c].splat ? ", splatted" : "", told / n, seen / n);
-        }
+        assert_that(fabs(told / seen - 1) <= 0.06, "%s, %d samples%s: told %.5f, seen %.5f", cases[c].filter,
+                    cases[c].spp, cases[c].splat ? ", splatted" : "", told / n, seen / n);
     }
     koksma_scene_close(scene);
 }

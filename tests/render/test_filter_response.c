@@ -55,9 +55,7 @@ TEST_CASE(partitions_of_unity_vanish_at_whole_frequencies)
             most = fmax(most, fabs(koksma_filter_response(filter, w)));
             assert_near(koksma_filter_response(filter, -w), koksma_filter_response(filter, w), 1e-15);
         }
-        if ((most < 1e-9) != unity) {
-            fail_msg("%s: %g at a whole frequency", filter->name, most);
-        }
+        assert_that((most < 1e-9) == unity, "%s: %g at a whole frequency", filter->name, most);
     }
 }
 

@@ -67,10 +67,9 @@ TEST_CASE(filters_keep_a_ramp)
                 for (int y = EDGE; y < SIDE - EDGE; y++) {
                     for (int x = EDGE; x < SIDE - EDGE; x++) {
                         const double wrong = (double)pixels[y * SIDE + x] - (x + 0.5);
-                        if (c % 4 == 0 && fabs(wrong) > 1e-4) {
-                            fail_msg("%s, %d samples%s: a ramp is off by %.2g pixels", f->name, options.spp,
-                                     options.splat ? ", splatted" : "", wrong);
-                        }
+                        assert_that(c % 4 != 0 || fabs(wrong) <= 1e-4,
+                                    "%s, %d samples%s: a ramp is off by %.2g pixels", f->name, options.spp,
+                                    options.splat ? ", splatted" : "", wrong);
                         off += wrong / ((SIDE - 2 * EDGE) * (SIDE - 2 * EDGE));
                     }
                 }
@@ -121,10 +120,9 @@ TEST_CASE(few_draws_have_no_bias)
                     part += x + at < 4 ? f->value(at) : 0;
                     whole += f->value(at);
                 }
-                if (fabs(mean - part / whole) > 4.5 * error + 2e-3) {
-                    fail_msg("%s, %d samples, column %d: %.5f +- %.5f, expected %.5f", f->name, spp, x, mean, error,
-                             part / whole);
-                }
+                assert_that(fabs(mean - part / whole) <= 4.5 * error + 2e-3,
+                            "%s, %d samples, column %d: %.5f +- %.5f, expected %.5f", f->name, spp, x, mean, error,
+                            part / whole);
             }
         }
     }

@@ -32,9 +32,8 @@ TEST_CASE(convex_bodies_reflect_the_sky)
         const double mean = picture(text, koksma_integrator_at(i), -1, 16, &error);
         const double expected =
             flags->replace_scene ? 1 : 0.5 * ((flags->areas ? 1 : 0) + (flags->ambient ? 0.25 : 0));
-        if (!(fabs(mean - expected) <= 5 * error + 1e-5)) {
-            fail_msg("%s: %g +- %g, expected %g", koksma_integrator_at(i)->name, mean, error, expected);
-        }
+        assert_that(fabs(mean - expected) <= 5 * error + 1e-5, "%s: %g +- %g, expected %g",
+                    koksma_integrator_at(i)->name, mean, error, expected);
     }
 }
 
@@ -52,9 +51,8 @@ TEST_CASE(closed_furnaces_are_white)
         double error;
         const double mean = picture(text, koksma_integrator_at(i), 40, 64, &error);
         const bool all = flags->followed & KOKSMA__LOBE_DIFFUSE;
-        if (!(mean <= 1 + 5 * error + 1e-5) || (all && !(mean >= 1 - 5 * error - 1e-5))) {
-            fail_msg("%s: %g +- %g in a white furnace", koksma_integrator_at(i)->name, mean, error);
-        }
+        assert_that(mean <= 1 + 5 * error + 1e-5 && (!all || mean >= 1 - 5 * error - 1e-5),
+                    "%s: %g +- %g in a white furnace", koksma_integrator_at(i)->name, mean, error);
     }
 }
 
@@ -73,9 +71,8 @@ TEST_CASE(closed_balls_add_up_all_bounces)
         const double expected = flags->replace_scene                     ? 0
                                 : flags->followed & KOKSMA__LOBE_DIFFUSE ? 5 * direct
                                                                          : direct;
-        if (!(fabs(mean - expected) <= 5 * error + 1e-5)) {
-            fail_msg("%s: %g +- %g inside a ball, expected %g", koksma_integrator_at(i)->name, mean, error, expected);
-        }
+        assert_that(fabs(mean - expected) <= 5 * error + 1e-5, "%s: %g +- %g inside a ball, expected %g",
+                    koksma_integrator_at(i)->name, mean, error, expected);
     }
 }
 
@@ -143,9 +140,8 @@ static size_t compare(const koksma_scene *scene, const koksma_integrator *in, co
     for (size_t p = 0; koksma__pipelines[p]; p++) {
         if (koksma__pipelines[p] != best && koksma__pipelines[p]->takes(&frame)) {
             const double other = row_by(&frame, koksma__pipelines[p]);
-            if (!(fabs(mean - other) <= 1e-5 * fabs(mean) + 1e-5)) {
-                fail_msg("%s by %s: %g, by %s: %g", what, best->name, mean, koksma__pipelines[p]->name, other);
-            }
+            assert_that(fabs(mean - other) <= 1e-5 * fabs(mean) + 1e-5, "%s by %s: %g, by %s: %g", what, best->name,
+                        mean, koksma__pipelines[p]->name, other);
             compared++;
         }
     }
@@ -295,9 +291,8 @@ static void compare_pictures(const koksma_scene *scene, size_t i, const koksma_i
 {
     koksma_image image = picture_of(scene, koksma_integrator_at(i));
     const size_t size = (size_t)(image.width * image.height * image.channels) * sizeof *image.pixels;
-    if (memcmp(image.pixels, alone->pixels, size) != 0) {
-        fail_msg("%s renders another picture after %s", koksma_integrator_at(i)->name, before);
-    }
+    assert_that(memcmp(image.pixels, alone->pixels, size) == 0, "%s renders another picture after %s",
+                koksma_integrator_at(i)->name, before);
     koksma_image_fini(&image);
 }
 

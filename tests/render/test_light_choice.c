@@ -62,9 +62,8 @@ TEST_CASE(probabilities_add_to_one)
                 sum += (double)probability;
                 for (int s = 0; s < 16; s++) {
                     const float u[2] = {uniform(0, 1), uniform(0, 1)};
-                    if (contribution(&frame.lights.lights[l], p, n, u) > 0 && !(probability > 0)) {
-                        fail_msg("light %zu gives light and has no probability", l);
-                    }
+                    assert_that(contribution(&frame.lights.lights[l], p, n, u) <= 0 || probability > 0,
+                                "light %zu gives light and has no probability", l);
                 }
             }
             dark += sum == 0; /* none can give any light, as was checked */

@@ -172,9 +172,8 @@ static bool check_beam(const view *v, const koksma__beam *beam)
     const double length = sqrt((double)koksma__dot3(beam->w, beam->w));
     const double along = (double)koksma__dot3(beam->w, beam->d), away = sqrt((double)koksma__dot3(beam->d, beam->d));
     float radiance[3], pdf = 0;
-    if (!(fabs(length - 1) < 1e-4) || !(fabs(along - away) < 1e-4 * away)) {
-        fail_msg("%s: d and w are not one direction", l->kind->kind.name);
-    }
+    assert_that(fabs(length - 1) < 1e-4 && fabs(along - away) < 1e-4 * away, "%s: d and w are not one direction",
+                l->kind->kind.name);
     return beam->pdf > 0 && look(v, beam->w, radiance, &pdf) && pdf < 1e4f &&
            !(fabs((double)(pdf - beam->pdf)) <= 0.01 * (double)pdf);
 }
@@ -200,10 +199,8 @@ static void by_samples(const view *v, uint64_t stream, double sums[FUNCTIONS], d
             squares[j] += g[j] * g[j] / (pdf * pdf) / SAMPLES;
         }
     }
-    if (edges > SAMPLES / 10000) {
-        fail_msg("%s: %d of %d samples have another density than pdf() says", v->light->kind->kind.name, (int)edges,
-                 (int)SAMPLES);
-    }
+    assert_that(edges <= SAMPLES / 10000, "%s: %d of %d samples have another density than pdf() says",
+                v->light->kind->kind.name, (int)edges, (int)SAMPLES);
 }
 
 /* A point outside of the light, its normal roughly to the light. */
@@ -244,10 +241,9 @@ static void check_view(const view *v, uint64_t stream)
     for (int j = 0; j < FUNCTIONS; j++) {
         const double a = fmax(ray_squares[j] - rays[j] * rays[j], 0) / (SIDE * SIDE);
         const double b = fmax(sample_squares[j] - samples[j] * samples[j], 0) / SAMPLES;
-        if (!(fabs(rays[j] - samples[j]) <= 5 * sqrt(a + b) + 2e-3 * rays[j] + 1e-7)) {
-            fail_msg("%s: the integral of %s is %g by rays and %g by samples (+- %.2g)", v->light->kind->kind.name,
-                     names[j], rays[j], samples[j], sqrt(a + b));
-        }
+        assert_that(fabs(rays[j] - samples[j]) <= 5 * sqrt(a + b) + 2e-3 * rays[j] + 1e-7,
+                    "%s: the integral of %s is %g by rays and %g by samples (+- %.2g)", v->light->kind->kind.name,
+                    names[j], rays[j], samples[j], sqrt(a + b));
     }
 }
 
@@ -323,10 +319,9 @@ TEST_CASE(powers_are_what_is_emitted)
             assert_ok(koksma__lights_init(scene, &lights));
             for (int far = 0; far < 2; far++) { /* the same power crosses every sphere */
                 const double power = power_of(&lights.lights[0], far ? 1.7 : 0.8, 900 * k + trial, &error);
-                if (!(fabs(power - (double)lights.lights[0].power) <= 5 * error + 1e-3 * power)) {
-                    fail_msg("%s: says power %g, emits %g +- %.2g", koksma__light_types[k]->kind.name,
-                             (double)lights.lights[0].power, power, error);
-                }
+                assert_that(fabs(power - (double)lights.lights[0].power) <= 5 * error + 1e-3 * power,
+                            "%s: says power %g, emits %g +- %.2g", koksma__light_types[k]->kind.name,
+                            (double)lights.lights[0].power, power, error);
             }
             koksma__lights_fini(&lights);
             koksma_scene_close(scene);
@@ -361,12 +356,11 @@ TEST_CASE(ways_of_choosing_agree)
                 for (int by_path = 0; by_path < 2; by_path++) {
                     const char *integrator = by_path ? "path" : "distribution";
                     const double mean = picture(scene, integrator, (koksma_light_selection)lights, &others);
-                    if (!(fabs(mean - all) <= 5 * sqrt(error * error + others * others) + 1e-5 * all)) {
-                        fail_msg("%s: %s with lights %s has mean %g, distribution with all %g (+- %.2g)",
-                                 koksma__light_types[k]->kind.name, integrator,
-                                 koksma_light_selection_name((koksma_light_selection)lights), mean, all,
-                                 sqrt(error * error + others * others));
-                    }
+                    assert_that(fabs(mean - all) <= 5 * sqrt(error * error + others * others) + 1e-5 * all,
+                                "%s: %s with lights %s has mean %g, distribution with all %g (+- %.2g)",
+                                koksma__light_types[k]->kind.name, integrator,
+                                koksma_light_selection_name((koksma_light_selection)lights), mean, all,
+                                sqrt(error * error + others * others));
                 }
             }
             koksma_scene_close(scene);

@@ -48,9 +48,8 @@ TEST_CASE(sharp_highlights_have_their_height)
             material.bsdf->value(&s, w, KOKSMA__LOBE_GLOSSY, value);
             sum += fabs((double)value[0] / (a * a / (M_PI * t * t) * g2 / 4) - 1);
         }
-        if (!(sum / TRIES <= cases[i].error)) {
-            fail_msg("roughness %g: off by %g in the mean", cases[i].roughness, sum / TRIES);
-        }
+        assert_that(sum / TRIES <= cases[i].error, "roughness %g: off by %g in the mean", cases[i].roughness,
+                    sum / TRIES);
     }
 }
 

@@ -100,10 +100,8 @@ TEST_CASE(absorption_is_exponential)
             render_means(scene, &options, mean, error);
             for (int k = 0; k < 3; k++) {
                 const double expected = cases[c].light * exp(-sigma[k] * cases[c].length);
-                if (!(fabs(mean[k] - expected) <= 1e-5 * expected)) {
-                    fail_msg("%s by %s, channel %d: %.8g, expected %.8g", cases[c].what,
-                             koksma_integrator_at(i)->name, k, mean[k], expected);
-                }
+                assert_that(fabs(mean[k] - expected) <= 1e-5 * expected, "%s by %s, channel %d: %.8g, expected %.8g",
+                            cases[c].what, koksma_integrator_at(i)->name, k, mean[k], expected);
             }
         }
         koksma_scene_close(scene);

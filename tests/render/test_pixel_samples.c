@@ -33,10 +33,8 @@ static void order_of(uint64_t index, size_t n, uint16_t *order)
 static void assert_chi_square(const char *what, size_t n, double chi_square, double freedom)
 {
     const double z = sqrt(2 * chi_square) - sqrt(2 * freedom - 1);
-    if (!(fabs(z) < 5)) {
-        fail_msg("%s, n = %zu: chi-square %g with %g degrees of freedom, %g deviations", what, n, chi_square, freedom,
-                 z);
-    }
+    assert_that(fabs(z) < 5, "%s, n = %zu: chi-square %g with %g degrees of freedom, %g deviations", what, n,
+                chi_square, freedom, z);
 }
 
 /* ---- Orders --------------------------------------------------------------------------------------------------- */
@@ -169,10 +167,9 @@ static void assert_boxes(const char *name, const float *pairs, size_t n, size_t 
     for (size_t i = 0; i < n; i++) {
         const double x = (double)pairs[2 * i], y = (double)pairs[2 * i + 1];
         const size_t box = (size_t)floor(x * (double)columns) * rows + (size_t)floor(y * (double)rows);
-        if (!(x >= 0 && x < 1 && y >= 0 && y < 1) || seen[box]) {
-            fail_msg("%s, %zu points: (%.9g, %.9g) is a second one in its box of %zu x %zu", name, n, x, y, columns,
-                     rows);
-        }
+        assert_that(x >= 0 && x < 1 && y >= 0 && y < 1 && !seen[box],
+                    "%s, %zu points: (%.9g, %.9g) is a second one in its box of %zu x %zu", name, n, x, y, columns,
+                    rows);
         seen[box] = true;
     }
 }
@@ -281,11 +278,10 @@ TEST_CASE(sets_have_the_law_of_their_pattern)
                     spread[kind] =
                         (e - 4 * a * c + 6 * a * a * b - 3 * a * a * a * a - variance[kind] * variance[kind]) / t;
                 }
-                if (!(fabs(mean[0] - mean[1]) < 5 * sqrt(error[0] + error[1]) + 1e-7) ||
-                    !(fabs(variance[0] - variance[1]) < 5 * sqrt(spread[0] + spread[1]) + 1e-14)) {
-                    fail_msg("%s, n = %zu, estimate %d: mean %g, expected %g; variance %g, expected %g", name, n, v,
-                             mean[0], mean[1], variance[0], variance[1]);
-                }
+                assert_that(fabs(mean[0] - mean[1]) < 5 * sqrt(error[0] + error[1]) + 1e-7 &&
+                                fabs(variance[0] - variance[1]) < 5 * sqrt(spread[0] + spread[1]) + 1e-14,
+                            "%s, n = %zu, estimate %d: mean %g, expected %g; variance %g, expected %g", name, n, v,
+                            mean[0], mean[1], variance[0], variance[1]);
             }
             close_drawing(&d);
             koksma_points_fini(&points);
@@ -301,10 +297,9 @@ static void assert_independent(const char *what, const char *name, size_t n, dou
                                double trials)
 {
     const double scale = 144 * (double)n, variance = squares / trials * scale, z = sum * sqrt(scale / trials);
-    if (!(fabs(z) < 5) || !(variance > 0.7 && variance < 1.3)) {
-        fail_msg("%s, %s, n = %zu: products are off by %g deviations, their variance is %g times that of random ones",
-                 name, what, n, z, variance);
-    }
+    assert_that(fabs(z) < 5 && variance > 0.7 && variance < 1.3,
+                "%s, %s, n = %zu: products are off by %g deviations, their variance is %g times that of random ones",
+                name, what, n, z, variance);
 }
 
 TEST_CASE(uses_pixels_and_seeds_are_independent)

@@ -8,9 +8,7 @@ enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, SEEDS = 120 };
 static void compare(const char *name, const char *pattern, int spp, const moments *reference, const moments *few)
 {
     const double z = (few->image_mean - reference->image_mean) / hypot(few->image_error, reference->image_error);
-    if (!(fabs(z) < 4)) {
-        fail_msg("%s, %s at %d: the mean is %.2f standard errors off", name, pattern, spp, z);
-    }
+    assert_that(fabs(z) < 4, "%s, %s at %d: the mean is %.2f standard errors off", name, pattern, spp, z);
     int used = 0, far = 0;
     double sum = 0;
     for (int i = 0; i < PIXELS; i++) {
@@ -26,10 +24,8 @@ static void compare(const char *name, const char *pattern, int spp, const moment
     }
     assert_true(used > PIXELS / 4);
     /* Squared deviations have mean 1; their own spread over so many pixels is below 0.15. */
-    if (!(sum / used < 1.5) || far > 4) {
-        fail_msg("%s, %s at %d: mean square deviation %.2f of %d pixels, %d beyond 5", name, pattern, spp, sum / used,
-                 used, far);
-    }
+    assert_that(sum / used < 1.5 && far <= 4, "%s, %s at %d: mean square deviation %.2f of %d pixels, %d beyond 5",
+                name, pattern, spp, sum / used, used, far);
 }
 
 TEST_CASE(few_samples_are_right_in_the_mean)
@@ -92,9 +88,8 @@ TEST_CASE(better_patterns_err_less)
         const double random = mean_error(scenes[s], "random", KOKSMA_PAIRING_SHUFFLED);
         const double jittered = mean_error(scenes[s], "jittered", KOKSMA_PAIRING_SHUFFLED);
         const double n_rooks = mean_error(scenes[s], "n-rooks", KOKSMA_PAIRING_SHUFFLED);
-        if (!(n_rooks < 0.95 * jittered && jittered < 0.85 * random)) {
-            fail_msg("%s: n-rooks %.5f, jittered %.5f, random %.5f", scenes[s], n_rooks, jittered, random);
-        }
+        assert_that(n_rooks < 0.95 * jittered && jittered < 0.85 * random,
+                    "%s: n-rooks %.5f, jittered %.5f, random %.5f", scenes[s], n_rooks, jittered, random);
     }
     assert_true(mean_error("ball", "jittered", KOKSMA_PAIRING_ALIGNED) !=
                 mean_error("ball", "jittered", KOKSMA_PAIRING_SHUFFLED));

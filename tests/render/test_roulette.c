@@ -34,10 +34,8 @@ TEST_CASE(white_furnaces_do_not_vary)
         options.depth = KOKSMA_MAX_DEPTH;
         assert_ok(koksma_render(scene, &options, NULL, &image));
         for (size_t i = 0; i < 16 * 16; i++) {
-            if (fabs((double)image.pixels[i] - 1) > 1e-5) {
-                fail_msg("%s by %s: pixel %zu is %.6f", cases[c].material, cases[c].integrator, i,
-                         (double)image.pixels[i]);
-            }
+            assert_that(fabs((double)image.pixels[i] - 1) <= 1e-5, "%s by %s: pixel %zu is %.6f", cases[c].material,
+                        cases[c].integrator, i, (double)image.pixels[i]);
         }
         koksma_image_fini(&image);
         koksma_scene_close(scene);
@@ -65,10 +63,9 @@ TEST_CASE(roulette_keeps_the_mean)
             options.depth = 24;
             mean[k] = mean_over_seeds(scene, options, 16, 10, &error[k]);
         }
-        if (fabs(mean[0] - mean[1]) > 4.5 * hypot(error[0], error[1]) + 1e-6) {
-            fail_msg("%s: %.6f +- %.1g without roulette, %.6f +- %.1g with it", materials[m], mean[0], error[0],
-                     mean[1], error[1]);
-        }
+        assert_that(fabs(mean[0] - mean[1]) <= 4.5 * hypot(error[0], error[1]) + 1e-6,
+                    "%s: %.6f +- %.1g without roulette, %.6f +- %.1g with it", materials[m], mean[0], error[0],
+                    mean[1], error[1]);
         koksma_scene_close(scene);
     }
 }

@@ -81,10 +81,9 @@ TEST_CASE(means_agree)
                 }
                 const char *name = koksma_integrator_at(i)->name;
                 const double mean = mean_by(text, name, depth, selections[(b + (size_t)depth) % 3], 64, &error);
-                if (!(fabs(mean - expected) <= 5 * hypot(error, expected_error) + 1e-5)) {
-                    fail_msg("%s, depth %d, %s: %g +- %g, path %g +- %g", koksma__bsdfs[b]->kind.name, depth, name,
-                             mean, error, expected, expected_error);
-                }
+                assert_that(fabs(mean - expected) <= 5 * hypot(error, expected_error) + 1e-5,
+                            "%s, depth %d, %s: %g +- %g, path %g +- %g", koksma__bsdfs[b]->kind.name, depth, name,
+                            mean, error, expected, expected_error);
             }
         }
     }

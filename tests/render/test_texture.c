@@ -22,10 +22,9 @@ TEST_CASE(every_coordinate_has_a_pixel)
             const int n = widths[w / 3];
             size_t pair[2];
             const float weight = koksma__texture_split(all[i], n, wraps[w % 3], pair);
-            if (!(weight >= 0 && weight <= 1 && pair[0] < (size_t)n && pair[1] < (size_t)n)) {
-                fail_msg("%g of %d, wrapped by %zu: pixels %zu and %zu, weight %g", (double)all[i], n, w % 3, pair[0],
-                         pair[1], (double)weight);
-            }
+            assert_that(weight >= 0 && weight <= 1 && pair[0] < (size_t)n && pair[1] < (size_t)n,
+                        "%g of %d, wrapped by %zu: pixels %zu and %zu, weight %g", (double)all[i], n, w % 3, pair[0],
+                        pair[1], (double)weight);
         }
     }
 }

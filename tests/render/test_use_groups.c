@@ -46,9 +46,8 @@ static void close_all(koksma__sampler *sampler, koksma__sample_scratch *room)
 
 static void assert_point(const char *name, const double *x, double a, double b, double c)
 {
-    if (!(fabs(x[0] - a) < 1e-6 && fabs(x[1] - b) < 1e-6 && fabs(x[2] - c) < 1e-6)) {
-        fail_msg("%s: sample (%.7g, %.7g, %.7g) of point (%.7g, %.7g, %.7g)", name, a, b, c, x[0], x[1], x[2]);
-    }
+    assert_that(fabs(x[0] - a) < 1e-6 && fabs(x[1] - b) < 1e-6 && fabs(x[2] - c) < 1e-6,
+                "%s: sample (%.7g, %.7g, %.7g) of point (%.7g, %.7g, %.7g)", name, a, b, c, x[0], x[1], x[2]);
 }
 
 /* Every pattern of three dimensions that makes a set for one pixel: pixel and time of sample i are point i, in every
@@ -231,12 +230,10 @@ TEST_CASE(stratification_in_all_dimensions_is_kept)
                 xyz[i][1] = (double)two[2 * i + 1];
                 xyz[i][2] = (double)one[2 * i];
             }
-            if (cases[k].kept && boxes_with_one(xyz, 27) != 10) {
-                fail_msg("%s: not one point in every box", cases[k].text);
-            }
-            if (!cases[k].kept && !pairing && boxes_with_one(xyz, 27) == 10) {
-                fail_msg("%s: separate sets have one point in every box", cases[k].text);
-            }
+            assert_that(!cases[k].kept || boxes_with_one(xyz, 27) == 10, "%s: not one point in every box",
+                        cases[k].text);
+            assert_that(cases[k].kept || pairing || boxes_with_one(xyz, 27) != 10,
+                        "%s: separate sets have one point in every box", cases[k].text);
             close_all(&sampler, &room);
         }
     }
@@ -422,9 +419,8 @@ TEST_CASE(texts_that_are_wrong_say_so)
     const koksma_render_options before = options;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const koksma_status status = koksma_render_patterns(cases[i].text, &options);
-        if (status != cases[i].status || !strstr(koksma_error_text(), cases[i].said)) {
-            fail_msg("'%s': status %d, %s", cases[i].text, status, koksma_error_text());
-        }
+        assert_that(status == cases[i].status && strstr(koksma_error_text(), cases[i].said), "'%s': status %d, %s",
+                    cases[i].text, status, koksma_error_text());
         assert_memory_equal(&options, &before, sizeof before);
     }
     assert_int_equal(koksma_render_patterns(NULL, &options), KOKSMA_ARGUMENT);

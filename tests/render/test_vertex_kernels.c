@@ -81,9 +81,8 @@ static void run(const koksma__batch_table *batch, const koksma__frame *f, const 
 
 static void assert_close(float a, float b, const char *what, const char *kind)
 {
-    if (!(fabs((double)(a - b)) <= 2e-6 * fabs((double)b) + 1e-12)) {
-        fail_msg("%s of %s: %.9g in lanes, %.9g ray by ray", what, kind, (double)a, (double)b);
-    }
+    assert_that(fabs((double)(a - b)) <= 2e-6 * fabs((double)b) + 1e-12, "%s of %s: %.9g in lanes, %.9g ray by ray",
+                what, kind, (double)a, (double)b);
 }
 
 static void check_lane(const koksma__frame *f, const koksma__light_lanes *lights, const koksma__lanes u[5],

@@ -37,9 +37,7 @@ static inline koksma_status open_as(const char *name, const char *text, koksma_s
 static inline koksma_scene *opened(const char *name, const char *text)
 {
     koksma_scene *scene = NULL;
-    if (open_as(name, text, &scene)) {
-        fail_msg("%s: %s", text, koksma_error_text());
-    }
+    assert_that(!open_as(name, text, &scene), "%s: %s", text, koksma_error_text());
     return scene;
 }
 

@@ -24,9 +24,7 @@ static void check_twins(const char *text, const char *twin)
     double largest = 0, off = 0;
     for (int i = 0; i < 2; i++) {
         koksma_scene *scene = opened("a.pbrt", texts[i]);
-        if (koksma_scene_unknown(scene, 0, warning, sizeof warning)) {
-            fail_msg("%s: %s", texts[i], warning);
-        }
+        assert_that(!koksma_scene_unknown(scene, 0, warning, sizeof warning), "%s: %s", texts[i], warning);
         render(scene, "sobol", "path", &images[i]);
         koksma_scene_close(scene);
     }
@@ -38,9 +36,8 @@ static void check_twins(const char *text, const char *twin)
     }
     koksma_image_fini(&images[0]);
     koksma_image_fini(&images[1]);
-    if (!(largest > 1e-3 && off <= 1e-5 * largest)) {
-        fail_msg("%s\nis not\n%s: pixels up to %g differ by up to %g", text, twin, largest, off);
-    }
+    assert_that(largest > 1e-3 && off <= 1e-5 * largest, "%s\nis not\n%s: pixels up to %g differ by up to %g", text,
+                twin, largest, off);
 }
 
 #define SIZE "\"integer xresolution\" 12 \"integer yresolution\" 8"
@@ -391,10 +388,8 @@ TEST_CASE(crops_are_parts)
                 const float *whole = images[0].pixels + channels * (y * 12 + x);
                 const float *part = images[1].pixels + channels * ((y - from[1]) * (to[0] - from[0]) + x - from[0]);
                 seen += (double)whole[0];
-                if (!(fabs((double)part[0] - (double)whole[0]) <= 1e-4)) {
-                    fail_msg("%s %s: pixel %d, %d is %g, not %g", all[i].camera, all[i].crop, x, y, (double)part[0],
-                             (double)whole[0]);
-                }
+                assert_that(fabs((double)part[0] - (double)whole[0]) <= 1e-4, "%s %s: pixel %d, %d is %g, not %g",
+                            all[i].camera, all[i].crop, x, y, (double)part[0], (double)whole[0]);
             }
         }
         assert_true(seen > 0.1);

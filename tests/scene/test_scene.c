@@ -87,9 +87,8 @@ TEST_CASE(errors_name_line_and_reason)
         const koksma_status status =
             koksma__scene_parse("test.json", malformed[i].text, strlen(malformed[i].text), &scene);
         snprintf(expected, sizeof expected, "scene 'test.json': %s", malformed[i].error);
-        if (status != KOKSMA_MALFORMED || strncmp(koksma_error_text(), expected, strlen(expected)) != 0) {
-            fail_msg("expected: %s...\ngot (%d): %s", expected, (int)status, koksma_error_text());
-        }
+        assert_that(status == KOKSMA_MALFORMED && strncmp(koksma_error_text(), expected, strlen(expected)) == 0,
+                    "expected: %s...\ngot (%d): %s", expected, (int)status, koksma_error_text());
         koksma__scene_fini(&scene);
     }
 }

@@ -263,11 +263,10 @@ TEST_CASE(intervals_of_integration_hold_or_are_approximate)
         for (size_t l = 0; l < LAWS; l++) {
             for (size_t t = 0; t < 2; t++) {
                 const coverage c = coverage_of(&kinds[k], &laws[l], trial_counts[t], simulations);
-                if (!((c.holds < 0.98 + 3 * error || laws[l].draw == uniform) &&
-                      (c.holds > 0.93 - 3 * error || c.approximate > 0.25))) {
-                    fail_msg("%s of %zu trials, %s: it holds in %.1f %% and is approximate in %.1f %%", kinds[k].name,
-                             trial_counts[t], laws[l].name, 100 * c.holds, 100 * c.approximate);
-                }
+                assert_that((c.holds < 0.98 + 3 * error || laws[l].draw == uniform) &&
+                                (c.holds > 0.93 - 3 * error || c.approximate > 0.25),
+                            "%s of %zu trials, %s: it holds in %.1f %% and is approximate in %.1f %%", kinds[k].name,
+                            trial_counts[t], laws[l].name, 100 * c.holds, 100 * c.approximate);
             }
         }
     }
@@ -279,8 +278,7 @@ TEST_CASE(intervals_of_normal_values_hold)
     const uint64_t simulations = test_repeats(500, 20);
     for (size_t k = INTEGRATION_KINDS; k < KINDS; k++) {
         const coverage c = coverage_of(&kinds[k], &laws[0], 32, simulations);
-        if (fabs(c.holds - 0.95) > 0.02 + 3 * sqrt(0.05 * 0.95 / (double)simulations)) {
-            fail_msg("%s: it holds in %.1f %%", kinds[k].name, 100 * c.holds);
-        }
+        assert_that(fabs(c.holds - 0.95) <= 0.02 + 3 * sqrt(0.05 * 0.95 / (double)simulations),
+                    "%s: it holds in %.1f %%", kinds[k].name, 100 * c.holds);
     }
 }

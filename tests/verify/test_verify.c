@@ -37,9 +37,7 @@ TEST_CASE(healthy_points_pass)
         {"below-one-as-float", "-"}, {"progressive", "-"}};
     for (size_t i = 0; i < sizeof properties / sizeof *properties; i++) {
         const koksma_finding f = one(&p, properties[i][0], properties[i][1]);
-        if (!f.holds) {
-            fail_msg("%s %s: %g %s", f.property, f.subject, f.value, f.detail);
-        }
+        assert_that(f.holds, "%s %s: %g %s", f.property, f.subject, f.value, f.detail);
     }
     koksma_points_fini(&p);
 }
@@ -84,10 +82,9 @@ TEST_CASE(every_property_looks_alike_on_any_threads)
         assert_int_equal(one.count, three.count);
         for (size_t f = 0; f < one.count; f++) {
             const koksma_finding *a = &one.items[f], *b = &three.items[f];
-            if (a->property != b->property || strcmp(a->subject, b->subject) != 0 || a->holds != b->holds ||
-                a->value != b->value || !isfinite(a->value) || strcmp(a->detail, b->detail) != 0) {
-                fail_msg("%s, %s: %g on one thread, %g on three", a->property, a->subject, a->value, b->value);
-            }
+            assert_that(a->property == b->property && strcmp(a->subject, b->subject) == 0 && a->holds == b->holds &&
+                            a->value == b->value && isfinite(a->value) && strcmp(a->detail, b->detail) == 0,
+                        "%s, %s: %g on one thread, %g on three", a->property, a->subject, a->value, b->value);
         }
         koksma_findings_fini(&one);
         koksma_findings_fini(&three);
@@ -402,10 +399,9 @@ TEST_CASE(biases_are_found)
         assert_ok(koksma_pattern_spec(rows[r].spec, &spec));
         koksma_findings all = of_sets(&spec, 16, 2, rows[r].n_sets);
         assert_int_equal(koksma_is_unbiased(&spec), rows[r].unbiased);
-        if (all.items[0].holds != rows[r].unbiased || all.items[1].holds != rows[r].uniform_samples ||
-            fabs(all.items[0].value) < rows[r].bias) {
-            fail_msg("%s: %g, %s; %s", rows[r].spec, all.items[0].value, all.items[0].detail, all.items[1].detail);
-        }
+        assert_that(all.items[0].holds == rows[r].unbiased && all.items[1].holds == rows[r].uniform_samples &&
+                        fabs(all.items[0].value) >= rows[r].bias,
+                    "%s: %g, %s; %s", rows[r].spec, all.items[0].value, all.items[0].detail, all.items[1].detail);
         koksma_findings_fini(&all);
     }
 }

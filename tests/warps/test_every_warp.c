@@ -127,9 +127,7 @@ TEST_CASE(the_jacobian_is_the_area)
             const double u[2] = {0.001 + 0.998 * sets_unit(40, s), 0.001 + 0.998 * sets_unit(41, s)};
             double x[3] = {0}, sides[2][2][3] = {{{0}}}, d[2][3];
             w->map(u, x);
-            if (!is_inside(w, x)) {
-                fail_msg("%s: (%g, %g) goes to (%g, %g, %g)", w->name, u[0], u[1], x[0], x[1], x[2]);
-            }
+            assert_that(is_inside(w, x), "%s: (%g, %g) goes to (%g, %g, %g)", w->name, u[0], u[1], x[0], x[1], x[2]);
             for (int k = 0; k < 2; k++) {
                 for (int side = 0; side < 2; side++) {
                     double moved[2] = {u[0], u[1]};
@@ -142,10 +140,8 @@ TEST_CASE(the_jacobian_is_the_area)
             }
             const double nx = d[0][1] * d[1][2] - d[0][2] * d[1][1], ny = d[0][2] * d[1][0] - d[0][0] * d[1][2];
             const double nz = d[0][0] * d[1][1] - d[0][1] * d[1][0], area = sqrt(nx * nx + ny * ny + nz * nz);
-            if (!(fabs(area / area_at(w, x) - 1) < 1e-4)) {
-                fail_msg("%s: at (%g, %g) the square's unit becomes %g, not %g", w->name, u[0], u[1], area,
-                         area_at(w, x));
-            }
+            assert_that(fabs(area / area_at(w, x) - 1) < 1e-4, "%s: at (%g, %g) the square's unit becomes %g, not %g",
+                        w->name, u[0], u[1], area, area_at(w, x));
         }
     }
 }
@@ -163,9 +159,7 @@ TEST_CASE(equal_parts_get_equal_shares)
         }
         for (int c = 0; c < CELLS * CELLS; c++) {
             const double share = counts[c / CELLS][c % CELLS] * CELLS * CELLS / SIDE / SIDE;
-            if (!(fabs(share - 1) < 0.05)) {
-                fail_msg("%s: a part of the domain gets %.3f times its share", w->name, share);
-            }
+            assert_that(fabs(share - 1) < 0.05, "%s: a part of the domain gets %.3f times its share", w->name, share);
         }
     }
 }

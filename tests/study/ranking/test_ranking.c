@@ -108,9 +108,8 @@ static outcome rank_world(const world *w, int rounds, double alpha)
 /* Equal means, means at the edge of "equal", and near ties; with a good reference and with one as noisy as the
    patterns themselves. Rankings with any wrong decision are rarer than alpha: of 100 with alpha = 0.2 fewer than 36,
    which 20 expected ones reach with probability 1e-4. */
-static void wrong_decisions_are_rare(void **state)
+TEST_CASE(wrong_decisions_are_rare)
 {
-    (void)state;
     static const double equal[] = {1, 1, 1, 1}, edge[] = {1, 1.0201, 1.0201, 1.0201}, ties[] = {1, 1.005, 1.01, 1.03};
     const double *const scales[] = {equal, edge, ties};
     for (size_t s = 0; s < 3; s++) {
@@ -124,18 +123,15 @@ static void wrong_decisions_are_rare(void **state)
                                  .seed = seed + 1000 * s};
                 wrong += rank_world(&w, 5, 0.2).wrong > 0;
             }
-            if (wrong >= 18) {
-                fail_msg("case %zu, %s reference: %zu of 40 rankings decide wrongly", s, noisy ? "noisy" : "good",
-                         wrong);
-            }
+            assert_that(wrong < 18, "case %zu, %s reference: %zu of 40 rankings decide wrongly", s,
+                        noisy ? "noisy" : "good", wrong);
         }
     }
 }
 
 /* What differs clearly is decided, and the best leads; equal ones are found to be equal. */
-static void clear_cases_are_decided(void **state)
+TEST_CASE(clear_cases_are_decided)
 {
-    (void)state;
     static const double scale[] = {1.5, 1, 2, 1.25}, equal[] = {1, 1};
     const world w = {.n = 4, .scale = scale, .spread = 0.05, .reference = 0.1, .seed = 3};
     const outcome o = rank_world(&w, 5, 0.04);
@@ -147,9 +143,8 @@ static void clear_cases_are_decided(void **state)
 }
 
 /* A reference that is as noisy as what it judges leaves a small difference open, whatever the number of trials. */
-static void noisy_references_decide_nothing(void **state)
+TEST_CASE(noisy_references_decide_nothing)
 {
-    (void)state;
     static const double scale[] = {1, 1.03};
     const world w = {.n = 2, .scale = scale, .spread = 0.01, .reference = 4, .seed = 5};
     const koksma__rank_errors a = errors_of(&w, 0, 256), b = errors_of(&w, 1, 256);
@@ -171,9 +166,8 @@ static koksma__rank_errors exact(double mean, double sd, size_t n)
     return e;
 }
 
-static void intervals_by_hand(void **state)
+TEST_CASE(intervals_by_hand)
 {
-    (void)state;
     const double level = 0.01;
     const koksma__rank_errors a = exact(2, 0.4, 16), b = exact(1, 0, 16);
     const double half = koksma__student_quantile(0.99, 15) * 0.1; /* only a varies */
@@ -192,9 +186,8 @@ static void intervals_by_hand(void **state)
 
 /* The parts of alpha that a pair's rounds spend: by the root of the information, at most all of it and a fifth, and 2 % a
    round when nothing is left. Each "different" has two bounds. */
-static void levels_by_hand(void **state)
+TEST_CASE(levels_by_hand)
 {
-    (void)state;
     koksma__rank_errors a[20], b[20];
     double sum = 0;
     for (int round = 0; round < 20; round++) {
@@ -220,9 +213,8 @@ static void levels_by_hand(void **state)
 
 /* What pairs that are decided to be different no longer need goes to the others. With exact means a pair is decided by
    its difference; the others are alike. */
-static void shares_of_decided_pairs_go_to_others(void **state)
+TEST_CASE(shares_of_decided_pairs_go_to_others)
 {
-    (void)state;
     koksma__rank_table table;
     const double means[] = {1, 1, 1.005, 2};
     assert_ok(koksma__rank_table_init(&table, 4, 0.06));
@@ -246,9 +238,8 @@ static void shares_of_decided_pairs_go_to_others(void **state)
 }
 
 /* The jackknife removes a bias of b/k and knows the deviation of a mean. */
-static void references_by_hand(void **state)
+TEST_CASE(references_by_hand)
 {
-    (void)state;
     enum { K = KOKSMA__RANK_REPLICATES };
     koksma__rank_errors a = exact(1, 0, 8);
     double squares = 0;
@@ -264,9 +255,8 @@ static void references_by_hand(void **state)
     assert_near(e.high - e.value, koksma__student_quantile(0.99, K - 1) * error + 0.16, 1e-9);
 }
 
-static void equal_errors_are_equal(void **state)
+TEST_CASE(equal_errors_are_equal)
 {
-    (void)state;
     const koksma__rank_errors zero = exact(0, 0, 8), one = exact(1, 0, 8), more = exact(1.0199, 0, 8),
                               most = exact(1.0201, 0, 8), single = exact(1, NAN, 1);
     const koksma__rank_levels levels = {1e-3, 1e-3};
@@ -280,9 +270,8 @@ static void equal_errors_are_equal(void **state)
 }
 
 /* The number of trials that is foretold is the smallest that decides if nothing changes. */
-static void trials_are_foretold(void **state)
+TEST_CASE(trials_are_foretold)
 {
-    (void)state;
     const koksma__rank_errors a = exact(1, 0.05, 8), b = exact(1.03, 0.05, 8);
     const size_t n = koksma__rank_trials_needed(&a, &b, 0.01);
     koksma__rank_errors rounds_a[16], rounds_b[16];
@@ -312,9 +301,8 @@ static void decide(koksma__rank_table *table, const double *means, unsigned cohe
 
 /* For every set of coherent errors, what is advised has the smallest mean of all others, and the leader is the same
    for all of them. */
-static void the_best_without_bands_is_advised(void **state)
+TEST_CASE(the_best_without_bands_is_advised)
 {
-    (void)state;
     static const double means[] = {3, 1, 4, 2};
     static const size_t order[] = {1, 3, 0, 2};
     koksma__rank_table table;
@@ -338,9 +326,8 @@ static void the_best_without_bands_is_advised(void **state)
 
 /* The excess by its definition: the largest of the bounds on quotients, the least of all rounds; better patterns, coherent
    ones and those without a round do not count. */
-static void excess_by_hand(void **state)
+TEST_CASE(excess_by_hand)
 {
-    (void)state;
     static const double means[] = {1.01, 1, 1.5, 0.5};
     koksma__rank_table table;
     decide(&table, means, 8, 3); /* exact errors: 3 has no round */
@@ -372,9 +359,8 @@ static void excess_by_hand(void **state)
 }
 
 /* Open pairs matter for the advice where neither error is coherent and nothing without bands is better than both. */
-static void pairs_that_matter_for_advice(void **state)
+TEST_CASE(pairs_that_matter_for_advice)
 {
-    (void)state;
     koksma__rank_table table;
     assert_ok(koksma__rank_table_init(&table, 4, 0.04));
     for (size_t i = 0; i < 4; i++) {
@@ -415,9 +401,8 @@ static bool ends_at_once(void *context, double fraction)
 }
 
 /* The pairs of hundreds of patterns take seconds: an end of the run is seen among them, and no leader is named. */
-static void decisions_end_with_the_run(void **state)
+TEST_CASE(decisions_end_with_the_run)
 {
-    (void)state;
     enum { N = 100 };
     size_t asked = 0;
     const koksma_run run = {.keep_going = ends_at_once, .context = &asked};
@@ -439,9 +424,8 @@ static void decisions_end_with_the_run(void **state)
 /* Pattern 0 is the first at the size asked for. Another size overturns that where another pattern is decided to be
    the first there and 0 is decided not to be: not where they are the same within 2 %, nor where trials vary too much
    to decide. */
-static void first_places_at_other_sizes(void **state)
+TEST_CASE(first_places_at_other_sizes)
 {
-    (void)state;
     static const struct {
         double means[3], sd;
         koksma_rank_check_state state;
@@ -474,9 +458,8 @@ static const koksma_rank_row *row_of(const koksma_rank_row *rows, size_t pattern
 
 /* In slanted squares Zaremba and regular points make Moire (Mitchell 1992), random and jittered ones don't. However
    many threads and trials there are, the first 8 trials say so with the same bits. */
-static void bands_are_found(void **state)
+TEST_CASE(bands_are_found)
 {
-    (void)state;
     koksma_rank_row first[4], rows[4];
     koksma_ranking ranking;
     for (int i = 0; i < 3; i++) {
@@ -506,9 +489,8 @@ static void bands_are_found(void **state)
 
 /* A pattern without random numbers has the coherence of a picture that is compared with a reference by hand, but for
    what the references differ by. */
-static void coherence_is_that_of_the_pictures(void **state)
+TEST_CASE(coherence_is_that_of_the_pictures)
 {
-    (void)state;
     koksma_rank_row rows[4];
     koksma_scene *scene;
     koksma_render_options options;
@@ -571,9 +553,8 @@ static void render_adaptively(const koksma_scene *scene, const char *pattern, si
 
 /* The error, robust error and coherence of a pattern with an adaptive method are those of eight images of the method and
    the trials' seeds, against a reference that is not adaptive. The references differ by 1/16 of the error. */
-static void adaptive_rankings_are_those_of_the_pictures(void **state)
+TEST_CASE(adaptive_rankings_are_those_of_the_pictures)
 {
-    (void)state;
     enum { TRIALS = 8 };
     static const char *const patterns[] = {"random", "n-rooks", "regular"};
     koksma_rank_row rows[3];
@@ -712,9 +693,8 @@ static void cut_everywhere(koksma_rank_options options, double step)
 }
 
 /* In the second scene the pattern with the least error is in bands, and another one is advised. */
-static void time_limits_only_cut(void **state)
+TEST_CASE(time_limits_only_cut)
 {
-    (void)state;
     static const char *const patterns[] = {"zaremba", "jittered", "random"};
     koksma_rank_options options = small();
     cut_everywhere(options, TEST_SANITIZED ? 5 : 1.5);
@@ -737,9 +717,8 @@ static bool stop_at_once(void *context, double fraction)
 }
 
 /* An interruption is not overtaken by a time limit, also where both come between two looks. */
-static void interruptions_come_first(void **state)
+TEST_CASE(interruptions_come_first)
 {
-    (void)state;
     koksma_rank_row rows[3];
     koksma_ranking ranking;
     koksma_rank_options options = small();
@@ -775,9 +754,8 @@ static int looks_of(int spp)
     return asked + 1000000;
 }
 
-static void rows_of_many_samples_are_left(void **state)
+TEST_CASE(rows_of_many_samples_are_left)
 {
-    (void)state;
     assert_true(looks_of(1024) >= 2 * 64 * 1024 / (2 * 4096));
 }
 
@@ -799,9 +777,8 @@ static size_t best_but(const koksma_rank_row *whole, const koksma_rank_row *rows
 /* A trial that takes more than its pattern's share puts the pattern off, and the others are ranked without it: their best
    is decided when the time ends before its turn comes again, and all are ranked when it does not, with the same best
    pattern. */
-static void slow_patterns_are_put_off(void **state)
+TEST_CASE(slow_patterns_are_put_off)
 {
-    (void)state;
     koksma_rank_row whole[3], rows[3];
     koksma_rank_options options = small();
     static const unsigned long long gaps[] = {145, 190, 1000000};
@@ -832,9 +809,8 @@ static void slow_patterns_are_put_off(void **state)
     assert_true(left_out >= test_repeats(2, 1) && settled_without >= 1 && settled >= 3);
 }
 
-static void patterns_that_cannot_serve(void **state)
+TEST_CASE(patterns_that_cannot_serve)
 {
-    (void)state;
     const char *patterns[] = {"jittered", "n-rooks"};
     koksma_rank_row rows[2];
     koksma_rank_options options = {
@@ -846,9 +822,8 @@ static void patterns_that_cannot_serve(void **state)
 }
 
 /* The size is the scene's, or the one asked for, on every machine. */
-static void sizes_are_part_of_the_question(void **state)
+TEST_CASE(sizes_are_part_of_the_question)
 {
-    (void)state;
     koksma_rank_row rows[3];
     koksma_rank_options options = small();
     options.width = options.height = 0;
@@ -897,9 +872,8 @@ static koksma_ranking rank_noise(double reference, long long trials)
 }
 
 /* That no number of trials would decide is said after 256 trials or more, and only where the reference is to blame. */
-static void undecidable_only_after_many_trials(void **state)
+TEST_CASE(undecidable_only_after_many_trials)
 {
-    (void)state;
     const koksma_ranking few = rank_noise(16, 8), many = rank_noise(16, 1024), good = rank_noise(0.001, 128),
                          more = rank_noise(0.001, 65536);
     assert_true(!few.settled && !few.undecidable && few.trials == 8);
@@ -926,9 +900,8 @@ static koksma_status render_wild(void *context, const koksma_rank_picture *pictu
 
 /* An interval has both ends or none: where trials vary too much for a quotient there is none, rather than one that begins
    at -100 %. */
-static void intervals_have_both_ends(void **state)
+TEST_CASE(intervals_have_both_ends)
 {
-    (void)state;
     const char *patterns[] = {"a", "bb", "ccc"};
     size_t none = 0, some = 0;
     for (int k = 0; k < 24; k++) {
@@ -980,9 +953,8 @@ static koksma_status render_firefly(void *context, const koksma_rank_picture *pi
 }
 
 /* Where the error is that of single pixels, a pattern is chosen by the others: one of those with the least noise. */
-static void fireflies_leave_a_choice(void **state)
+TEST_CASE(fireflies_leave_a_choice)
 {
-    (void)state;
     const char *patterns[] = {"a", "bb", "ccc"};
     koksma_rank_row rows[3];
     koksma_ranking r;
@@ -1000,37 +972,4 @@ static void fireflies_leave_a_choice(void **state)
     assert_true(!r.settled && !r.advised && r.without_few);
     assert_true(r.within > 0 && r.within <= KOKSMA_RANK_TIE && rows[r.use_row].pattern != 2);
     assert_true(rows[0].top_share > 0.5 && rows[0].robust < 0.1 * rows[0].mean);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wrong_decisions_are_rare),
-        cmocka_unit_test(clear_cases_are_decided),
-        cmocka_unit_test(noisy_references_decide_nothing),
-        cmocka_unit_test(intervals_by_hand),
-        cmocka_unit_test(levels_by_hand),
-        cmocka_unit_test(shares_of_decided_pairs_go_to_others),
-        cmocka_unit_test(references_by_hand),
-        cmocka_unit_test(equal_errors_are_equal),
-        cmocka_unit_test(trials_are_foretold),
-        cmocka_unit_test(the_best_without_bands_is_advised),
-        cmocka_unit_test(excess_by_hand),
-        cmocka_unit_test(pairs_that_matter_for_advice),
-        cmocka_unit_test(decisions_end_with_the_run),
-        cmocka_unit_test(first_places_at_other_sizes),
-        cmocka_unit_test(bands_are_found),
-        cmocka_unit_test(coherence_is_that_of_the_pictures),
-        cmocka_unit_test(adaptive_rankings_are_those_of_the_pictures),
-        cmocka_unit_test(time_limits_only_cut),
-        cmocka_unit_test(interruptions_come_first),
-        cmocka_unit_test(rows_of_many_samples_are_left),
-        cmocka_unit_test(slow_patterns_are_put_off),
-        cmocka_unit_test(patterns_that_cannot_serve),
-        cmocka_unit_test(sizes_are_part_of_the_question),
-        cmocka_unit_test(undecidable_only_after_many_trials),
-        cmocka_unit_test(intervals_have_both_ends),
-        cmocka_unit_test(fireflies_leave_a_choice),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

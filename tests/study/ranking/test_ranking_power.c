@@ -189,12 +189,11 @@ static void rankings_err_as_often_as_promised(void **state)
             continue;
         }
         const summary s = summary_of(w, rankings);
-        if (s.wrong > 0.05 + 4 * error || s.misled > 0.05 + 8 * error || s.errors_hold < 0.95 - 4 * error ||
-            s.behind_hold < 0.95 - 4 * error) {
-            fail_msg("%s: %.1f %% of rankings decide wrongly, %.1f %% mislead; errors hold in %.1f %%, quotients in "
-                     "%.1f %%",
-                     w->name, 100 * s.wrong, 100 * s.misled, 100 * s.errors_hold, 100 * s.behind_hold);
-        }
+        assert_that(s.wrong <= 0.05 + 4 * error && s.misled <= 0.05 + 8 * error &&
+                        s.errors_hold >= 0.95 - 4 * error && s.behind_hold >= 0.95 - 4 * error,
+                    "%s: %.1f %% of rankings decide wrongly, %.1f %% mislead; errors hold in %.1f %%, quotients in "
+                    "%.1f %%",
+                    w->name, 100 * s.wrong, 100 * s.misled, 100 * s.errors_hold, 100 * s.behind_hold);
     }
 }
 
@@ -210,9 +209,8 @@ static void rankings_take_few_more_trials_than_one_test(void **state)
         const double power = apart ? 1.96 + 0.84 : 1.645 + 1.645, d = apart ? 0.05 : log(1.02);
         const double fixed = 4 * power * power * two[apart].spread * two[apart].spread / (d * d);
         const summary s = summary_of(&two[apart], test_repeats(300, 30));
-        if (!(s.open == 0 && s.trials < test_repeats(1.8, 2.2) * fixed)) {
-            fail_msg("%s: %.0f trials on average, a test of fixed size %.0f", two[apart].name, s.trials, fixed);
-        }
+        assert_that(s.open == 0 && s.trials < test_repeats(1.8, 2.2) * fixed,
+                    "%s: %.0f trials on average, a test of fixed size %.0f", two[apart].name, s.trials, fixed);
     }
 }
 

@@ -81,14 +81,11 @@ TEST_CASE(variations_are_sums_of_differences)
             continue; /* not known, or of the range */
         }
         if (isinf(f->variation)) {
-            if (!(fine > 3 * coarse)) {
-                fail_msg("%s: %g with 128 lines, %g with 512", f->name, coarse, fine);
-            }
+            assert_that(fine > 3 * coarse, "%s: %g with 128 lines, %g with 512", f->name, coarse, fine);
             continue;
         }
-        if (!(fine <= f->variation * (1 + 1e-12) && fine >= f->variation * (1 - missed))) {
-            fail_msg("%s: variation %.10g, on a grid %.10g", f->name, f->variation, fine);
-        }
+        assert_that(fine <= f->variation * (1 + 1e-12) && fine >= f->variation * (1 - missed),
+                    "%s: variation %.10g, on a grid %.10g", f->name, f->variation, fine);
         assert_true(coarse <= f->variation * (1 + 1e-12));
     }
 }
@@ -107,11 +104,10 @@ TEST_CASE(integrals_and_ranges_hold)
             high = fmax(high, y);
         }
         const double scale = isinf(f->range) ? high - low : fmax(f->range, 1);
-        if (!(fabs(sum - f->value) <= 6e-4 * scale && high - low <= f->range * (1 + 1e-14) &&
-              (isinf(f->range) || high - low >= 0.97 * f->range))) {
-            fail_msg("%s: integral %.10g, on a grid %.10g; range %g of %g", f->name, f->value, sum, high - low,
-                     f->range);
-        }
+        assert_that(fabs(sum - f->value) <= 6e-4 * scale && high - low <= f->range * (1 + 1e-14) &&
+                        (isinf(f->range) || high - low >= 0.97 * f->range),
+                    "%s: integral %.10g, on a grid %.10g; range %g of %g", f->name, f->value, sum, high - low,
+                    f->range);
     }
 }
 
@@ -125,10 +121,9 @@ static void check_inequality(const koksma_points *points, const char *pattern, d
             sum += at(f, points->xs + k * (size_t)points->dim) / (double)points->n;
         }
         const double error = fabs(sum - f->value), bound = f->variation * star;
-        if (f->dim == points->dim && !isnan(bound) && !(error <= bound + 1e-13 * fmax(1, fabs(f->value)))) {
-            fail_msg("%s over %zu points of %s: error %.10g, V(f) D* %.10g", f->name, points->n, pattern, error,
-                     bound);
-        }
+        assert_that(f->dim != points->dim || isnan(bound) || error <= bound + 1e-13 * fmax(1, fabs(f->value)),
+                    "%s over %zu points of %s: error %.10g, V(f) D* %.10g", f->name, points->n, pattern, error,
+                    bound);
         if (f->dim == points->dim && isfinite(bound)) {
             *closest = fmax(*closest, error / bound);
         }
