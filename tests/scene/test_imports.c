@@ -11,6 +11,7 @@
 #include "core/c_locale.h"
 #include "scene/import.h"
 #include "scene_files.h"
+#include "texts.h"
 
 /* ---- One scene three times ------------------------------------------------------------------------------------- */
 
@@ -719,11 +720,10 @@ TEST_CASE(environments_have_a_shape)
         assert_ok(koksma_image_write(path, &sky, NULL));
         koksma_image_fini(&sky);
         const koksma_status status = open_as(cases[i].name, cases[i].text, &scene);
-        if (status != (cases[i].reason ? KOKSMA_MALFORMED : KOKSMA_OK) ||
-            (status && !strstr(koksma_error_text(), cases[i].reason))) {
-            fail_msg("%d x %d: status %d, '%s'", cases[i].width, cases[i].height, (int)status,
-                     status ? koksma_error_text() : "");
-        }
+        assert_that(status == (cases[i].reason ? KOKSMA_MALFORMED : KOKSMA_OK) &&
+                        (!status || strstr(koksma_error_text(), cases[i].reason)),
+                    "%d x %d: status %d, '%s'", cases[i].width, cases[i].height, (int)status,
+                    status ? koksma_error_text() : "");
         assert_true(status || (scene->n_lights == 1 && scene->lights[0].image));
         koksma_scene_close(scene);
     }
@@ -839,55 +839,12 @@ TEST_CASE(both_sides_light_alike)
     "\"perspective\" Film "                                                                                          \
     "\"rgb\" " SIZE " WorldBegin\n"
 
-/* What stands for the places in braces of texts.txt. */
-static const struct {
-    const char *name, *text;
-} shared[] = {{"{S}", SIZE},         {"{P}", PBRT},       {"{G}", FOG},
-              {"{M}", MITSUBA_HEAD}, {"{F}", FOGGY_HEAD}, {"{/F}", FOGGY_TAIL}};
+#define BALL_HEAD "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"sphere\">"
+#define BALL_TAIL "</shape></scene>"
 
-/* Makes the text of a line of texts.txt, and returns whether it is XML. */
-static bool fill(const char *from, char *text, size_t size)
-{
-    size_t used = 0;
-    while (*from && *from != '\n') {
-        size_t i = 0, n = sizeof shared / sizeof *shared;
-        while (i < n && strncmp(from, shared[i].name, strlen(shared[i].name)) != 0) {
-            i++;
-        }
-        const bool ends = !strncmp(from, "\\n", 2);
-        used += (size_t)(i < n ? snprintf(text + used, size - used, "%s", shared[i].text)
-                               : snprintf(text + used, size - used, "%c", ends ? '\n' : *from));
-        from += i < n ? strlen(shared[i].name) : ends ? 2 : 1;
-        assert_true(used < size);
-    }
-    text[used] = '\0';
-    return *text == '<';
-}
-
-/* Calls f for each case of texts.txt of which `how` is expected. A build without expat reads no XML. */
-static void each_text(const char *how, void (*f)(const char *name, const char *text, const char *expected))
-{
-    char line[1024], text[2048];
-    const bool xml = can_read("probe.xml"), refused = !strcmp(how, "refuses");
-    size_t n = 0;
-    FILE *file = fopen(KOKSMA_TESTS "/scene/texts.txt", "r");
-    assert_non_null(file);
-    while (fgets(line, sizeof line, file)) {
-        char *bar = strstr(line, " | ");
-        if (!bar || strncmp(line, how, strlen(how)) != 0) {
-            continue;
-        }
-        *bar = '\0';
-        const bool is_xml = fill(bar + 3, text, sizeof text);
-        const char *name = is_xml ? refused ? "b.xml" : "a.xml" : refused ? "b.pbrt" : "a.pbrt";
-        if (xml || !is_xml) {
-            f(name, text, strchr(line, ' ') ? strchr(line, ' ') + 1 : NULL);
-        }
-        n++;
-    }
-    fclose(file);
-    assert_true(n > 30);
-}
+static const shared_text shared[] = {{"{S}", SIZE},         {"{P}", PBRT},       {"{G}", FOG},
+                                     {"{M}", MITSUBA_HEAD}, {"{F}", FOGGY_HEAD}, {"{/F}", FOGGY_TAIL},
+                                     {"{B}", BALL_HEAD},    {"{/B}", BALL_TAIL}, {NULL, NULL}};
 
 static void write_white(void)
 {
@@ -899,17 +856,19 @@ static void write_white(void)
     koksma_image_fini(&white);
 }
 
-static void look_at_kind(const char *name, const char *whole, const char *expected)
+/* Of a case that is read: `how` is "reads", or "says" with the beginning of the only warning. */
+static void look_at_kind(const char *how, const char *whole)
 {
     char text[256] = "", warning[256];
+    const char *expected = strncmp(how, "says ", 5) ? NULL : how + 5, *name = *whole == '<' ? "a.xml" : "a.pbrt";
+    if (!strncmp(how, "refuses", 7) || !can_read(name)) {
+        return;
+    }
     koksma_scene *scene = opened(name, whole);
     const bool said = koksma_scene_unknown(scene, 0, text, sizeof text);
-    if (said != (expected != NULL) || (said && strncmp(text, expected, strlen(expected)) != 0)) {
-        fail_msg("%s: '%s', expected '%s'", whole, text, expected ? expected : "");
-    }
-    if (koksma_scene_unknown(scene, 1, text, sizeof text)) {
-        fail_msg("%s: also '%s'", whole, text);
-    }
+    assert_that(said == (expected != NULL) && (!said || strncmp(text, expected, strlen(expected)) == 0),
+                "%s: '%s', expected '%s'", whole, text, expected ? expected : "");
+    assert_that(!koksma_scene_unknown(scene, 1, text, sizeof text), "%s: also '%s'", whole, text);
     if (said) { /* it is a warning, too */
         bool found = false;
         for (size_t k = 0; !found && koksma_scene_warning(scene, k, warning, sizeof warning); k++) {
@@ -923,8 +882,7 @@ static void look_at_kind(const char *name, const char *whole, const char *expect
 TEST_CASE(unknown_things_are_named)
 {
     write_white();
-    each_text("reads", look_at_kind);
-    each_text("says", look_at_kind);
+    assert_true(each_text("scene/texts.txt", shared, look_at_kind) > 200);
 }
 
 /* A <ref> is one more of the object that it leads to, as Mitsuba 3.9.1 renders it: a film, a part of a group, a light and a
@@ -955,11 +913,10 @@ TEST_CASE(references_and_includes_are_objects)
         snprintf(text, sizeof text, "<scene version=\"3.0.0\">%s<include filename=\"o.xml\"/></scene>",
                  cases[i].text);
         koksma_scene *scene = opened("a.xml", text);
-        if (scene->width != cases[i].width || scene->n_shapes != cases[i].n_shapes ||
-            scene->n_lights != cases[i].n_lights || scene->n_unknown) {
-            fail_msg("%s and %s: width %d, %zu shapes, %zu lights, %zu warnings", text, cases[i].included,
-                     scene->width, scene->n_shapes, scene->n_lights, scene->n_unknown);
-        }
+        assert_that(scene->width == cases[i].width && scene->n_shapes == cases[i].n_shapes &&
+                        scene->n_lights == cases[i].n_lights && !scene->n_unknown,
+                    "%s and %s: width %d, %zu shapes, %zu lights, %zu warnings", text, cases[i].included,
+                    scene->width, scene->n_shapes, scene->n_lights, scene->n_unknown);
         koksma_scene_close(scene);
     }
 }
@@ -1310,18 +1267,20 @@ TEST_CASE(fog_does_not_glow)
 
 static char outside[80]; /* a file beside the folder */
 
-static void look_at_refused(const char *name, const char *whole, const char *reason)
+static void look_at_refused(const char *how, const char *whole)
 {
     koksma_scene *scene = NULL;
     char text[2048];
-    const char *from = strstr(whole, "outside.pbrt"); /* by its name */
+    const char *name = *whole == '<' ? "b.xml" : "b.pbrt", *from = strstr(whole, "outside.pbrt"); /* by its name */
+    if (strncmp(how, "refuses ", 8) != 0 || !can_read(name)) {
+        return;
+    }
     snprintf(text, sizeof text, "%.*s%s%s", from ? (int)(from - whole) : (int)strlen(whole), whole,
              from ? strrchr(outside, '/') + 1 : "", from ? from + strlen("outside.pbrt") : "");
     const koksma_status status = open_as(name, text, &scene);
-    if (!status || !strstr(koksma_error_text(), reason) || strchr(koksma_error_text(), '\n') ||
-        koksma_status_exit_code(status) != 3) {
-        fail_msg("%s: status %d, '%s', expected '%s'", text, (int)status, status ? koksma_error_text() : "", reason);
-    }
+    assert_that(status && strstr(koksma_error_text(), how + 8) && !strchr(koksma_error_text(), '\n') &&
+                    koksma_status_exit_code(status) == 3,
+                "%s: status %d, '%s', expected '%s'", text, (int)status, status ? koksma_error_text() : "", how + 8);
     assert_null(scene);
 }
 
@@ -1335,7 +1294,7 @@ TEST_CASE(malformed_and_hostile_texts_are_refused)
     fclose(file);
     assert_int_equal(symlink(outside, path), 0);
     write_file("o.xml", "<foo><shape type=\"sphere\"/></foo>");
-    each_text("refuses", look_at_refused);
+    each_text("scene/texts.txt", shared, look_at_refused);
     unlink(path);
     unlink(outside);
 }
