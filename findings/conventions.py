@@ -37,7 +37,7 @@ COLUMNS = {"generator": "generator", "first": "first point", "order": "order and
            "kept": "kept; limit", "equal": "equal to"}
 WRITTEN = ("generator", "first", "order", "randomisation", "limit", "equal")
 POINTS, DIM, SEED = 64, 4, 1
-UNNAMED = ("property", "unknown", "scaled", "rounded")
+UNNAMED = ("unknown", "scaled", "rounded")
 ALIKE = ({"equal", "reordered", "part"}, {"linear-scramble", "digital-shift", "nested-scramble"},
          {"nested-scramble", "digit-permutation"})
 

@@ -24,19 +24,17 @@ extern "C" {
      linear-scramble     `what` with a linear map of its digits and a digital shift
      nested-scramble     `what` with a nested permutation of digits that is not linear (Owen 1995)
      lattice, recurrence, grid    points of that form, whose numbers `detail` has
-     digital             a digital sequence in base 2 whose matrices no table here has; `detail` has their first numbers
      sequence            each aligned block of 2^k points has one in each of 2^k intervals of every coordinate: a
-                         sequence in base 2 behind nested scrambling and perhaps a shuffle of its indices
+                         sequence in base 2 of other matrices, or behind nested scrambling and perhaps a shuffle
      stratified          a Latin hypercube, or one point in each cell of a grid, and nothing above
      scaled, rounded     how the coordinates were mapped to [0,1), or rounded; the other statements are about the mapped
-     property            a property, such as net or Latin hypercube
-     unknown             no statement above `property` holds */
+     unknown             no other statement holds */
 typedef struct koksma_identity {
     const char *relation;
     char what[160];             /* the points of which this is a map, such as "Sobol' (Joe & Kuo 2008), Gray order" */
     char spec[KOKSMA_MAX_SPEC]; /* the spec whose points `what` is, "" if there is none; for `equal`, `reordered` and
                                    `part` it makes the points themselves */
-    uint64_t first;             /* index of the first point in `what`; of `digital` modulo a power of 2 */
+    uint64_t first;             /* index of the first point in `what` */
     uint64_t seed;              /* seed of `spec`; 0 where it needs none */
     char detail[400];           /* the evidence: numbers that were recovered, the largest difference */
 } koksma_identity;
@@ -46,8 +44,7 @@ typedef struct koksma_identities {
     koksma_identity *items;
 } koksma_identities;
 
-/* Returns whether a statement says where points come from: its relation is none of scaled, rounded, property,
-   unknown. */
+/* Returns whether a statement says where points come from: its relation is none of scaled, rounded, unknown. */
 KOKSMA_API bool koksma_identity_names(const koksma_identity *identity);
 
 /* Tests where points come from; allocates identities, the strongest statement first. The coordinates may be any

@@ -197,8 +197,7 @@ class Identity:
     """A statement of identify about where points come from (see `koksma identify --help`).
 
     relation: "equal", "reordered", "part", "shifted", "digital-shift", "digit-permutation", "linear-scramble",
-    "nested-scramble", "lattice", "recurrence", "grid", "digital", "sequence", "stratified"; or "scaled", "rounded",
-    "property", "unknown".
+    "nested-scramble", "lattice", "recurrence", "grid", "sequence", "stratified"; or "scaled", "rounded", "unknown".
     spec: a pattern that makes `what`, from index first on and with the seed; "" if there is none.
     names: whether the statement says where the points come from, as the relations before "scaled" do.
     """

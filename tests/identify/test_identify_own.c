@@ -72,14 +72,12 @@ static bool make(const koksma_identity *said, size_t n, int dim, uint64_t first,
 static void check_equal(const char *made_by, const koksma_points *points, const koksma_identity *said, double slack)
 {
     koksma_points again;
-    if (!make(said, points->n, points->dim, said->first, &again)) {
-        fail_msg("%s: said to be %s, which fails: %s", made_by, said->spec, koksma_error_text());
-    }
+    assert_that(make(said, points->n, points->dim, said->first, &again), "%s: said to be %s, which fails: %s",
+                made_by, said->spec, koksma_error_text());
     for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
-        if (!(fabs(again.xs[i] - points->xs[i]) <= slack)) {
-            fail_msg("%s: said to equal %s from %llu with seed %llu, but coordinate %zu differs", made_by, said->spec,
-                     (unsigned long long)said->first, (unsigned long long)said->seed, i);
-        }
+        assert_that(fabs(again.xs[i] - points->xs[i]) <= slack,
+                    "%s: said to equal %s from %llu with seed %llu, but coordinate %zu differs", made_by, said->spec,
+                    (unsigned long long)said->first, (unsigned long long)said->seed, i);
     }
     koksma_points_fini(&again);
 }
@@ -98,9 +96,8 @@ static void check_subset(const char *made_by, const koksma_points *points, const
     row_size = (size_t)points->dim;
     qsort(again.xs, n, row_size * sizeof *again.xs, by_row);
     for (size_t i = 0; i < points->n; i++) {
-        if (!(nearest(&points->xs[i * row_size], again.xs, n, slack) <= slack)) {
-            fail_msg("%s: said to be among %s, but point %zu is not", made_by, said->spec, i);
-        }
+        assert_that(nearest(&points->xs[i * row_size], again.xs, n, slack) <= slack,
+                    "%s: said to be among %s, but point %zu is not", made_by, said->spec, i);
     }
     koksma_points_fini(&again);
 }
@@ -108,15 +105,13 @@ static void check_subset(const char *made_by, const koksma_points *points, const
 static void check_shift(const char *made_by, const koksma_points *points, const koksma_identity *said, double slack)
 {
     koksma_points again;
-    if (!make(said, points->n, points->dim, said->first, &again)) {
-        fail_msg("%s: said to be shifted %s, which fails", made_by, said->spec);
-    }
+    assert_that(make(said, points->n, points->dim, said->first, &again), "%s: said to be shifted %s, which fails",
+                made_by, said->spec);
     const size_t dim = (size_t)points->dim;
     for (size_t i = 0; i < points->n * dim; i++) {
         const double shift = points->xs[i] - again.xs[i] - (points->xs[i % dim] - again.xs[i % dim]);
-        if (!(fabs(shift - nearbyint(shift)) <= 4 * slack)) {
-            fail_msg("%s: said to be shifted %s, but coordinate %zu is not", made_by, said->spec, i);
-        }
+        assert_that(fabs(shift - nearbyint(shift)) <= 4 * slack,
+                    "%s: said to be shifted %s, but coordinate %zu is not", made_by, said->spec, i);
     }
     koksma_points_fini(&again);
 }

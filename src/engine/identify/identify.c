@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * koksma_identify: where points come from. The tests run from those that leave least open to those that leave most:
- * equal points of a sequence, in any order; lattices, recurrences and grids; sequences behind a shift or scrambling; any of
- * these beside an equidistant coordinate; the patterns of this library with a seed; the structure of points of no known
- * source. They are repeated with a larger tolerance if the numbers may be rounded.
- * What names the points is confirmed for every coordinate of every point before it is said. Properties follow, if
- * nothing does.
+ * equal points of a sequence, in any order; lattices, recurrences and grids; sequences behind a shift or scrambling; the
+ * patterns of this library with a seed; the strata of points of no known source. They are repeated with a larger
+ * tolerance if the numbers may be rounded. What names the points is confirmed for every coordinate of every point
+ * before it is said.
  */
 #include "identify/identify.h"
 
@@ -74,67 +73,12 @@ static koksma_status identify_within(koksma__sample *s, const double *tolerances
     return KOKSMA_OK;
 }
 
-/* Finds a coordinate that is (i + *offset) / *whole, where *whole is about the number of points. Returns -1 for none. */
-static int find_equidistant(const koksma__sample *s, double tolerance, double *offset, double *whole)
-{
-    const size_t n = s->points.n, dim = (size_t)s->points.dim;
-    for (size_t k = 0; k < dim && n > 4; k++) {
-        const double first = s->points.xs[k], step = (s->points.xs[(n - 1) * dim + k] - first) / (double)(n - 1);
-        bool all = step > 0;
-        for (size_t i = 0; i < n && all; i++) {
-            all = fabs(s->points.xs[i * dim + k] - first - step * (double)i) <= 2 * tolerance + 0x1p-50;
-        }
-        *whole = nearbyint(1 / step);
-        *offset = first * *whole;
-        if (all && *whole + 2 >= (double)n && *whole <= (double)n + 2) {
-            return (int)k;
-        }
-    }
-    return -1;
-}
-
-/* Points of Hammersley's kind: identifies what is beside an equidistant coordinate. */
-static koksma_status identify_beside(koksma__sample *s, const double *tolerances, int precisions)
-{
-    double offset, whole;
-    const size_t dim = (size_t)s->points.dim, count = s->found->count;
-    const int beside = find_equidistant(s, tolerances[precisions - 1], &offset, &whole);
-    if (beside < 0 || dim < 2) {
-        return KOKSMA_OK;
-    }
-    koksma__sample rest = *s;
-    KOKSMA__TRY(koksma_points_init(&rest.points, s->points.n, s->points.dim - 1));
-    for (size_t i = 0; i < s->points.n * dim; i++) {
-        const size_t point = i / dim, k = i % dim;
-        if (k != (size_t)beside) {
-            rest.points.xs[point * (dim - 1) + k - (k > (size_t)beside)] = s->points.xs[i];
-        }
-    }
-    const koksma_status status = identify_within(&rest, tolerances, precisions);
-    koksma_points_fini(&rest.points);
-    KOKSMA__TRY(status);
-    s->named = rest.named;
-    s->tolerance = rest.tolerance;
-    for (size_t i = count; i < s->found->count; i++) {
-        koksma_identity *said = &s->found->items[i];
-        char what[sizeof said->what];
-        snprintf(what, sizeof what, "%s", said->what);
-        koksma__snprintf(said->what, sizeof said->what, "Hammersley: coordinate %d is (i%+.6g) / %.0f beside %.*s",
-                         beside, offset, whole, (int)(sizeof what - 60), what);
-        *said->spec = 0;
-    }
-    return KOKSMA_OK;
-}
-
 static koksma_status identify(koksma__sample *s, const koksma_points *points)
 {
     double tolerances[KOKSMA__PRECISIONS];
     KOKSMA__TRY(koksma__map_to_cube(s));
     const int precisions = koksma__precisions(s, points, tolerances);
     KOKSMA__TRY(identify_within(s, tolerances, precisions));
-    if (!s->named) {
-        KOKSMA__TRY(identify_beside(s, tolerances, precisions));
-    }
     KOKSMA__TRY(koksma__identify_seeded(s));
     for (int i = 0; i < precisions && !s->named; i++) {
         s->tolerance = tolerances[i];
@@ -150,7 +94,7 @@ static koksma_status identify(koksma__sample *s, const koksma_points *points)
         koksma_identity *said = koksma__identity(s, "unknown", "no sequence, lattice or pattern that is known here");
         KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
     }
-    return koksma__identify_properties(s);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma_identify(const koksma_points *points, const koksma_run *run, koksma_identities *identities)

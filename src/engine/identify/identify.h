@@ -89,16 +89,9 @@ koksma_status koksma__identify_progression(koksma__sample *s); /* progression.c:
 koksma_status koksma__identify_scrambled(koksma__sample *s); /* scrambled.c: sequences behind shifts and scrambling */
 koksma_status koksma__identify_fixed(koksma__sample *s);     /* ours.c: patterns without random numbers */
 koksma_status koksma__identify_seeded(koksma__sample *s);    /* ours.c: patterns with a seed */
-koksma_status koksma__identify_structure(koksma__sample *s); /* structure.c: what needs no known source */
-koksma_status koksma__identify_properties(koksma__sample *s); /* properties.c: nets, strata, affine sets */
+koksma_status koksma__identify_structure(koksma__sample *s); /* structure.c: strata, without a source */
 
 enum { KOKSMA__LEAST_SCRAMBLED = 16 }; /* fewer points are nested permutations of everything */
-
-/* ---- Properties ------------------------------------------------------------------------------------------ */
-
-/* Whether the points are a Latin hypercube up to the tolerance, and whether all lie in the middles of its intervals,
-   which is unspecified if they are none. Errors: MEMORY. */
-koksma_status koksma__find_strata(const koksma_points *points, double tolerance, bool *latin, bool *centred);
 
 /* ---- Scramble -------------------------------------------------------------------------------------------- */
 

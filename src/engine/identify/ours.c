@@ -2,10 +2,10 @@
 /*
  * The patterns of this library: those without random numbers, and the others with seeds from 0 on.
  *
- * A pattern that makes any point by itself is compared by its first point, so that 2^20 seeds are tried in the time
- * of as many points; of others as many seeds as make some millions of coordinates. If the points are known to be a
+ * A pattern that makes any point by itself is compared by its first point, so that 2^16 seeds are tried in the time
+ * of as many points; of others as many seeds as make some 100,000 coordinates. If the points are known to be a
  * map of some sequence or lattice, only its patterns are tried, also with modifiers. Otherwise those are left out
- * that would have been recognised, and patterns whose sets differ from the points in a trait that no seed changes.
+ * that would have been recognised.
  */
 #include <math.h>
 #include <stdio.h>
@@ -20,25 +20,15 @@
 #include "core/status.h"
 #include "identify/identify.h"
 
-enum {
-    SEEDS = 1 << 20,
-    SLOW_SEEDS = 2,
-    SLOW_COORDINATES = 2048,
-    FIRSTS = 1 << 14,
-    VARIANTS = 16,
-    CANCEL = 256,
-    LEAST_TRAITS = 16,
-    PREFIXES = 8
-};
+enum { SEEDS = 1 << 16, SLOW_SEEDS = 2, SLOW_COORDINATES = 2048, FIRSTS = 1 << 14, VARIANTS = 16, CANCEL = 256 };
 
-#define COORDINATES (1 << 19) /* made for one spec at most, for patterns that make whole sets only */
+#define COORDINATES (1 << 17) /* made for one spec at most, for patterns that make whole sets only */
 
 typedef struct ours {
     koksma__sample *s;
     koksma_points made, one;
-    unsigned traits; /* of the sample */
-    bool blue;       /* the sample's points keep a distance */
-    double *order;   /* scratch: a set, sorted */
+    bool blue;     /* the sample's points keep a distance */
+    double *order; /* scratch: a set, sorted */
 } ours;
 
 static bool are_near(const double *a, const double *b, size_t count, double tolerance)
@@ -182,50 +172,6 @@ static bool is_slow(const koksma_pattern *p)
     return !(p->claims & quick) || p->claims & KOKSMA_CLAIM_CLASSES;
 }
 
-/* What tells sets of patterns apart at a glance, whatever the seed: each is true or false of nearly all sets of one. */
-enum { LATIN = 1, HALVES = 2, THIRDS = 4, IN_ORDER = 8, TRAITS = 4 };
-
-/* Finds which traits points have: a Latin hypercube; points 2 i and 2 i + 1 in different halves of the first axis, or
-   three in different thirds; the first coordinate rising with the index, as in a grid's cells. */
-static koksma_status find_traits(const koksma_points *p, double tolerance, unsigned *traits)
-{
-    bool latin, centred;
-    KOKSMA__TRY(koksma__find_strata(p, tolerance, &latin, &centred));
-    *traits = HALVES | THIRDS | IN_ORDER | (latin ? LATIN : 0);
-    for (size_t i = 0; i < p->n; i++) {
-        const double x = p->xs[i * (size_t)p->dim];
-        const size_t two = i / 2 * 2, three = i / 3 * 3;
-        for (size_t j = two; j < i; j++) {
-            *traits &=
-                koksma__stratum(x, 2) == koksma__stratum(p->xs[j * (size_t)p->dim], 2) ? ~(unsigned)HALVES : ~0u;
-        }
-        for (size_t j = three; j < i; j++) {
-            *traits &=
-                koksma__stratum(x, 3) == koksma__stratum(p->xs[j * (size_t)p->dim], 3) ? ~(unsigned)THIRDS : ~0u;
-        }
-        *traits &= fabs(x - (double)i / (double)p->n) > .5 ? ~(unsigned)IN_ORDER : ~0u;
-    }
-    return KOKSMA_OK;
-}
-
-/* Whether the sample has the traits that three sets of a pattern have, and lacks those that they lack. */
-static koksma_status could_be(ours *o, const koksma_spec *spec, bool *possible)
-{
-    unsigned traits, all = ~0u, any = 0;
-    *possible = false;
-    for (uint64_t seed = 0; seed < 3; seed++) {
-        const koksma_status status = koksma_generate(spec, seed, o->s->run, &o->made);
-        if (status) {
-            return passable(status);
-        }
-        KOKSMA__TRY(find_traits(&o->made, 0, &traits));
-        all &= traits;
-        any |= traits;
-    }
-    *possible = o->made.n < LEAST_TRAITS || !((o->traits & ~any) | (all & ~o->traits));
-    return KOKSMA_OK;
-}
-
 /* Sets whose points keep a distance are made only where the sample's do: twice that of independent points at least. */
 static koksma_status could_be_blue(ours *o)
 {
@@ -239,41 +185,16 @@ static koksma_status could_be_blue(ours *o)
     return KOKSMA_OK;
 }
 
-/* Sets *dim to 1 if the first coordinate of first points of some seeds is the same as that of points of one dimension. */
-static koksma_status find_prefix(ours *o, const koksma_spec *spec, int *dim)
-{
-    bool same = true;
-    for (uint64_t seed = 0; seed < PREFIXES && same; seed++) {
-        koksma_status status = koksma_generate_range(spec, seed, o->made.n, 0, o->s->run, &o->one);
-        const double x = o->one.xs[0];
-        o->one.dim = 1;
-        status = status ? status : koksma_generate_range(spec, seed, o->made.n, 0, o->s->run, &o->one);
-        same = !status && o->one.xs[0] <= x && o->one.xs[0] >= x;
-        o->one.dim = o->made.dim;
-        KOKSMA__TRY(passable(status));
-    }
-    *dim = same ? 1 : *dim;
-    return KOKSMA_OK;
-}
-
 static koksma_status compare_seeds(ours *o, const koksma_spec *spec)
 {
     const size_t dim = (size_t)o->made.dim, count = o->made.n * dim;
     const bool ranges = koksma_has_ranges(spec);
     uint64_t seeds = ranges ? SEEDS : COORDINATES / count;
-    bool possible = true;
     if (is_slow(spec->pattern)) {
         seeds =
             count <= SLOW_COORDINATES && (o->blue || !(spec->pattern->claims & KOKSMA_CLAIM_BLUE)) ? SLOW_SEEDS : 0;
-    } else if (seeds) {
-        KOKSMA__TRY(could_be(o, spec, &possible));
     }
-    int first_dim = o->made.dim; /* coordinates of the first points that are made */
-    if (ranges && seeds && possible) {
-        KOKSMA__TRY(find_prefix(o, spec, &first_dim));
-    }
-    o->one.dim = first_dim;
-    for (uint64_t seed = 0; seed < seeds && possible; seed++) {
+    for (uint64_t seed = 0; seed < seeds; seed++) {
         if (seed % CANCEL == 0) {
             KOKSMA__TRY(koksma__ask(o->s->run));
         }
@@ -282,8 +203,7 @@ static koksma_status compare_seeds(ours *o, const koksma_spec *spec)
         if (status) {
             return passable(status);
         }
-        if (are_near(ranges ? o->one.xs : o->made.xs, o->s->points.xs, ranges ? (size_t)first_dim : dim,
-                     o->s->tolerance)) {
+        if (are_near(ranges ? o->one.xs : o->made.xs, o->s->points.xs, dim, o->s->tolerance)) {
             status = ranges ? koksma_generate(spec, seed, o->s->run, &o->made) : KOKSMA_OK;
             if (status) {
                 return passable(status);
@@ -380,8 +300,7 @@ static koksma_status walk(koksma__sample *s, bool seeded)
         memcpy(o.order, s->points.xs, count * sizeof *sorted);
         row_size = (size_t)s->points.dim;
         qsort(o.order, s->points.n, row_size * sizeof *sorted, by_row);
-        status = seeded ? find_traits(&s->points, s->tolerance, &o.traits) : KOKSMA_OK;
-        status = status || !seeded || count > SLOW_COORDINATES || s->points.n < 2 ? status : could_be_blue(&o);
+        status = !seeded || count > SLOW_COORDINATES || s->points.n < 2 ? KOKSMA_OK : could_be_blue(&o);
     }
     const size_t before = s->found->count;
     for (size_t i = 0; (p = koksma_pattern_at(i)) && !status && s->found->count == before; i++) {

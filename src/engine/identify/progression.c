@@ -184,14 +184,6 @@ static double increment_of(family f, int dim, int k)
     return a - floor(a);
 }
 
-/* Whether a coordinate is (i + offset) / N with a whole N of at least n - 1; such coordinates are beside the
-   recurrence. */
-static bool is_equidistant(const progression *p, size_t k)
-{
-    const double whole = 1 / p->increments[k];
-    return fabs(whole - nearbyint(whole)) < 1e-6 * whole && fabs(whole - (double)p->n) < 1.5;
-}
-
 /* Finds point 0 as {offset + first a_k}. */
 static bool find_offset(const progression *p, double *offset, uint64_t *first)
 {
@@ -201,9 +193,8 @@ static bool find_offset(const progression *p, double *offset, uint64_t *first)
             bool all = true;
             for (size_t k = 0; k < p->dim && all; k++) {
                 const double there = offsets[o] + (double)*first * p->increments[k];
-                all = is_equidistant(p, k) ||
-                      fabs(koksma__turn(x_at(p, 0, k) - there)) <=
-                          slack_at(p, *first) + (double)*first * slack_at(p, p->n) / (double)p->n;
+                all = fabs(koksma__turn(x_at(p, 0, k) - there)) <=
+                      slack_at(p, *first) + (double)*first * slack_at(p, p->n) / (double)p->n;
             }
             if (all) {
                 *offset = offsets[o];
@@ -216,33 +207,21 @@ static bool find_offset(const progression *p, double *offset, uint64_t *first)
 
 static koksma_status say_recurrence(progression *p)
 {
-    int others = 0, known = 0;
-    for (size_t k = 0; k < p->dim; k++) {
-        others += !is_equidistant(p, k);
-    }
+    const double slack = slack_at(p, p->n) / (double)p->n * 8 + 0x1p-48;
+    const int dim = (int)p->dim;
+    bool known = false;
     family f = PLASTIC;
     for (; f < FAMILIES && !known; f += !known) {
-        int j = 0;
-        known = others > 0;
-        for (size_t k = 0; k < p->dim; k++) {
-            if (!is_equidistant(p, k)) {
-                const double a = increment_of(f, others, j++);
-                known = known &&
-                        fabs(koksma__turn(a - p->increments[k])) <= slack_at(p, p->n) / (double)p->n * 8 + 0x1p-48;
-            }
+        known = true;
+        for (int k = 0; k < dim; k++) {
+            known = known && fabs(koksma__turn(increment_of(f, dim, k) - p->increments[k])) <= slack;
         }
     }
     char detail[400] = "increments ";
     double offset = 0;
     uint64_t first = 0;
-    for (size_t k = 0; k < p->dim; k++) {
-        if (known && !is_equidistant(p, k)) { /* the known value has more digits */
-            int j = 0;
-            for (size_t l = 0; l < k; l++) {
-                j += !is_equidistant(p, l);
-            }
-            p->increments[k] = increment_of(f, others, j);
-        }
+    for (int k = 0; k < dim; k++) {
+        p->increments[k] = known ? increment_of(f, dim, k) : p->increments[k]; /* it has more digits */
         koksma__append(detail, 250, "%s%.12g", k ? ", " : "", p->increments[k]);
     }
     if (find_offset(p, &offset, &first)) {
@@ -252,13 +231,12 @@ static koksma_status say_recurrence(progression *p)
         first = 0;
         append_shift(p, detail, sizeof detail);
     }
-    const bool ours = known && f == PLASTIC && others == (int)p->dim && first > 0 && offset >= .5;
+    const bool ours = known && f == PLASTIC && first > 0 && offset >= .5;
     koksma_identity *said = koksma__identity(p->s, ours ? "equal" : "recurrence", "%s", detail);
     KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
     said->first = ours ? first - 1 : first;
     snprintf(said->spec, sizeof said->spec, "%s", ours ? "r-sequence" : "");
-    snprintf(said->what, sizeof said->what, "%s%s", known ? families[f] : "additive recurrence",
-             others < (int)p->dim ? ", with an equidistant coordinate" : "");
+    snprintf(said->what, sizeof said->what, "%s", known ? families[f] : "additive recurrence");
     p->s->named = true;
     return KOKSMA_OK;
 }

@@ -6,8 +6,7 @@
  * number of leading digits that two points share. So for each first point p the differences between point p and the
  * points 1 to 12 and some further ones after it are compared with those of the sample, in up to three coordinates;
  * nearly all p fail at the first.
- * Those that pass are compared in full (scramble.c). If no p passes, coordinates in another order are tried for a
- * list of usual first points.
+ * Those that pass are compared in full (scramble.c).
  */
 #include <math.h>
 #include <stdio.h>
@@ -25,8 +24,7 @@ typedef struct scan {
     const koksma__source *source;
     bool gray, digits;               /* digits: test for nested permutations, else for a shift */
     bool digitwise;                  /* with digits: each digit by itself */
-    koksma__coordinate *coordinates; /* all that the source has, or the sample's number */
-    int n_coordinates, *columns; /* columns[k]: the coordinate of the source that the sample's k is compared with */
+    koksma__coordinate *coordinates; /* of the sequence, as many as the sample has */
     uint64_t *indices;
 } scan;
 
@@ -120,7 +118,7 @@ static size_t partner(const scan *c, size_t pair)
 static bool may_begin(const scan *c, uint64_t first, int most)
 {
     for (int k = most - 1; k >= 0; k--) {
-        const koksma__coordinate *coordinate = &c->coordinates[c->columns[k]];
+        const koksma__coordinate *coordinate = &c->coordinates[k];
         const uint64_t a = koksma__numerator(coordinate, index_at(c, first));
         for (size_t pair = 1; pair <= PAIRS; pair++) {
             const size_t i = partner(c, pair);
@@ -145,7 +143,6 @@ static koksma_status compare(scan *c, uint64_t first, bool *related)
     koksma__relation weakest = KOKSMA__EQUAL;
     char details[400] = "", text[120];
     const int dim = c->s->points.dim;
-    bool in_order = true;
     *related = false;
     for (size_t i = 0; i < c->s->points.n; i++) {
         c->indices[i] = index_at(c, first + i);
@@ -153,12 +150,11 @@ static koksma_status compare(scan *c, uint64_t first, bool *related)
     for (int k = 0; k < dim; k++) {
         koksma__relation relation;
         KOKSMA__TRY(koksma__ask(c->s->run));
-        KOKSMA__TRY(koksma__relate(c->s, k, &c->coordinates[c->columns[k]], c->indices, c->digits, &relation, text));
+        KOKSMA__TRY(koksma__relate(c->s, k, &c->coordinates[k], c->indices, c->digits, &relation, text));
         weakest = relation > weakest ? relation : weakest;
         if ((int)weakest >= c->s->scramble || weakest == KOKSMA__NO_RELATION) {
             return KOKSMA_OK;
         }
-        in_order = in_order && c->columns[k] == k;
         if (k < SHOWN && *text && relation != KOKSMA__EQUAL && (relation != KOKSMA__LINEAR || !*details)) {
             koksma__append(details, sizeof details, "%s%s", *details ? "; " : ": ", text);
         }
@@ -176,10 +172,7 @@ static koksma_status compare(scan *c, uint64_t first, bool *related)
     KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
     said->first = first;
     snprintf(said->what, sizeof said->what, "%s%s", c->source->what, c->gray ? ", Gray order" : "");
-    snprintf(said->spec, sizeof said->spec, "%s", in_order && !c->gray ? c->source->spec : "");
-    for (int k = 0; k < dim && !in_order; k++) {
-        koksma__append(said->what, sizeof said->what, k ? " %d" : ", coordinates %d", c->columns[k]);
-    }
+    snprintf(said->spec, sizeof said->spec, "%s", c->gray ? "" : c->source->spec);
     c->s->named = true;
     return KOKSMA_OK;
 }
@@ -189,9 +182,6 @@ static koksma_status scan_firsts(scan *c)
 {
     const int dim = c->s->points.dim, most = dim < SCANNED ? dim : SCANNED;
     int attempts = 0;
-    for (int k = 0; k < dim; k++) {
-        c->columns[k] = k;
-    }
     for (uint64_t first = 0; first < FIRSTS && attempts < ATTEMPTS; first++) {
         if (first % 4096 == 0) {
             KOKSMA__TRY(koksma__ask(c->s->run));
@@ -206,103 +196,47 @@ static koksma_status scan_firsts(scan *c)
     return KOKSMA_OK;
 }
 
-/* Returns whether coordinate k passes the first comparisons with coordinate j of the source. */
-static bool may_be(scan *c, int k, int j, uint64_t first)
-{
-    const size_t pairs = c->s->points.n - 1 < 4 * PAIRS ? c->s->points.n - 1 : 4 * PAIRS;
-    const koksma__coordinate *coordinate = &c->coordinates[j];
-    const uint64_t a = koksma__numerator(coordinate, index_at(c, first));
-    for (size_t i = 1; i <= pairs; i++) {
-        if (!alike(c, coordinate, k, i, a, koksma__numerator(coordinate, index_at(c, first + i)))) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* Tries usual first points with coordinates in any order, or some of more dimensions. */
-static koksma_status scan_columns(scan *c)
-{
-    const int dim = c->s->points.dim;
-    for (int f = 0; f < 23; f++) {
-        const uint64_t first = f == 0 ? 0 : f == 22 ? c->s->points.n : (uint64_t)1 << (f - 1);
-        bool all = true;
-        KOKSMA__TRY(koksma__ask(c->s->run));
-        for (int k = 0; k < dim && all; k++) {
-            int j = 0;
-            for (bool used = true; j < c->n_coordinates && used; j += used) {
-                used = !may_be(c, k, j, first);
-                for (int l = 0; l < k && !used; l++) {
-                    used = c->columns[l] == j;
-                }
-            }
-            all = j < c->n_coordinates;
-            c->columns[k] = j;
-        }
-        if (all) {
-            bool related;
-            KOKSMA__TRY(compare(c, first, &related));
-        }
-    }
-    return KOKSMA_OK;
-}
-
 /* Compares with one source in all ways. */
-static koksma_status compare_source(scan *c, bool columns)
+static koksma_status compare_source(scan *c)
 {
     koksma_status status = KOKSMA_OK;
     for (int way = 0; way < 6 && !status && c->s->scramble > KOKSMA__SHIFTED; way++) {
         c->digits = way % 3 > 0;
         c->digitwise = way % 3 == 1;
         c->gray = way / 3;
-        if (columns && c->digitwise) {
-            continue; /* the nested ones include them */
-        }
         if (!c->gray || c->coordinates[0].directions) {
-            status = columns ? scan_columns(c) : scan_firsts(c);
+            status = scan_firsts(c);
         }
     }
-    return status;
-}
-
-static koksma_status compare_sources(koksma__sample *s, bool columns)
-{
-    const koksma__source *source;
-    const int dim = s->points.dim;
-    scan c = {.s = s};
-    koksma_status status = KOKSMA_OK;
-    c.columns = malloc((size_t)dim * sizeof *c.columns);
-    c.indices = malloc(s->points.n * sizeof *c.indices);
-    if (!c.columns || !c.indices) {
-        status = koksma__fail_memory(s->points.n * sizeof *c.indices);
-    }
-    for (size_t i = 0; (source = koksma__source_at(i)) && !status; i++) {
-        if (dim > source->dims || (columns && !*source->spec)) {
-            continue;
-        }
-        c.source = source;
-        const int count = !columns ? dim : source->dims < 4 * dim + 60 ? source->dims : 4 * dim + 60;
-        c.coordinates = calloc((size_t)count, sizeof *c.coordinates);
-        status = c.coordinates ? KOKSMA_OK : koksma__fail_memory((size_t)count * sizeof *c.coordinates);
-        for (c.n_coordinates = 0; !status && c.n_coordinates < count; c.n_coordinates++) {
-            status = koksma__coordinate_init(source, dim, c.n_coordinates, &c.coordinates[c.n_coordinates]);
-        }
-        status = status ? status : compare_source(&c, columns);
-        for (int j = 0; c.coordinates && j < c.n_coordinates; j++) {
-            koksma__coordinate_fini(&c.coordinates[j]);
-        }
-        free(c.coordinates);
-    }
-    free(c.columns);
-    free(c.indices);
     return status;
 }
 
 koksma_status koksma__identify_scrambled(koksma__sample *s)
 {
+    const koksma__source *source;
+    const int dim = s->points.dim;
     if (s->points.n < KOKSMA__LEAST_SCRAMBLED) {
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(compare_sources(s, false));
-    return s->scramble < KOKSMA__NO_RELATION || s->points.dim == 1 ? KOKSMA_OK : compare_sources(s, true);
+    scan c = {.s = s, .coordinates = calloc((size_t)dim, sizeof *c.coordinates)};
+    c.indices = malloc(s->points.n * sizeof *c.indices);
+    koksma_status status =
+        c.coordinates && c.indices ? KOKSMA_OK : koksma__fail_memory(s->points.n * sizeof *c.indices);
+    for (size_t i = 0; (source = koksma__source_at(i)) && !status; i++) {
+        if (dim > source->dims) {
+            continue;
+        }
+        c.source = source;
+        int count = 0;
+        for (; !status && count < dim; count++) {
+            status = koksma__coordinate_init(source, dim, count, &c.coordinates[count]);
+        }
+        status = status ? status : compare_source(&c);
+        for (int k = 0; k < count; k++) {
+            koksma__coordinate_fini(&c.coordinates[k]);
+        }
+    }
+    free(c.coordinates);
+    free(c.indices);
+    return status;
 }

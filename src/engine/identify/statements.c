@@ -45,7 +45,7 @@ koksma_identity *koksma__identity(koksma__sample *s, const char *relation, const
 bool koksma_identity_names(const koksma_identity *identity)
 {
     KOKSMA__REQUIRE_OR(false, identity);
-    static const char *const none[] = {"scaled", "rounded", "property", "unknown"};
+    static const char *const none[] = {"scaled", "rounded", "unknown"};
     for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
         if (identity->relation && !strcmp(identity->relation, none[i])) {
             return false;
