@@ -570,56 +570,6 @@ TEST_CASE(shutters_outlast_motions)
 #define FOGGY_TAIL "</medium><sensor type=\"perspective\"><ref id=\"f\"/></sensor>\n"
 #define FOGGY(inside, rest) FOGGY_HEAD inside FOGGY_TAIL rest "</scene>"
 
-static void check_medium(const char *text, const double absorption[3], const double scattering[3], double g,
-                         double low)
-{
-    koksma_scene *scene = opened("medium.xml", text);
-    const koksma__medium *m = &scene->medium;
-    assert_int_equal(scene->n_unknown, 0);
-    assert_true(m->is_there);
-    for (int k = 0; k < 3; k++) {
-        assert_near(m->absorption[k], absorption[k], 1e-6);
-        assert_near(m->scattering[k], scattering[k], 1e-6);
-        assert_true(isinf(low) ? isinf(m->low[k]) && isinf(m->high[k]) : fabs(m->low[k] - low * (k + 1)) < 1e-6);
-    }
-    assert_near(m->phase.values[0], g, 1e-6);
-    koksma_scene_close(scene);
-}
-
-/* Mitsuba's defaults are the albedo .75 and the extinction 1; a scale multiplies the extinction. The medium of a cube is
-   between its sides. */
-TEST_CASE(media_of_mitsuba_are_read)
-{
-    if (!can_read("probe.xml")) {
-        return;
-    }
-    check_medium(FOGGY("", ""), (double[]){.25, .25, .25}, (double[]){.75, .75, .75}, 0, -INFINITY);
-    check_medium(
-        FOGGY("<rgb name=\"albedo\" value=\"0.5, 0.2, 1\"/><volume name=\"sigma_t\" type=\"constvolume\"><rgb "
-              "name=\"value\" value=\"0.1, 0.2, 0.3\"/></volume><float name=\"scale\" value=\"2\"/><phase "
-              "type=\"hg\"><float name=\"g\" value=\"0.6\"/></phase>",
-              ""),
-        (double[]){.1, .32, 0}, (double[]){.1, .08, .6}, 0.6, -INFINITY);
-    check_medium(
-        FOGGY("<float name=\"albedo\" value=\"1\"/><float name=\"sigma_t\" value=\"1e300\"/><float name=\"scale\" "
-              "value=\"-1\"/>",
-              ""),
-        (double[]){0, 0, 0}, (double[]){0, 0, 0}, 0, -INFINITY);
-    check_medium(FOGGY("<float name=\"albedo\" value=\"2\"/><float name=\"scale\" value=\"1e300\"/>", ""),
-                 (double[]){0, 0, 0}, (double[]){1e6, 1e6, 1e6}, 0, -INFINITY);
-    check_medium(FOGGY("<rgb name=\"sigmaA\" value=\"0.1, 0.2, 0.3\"/><rgb name=\"sigmaS\" value=\"0.5\"/>", ""),
-                 (double[]){.1, .2, .3}, (double[]){.5, .5, .5}, 0, -INFINITY);
-#define CUBE                                                                                                         \
-    "<shape type=\"cube\"><bsdf type=\"null\"/><ref name=\"interior\" id=\"f\"/><transform "                         \
-    "name=\"to_world\"><rotate "                                                                                     \
-    "y=\"1\" angle=\"90\"/><scale x=\"1\" y=\"2\" z=\"3\"/></transform></shape>"
-    check_medium(FOGGY("", CUBE "<emitter type=\"constant\"/>"), (double[]){.25, .25, .25}, (double[]){.75, .75, .75},
-                 0, -1);
-    check_medium("<scene version=\"3.0.0\"><sensor type=\"perspective\"/><medium type=\"homogeneous\" id=\"f\"/>" CUBE
-                 "</scene>",
-                 (double[]){.25, .25, .25}, (double[]){.75, .75, .75}, 0, -1);
-}
-
 /* ---- Textures of pbrt ---------------------------------------------------------------------------------------------- */
 
 /* pbrt-v4's UVMapping looks an image up at (su u + du, sv v + dv), beyond its edges by the wrap mode (Pharr, Jakob and
@@ -987,50 +937,6 @@ static void write_two(const float pixels[12], char path[128])
     koksma_image_fini(&two);
 }
 
-/* A colour of a checkerboard can't be a texture: its mean is taken, of an image's pixels clamped to [0, 1]. */
-TEST_CASE(textures_in_checkerboards_are_their_means)
-{
-    static const struct {
-        const char *inner;
-        double mean[3];
-    } cases[] = {{"<texture name=\"color%d\" type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture>",
-                  {0.5, 0.375, 0.125}},
-                 {"<texture name=\"color%d\" type=\"checkerboard\"><rgb name=\"color0\" value=\"1 0.5 0\"/><rgb "
-                  "name=\"color1\" value=\"0.25\"/></texture>",
-                  {0.625, 0.375, 0.125}},
-                 {"<spectrum name=\"color%d\" type=\"d65\"><float name=\"scale\" value=\"0.5\"/><texture "
-                  "type=\"checkerboard\"><rgb name=\"color0\" value=\"1 0.5 0\"/><rgb name=\"color1\" "
-                  "value=\"0.25\"/></texture></spectrum>",
-                  {0.3125, 0.1875, 0.0625}},
-                 {"<spectrum name=\"color%d\" type=\"d65\"><float name=\"scale\" value=\"0.5\"/><texture "
-                  "type=\"bitmap\"><string name=\"filename\" value=\"two.pfm\"/></texture></spectrum>",
-                  {0.25, 0.1875, 0.0625}}};
-    static const float pixels[] = {1, 0.5F, 0.25F, 0, 0.25F, 0, 9, 0.5F, 0.25F, 0, 0.25F, 0};
-    char path[128];
-    write_two(pixels, path);
-    for (size_t i = 0; can_read("probe.xml") && i < 2 * sizeof cases / sizeof *cases; i++) {
-        const int which = (int)(i % 2);
-        char inner[512], text[1024];
-        snprintf(inner, sizeof inner, cases[i / 2].inner, which);
-        snprintf(text, sizeof text,
-                 IMAGED("<texture name=\"reflectance\" type=\"checkerboard\">%s<float name=\"color%d\" "
-                        "value=\"0.75\"/></texture>"),
-                 inner, 1 - which);
-        koksma_scene *scene = opened("a.xml", text);
-        const koksma__material *m = &scene->materials[0];
-        assert_int_equal(scene->n_unknown, 1);
-        assert_true(m->checker && !m->image);
-        for (int k = 0; k < 3; k++) {
-            assert_near(m->albedo[which][k], cases[i / 2].mean[k], 1e-6);
-            assert_near(m->albedo[1 - which][k], 0.75, 1e-6);
-        }
-        assert_true(koksma_scene_unknown(scene, 0, text, sizeof text));
-        assert_string_equal(text, "a.xml:2: a texture in a checkerboard is replaced by its mean colour");
-        koksma_scene_close(scene);
-    }
-    unlink(path);
-}
-
 /* A light that is no surface has one colour: the mean of its image, of all its levels, times the scale of a spectrum around
    it; a surface shows the image itself, times that scale. */
 TEST_CASE(images_of_lights_are_their_means)
@@ -1153,67 +1059,6 @@ TEST_CASE(files_without_uv_have_their_peers)
     }
 }
 
-/* The spectra of Mitsuba 3 as a light's intensity and as a reflectance. Numbers: those of Mitsuba 3.9.1 (traverse() in
-   scalar_rgb) for the same texts; for samples, those of the same pairs in a <spectrum value="...">. */
-TEST_CASE(spectra_of_mitsuba_are_read)
-{
-#define SAMPLES 0.0865332, 0.246733, 0.128916
-    static const struct {
-        const char *inside; /* behind the attribute "name" */
-        double rgb[3], tolerance;
-    } cases[] = {
-        {"type=\"d65\"/>", {1, 1, 1}, 1e-6},
-        {"type=\"d65\"><float name=\"scale\" value=\"0.5\"/></spectrum>", {0.5, 0.5, 0.5}, 1e-6},
-        {"type=\"d65\"><rgb name=\"color\" value=\"0.1 0.2 0.3\"/><float name=\"scale\" value=\"2\"/></spectrum>",
-         {0.2, 0.4, 0.6},
-         1e-6},
-        {"type=\"d65\"><spectrum type=\"uniform\"><float name=\"value\" value=\"0.3\"/></spectrum></spectrum>",
-         {0.3, 0.3, 0.3},
-         1e-6},
-        {"type=\"uniform\"><float name=\"value\" value=\"0.3\"/><float name=\"wavelength_min\" "
-         "value=\"400\"/></spectrum>",
-         {0.3, 0.3, 0.3},
-         1e-6},
-        {"type=\"srgb\"><rgb name=\"color\" value=\"0.1 0.2 0.3\"/></spectrum>", {0.1, 0.2, 0.3}, 1e-6},
-        {"value=\"400:0.1,500:0.2,600:.3\"/>", {SAMPLES}, 0.005},
-        {"type=\"regular\"><float name=\"wavelength_min\" value=\"400\"/><float name=\"wavelength_max\" "
-         "value=\"600\"/><string name=\"values\" value=\"0.1, 0.2,0.3\"/></spectrum>",
-         {SAMPLES},
-         0.005},
-        {"type=\"irregular\"><string name=\"wavelengths\" value=\"400, 500 600\"/><string name=\"values\" value=\".1 "
-         ".2 "
-         ".3\"/></spectrum>",
-         {SAMPLES},
-         0.005},
-        {"type=\"irregular\"><spectrum name=\"value\" value=\"400:0.1,500:0.2,600:.3\"/></spectrum>",
-         {SAMPLES},
-         0.005}};
-#undef SAMPLES
-    double pairs[3] = {0};
-    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
-        char text[1024];
-        snprintf(
-            text, sizeof text,
-            MITSUBA("<spectrum id=\"s\" %s<emitter type=\"point\"><ref name=\"intensity\" id=\"s\"/></emitter>"
-                    "<shape type=\"disk\"><bsdf type=\"diffuse\"><spectrum name=\"reflectance\" %s</bsdf></shape>"),
-            cases[i].inside, cases[i].inside);
-        koksma_scene *scene = opened("a.xml", text);
-        const double *radiance = scene->lights[0].radiance, *albedo = scene->materials[0].albedo[0];
-        assert_int_equal(scene->n_unknown, 0);
-        for (int k = 0; k < 3; k++) {
-            assert_near(radiance[k], cases[i].rgb[k], cases[i].tolerance);
-            if (cases[i].tolerance < 1e-3) {
-                assert_near(albedo[k], cases[i].rgb[k], 1e-6);
-            } else if (strstr(cases[i].inside, "type")) {
-                assert_near(albedo[k], pairs[k], 1e-9);
-            } else {
-                pairs[k] = albedo[k];
-            }
-        }
-        koksma_scene_close(scene);
-    }
-}
-
 /* Of a light of pbrt-v4 with a sampled spectrum only the colour counts: it has luminance 1. */
 TEST_CASE(lights_of_pbrt_have_luminance_1)
 {
@@ -1222,24 +1067,6 @@ TEST_CASE(lights_of_pbrt_have_luminance_1)
     const double *rgb = scene->lights[0].radiance;
     assert_near(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 1, 1e-3);
     assert_near(rgb[0] / rgb[1], 20.7108 / 10.8546, 0.02); /* by Mitsuba */
-    koksma_scene_close(scene);
-}
-
-/* The camera's medium of pbrt-v4 is the scene's, everywhere. */
-TEST_CASE(the_cameras_medium_is_read)
-{
-    koksma_scene *scene = opened("fog.pbrt", FOG "Shape \"sphere\"");
-    const koksma__medium *m = &scene->medium;
-    assert_true(m->is_there);
-    for (int k = 0; k < 3; k++) {
-        assert_near(m->absorption[k], 2 * 0.1 * (k + 1), 1e-6);
-        assert_near(m->scattering[k], 2 * 0.1 * k, 1e-6);
-        assert_true(isinf(m->low[k]) && isinf(m->high[k]));
-    }
-    assert_near(m->phase.values[0], 0.4, 1e-6);
-    koksma_scene_close(scene);
-    scene = opened("clear.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"");
-    assert_false(scene->medium.is_there);
     koksma_scene_close(scene);
 }
 
