@@ -38,11 +38,12 @@
  *     double xs[4];
  *     koksma_keys_4d(&pixel, i, xs);
  *
- * With one sample a pixel the cells have 64 x 64 pixels, and the points, one in each of 8^4 boxes, are moved by random
- * digits within their boxes in place of Owen scrambling, which would scatter neighbours. Errors are blue whatever the
- * four couple; one coordinate alone is less so than with pairs, and of the pairs of coordinates within a quadruple only
- * the first has (0,m,2)-nets. docs/findings/screen-noise.md has both beside each other. Seeds, distributions and orders
- * of samples are as with pairs, and so are the cells of 2 and more samples.
+ * With one sample a pixel the image is a tile of 64 x 64 pixels that repeats. Its points, one in each of 8^4 boxes, are
+ * moved by random digits of the cell within their boxes in place of Owen scrambling, which would scatter neighbours; a
+ * symmetry of the square and a mirroring of the boxes are those of the image, so that cells fit together. Errors are blue
+ * whatever the four couple; one coordinate alone is less so than with pairs, and of the pairs of coordinates within a
+ * quadruple only the first has (0,m,2)-nets. docs/findings/screen-noise.md has both beside each other. Seeds,
+ * distributions and orders of samples are as with pairs, and so are the cells of 2 and more samples.
  *
  * Number the pairs of dimensions 0, 1, 2 ... as you like: each number has its own cells and scramblings. Errors that
  * come from one pair of dimensions are blue noise, errors from several pairs together are white noise. In each pixel
@@ -121,7 +122,7 @@ KOKSMA_INLINE koksma_keys koksma__keys_of(uint64_t seed, uint32_t x, uint32_t y,
     const uint32_t column = x + ((uint32_t)offset & last), row = y + ((uint32_t)(offset >> 32) & last);
     const uint64_t cell = koksma_domain_of_pixel(image, column / size, row / size).key;
     const uint64_t pixel = koksma__derived(koksma_domain_of_pixel(image, column, row).key, 0x38d01377u, 0);
-    const uint32_t symmetry = koksma_seed_of(cell, 2);
+    const uint32_t symmetry = koksma_seed_of(single ? image : cell, 2);
     const uint32_t u = (column & last) ^ (symmetry & 1 ? last : 0), v = (row & last) ^ (symmetry & 2 ? last : 0);
     const uint32_t place = symmetry & 4 ? u * size + v : v * size + u;
     uint32_t m = 0, lower, key, k;
@@ -145,8 +146,8 @@ KOKSMA_INLINE koksma_keys koksma__keys_of(uint64_t seed, uint32_t x, uint32_t y,
     keys.single = single;
     if (single) {
         keys.key = key;
-        for (k = 0; k < 4; k++) { /* three digits equal, which mirrors the boxes or not, and 29 random ones */
-            keys.seeds[k] = keys.seeds[k] >> 2 | (0u - (keys.seeds[k] >> 31)) << 30;
+        for (k = 0; k < 4; k++) { /* 29 digits of the cell; three of the image, which mirror the boxes or not */
+            keys.seeds[k] = keys.seeds[k] >> 3 | (0u - (symmetry >> (3 + k) & 1)) << 29;
         }
     }
     return keys;

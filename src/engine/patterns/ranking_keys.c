@@ -7,7 +7,7 @@
  *     point s of pixel (x, y), pair of dimensions k = koksma_keys_2d(koksma_keys_of(seed, x, y, k, spp), s)
  *
  * With dims=4 a key covers four coordinates, koksma_keys_4d, of one Owen-scrambled Sobol' sequence; with one sample a pixel
- * the digits are random, but for the first three of a coordinate.
+ * a tile of its points repeats, moved within boxes of 1/8.
  *
  * n = width^2 spp; koksma/keys.h documents how the keys are applied. The points of one pixel have the distribution of
  * Owen-scrambled Sobol' points; for spp = 2^m they are a (0,m,2)-net in base 2 in each pair of dimensions, with
@@ -85,7 +85,7 @@ const koksma_pattern koksma__pattern_ranking_keys = {
     .max_dim = 128,
     .claims = KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_DIMENSION_PREFIXES,
     .params = params,
-    .revision = 3, /* of 1 the renderer gave each pixel a whole image */
+    .revision = 4, /* of 1 the renderer gave each pixel a whole image */
     .ranges = koksma__ranges_always,
     .generate = generate,
 };
