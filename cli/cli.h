@@ -307,6 +307,10 @@ bool cli_is_stdout(const char *path);
 /* Returns whether two paths lead to the same file, which is there. */
 bool cli_is_same_file(const char *a, const char *b);
 
+/* Returns whether a file to write has an ending that its option's argument lists, "FILE.txt|.csv", or no ending; else
+   it prints an error. */
+bool cli_ending_fits(const cli_arguments *arguments, const char *argument, const char *path);
+
 /* Refuses an --output that is a file which the command reads, but that of --from, which a search continues. Returns false
    after an error. */
 bool cli_keeps_inputs(const cli_arguments *arguments);

@@ -242,6 +242,12 @@ static int compare_all(const cli_arguments *arguments, comparison *c, const char
     return code;
 }
 
+static bool has_8_bits(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && (!strcmp(dot, ".png") || !strcmp(dot, ".jpg") || !strcmp(dot, ".jpeg"));
+}
+
 static int run(const cli_arguments *arguments)
 {
     const char *output = cli_text(arguments, "output", NULL), *reference = cli_text(arguments, "reference", NULL);
@@ -269,6 +275,15 @@ static int run(const cli_arguments *arguments)
     if (!cli_real(arguments, "max-mean", INFINITY, 0, 1e300, &most) ||
         !cli_metrics_parse(arguments, false, &c.metrics)) {
         return CLI_USAGE;
+    }
+    for (int i = 0; i < c.n; i++) {
+        const char *image = arguments->operands[i];
+        if (cli_is_same_file(image, c.reference_path)) {
+            cli_say("compare", "%s: warning: it is the reference itself", image);
+        } else if (has_8_bits(c.reference_path) && !has_8_bits(image)) {
+            cli_say("compare", "%s: warning: a reference of 8 bits is rounded and clipped, and its error is no noise",
+                    c.reference_path);
+        }
     }
     const int code = compare_all(arguments, &c, output, !reference);
     return code ? code : c.all.error.mean <= most * (double)c.all.images ? CLI_YES : CLI_NO;

@@ -34,6 +34,9 @@ static int read_points(const cli_arguments *arguments, const char *source, uint6
         return cli_source_points(arguments, source, seed, run, points);
     }
     const koksma_status status = koksma_points_read_mapped(source, points);
+    if (!status) {
+        cli_warn_points(arguments, source, points);
+    }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 

@@ -279,7 +279,8 @@ static int run(const cli_arguments *arguments)
             arguments, "it takes an integrand and points, as in disk sobol@64 or disk -p sobol,halton -n 16,64; "
                        "'koksma list integrands' names the integrands");
     }
-    if (!cli_trials(arguments, 32, MOST_TRIALS, &j.seed, &j.trials) || !cli_sources_check(arguments, 1, 1, 1) ||
+    if (!cli_trials(arguments, 32, MOST_TRIALS, &j.seed, &j.trials) ||
+        !cli_sources_check(arguments, 1, cli_text(arguments, "trials", NULL) ? j.trials : 1, 1) ||
         !cli_work_begin(arguments, "integrating", &j.work)) {
         return CLI_USAGE;
     }

@@ -457,10 +457,14 @@ static int ask_scene(const cli_arguments *arguments, request *r)
         const koksma_scene_counts counts = koksma_scene_count(scene);
         koksma_render_options defaults;
         koksma_render_options_init(&defaults, scene);
+        defaults.integrator = cli_text(arguments, "integrator", NULL) ? r->options.integrator : defaults.integrator;
+        r->options.integrator = defaults.integrator;
+        if (!cli_flag(arguments, "quiet")) {
+            cli_scene_warnings(arguments, r->options.scene, scene, &defaults, 3);
+        }
         koksma_scene_close(scene);
         spp = counts.spp;
         most = counts.paths ? MOST_PATHS_SPP : MOST_SCENE_SPP;
-        r->options.integrator = cli_text(arguments, "integrator", NULL) ? r->options.integrator : defaults.integrator;
     }
     if (spp && !r->spp && !cli_text(arguments, "spp", NULL) && !cli_text(arguments, "target-error", NULL)) {
         const size_t taken = spp < most ? spp : most;

@@ -213,7 +213,14 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
     snprintf(name, sizeof name, "%.*s", (int)strcspn(base, ":@."), base);
     const bool whole = base == word && !dot;
     const char *member = "";
-    for (size_t f = 0; f < (whole ? sizeof families / sizeof *families : 1); f++) {
+    enum { FAMILIES = sizeof families / sizeof *families };
+    for (size_t k = 0; k < (whole ? 2 * FAMILIES : 1); k++) { /* first those that the command takes */
+        const size_t f = k % FAMILIES, command = strlen("koksma ");
+        const bool taken = arguments && !strncmp(families[f].before + command, arguments->command->name,
+                                                 strlen(arguments->command->name));
+        if (whole && (k < FAMILIES) != taken) {
+            continue;
+        }
         const cli_option *option = arguments ? find(arguments->command->options, families[f].option) : NULL;
         const char letter = option ? option->letter : '\0', before[] = {'-', letter, ' ', '\0'};
         size_t i = 0;
@@ -234,7 +241,7 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
 
 int cli_explain(const cli_arguments *arguments, koksma_status status, const char *text, char known[CLI_KNOWN])
 {
-    const char *quote = strncmp(text, "no ", 3) ? NULL : strchr(text, '\'');
+    const char *quote = strncmp(text, "no ", 3) || !strncmp(text, "no warp", 7) ? NULL : strchr(text, '\'');
     const char *word = quote ? quote + 1 : text;
     const char *end = quote                      ? strchr(word, '\'')
                       : status == KOKSMA_MISSING ? strstr(text, ": can't be read: No such")

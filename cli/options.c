@@ -194,33 +194,6 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
     return PARSED;
 }
 
-/* Returns whether a file to write has an ending that its option's argument lists, "FILE.txt|.csv", or no ending; else
-   it prints an error. */
-static bool ending_fits(const cli_arguments *arguments, const char *argument, const char *path)
-{
-    const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *dot = strrchr(base, '.');
-    const char *first = strchr(argument, '.');
-    dot = dot && dot > base && dot[1] ? dot : NULL; /* ".", ".." and ".name" have no ending */
-    char all[64] = "";
-    size_t used = 0;
-    for (const char *at = first, *end; dot && at && *at; at = end + (*end == '|')) {
-        end = at + strcspn(at, "|");
-        const size_t length = strlen(base), ending = (size_t)(end - at);
-        if (length > ending && !strncmp(base + length - ending, at, ending)) {
-            return true;
-        }
-        used += (size_t)snprintf(all + used, sizeof all - used, "%s%.*s",
-                                 !used  ? ""
-                                 : *end ? ", "
-                                        : " or ",
-                                 (int)(end - at), at);
-    }
-    if (used) {
-        cli_usage_error(arguments, "%s: its name must end in %s", path, all);
-    }
-    return !used;
-}
-
 /* Returns whether an option names a file or folder with an empty text, which no system accepts; it then prints an
    error. */
 static bool is_empty_name(const cli_arguments *arguments, const cli_option *o, const char *value)
@@ -264,7 +237,7 @@ static int read_shared_options(cli_arguments *arguments)
         if (is_empty_name(arguments, &arguments->command->options[i], value)) {
             return CLI_USAGE;
         }
-        if (value && argument && !strncmp(argument, "FILE.", 5) && !ending_fits(arguments, argument, value)) {
+        if (value && argument && !strncmp(argument, "FILE.", 5) && !cli_ending_fits(arguments, argument, value)) {
             return CLI_USAGE;
         }
     }
@@ -476,7 +449,9 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
     const double value = strtod(text, &end);
     if (end == text || *end || !(value >= min && value <= max)) {
         cli_usage_error(arguments, "--%s %s: it takes a number from %g to %g%s", name, text, min, max,
-                        strchr(text, '%') ? "; 1 % is 0.01" : "");
+                        strchr(text, '%') || (max == 1 && value > 1 && value <= 100) ? "; 1 % is 0.01"
+                        : end > text && *end                                         ? ", without a unit"
+                                                                                     : "");
         return false;
     }
     *out = value;

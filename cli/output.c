@@ -95,6 +95,35 @@ bool cli_is_same_file(const char *a, const char *b)
     return !stat(a, &info) && !stat(b, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
 }
 
+bool cli_ending_fits(const cli_arguments *arguments, const char *argument, const char *path)
+{
+    const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *dot = strrchr(base, '.');
+    const char *first = strchr(argument, '.');
+    dot = dot && dot > base && dot[1] ? dot : NULL; /* ".", ".." and ".name" have no ending */
+    char all[64] = "";
+    size_t used = 0;
+    for (const char *at = first, *end; dot && at && *at; at = end + (*end == '|')) {
+        end = at + strcspn(at, "|");
+        const size_t length = strlen(base), ending = (size_t)(end - at);
+        const char *comma = strchr(base, ',');
+        if (comma && comma - base > (ptrdiff_t)ending && !strncmp(comma - ending, at, ending)) {
+            return !cli_usage_error(arguments, "%s: it writes one file, not two", path);
+        }
+        if (length > ending && !strncmp(base + length - ending, at, ending)) {
+            return true;
+        }
+        used += (size_t)snprintf(all + used, sizeof all - used, "%s%.*s",
+                                 !used  ? ""
+                                 : *end ? ", "
+                                        : " or ",
+                                 (int)(end - at), at);
+    }
+    if (used) {
+        cli_usage_error(arguments, "%s: its name must end in %s", path, all);
+    }
+    return !used;
+}
+
 bool cli_keeps_inputs(const cli_arguments *arguments)
 {
     const cli_option *options = arguments->command->options;

@@ -412,6 +412,15 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
     fprintf(stderr, "%s at %d samples a pixel, %d x %d pixels: ", base_of(options->scene), options->spp,
             ranking->width, ranking->height);
     const bool decided = cli_rank_decided(ranking);
+    double most = 0;
+    for (size_t i = 0; i < ranking->n; i++) {
+        most = fmax(most, fabs(rows[i].mean));
+    }
+    if (ranking->n && most == 0) {
+        fputs("every picture is the reference, and no pattern leaves an error; is the scene in view, and lit?\n",
+              stderr);
+        return;
+    }
     if (decided) {
         advise_best(options, rows, ranking);
     } else {

@@ -147,7 +147,7 @@ static const char *hint(const cli_arguments *arguments, const char *operand, cha
         snprintf(text, size, "; it takes one name, and is given again for another");
     } else if (koksma_measure_find(name)) {
         snprintf(text, size, "; measures follow -m, with commas between them");
-    } else {
+    } else if (access(operand, F_OK)) {
         cli_known_as(arguments, operand, text);
     }
     return text;
@@ -166,49 +166,6 @@ static bool has_option(const cli_arguments *arguments, const char *name)
 static const char *option_text(const cli_arguments *arguments, const char *name)
 {
     return has_option(arguments, name) ? cli_text(arguments, name, NULL) : NULL;
-}
-
-/* Warns about columns of a file that are no coordinates, and about rows that look like columns. */
-static void warn_columns(const cli_arguments *arguments, const char *path, const koksma_points *points)
-{
-    const char *command = arguments->command->name;
-    const size_t n = points->n, dim = (size_t)points->dim;
-    if (n < 2 || dim < 2 || option_text(arguments, "quiet")) {
-        return;
-    }
-    for (size_t k = 0; k < dim; k++) {
-        size_t same = 1, counted = 1; /* rows with the value of the first, and with 1 more than the row before */
-        while (same < n && points->xs[same * dim + k] == points->xs[k]) {
-            same++;
-        }
-        while (counted < n && points->xs[counted * dim + k] == points->xs[k] + (double)counted) {
-            counted++;
-        }
-        if (same == n) {
-            cli_say(command, "%s: warning: column %zu is %.9g in all rows; is it a coordinate?", path, k + 1,
-                    points->xs[k]);
-        } else if (counted == n && k == 0) {
-            cli_say(command, "%s: warning: the first column counts the rows; if it is an index, leave it out", path);
-        }
-    }
-    if (dim > 3 && 2 * n < dim) {
-        cli_say(command, "%s: warning: a point in %zu dimensions on each of %zu lines; are rows and columns swapped?",
-                path, dim, n);
-    }
-}
-
-void cli_warn_file(const cli_arguments *arguments, const char *pattern)
-{
-    const char *use = strstr(pattern, "=file:"), *path = use ? use + 6 : pattern + 5;
-    char name[KOKSMA_MAX_SPEC];
-    koksma_points points;
-    if (use || !strncmp(pattern, "file:", 5)) {
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(path, ",;@"), path);
-        if (!access(name, R_OK) && !koksma_points_read(name, &points)) {
-            warn_columns(arguments, name, &points);
-            koksma_points_fini(&points);
-        }
-    }
 }
 
 /* Reads a file and divides its coordinates by the numbers of --scale. Returns the exit code. */
@@ -234,7 +191,7 @@ static int read_scaled(const cli_arguments *arguments, const char *path, const c
                                "--scale %s: it takes one number, or one for each of the %d coordinates of %s", scale,
                                points->dim, path);
     }
-    warn_columns(arguments, path, points);
+    cli_warn_points(arguments, path, points);
     for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
         const double divisor = divisors[n == 1 ? 0 : i % (size_t)points->dim], x = points->xs[i];
         if (!(x >= 0 && x <= divisor)) {
@@ -243,6 +200,7 @@ static int read_scaled(const cli_arguments *arguments, const char *path, const c
         }
         points->xs[i] = x / divisor;
     }
+    cli_warn_small(arguments, path, points);
     return CLI_YES;
 }
 
@@ -282,7 +240,7 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
         return koksma_status_exit_code(status);
     }
     if (!status && !source.is_pattern) {
-        warn_columns(arguments, text, points);
+        cli_warn_points(arguments, text, points);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
@@ -291,7 +249,7 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
 {
     size_t n_stdin = 0;
     const char *one_set = NULL; /* a pattern, if all of them have but one set */
-    bool all = trials > 1 && !option_text(arguments, "quiet");
+    bool all = (trials > 1 || option_text(arguments, "seed")) && !option_text(arguments, "quiet");
     for (int i = first; i < arguments->n_operands; i++) {
         const char *text = arguments->operands[i];
         n_stdin += strcmp(text, "-") ? 0 : n_warps > 1 ? n_warps : 1;
@@ -305,16 +263,17 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
                             access(text, R_OK) ? hint(arguments, text, meant) : meant);
             return false;
         }
-        cli_source source;
-        if (all && cli_source_open(arguments, text, &source)) {
+        cli_source source = {0};
+        if (all && cli_source_is_pattern(text) && cli_source_open(arguments, text, &source)) {
             return false;
         }
-        all = all && koksma_has_one_set(&source.spec);
+        all = all && (!source.is_pattern || koksma_has_one_set(&source.spec));
         one_set = text;
     }
     if (all && one_set) {
         cli_say(arguments->command->name,
-                "warning: %s is the same set in all trials; a random modifier, such as shift=1, gives others",
+                "warning: %s is one set, whatever the seed; a pattern with a random modifier, such as shift=1, has "
+                "others",
                 one_set);
     }
     return true;

@@ -18,8 +18,15 @@
         'd', "dim", "DIM", "number of dimensions of patterns without @N (default: 2)"                                \
     }
 
-/* Warns, unless --quiet, about columns of the file of a pattern file:PATH that are no coordinates, and about swapped rows
-   and columns. Other patterns and what can't be read give no warning here. */
+/* Warns, unless --quiet, about what in a file's points looks like a mistake: columns that are constant or count the rows,
+   rows and columns swapped, coordinates in another unit. */
+void cli_warn_points(const cli_arguments *arguments, const char *path, const koksma_points *points);
+
+/* Warns, unless --quiet, that all coordinates are small, as pixels read as fractions of 2^16 are. */
+void cli_warn_small(const cli_arguments *arguments, const char *path, const koksma_points *points);
+
+/* Does the first for the file of a pattern file:PATH. Other patterns and what can't be read give no
+   warning here. */
 void cli_warn_file(const cli_arguments *arguments, const char *pattern);
 
 /* Reads the points of an operand, which is a file or "-" for stdin, or generates them, with `seed`, for

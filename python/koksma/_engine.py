@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import copy
+from ctypes import byref
 from typing import Any, Dict, Optional, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, OutOfMemoryError, one_line, one_of, quoted, seed_of, spec, text, whole
+from ._library import ArgumentError, OutOfMemoryError, core, one_line, one_of, quoted, seed_of, spec, text, warn_of_one_set, whole
 from ._optimise import optimise
 from ._points import PointArray, generate, has_ranges, is_sequence, measures
 
@@ -116,7 +117,11 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
         self._known: Optional[PointArray] = None  # the points from number _known_first on
         self._known_first = 0
         self._refused: Optional[int] = None  # the fewest points that the pattern was seen not to serve
-        if isinstance(seed, (int, np.integer)) and 0 <= seed < 1 << 64:
+        if core().koksma_has_one_set(byref(spec("pattern", pattern))):
+            self._seed = 0
+            if seed is not None:
+                warn_of_one_set(pattern)
+        elif isinstance(seed, (int, np.integer)) and 0 <= seed < 1 << 64:
             self._seed = int(seed)
         else:
             self._seed = seed_of(self.rng)

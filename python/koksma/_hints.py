@@ -63,8 +63,8 @@ _MEANT = {  # what others call an argument, and what functions of this package c
     "function": "f fun func integrand function",
 }
 _PARTS = {  # what is no argument here, but a part of a spec
-    "scramble": 'is a part of the pattern: "sobol:scramble=owen"', "shift": 'is a part of the pattern: "korobov,shift=1"',
-    "trials": "is of koksma.trials(pattern, n, measure)", "output": "is the method save(path) of what it returns",
+    "scramble": 'is a part of the pattern: "NAME:scramble=owen"', "shift": 'is a part of the pattern: "korobov,shift=1"',
+    "trials": "is of koksma.trials(pattern, n, measure)",
     "optimization": "is koksma.optimise(measure, n, d)", "bits": 'is a part of the pattern; koksma.patterns() has its parameters',
 }
 
@@ -74,6 +74,8 @@ def hint_of_argument(name: str, function: "Callable[..., Any]") -> str:
     word, known = name.lower(), [p for p in inspect.signature(function).parameters if p not in ("self", "cls")]
     meant = [k for k, others in _MEANT.items() if k in known and word in others.split()]
     near = meant or get_close_matches(word, known, 1)
+    if word in ("output", "path", "out", "file") and not meant and function.__name__ in ("render", "datasheet", "plot"):
+        return "; write_image(path, image) writes it" if function.__name__ == "render" else "; the method save(path) of its result writes it"
     return (f"; {name} {_PARTS[word]}" if word in _PARTS and not meant else f"; did you mean {near[0]}?" if near
             else f"; it takes {', '.join(known)}")
 
@@ -93,7 +95,12 @@ def hint_of_values(message: str, function: "Callable[..., Any]", values: Sequenc
     if no_text and any(name in _NO_TEXTS and isinstance(value, str) for name, value in given):
         return f"; the order is {function.__name__}({', '.join(known[:2])})"
     if no_text == ["pattern"] and message.startswith("pattern must be a str"):
-        return "; a set of one's own is a file, 'file:PATH'"
+        return ("; uses are in one text, 'pixel=random;lens=sobol'" if any(isinstance(value, dict) for value in values)
+                else "; a set of one's own is a file, 'file:PATH'")
+    if function.__name__ == "plot" and len(values) > 1 and any(isinstance(value, str) for value in values):
+        return "; plot(points).save(path) writes a file"
+    if function.__name__ == "verify_sets" and "shape" in message:
+        return "; it takes several sets, verify(points) takes one"
     found = re.match(r"no (\w+) '([^']*)'", message)
     if not found:
         return ""
@@ -105,5 +112,5 @@ def hint_of_values(message: str, function: "Callable[..., Any]", values: Sequenc
     if "," in word and kind in ("pattern", "measure", "metric"):
         return f"; several are a list: {word.replace(' ', '').split(',')}"
     families = (("pattern", [p.name for p in patterns()]), ("measure", [m.name for m in measures()]), ("scene", scenes()))
-    of = [what for what, names in families if what != kind and word in names]
+    of = [what for what, names in families if what != kind in ("pattern", "measure", "scene") and word in names]
     return f"; {word!r} is a {of[0]}" if of else ""

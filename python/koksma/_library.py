@@ -7,6 +7,7 @@ import os
 import re
 import secrets
 import sys
+import warnings
 from contextlib import contextmanager
 from ctypes import POINTER, addressof, byref, c_bool, c_char_p, c_double, c_float, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
 from functools import lru_cache, wraps
@@ -263,7 +264,39 @@ def lab() -> ctypes.CDLL:
     return library
 
 
-@contextmanager
+class _Block:
+    """A context manager, which says when it was made but not entered: without a block it has no effect."""
+
+    def __init__(self, call: str, manager: Any) -> None:
+        self._call, self._manager, self._entered = call, manager, False
+
+    def __enter__(self) -> None:
+        self._entered = True
+        self._manager.__enter__()
+
+    def __exit__(self, *error: Any) -> Any:
+        return self._manager.__exit__(*error)
+
+    def __del__(self) -> None:
+        if not self._entered:
+            warnings.warn(f"{self._call} has an effect in a block only: with {self._call}:", stacklevel=2)
+
+
+def _block(function: Any) -> Any:
+    manager = contextmanager(function)
+
+    @wraps(function)
+    def made(*values: Any, **named: Any) -> _Block:
+        return _Block(f"koksma.{function.__name__}()", manager(*values, **named))
+    return made
+
+
+def warn_of_one_set(pattern: str) -> None:
+    """A seed has no effect on a pattern with one set."""
+    warnings.warn(f"{pattern} has one set, whatever the seed; a random modifier, such as shift=1, gives others", stacklevel=4)
+
+
+@_block
 def allow_exec(seconds: float = 60.0) -> Iterator[None]:
     """Lets the patterns "exec:PROGRAM" and "plugin:LIBRARY" run code in a block, in this thread.
 
@@ -287,7 +320,7 @@ def allow_exec(seconds: float = 60.0) -> Iterator[None]:
         core().koksma_allow_exec(before)
 
 
-@contextmanager
+@_block
 def refuse_unknown() -> Iterator[None]:
     """Refuses scenes of pbrt and Mitsuba with parts that Koksma does not know in a block, in this thread.
 

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import (ArgumentError, MalformedError, allow_exec as allowing_exec, call, check, choice, core, flag, kept_spec,
-                       lab, one_of, quick, quoted, Seed, seed_of, spec, text, texts, whole)
+                       lab, one_of, quick, quoted, Seed, seed_of, spec, text, texts, warn_of_one_set, whole)
 
 PointArray = npt.NDArray[np.float64]
 STRATIFIED, LATIN = 1 << 3, 1 << 4  # KOKSMA_CLAIM_STRATIFIED and so on
@@ -326,7 +326,8 @@ def as_points(points: npt.ArrayLike) -> PointArray:
 
     What NumPy would cut down to a real number without being asked (the imaginary part, a date, a mask) is refused.
     """
-    if type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.flags.carray and points.size:
+    if (type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.flags.carray and points.size
+            and not 4 <= 2 * points.shape[0] < points.shape[1]):
         return points
     try:
         given = np.asanyarray(points)
@@ -461,6 +462,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     """
     if d is not None or rng is not None:
         dim, seed = one_of("dim", dim, None, "d", d), one_of("seed", seed, 0, "rng", rng)
+    given = seed is not None
     if type(seed) is not int or not 0 <= seed <= s.MAX_SEED:  # a short call does without a function
         seed = seed_of(seed)
     if sets is not None:
@@ -488,6 +490,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         found = find_warp(warp)
         return _warped(found, generate(pattern, n, 2 if dim is None else dim, seed, first=first, threads=threads))
     parsed = spec("pattern", pattern)
+    if given and seed and core().koksma_has_one_set(byref(parsed)):
+        warn_of_one_set(pattern)
     first = whole("first", first, 0, s.MAX_INDEX)
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)

@@ -83,6 +83,13 @@ static bool of_placements(const koksma_scene *scene, asked *a)
                      n > 1 ? ", and other meshes are, too" : "");
 }
 
+static bool of_camera(const koksma_scene *scene, asked *a)
+{
+    const double degrees = scene->camera.fov_rad * 180 / 3.14159265358979;
+    return !scene->is_model && degrees > 0 && degrees < 3.2 &&
+           tell(a, "the camera sees %.3g degrees; is the angle in radians?", degrees);
+}
+
 static bool of_lights(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_lights; i++) {
@@ -227,8 +234,8 @@ static bool of_names(const koksma__unread *u, asked *a)
 
 static bool of_all(const koksma_scene *scene, asked *a)
 {
-    return (!scene->n_shapes && !scene->n_placements && tell(a, "no shapes")) || of_unknown(scene, a) ||
-           of_unread(&scene->unread, a) || of_names(&scene->unread, a);
+    return (!scene->n_shapes && !scene->n_placements && tell(a, "no shapes")) || of_camera(scene, a) ||
+           of_unknown(scene, a) || of_unread(&scene->unread, a) || of_names(&scene->unread, a);
 }
 
 bool koksma__scene_warning(const koksma_scene *scene, const koksma__integrator_flags *flags, size_t i, char *text,

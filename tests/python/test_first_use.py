@@ -66,7 +66,7 @@ class Vocabulary(unittest.TestCase):
         for function, values, named, said in (
                 (koksma.generate, ["sobol", 16], {"dims": 2}, "did you mean dim?"), (koksma.generate, ["sobol", 16], {"dimension": 2}, "did you mean dim?"),
                 (koksma.generate, ["sobol"], {"n_samples": 16}, "did you mean n?"), (koksma.generate, ["sobol", 16], {"random_state": 1}, "did you mean seed?"),
-                (koksma.generate, ["sobol", 16], {"scramble": True}, 'scramble is a part of the pattern: "sobol:scramble=owen"'),
+                (koksma.generate, ["sobol", 16], {"scramble": True}, 'scramble is a part of the pattern: "NAME:scramble=owen"'),
                 (koksma.generate, ["sobol", 16], {"treads": 1}, "did you mean threads?"), (koksma.measure, [POINTS], {"method": "CD"}, "did you mean measure?"),
                 (koksma.rank, ["ball"], {"samples": 4}, "did you mean spp?"), (koksma.rank, ["ball"], {"timeout": 4}, "did you mean time_limit?"),
                 (koksma.render, ["ball", "sobol"], {"resolution": (4, 4)}, "did you mean size?"), (koksma.Engine, ["sobol"], {"dims": 2}, "did you mean "),

@@ -60,7 +60,8 @@ static bool read_line(reader *r, koksma_status *status)
     const bool any = end || r->length;
     r->line_number += any;
     if (r->length > MAX_LINE) {
-        *status = malformed(r, "longer than 262144 characters");
+        *status = malformed(r, *r->line ? "longer than 262144 characters"
+                                        : "zero bytes, as in a file that was not written whole");
         return false;
     }
     r->at += r->length + (end != NULL);
@@ -253,8 +254,9 @@ static const char *outside_hint(const reader *r, double x, int field, const char
     if (has_decimal_commas(r->line)) {
         return "; the line has decimal commas: write points, as in 0.5";
     }
-    if (field == 0 && rows > 0 && p->dim > 1 && more && x == p->xs[0] + (double)rows) {
-        return "; the first column counts the rows: leave it out";
+    if (rows > 0 && p->dim > 1 && (field == 0) == more && x == p->xs[field] + (double)rows) {
+        return more ? "; the first column counts the rows: leave it out"
+                    : "; the last column counts the rows: leave it out";
     }
     if (field == 0 && rows == 0 && !more && x == floor(x)) {
         return "; if the line says how many points follow, write it as a comment, '# n N'";

@@ -212,9 +212,10 @@ static koksma_status count_steps(const job *j, size_t first_n, size_t *steps)
     const uint64_t most = j->options->most_points ? j->options->most_points : MOST_POINTS, most_n = most / j->sets,
                    capacity = j->extends ? KOKSMA_MAX_INDEX / (j->parts ? PARTS : 1)
                                          : KOKSMA_MAX_COORDINATES / (unsigned)j->dim;
-    KOKSMA__FAIL_IF(first_n > most_n || first_n > capacity, KOKSMA_ARGUMENT,
-                    "first_n: %zu sets of %zu points are more than most_points, %llu, or than one set may have",
-                    j->sets, first_n, (unsigned long long)most);
+    KOKSMA__FAIL_IF(
+        first_n > most_n || first_n > capacity, KOKSMA_ARGUMENT,
+        "%zu sets of n = %zu points are more than --max-points (max_points), %llu, or than one set may have", j->sets,
+        first_n, (unsigned long long)most);
     *steps = 1;
     for (uint64_t n = first_n; 2 * n <= most_n && 2 * n <= capacity && *steps < KOKSMA_MAX_STEPS; n *= 2) {
         ++*steps;

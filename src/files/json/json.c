@@ -221,8 +221,11 @@ koksma_status koksma__json_open(const char *kind, const char *name, const char *
         koksma__json_close(d);
         return koksma__fail_memory(size);
     }
-    memcpy(d->text, text, size);
-    d->text[size] = '\0';
+    const size_t mark =
+        size >= 3 && !memcmp(text, "\xef\xbb\xbf", 3) ? 3 : 0; /* of UTF-8, as editors of Windows put it */
+    d->size = size - mark;
+    memcpy(d->text, text + mark, d->size);
+    d->text[d->size] = '\0';
     const koksma_status status = load(d);
     if (status) {
         koksma__json_close(d);

@@ -186,14 +186,15 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
     if (!is_path(name_or_path)) {
         const char *dot = strrchr(name_or_path, '.');
         for (size_t i = 0; dot && i < sizeof exported / sizeof *exported; i++) {
-            KOKSMA__FAIL_IF(!strcmp(dot, exported[i]), KOKSMA_UNKNOWN,
+            KOKSMA__FAIL_IF(!strcmp(dot, exported[i]), KOKSMA_MALFORMED,
                             "no scene '%s': %s files are not read; export the scene as glTF (.glb, .gltf)",
                             name_or_path, dot);
         }
-        return koksma__fail_unknown(
-            "scene", name_or_path, shipped_name, NULL,
-            "'koksma list scenes' names them, and a scene's file ends in .json, .pbrt, .xml or "
-            "as a model, such as .obj, .ply or .gltf");
+        const koksma_status status =
+            koksma__fail_unknown("scene", name_or_path, shipped_name, NULL,
+                                 "'koksma list scenes' names them, and a scene's file ends in .json, .pbrt, .xml or "
+                                 "as a model, such as .obj, .ply or .gltf");
+        return koksma__is_file(name_or_path) ? KOKSMA_MALFORMED : status;
     }
     if (koksma__is_mesh_file(name_or_path)) {
         return open_foreign(name_or_path, by, koksma__model_parse, out);

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What in a file's points looks like a mistake, but can be measured. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli.h"
+#include "source.h"
+
+static bool is_quiet(const cli_arguments *arguments)
+{
+    const cli_option *option = arguments->command->options;
+    while (option->name && strcmp(option->name, "quiet") != 0) {
+        option++;
+    }
+    return option->name && cli_flag(arguments, "quiet");
+}
+
+void cli_warn_small(const cli_arguments *arguments, const char *path, const koksma_points *points)
+{
+    double largest = 0;
+    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
+        largest = fmax(largest, points->xs[i]);
+    }
+    if (points->n >= 16 && largest > 0 && largest < 0.02 && !is_quiet(arguments)) {
+        cli_say(arguments->command->name,
+                "%s: warning: all coordinates are at most %.3g; is the unit or --scale right?", path, largest);
+    }
+}
+
+void cli_warn_points(const cli_arguments *arguments, const char *path, const koksma_points *points)
+{
+    const char *command = arguments->command->name;
+    const size_t n = points->n, dim = (size_t)points->dim;
+    if (n < 2 || dim < 2 || is_quiet(arguments)) {
+        return;
+    }
+    for (size_t k = 0; k < dim; k++) {
+        size_t same = 1, counted = 1; /* rows with the value of the first, and with 1 more than the row before */
+        while (same < n && points->xs[same * dim + k] == points->xs[k]) {
+            same++;
+        }
+        while (counted < n && points->xs[counted * dim + k] == points->xs[k] + (double)counted) {
+            counted++;
+        }
+        if (same == n) {
+            cli_say(command, "%s: warning: column %zu is %.9g in all rows; is it a coordinate?", path, k + 1,
+                    points->xs[k]);
+        } else if (counted == n && k == 0) {
+            cli_say(command, "%s: warning: the first column counts the rows; if it is an index, leave it out", path);
+        }
+    }
+    cli_warn_small(arguments, path, points);
+    if (dim > 3 && 2 * n < dim) {
+        cli_say(command, "%s: warning: a point in %zu dimensions on each of %zu lines; are rows and columns swapped?",
+                path, dim, n);
+    }
+}
+
+void cli_warn_file(const cli_arguments *arguments, const char *pattern)
+{
+    const char *use = strstr(pattern, "=file:"), *path = use ? use + 6 : pattern + 5;
+    char name[KOKSMA_MAX_SPEC];
+    koksma_points points;
+    if (use || !strncmp(pattern, "file:", 5)) {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(path, ",;@"), path);
+        if (!access(name, R_OK) && !koksma_points_read(name, &points)) {
+            cli_warn_points(arguments, name, &points);
+            koksma_points_fini(&points);
+        }
+    }
+}
