@@ -51,15 +51,4 @@ TEST_CASE(claims_are_looked_at)
 TEST_CASE(sizes_have_room)
 {
     assert_true(KOKSMA_MAX_COORDINATES <= SIZE_MAX / 255);
-    if (sizeof(size_t) > 4) {
-        return;
-    }
-    /* A product of two arguments that wraps around where a size has 32 bits. */
-    koksma_points p;
-    koksma_spectrum spectrum;
-    assert_ok(koksma_points_init(&p, (size_t)1 << 17, 2));
-    assert_ok(koksma_spectrum_init(&spectrum, KOKSMA_SPECTRUM_MAX_HALF));
-    assert_int_equal(koksma_spectrum_add(&spectrum, &p, KOKSMA_SPECTRUM_EXACT, NULL), KOKSMA_MEMORY);
-    koksma_spectrum_fini(&spectrum);
-    koksma_points_fini(&p);
 }
