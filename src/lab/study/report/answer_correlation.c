@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Answers whether a measure orders the patterns as the error of images does. For every scene, variant and number of
- * samples it computes the rank correlation, over patterns, of the mean of a measure of n points with the mean error
- * of images of n samples per pixel. The interval of a correlation comes from a bootstrap over the patterns that also
- * redraws the means. All cases and measures are resampled together, so that the mean correlations of two measures
- * can be compared. The answer gives the means over all cases, then by group of scenes, by scene and by number of samples.
+ * Answers whether a measure orders the patterns as the error of images does. A case is a measure in a number of dimensions,
+ * and a scene with its options and number of samples; for each it computes the rank correlation, over patterns, of the mean
+ * of the measure of n points with the mean error of images of n samples per pixel. The interval of a correlation comes from
+ * a bootstrap over the patterns that also redraws the means. All cases and measures are resampled together, so that the
+ * mean correlations of two measures can be compared. The answer gives the means over all cases, then by group of scenes, by
+ * scene and by number of samples.
+ *
+ * Blocks of one question may overlap: a case is that of the first block that renders it, with the patterns of all of them.
+ * If several blocks have results of a pattern, its means are read from the one with the most trials (images) or point sets
+ * (measures).
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,121 +20,184 @@
 #include "core/status.h"
 #include "study/plan/plan.h"
 #include "study/report/rho.h"
+#include "study/run/references.h"
 
-/* What is collected over all cases. */
-typedef struct listing {
-    koksma__document list; /* the table of all cases */
-    koksma__rho_means means;
-    size_t most_patterns; /* largest number of patterns in a case */
-} listing;
+/* The most patterns of a case, because the time of the bootstrap grows with the square of their number, and the most
+   scatter plots. */
+enum { MOST_PATTERNS = 256, MOST_PLOTS = 6 };
 
-/* ---- Tables over parts of the cases ------------------------------------------------------------------------ */
+/* A measure of points of `dim` dimensions; the same measure in two and in three dimensions counts as two measures. */
+typedef struct measured {
+    const char *measure;
+    int dim;
+    bool larger;                      /* whether larger values of the measure are better */
+    char label[KOKSMA_MAX_SPEC + 16]; /* "l2-star", "l2-star (3D)" */
+} measured;
 
-/* A part of the cases, which is a row of a table. */
-typedef struct part {
-    char name[160];
-    bool *scenes;  /* which scenes the part has; NULL: all */
-    long long spp; /* 0: all numbers of samples */
-} part;
+typedef struct one_case {
+    const koksma__image_block *image; /* the first block that renders the case */
+    const char *scene, *variant;
+    long long spp;
+    const measured *of;
+} one_case;
 
-/* Appends `between` and `more` to a text of limited size, or nothing if they do not fit. */
-static void append(char *text, size_t size, const char *between, const char *more)
+/* Of each pattern with results of both: the mean x of the measure, and the mean y of the image error with its interval, and
+   the standard errors of both. */
+typedef struct pairs {
+    size_t n, patterns_in_all; /* patterns_in_all: also those without results or beyond MOST_PATTERNS */
+    double x[MOST_PATTERNS], y[MOST_PATTERNS], low[MOST_PATTERNS], high[MOST_PATTERNS];
+    double x_error[MOST_PATTERNS], y_error[MOST_PATTERNS];
+    const char *patterns[MOST_PATTERNS];
+} pairs;
+
+/* ---- Cases ------------------------------------------------------------------------------------------------- */
+
+/* Whether a block evaluates the case's measure, without a warp, at the case's dimension and number of points. */
+static bool measures_it(const koksma__discrepancy_block *d, const one_case *at)
 {
-    const size_t used = strlen(text);
-    if (used + strlen(between) + strlen(more) + 1 < size) {
-        snprintf(text + used, size - used, "%s%s", used ? between : "", more);
-    }
+    return !d->warps.n && d->dim == at->of->dim && koksma__wholes_have(&d->n, at->spp) &&
+           koksma__texts_have(&d->measures, at->of->measure);
 }
 
-/* Adds a row: the mean of every measure, the best measure, and those that are significantly worse than the best, by Holm's
-   method over the pairs of measures in that row. */
-static void add_part(koksma__report *report, koksma__document *d, const koksma__rho_means *s, const part *of)
+/* The topic's block that measures a pattern's points (NULL: any pattern's); if several do, the one with the most sets.
+   NULL: none does. */
+static const koksma__discrepancy_block *measured_in(const koksma__topic *topic, const one_case *at,
+                                                    const char *pattern)
 {
-    const koksma__rho_ranking r = koksma__rho_rank(report, s, &(koksma__rho_subset){of->scenes, of->spp});
-    if (!r.n) {
-        return;
-    }
-    char worse[512] = "";
-    for (size_t i = 1; i < r.n; i++) {
-        if (koksma__rho_is_better(&r, r.at[0].measure, r.at[i].measure)) {
-            append(worse, sizeof worse, ", ", s->of[r.at[i].measure].measure);
+    const koksma__discrepancy_block *most = NULL;
+    for (size_t b = 0; b < topic->n_discrepancies; b++) {
+        const koksma__discrepancy_block *d = topic->discrepancies[b];
+        if ((!most || d->trials > most->trials) && measures_it(d, at) &&
+            (!pattern || koksma__texts_have(&d->patterns, pattern))) {
+            most = d;
         }
     }
-    koksma__doc_row(d, "tztt", of->name, r.at[0].cases, s->of[r.at[0].measure].measure, worse[0] ? worse : "none");
-    for (size_t m = 0; m < s->n; m++) {
-        koksma__estimate mean = {NAN, NAN, NAN};
-        for (size_t i = 0; i < r.n; i++) {
-            mean = r.at[i].measure == m ? r.at[i].mean : mean;
-        }
-        koksma__doc_cells(d, "i", mean);
-    }
+    return most;
 }
 
-/* Adds a table with n parts as rows. `name` is the head of its first column. */
-static void add_parts(koksma__report *r, koksma__document *d, const koksma__rho_means *s, const char *name,
-                      const char *id, const char *title, const part *parts, size_t n)
+/* Whether a block renders the case (with this pattern, unless it is NULL) as the case's first block does: at the same
+   size and with the same last reference, to which errors refer. */
+static bool renders_it(const koksma_study *study, const koksma__image_block *i, const one_case *at,
+                       const char *pattern)
 {
-    koksma__doc_section(d, NULL, "%s", title);
-    koksma__doc_table(d, "correlation-%.10s-%.40s", name, id);
-    koksma__doc_columns(d, "t %s;n7 cases;t best;t significantly worse than the best", name);
-    for (size_t m = 0; m < s->n; m++) {
-        koksma__doc_columns(d, "i2 %s", s->of[m].measure);
+    const koksma__image_block *blocks[] = {i, at->image};
+    const koksma__study_scene *scene = koksma__study_scene_of(study, at->scene);
+    char names[2][KOKSMA__REFERENCE_NAME];
+    int width[2], height[2];
+    if ((pattern && !koksma__texts_have(&i->patterns, pattern)) || !koksma__wholes_have(&i->spp, at->spp) ||
+        !koksma__texts_have(&i->variants, at->variant) || !koksma__texts_have(&i->scenes, at->scene)) {
+        return false;
     }
-    for (size_t i = 0; !r->status && i < n; i++) {
-        add_part(r, d, s, &parts[i]);
+    for (size_t k = 0; k < 2; k++) {
+        koksma__block_size(blocks[k], scene, &width[k], &height[k]);
+        koksma__reference_name(&blocks[k]->references[blocks[k]->n_references - 1], names[k]);
     }
-    koksma__doc_end(d);
+    return width[0] == width[1] && height[0] == height[1] && !strcmp(names[0], names[1]);
 }
 
-/* Fills in the parts: one for each scene, each group of scenes and each number of samples. masks: storage for the
-   scenes of the parts. */
-static void set_parts(const koksma__topic *topic, const koksma__rho_means *s, part *parts, bool *masks)
+/* Whether a block before block b renders the case (with this pattern, unless it is NULL). */
+static bool is_before(const koksma__report *r, const koksma__topic *topic, const one_case *at, const char *pattern,
+                      size_t b)
 {
-    part *at = parts;
-    for (size_t i = 0; i < s->n_scenes; i++, at++, masks += s->n_scenes) {
-        snprintf(at->name, sizeof at->name, "%.150s", s->scenes[i]);
-        at->scenes = masks;
-        masks[i] = true;
+    bool before = false;
+    for (size_t k = 0; !before && k < b; k++) {
+        before = renders_it(r->study, topic->images[k], at, pattern);
     }
-    for (size_t g = 0; g < topic->n_groups; g++, at++, masks += s->n_scenes) {
-        char names[256] = "";
-        at->scenes = masks;
-        for (size_t i = 0; i < s->n_scenes; i++) {
-            masks[i] = koksma__texts_have(&topic->groups[g].scenes, s->scenes[i]);
-            if (masks[i]) {
-                append(names, sizeof names, ", ", s->scenes[i]);
+    return before;
+}
+
+/* Lists the measures that the blocks of a topic evaluate without a warp, each once for a number of dimensions. */
+static measured *list_measures(koksma__report *r, const koksma__topic *topic, size_t *n)
+{
+    measured *list = NULL;
+    for (size_t b = 0; b < topic->n_discrepancies; b++) {
+        const koksma__discrepancy_block *d = topic->discrepancies[b];
+        for (size_t m = 0; !d->warps.n && m < d->measures.n; m++) {
+            size_t i = 0;
+            while (i < *n && (list[i].dim != d->dim || strcmp(list[i].measure, d->measures.at[m]) != 0)) {
+                i++;
+            }
+            measured *new = i < *n ? NULL : koksma__report_add(r, &list, n, sizeof *new);
+            if (new) {
+                new->measure = d->measures.at[m];
+                new->dim = d->dim;
+                new->larger = koksma__subject_of_points(d, new->measure, "").larger;
+                snprintf(new->label, sizeof new->label, d->dim != 2 ? "%s (%dD)" : "%s", new->measure, d->dim);
             }
         }
-        snprintf(at->name, sizeof at->name, "%.70s (%.80s)", topic->groups[g].title, names);
     }
-    for (size_t k = 0; k < s->n_sizes; k++, at++) {
-        snprintf(at->name, sizeof at->name, "%lld", s->sizes[k]);
-        at->spp = s->sizes[k];
+    return list;
+}
+
+/* Lists the cases: every combination of scene, options, number of samples and measure, each once. */
+static one_case *list_cases(koksma__report *r, const koksma__topic *topic, size_t *n)
+{
+    size_t n_measured = 0;
+    const measured *of = list_measures(r, topic, &n_measured);
+    one_case *list = NULL;
+    for (size_t b = 0; b < topic->n_images; b++) {
+        const koksma__image_block *i = topic->images[b];
+        const size_t variants = i->variants.n, sizes = i->spp.n;
+        for (size_t k = 0; k < i->scenes.n * variants * sizes && koksma__report_goes_on(r); k++) {
+            one_case at = {.image = i,
+                           .scene = i->scenes.at[k / (variants * sizes)],
+                           .variant = i->variants.at[k / sizes % variants],
+                           .spp = i->spp.at[k % sizes]};
+            const bool listed = is_before(r, topic, &at, NULL, b);
+            for (size_t m = 0; !listed && m < n_measured; m++) {
+                at.of = &of[m];
+                one_case *new = measured_in(topic, &at, NULL) ? koksma__report_add(r, &list, n, sizeof *new) : NULL;
+                if (new) {
+                    *new = at;
+                }
+            }
+        }
+    }
+    return list;
+}
+
+/* Adds a pattern's means. A pattern that lacks results of points or of images, or comes after MOST_PATTERNS others, is
+   counted but not added. */
+static void add_pair(koksma__report *r, const koksma__topic *topic, const one_case *at, const char *pattern,
+                     const koksma__image_block *most, pairs *out)
+{
+    const koksma__discrepancy_block *d = measured_in(topic, at, pattern);
+    out->patterns_in_all++;
+    if (!d || out->n == MOST_PATTERNS) {
+        return;
+    }
+    const koksma__subject points = koksma__subject_of_points(d, at->of->measure, ""),
+                          images = koksma__subject_of_images(most, at->scene, at->variant, topic->metric);
+    const koksma__summary x = koksma__read_mean(r, &points, pattern, at->spp, NULL),
+                          y = koksma__read_mean(r, &images, pattern, at->spp, NULL);
+    if (x.n && y.n) {
+        out->x[out->n] = x.mean;
+        out->y[out->n] = y.mean;
+        out->x_error[out->n] = x.sd / sqrt((double)x.n);
+        out->y_error[out->n] = y.sd / sqrt((double)y.n);
+        out->low[out->n] = y.low;
+        out->high[out->n] = y.high;
+        out->patterns[out->n++] = pattern;
     }
 }
 
-/* Writes a table of the means by group of scenes if the plan has groups, one by scene if there are two or more scenes, and
-   one by number of samples if there are two or more. */
-static void add_breakdowns(koksma__report *r, koksma__document *d, const koksma__topic *topic,
-                           const koksma__rho_means *s)
+/* Reads the means of a case for all patterns that have results of both the measure and the image error. */
+static void read_pairs(koksma__report *r, const koksma__topic *topic, const one_case *at, pairs *out)
 {
-    const size_t n = s->n_scenes + topic->n_groups + s->n_sizes;
-    part *parts = koksma__report_memory(r, n, sizeof *parts);
-    bool *masks = koksma__report_memory(r, (s->n_scenes + topic->n_groups + 1) * (s->n_scenes + 1), sizeof *masks);
-    if (r->status) {
-        return;
-    }
-    set_parts(topic, s, parts, masks);
-    if (topic->n_groups) {
-        add_parts(r, d, s, "group", topic->id, "By what dominates the scenes' error", parts + s->n_scenes,
-                  topic->n_groups);
-    }
-    if (s->n_scenes > 1) {
-        add_parts(r, d, s, "scene", topic->id, "By scene", parts, s->n_scenes);
-    }
-    if (s->n_sizes > 1) {
-        add_parts(r, d, s, "samples", topic->id, "By number of samples", parts + s->n_scenes + topic->n_groups,
-                  s->n_sizes);
+    out->n = out->patterns_in_all = 0;
+    for (size_t b = 0; b < topic->n_images; b++) {
+        const koksma__texts *patterns = &topic->images[b]->patterns;
+        for (size_t p = 0; p < patterns->n && renders_it(r->study, topic->images[b], at, NULL); p++) {
+            const koksma__image_block *most = topic->images[b];
+            if (!koksma__report_goes_on(r) || is_before(r, topic, at, patterns->at[p], b)) {
+                continue;
+            }
+            for (size_t k = b; k < topic->n_images; k++) {
+                const koksma__image_block *i = topic->images[k];
+                most = i->trials > most->trials && renders_it(r->study, i, at, patterns->at[p]) ? i : most;
+            }
+            add_pair(r, topic, at, patterns->at[p], most, out);
+        }
     }
 }
 
@@ -143,7 +211,7 @@ static koksma__estimate turned(const koksma__estimate *of)
 
 /* Computes Spearman's rho with its resamples, and Kendall's tau. For tau a quarter of the resamples suffices,
    because its interval is only shown and enters no significance test. */
-static koksma_status correlate(const koksma_run *run, const koksma__case *p, const koksma__pairs *found,
+static koksma_status correlate(const koksma_run *run, const one_case *p, const pairs *found,
                                double draws[KOKSMA__RHO_SAMPLES], koksma__estimate *rho, koksma__estimate *tau)
 {
     const koksma__means x = {found->x, found->x_error, koksma__job_seed("means|%s|%lld", p->of->label, p->spp)};
@@ -151,12 +219,10 @@ static koksma_status correlate(const koksma_run *run, const koksma__case *p, con
                              koksma__job_seed("means|%s|%s|%lld", p->scene, p->variant, p->spp)};
     const uint64_t seed = koksma__job_seed("correlation");
     memset(draws, 0, KOKSMA__RHO_SAMPLES * sizeof *draws);
-    koksma_status status =
-        koksma__bootstrap_pairs(&x, &y, found->n, koksma__spearman, KOKSMA__RHO_SAMPLES, seed, run, draws, rho);
-    if (!status) {
-        status =
-            koksma__bootstrap_pairs(&x, &y, found->n, koksma__kendall, KOKSMA__RHO_SAMPLES / 4, seed, run, NULL, tau);
-    }
+    KOKSMA__TRY(
+        koksma__bootstrap_pairs(&x, &y, found->n, koksma__spearman, KOKSMA__RHO_SAMPLES, seed, run, draws, rho));
+    KOKSMA__TRY(
+        koksma__bootstrap_pairs(&x, &y, found->n, koksma__kendall, KOKSMA__RHO_SAMPLES / 4, seed, run, NULL, tau));
     if (p->of->larger) {
         *rho = turned(rho);
         *tau = turned(tau);
@@ -164,32 +230,30 @@ static koksma_status correlate(const koksma_run *run, const koksma__case *p, con
             draws[i] = -draws[i];
         }
     }
-    return status;
+    return KOKSMA_OK;
 }
 
-/* Adds the row of a case to the table of all cases, and its correlation to the means. */
-static void list_case(const koksma__cases *cases, void *context, const koksma__case *p)
+/* Adds the row of a case to the table of all cases, and its correlation to the means. Returns the number of its
+   patterns. */
+static size_t add_case(koksma__report *r, koksma__document *d, const koksma__topic *topic, const one_case *p,
+                       koksma__rho_means *means)
 {
-    listing *l = context;
-    koksma__document *d = &l->list;
-    koksma__report *r = cases->report;
-    koksma__pairs found;
+    pairs found;
     double draws[KOKSMA__RHO_SAMPLES];
     koksma__estimate rho, tau;
-    koksma__case_pairs(cases, p, &found);
-    l->most_patterns = found.patterns_in_all > l->most_patterns ? found.patterns_in_all : l->most_patterns;
-    if (r->status || found.n < 4) {
-        return;
+    read_pairs(r, topic, p, &found);
+    if (!r->status && found.n >= 4 && koksma__report_keep(r, correlate(r->run, p, &found, draws, &rho, &tau)) &&
+        !isnan(rho.value)) {
+        rho = koksma__rho_shown(&rho, found.n);
+        koksma__doc_row(d, "ttdtzii", p->scene, p->variant[0] ? p->variant : "defaults", p->spp, p->of->label,
+                        found.n, rho, koksma__rho_shown(&tau, found.n));
+        const koksma__rho_source source = {p->of->label, p->scene, p->variant, p->spp, found.n};
+        koksma__rho_add(r, means, &source, &rho, draws);
     }
-    if (!koksma__report_keep(r, correlate(r->run, p, &found, draws, &rho, &tau)) || isnan(rho.value)) {
-        return;
-    }
-    rho = koksma__rho_shown(&rho, found.n);
-    koksma__doc_row(d, "ttdtzii", p->scene, p->variant[0] ? p->variant : "defaults", p->spp, p->of->label, found.n,
-                    rho, koksma__rho_shown(&tau, found.n));
-    const koksma__rho_source source = {p->of->label, p->scene, p->variant, p->spp, found.n};
-    koksma__rho_add(r, &l->means, &source, &rho, draws);
+    return found.patterns_in_all;
 }
+
+/* ---- Tables ------------------------------------------------------------------------------------------------ */
 
 /* Writes the table of all measures, with their means over all cases. */
 static void add_measures(koksma__document *d, const char *id, const koksma__rho_means *s,
@@ -215,84 +279,129 @@ static void add_measures(koksma__document *d, const char *id, const koksma__rho_
     }
 }
 
-/* Writes what the answer leaves out. */
-static void say_limits(koksma__document *d, const listing *l)
+/* Adds a row for a part of the cases: the mean of every measure, the best measure, and those that are significantly worse
+   than the best, by Holm's method over the pairs of measures in that row. */
+static void add_part(koksma__report *report, koksma__document *d, const koksma__rho_means *s, const char *name,
+                     const koksma__rho_subset *of)
 {
-    const koksma__rho_means *s = &l->means;
-    if (l->most_patterns > KOKSMA__CASE_PATTERNS) {
-        koksma__doc_paragraph(d,
-                              "A case has up to %zu patterns; correlations use only the first %d of them. `koksma "
-                              "study export` has the results of all.",
-                              l->most_patterns, KOKSMA__CASE_PATTERNS);
+    const koksma__rho_ranking r = koksma__rho_rank(report, s, of);
+    char worse[512] = "";
+    for (size_t i = 1; i < r.n; i++) {
+        if (koksma__rho_is_better(&r, r.at[0].measure, r.at[i].measure)) {
+            koksma__text_join(worse, sizeof worse, ", ", s->of[r.at[i].measure].measure);
+        }
     }
-    if (s->n_variants > KOKSMA__RHO_VARIANTS) {
-        koksma__doc_paragraph(d,
-                              "%zu more combinations of options have no column here; the means include them, and the "
-                              "list of cases has them all.",
-                              s->n_variants - KOKSMA__RHO_VARIANTS);
+    if (r.n) {
+        koksma__doc_row(d, "tztt", name, r.at[0].cases, s->of[r.at[0].measure].measure, worse[0] ? worse : "none");
+    }
+    for (size_t m = 0; r.n && m < s->n; m++) {
+        const koksma__estimate none = {NAN, NAN, NAN};
+        koksma__doc_cells(d, "i", r.place[m] < r.n ? r.at[r.place[m]].mean : none);
     }
 }
 
-typedef struct plots {
-    koksma__document *document;
-    const char *measure;
-    size_t left;
-} plots;
+enum by { GROUP, SCENE, SAMPLES, WAYS };
 
-/* Adds a scatter plot of a case if its measure is the best one and its number of samples is the block's middle
-   one. */
-static void add_scatter(const koksma__cases *cases, void *context, const koksma__case *p)
+/* Writes a table of the means by group of scenes if the plan has groups, by scene if there are two or more, or by number of
+   samples if there are two or more. */
+static void add_parts(koksma__report *r, koksma__document *d, const koksma__topic *topic, const koksma__rho_means *s,
+                      enum by by)
 {
-    plots *to = context;
-    koksma__document *d = to->document;
-    koksma__pairs found;
-    if (!to->left || strcmp(p->of->label, to->measure) != 0 || p->spp != p->image->spp.at[p->image->spp.n / 2]) {
+    static const char *const names[] = {"group", "scene", "samples"};
+    static const char *const titles[] = {"By what dominates the scenes' error", "By scene", "By number of samples"};
+    const size_t counts[] = {topic->n_groups, s->n_scenes, s->n_sizes};
+    bool *scenes = koksma__report_memory(r, s->n_scenes, sizeof *scenes);
+    if (counts[by] < (by == GROUP ? 1 : 2)) {
         return;
     }
-    koksma__case_pairs(cases, p, &found);
+    koksma__doc_section(d, NULL, "%s", titles[by]);
+    koksma__doc_table(d, "correlation-%.10s-%.40s", names[by], topic->id);
+    koksma__doc_columns(d, "t %s;n7 cases;t best;t significantly worse than the best", names[by]);
+    for (size_t m = 0; m < s->n; m++) {
+        koksma__doc_columns(d, "i2 %s", s->of[m].measure);
+    }
+    for (size_t i = 0; !r->status && i < counts[by]; i++) {
+        char name[160], members[256] = "";
+        const koksma__rho_subset of = {by == SAMPLES ? NULL : scenes, by == SAMPLES ? s->sizes[i] : 0};
+        for (size_t k = 0; k < s->n_scenes; k++) {
+            scenes[k] = by == GROUP ? koksma__texts_have(&topic->groups[i].scenes, s->scenes[k]) : k == i;
+            if (scenes[k]) {
+                koksma__text_join(members, sizeof members, ", ", s->scenes[k]);
+            }
+        }
+        if (by == GROUP) {
+            snprintf(name, sizeof name, "%.70s (%.80s)", topic->groups[i].title, members);
+        } else if (by == SCENE) {
+            snprintf(name, sizeof name, "%.150s", s->scenes[i]);
+        } else {
+            snprintf(name, sizeof name, "%lld", s->sizes[i]);
+        }
+        add_part(r, d, s, name, &of);
+    }
+    koksma__doc_end(d);
+}
+
+/* Adds a scatter plot of a case. */
+static void add_scatter(koksma__report *r, koksma__document *d, const koksma__topic *topic, const one_case *p)
+{
+    pairs found;
     char title[256], name[KOKSMA__VARIANT_TEXT + 64];
+    read_pairs(r, topic, p, &found);
     koksma__case_name(p->scene, p->variant, name, sizeof name);
     koksma__snprintf(title, sizeof title, "%.120s, %lld sample%s: error against %.60s, Spearman %.2f", name, p->spp,
                      koksma__plural((double)p->spp), p->of->label, koksma__spearman(found.x, found.y, found.n));
-    koksma__doc_chart(d, &(koksma__chart){title, p->of->label, cases->topic->metric, true, true, 0, NULL});
+    koksma__doc_chart(d, &(koksma__chart){title, p->of->label, topic->metric, true, true, 0, NULL});
     for (size_t i = 0; i < found.n; i++) {
         koksma__doc_series(d, found.patterns[i], NULL, KOKSMA__SERIES_MARKS);
         koksma__doc_point(d, found.x[i], found.y[i], found.low[i], found.high[i]);
     }
-    to->left--;
-}
-
-/* Writes the sentence, tables and charts of the correlations, of which there must be at least one. Empties
-   l->list. */
-static void add_answer(koksma__document *d, const koksma__cases *cases, listing *l)
-{
-    koksma__report *r = cases->report;
-    koksma__rho_order(r, &l->means);
-    const koksma__rho_jackknife jackknife = koksma__rho_leave_out(r, &l->means);
-    if (r->status) {
-        return;
-    }
-    koksma__rho_say(d, &l->means, &jackknife);
-    say_limits(d, l);
-    add_measures(d, cases->topic->id, &l->means, &jackknife);
-    add_breakdowns(r, d, cases->topic, &l->means);
-    koksma__doc_collapsed_section(d, NULL, "Every case, with intervals");
-    koksma__doc_append(d, &l->list);
-    koksma__doc_end(d);
-    koksma__cases_visit(cases, add_scatter, &(plots){d, l->means.of[0].measure, 6});
 }
 
 void koksma__answer_correlation(koksma__report *r, koksma__document *d, const koksma__topic *topic)
 {
-    const koksma__cases cases = koksma__cases_of(r, topic);
-    listing l = {.most_patterns = 0};
-    koksma__doc_table(&l.list, "correlations-%.40s", topic->id);
-    koksma__doc_columns(&l.list, "t scene;t options;n7 samples;t measure;n7 patterns;i3 Spearman##%s;i3 Kendall##%s",
+    koksma__document list = {0};
+    koksma__rho_means means = {0};
+    size_t n = 0, most = 0;
+    const one_case *cases = list_cases(r, topic, &n);
+    koksma__doc_table(&list, "correlations-%.40s", topic->id);
+    koksma__doc_columns(&list, "t scene;t options;n7 samples;t measure;n7 patterns;i3 Spearman##%s;i3 Kendall##%s",
                         topic->metric, topic->metric);
-    koksma__cases_visit(&cases, list_case, &l);
-    if (!r->status && l.means.n) {
-        add_answer(d, &cases, &l);
+    for (size_t i = 0; !r->status && i < n; i++) {
+        const size_t patterns = add_case(r, &list, topic, &cases[i], &means);
+        most = patterns > most ? patterns : most;
     }
-    koksma__report_keep(r, l.list.json.status);
-    koksma__json_writer_fini(&l.list.json);
+    koksma__report_keep(r, list.json.status);
+    koksma__rho_order(r, &means);
+    const koksma__rho_jackknife jackknife = koksma__rho_leave_out(r, &means);
+    if (r->status || !means.n) {
+        koksma__json_writer_fini(&list.json);
+        return;
+    }
+    koksma__rho_say(d, &means, &jackknife);
+    if (most > MOST_PATTERNS) {
+        koksma__doc_paragraph(d,
+                              "A case has up to %zu patterns; correlations use only the first %d of them. `koksma "
+                              "study export` has the results of all.",
+                              most, MOST_PATTERNS);
+    }
+    if (means.n_variants > KOKSMA__RHO_VARIANTS) {
+        koksma__doc_paragraph(d,
+                              "%zu more combinations of options have no column here; the means include them, and the "
+                              "list of cases has them all.",
+                              means.n_variants - KOKSMA__RHO_VARIANTS);
+    }
+    add_measures(d, topic->id, &means, &jackknife);
+    for (enum by by = GROUP; by < WAYS; by++) {
+        add_parts(r, d, topic, &means, by);
+    }
+    koksma__doc_collapsed_section(d, NULL, "Every case, with intervals");
+    koksma__doc_append(d, &list);
+    koksma__doc_end(d);
+    for (size_t i = 0, plots = 0; i < n && plots < MOST_PLOTS; i++) {
+        if (!strcmp(cases[i].of->label, means.of[0].measure) &&
+            cases[i].spp == cases[i].image->spp.at[cases[i].image->spp.n / 2]) {
+            add_scatter(r, d, topic, &cases[i]);
+            plots++;
+        }
+    }
 }

@@ -145,29 +145,6 @@ static void say_power(koksma__document *d, const koksma__estimate *e)
     }
 }
 
-/* Whether pattern i is named before pattern j: those with narrower intervals first, those without an interval
-   last. */
-static bool is_known_better(const slopes *s, size_t i, size_t j)
-{
-    const double x = half(&s->trends[i].slope), y = half(&s->trends[j].slope);
-    return x < y || (isnan(y) && !isnan(x)) || (!(y < x) && isnan(x) == isnan(y) && i < j);
-}
-
-/* The next pattern to name after pattern `after`, among the patterns that may fall fastest; with after = n, the
-   first one. Returns n if there is none. */
-static size_t next_tied(const slopes *s, size_t after)
-{
-    const size_t n = s->of->patterns->n;
-    size_t next = n;
-    for (size_t i = 0; i < n; i++) {
-        if (may_be_fastest(s, i) && (after == n || is_known_better(s, after, i)) &&
-            (next == n || is_known_better(s, i, next))) {
-            next = i;
-        }
-    }
-    return next;
-}
-
 /* Writes what would separate two slopes: more trials, or more sizes if a pattern is deterministic and so has a
    single set of each size. */
 static void say_trials(koksma__document *d, const slopes *s, size_t a, size_t b)
@@ -187,29 +164,37 @@ static void say_trials(koksma__document *d, const slopes *s, size_t a, size_t b)
     }
 }
 
-/* Writes the patterns that may fall fastest, narrow intervals first; names at most NAMED of them. */
-static void say_tied(koksma__document *d, const slopes *s)
+/* Writes the patterns that may fall fastest, narrow intervals first and those without one last; names at most NAMED. */
+static void say_tied(koksma__report *r, koksma__document *d, const slopes *s)
 {
-    const size_t n = s->of->patterns->n;
-    size_t named = 0, at = n, first = n, second = n;
+    double *halves = koksma__report_memory(r, s->tied, sizeof *halves);
+    size_t *tied = koksma__report_memory(r, 2 * s->tied, sizeof *tied), *by = tied + s->tied, n = 0, named = 0;
+    for (size_t i = 0; !r->status && i < s->of->patterns->n; i++) {
+        if (may_be_fastest(s, i)) {
+            halves[n] = half(&s->trends[i].slope);
+            tied[n++] = i;
+        }
+    }
+    if (r->status) {
+        return;
+    }
+    koksma__order_means(halves, 1, n, false, by);
     koksma__doc_say(d, "undecided between %zu of %zu patterns: ", s->tied, s->counted);
-    while (named < NAMED && named < s->tied && (at = next_tied(s, at)) < n) {
+    for (; named < NAMED && named < n; named++) {
+        const size_t at = tied[by[named]];
         koksma__doc_say(d, "%s%s%s as ", named ? ", " : "", s->of->patterns->at[at], named ? "" : " falls");
         say_power(d, &s->trends[at].slope);
-        first = named == 0 ? at : first;
-        second = named == 1 ? at : second;
-        named++;
     }
-    if (s->tied > named) {
-        koksma__doc_say(d, ", and %zu more", s->tied - named);
+    if (n > named) {
+        koksma__doc_say(d, ", and %zu more", n - named);
     }
-    say_trials(d, s, first, first == s->best ? second : s->best);
+    say_trials(d, s, tied[by[0]], tied[by[0]] == s->best ? tied[by[1]] : s->best);
 }
 
-static void say_fastest(koksma__document *d, const slopes *s)
+static void say_fastest(koksma__report *r, koksma__document *d, const slopes *s)
 {
     if (s->tied > 1) {
-        say_tied(d, s);
+        say_tied(r, d, s);
     } else {
         koksma__doc_say(d, "%s falls %sas ", s->of->patterns->at[s->best], s->counted > 1 ? "fastest, " : "");
         say_power(d, &s->trends[s->best].slope);
@@ -240,7 +225,7 @@ static void say_zeros(koksma__document *d, const slopes *s)
 }
 
 /* Writes the sentence, unless no pattern has a slope and no mean is left out. */
-static void say_slopes(koksma__document *d, slopes *s)
+static void say_slopes(koksma__report *r, koksma__document *d, slopes *s)
 {
     bool zeros = false;
     count(s);
@@ -260,7 +245,7 @@ static void say_slopes(koksma__document *d, slopes *s)
                                ? "larger values are better, so patterns are not compared by how fast values fall"
                                : "values follow no power law in N, so patterns are not compared by their slopes");
     } else if (s->counted) {
-        say_fastest(d, s);
+        say_fastest(r, d, s);
     } else {
         koksma__doc_say(d, "no pattern has a slope");
     }
@@ -371,7 +356,7 @@ static void add_subject(koksma__report *r, koksma__document *d, const char *id, 
         koksma__doc_columns(&rows, "i3h N = %lld", of->n->at[i]);
     }
     add_rows(r, &rows, &chart, &s);
-    say_slopes(d, &s);
+    say_slopes(r, d, &s);
     koksma__doc_append(d, &rows);
     koksma__doc_append(d, &chart);
 }

@@ -26,11 +26,6 @@ typedef struct standing {
     char last[64]; /* head of the last column */
 } standing;
 
-static const koksma__summary *last_of(const standing *s, size_t pattern)
-{
-    return &s->means[(pattern + 1) * s->of->n->n - 1];
-}
-
 /* The name and the last mean of pattern i of the order. */
 static const char *name_at(const standing *s, size_t i)
 {
@@ -39,7 +34,7 @@ static const char *name_at(const standing *s, size_t i)
 
 static const koksma__summary *mean_at(const standing *s, size_t i)
 {
-    return last_of(s, s->by[i]);
+    return &s->means[(s->by[i] + 1) * s->of->n->n - 1];
 }
 
 static void name_column(const koksma__subject *s, size_t k, char text[64])
@@ -48,23 +43,6 @@ static void name_column(const koksma__subject *s, size_t k, char text[64])
         snprintf(text, 64, "%lld sample%s", s->n->at[k], koksma__plural((double)s->n->at[k]));
     } else {
         snprintf(text, 64, "N = %lld", s->n->at[k]);
-    }
-}
-
-static void order(standing *s)
-{
-    for (size_t p = 0; p < s->of->patterns->n; p++) {
-        const double mean = last_of(s, p)->mean;
-        size_t at = p;
-        for (; at > 0 && !isnan(mean); at--) {
-            const double before = last_of(s, s->by[at - 1])->mean;
-            if (at <= s->known && !(s->of->larger ? mean > before : mean < before)) {
-                break;
-            }
-            s->by[at] = s->by[at - 1];
-        }
-        s->by[at] = p;
-        s->known += !isnan(mean);
     }
 }
 
@@ -309,7 +287,8 @@ static void add_table(koksma__report *r, koksma__document *d, const char *id, si
     if (r->status) {
         return;
     }
-    order(&s);
+    s.known = koksma__order_means(&s.means[of->n->n - 1].mean, of->n->n * sizeof *s.means / sizeof(double),
+                                  of->patterns->n, of->larger, s.by);
     name_column(of, of->n->n - 1, s.last);
     koksma__doc_section(d, NULL, "%s", of->name);
     if (s.known > 1) {

@@ -32,6 +32,14 @@
         va_end(arguments);                                                                                           \
     } while (0)
 
+void koksma__text_join(char *text, size_t size, const char *between, const char *more)
+{
+    const size_t used = strlen(text);
+    if (used + strlen(between) + strlen(more) + 1 < size) {
+        snprintf(text + used, size - used, "%s%s", used ? between : "", more);
+    }
+}
+
 /* Writes a number with the fewest digits, from 15 to 17, that read back as the same number; null if it is not
    finite. */
 static void put_number(koksma__document *d, const char *key, double value)

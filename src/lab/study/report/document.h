@@ -44,6 +44,10 @@ static inline const char *koksma__plural(double n)
     return n == 1 ? "" : "s";
 }
 
+/* Appends `more` to a list in a text of limited size, after `between` unless it is the first; nothing if they do not
+   fit. */
+void koksma__text_join(char *text, size_t size, const char *between, const char *more);
+
 /* ---- Words ------------------------------------------------------------------------------------------------- */
 
 /* Appends words to the open heading, paragraph, item or caption. The marks in `format` (not in its arguments) give

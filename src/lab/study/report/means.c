@@ -211,6 +211,25 @@ koksma__summary *koksma__read_means(koksma__report *r, const koksma__subject *s)
     return means;
 }
 
+size_t koksma__order_means(const double *values, size_t stride, size_t n, bool descending, size_t *order)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double value = values[stride * i];
+        size_t at = i;
+        for (; at > 0 && !isnan(value); at--) {
+            const int above = koksma__compare(values[stride * order[at - 1]], value);
+            if (at <= known && (descending ? -above : above) <= 0) {
+                break;
+            }
+            order[at] = order[at - 1];
+        }
+        order[at] = i;
+        known += !isnan(value);
+    }
+    return known;
+}
+
 koksma__curve koksma__curve_of(koksma__report *r, size_t most)
 {
     return (koksma__curve){0, koksma__report_memory(r, most, sizeof(double)),

@@ -112,6 +112,10 @@ koksma__estimate koksma__estimate_of(const koksma__summary *summary);
 /* Writes the name of a scene with its options, such as "checker, filter=tent". */
 void koksma__case_name(const char *scene, const char *variant, char *text, size_t size);
 
+/* Orders n values, `stride` apart: the least first (descending: the largest), those that koksma__compare finds equal as
+   they come, and unknown ones (NaN) last. Returns the number of those that are known. */
+size_t koksma__order_means(const double *values, size_t stride, size_t n, bool descending, size_t *order);
+
 /* ---- Pictures and their coherence -------------------------------------------------------------------------- */
 
 /*
@@ -251,61 +255,5 @@ bool koksma__topic_subject(const koksma__topic *topic, size_t i, bool by_warp, k
     void koksma__answer_##name(koksma__report *r, koksma__document *d, const koksma__topic *topic);
 #include "study/plan/questions.def"
 #undef QUESTION
-
-/* ---- Cases: a measure of points beside the error of images ------------------------------------------------- */
-
-/*
- * The cases in which a question correlates a measure of points with the error of images. A case is a measure in a
- * number of dimensions, and a scene with its options and number of samples. Several blocks with one id may contain
- * the same case; the case then has the patterns of all these blocks.
- */
-
-/* Maximum number of patterns of a case, because the time of the bootstrap grows with the square of that number. */
-enum { KOKSMA__CASE_PATTERNS = 256 };
-
-/* A measure of points of `dim` dimensions; the same measure in two and in three dimensions counts as two measures. */
-typedef struct koksma__measured {
-    const char *measure;
-    int dim;
-    bool larger;                      /* whether larger values of the measure are better */
-    char label[KOKSMA_MAX_SPEC + 16]; /* "l2-star", "l2-star (3D)" */
-} koksma__measured;
-
-typedef struct koksma__cases {
-    koksma__report *report;
-    const koksma__topic *topic;
-    size_t n;
-    koksma__measured *measured; /* in the order of the topic's blocks */
-} koksma__cases;
-
-typedef struct koksma__case {
-    const koksma__image_block *image; /* the first block that renders the case */
-    const char *scene, *variant;
-    long long spp;
-    const koksma__measured *of;
-} koksma__case;
-
-/* For each pattern of a case: the mean x of the measure, and the mean y of the image error with its interval low ..
-   high. */
-typedef struct koksma__pairs {
-    size_t n,
-        /* patterns_in_all counts all patterns, even those without results or beyond KOKSMA__CASE_PATTERNS */
-        patterns_in_all;
-    double x[KOKSMA__CASE_PATTERNS], y[KOKSMA__CASE_PATTERNS], low[KOKSMA__CASE_PATTERNS],
-        high[KOKSMA__CASE_PATTERNS];
-    double x_error[KOKSMA__CASE_PATTERNS], y_error[KOKSMA__CASE_PATTERNS]; /* standard errors of the means */
-    const char *patterns[KOKSMA__CASE_PATTERNS];
-} koksma__pairs;
-
-/* Lists the measures that the blocks of a topic evaluate without a warp, each once for a number of dimensions, in the
-   report's memory. */
-koksma__cases koksma__cases_of(koksma__report *r, const koksma__topic *topic);
-
-/* Calls `visit` once for every case: every combination of scene, variant, number of samples and measure. */
-typedef void (*koksma__case_visitor)(const koksma__cases *cases, void *context, const koksma__case *at);
-void koksma__cases_visit(const koksma__cases *cases, koksma__case_visitor visit, void *context);
-
-/* Reads the means of a case for all patterns that have results of both the measure and the image error. */
-void koksma__case_pairs(const koksma__cases *cases, const koksma__case *at, koksma__pairs *out);
 
 #endif

@@ -11,25 +11,12 @@
 #include "study/report/rho.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
 
-/* Finds or adds the sums of a measure; NULL: no memory. */
-static koksma__rho_sums *sums_of(koksma__report *r, koksma__rho_means *s, const char *measure)
-{
-    for (size_t m = 0; m < s->n; m++) {
-        if (!strcmp(s->of[m].measure, measure)) {
-            return &s->of[m];
-        }
-    }
-    koksma__rho_sums *of = koksma__report_add(r, &s->of, &s->n, sizeof *of);
-    if (of) {
-        of->measure = measure;
-    }
-    return of;
-}
-
+/* The index of a text in a list of them, to which it is added if it is not there. */
 static size_t index_of(koksma__report *r, const char ***texts, size_t *n, const char *text)
 {
     size_t i = 0;
@@ -43,33 +30,32 @@ static size_t index_of(koksma__report *r, const char ***texts, size_t *n, const 
     return i;
 }
 
-static void add_size(koksma__report *r, koksma__rho_means *s, long long spp)
+/* Finds or adds the sums of a measure, and their cell of a scene and a number of samples; NULL: no memory. */
+static koksma__rho_cell *cell_of(koksma__report *r, koksma__rho_means *s, const koksma__rho_source *source,
+                                 size_t scene, koksma__rho_sums **of)
 {
-    for (size_t i = 0; i < s->n_sizes; i++) {
-        if (s->sizes[i] == spp) {
-            return;
-        }
+    size_t m = 0, c = 0;
+    while (m < s->n && strcmp(s->of[m].measure, source->measure) != 0) {
+        m++;
     }
-    long long *size = koksma__report_add(r, &s->sizes, &s->n_sizes, sizeof *size);
-    if (size) {
-        *size = spp;
+    if (m == s->n && (*of = koksma__report_add(r, &s->of, &s->n, sizeof **of))) {
+        (*of)->measure = source->measure;
     }
-}
-
-/* Finds or adds the cell of a scene and a number of samples; NULL: no memory. */
-static koksma__rho_cell *cell_of(koksma__report *r, koksma__rho_sums *of, size_t scene, long long spp)
-{
-    for (size_t c = 0; c < of->n_cells; c++) {
-        if (of->cells[c].scene == scene && of->cells[c].spp == spp) {
-            return &of->cells[c];
-        }
+    if (r->status) {
+        return NULL;
     }
-    koksma__rho_cell *cell = koksma__report_add(r, &of->cells, &of->n_cells, sizeof *cell);
+    *of = &s->of[m];
+    while (c < (*of)->n_cells && ((*of)->cells[c].scene != scene || (*of)->cells[c].spp != source->spp)) {
+        c++;
+    }
+    koksma__rho_cell *cell =
+        c < (*of)->n_cells ? NULL : koksma__report_add(r, &(*of)->cells, &(*of)->n_cells, sizeof *cell);
     if (cell) {
-        *cell = (koksma__rho_cell){
-            .scene = scene, .spp = spp, .draws = koksma__report_memory(r, KOKSMA__RHO_SAMPLES, sizeof *cell->draws)};
+        *cell = (koksma__rho_cell){.scene = scene,
+                                   .spp = source->spp,
+                                   .draws = koksma__report_memory(r, KOKSMA__RHO_SAMPLES, sizeof *cell->draws)};
     }
-    return r->status ? NULL : cell;
+    return r->status ? NULL : &(*of)->cells[c];
 }
 
 koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns)
@@ -81,14 +67,19 @@ koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_pattern
 void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const koksma__rho_source *source,
                      const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES])
 {
-    koksma__rho_sums *of = sums_of(r, s, source->measure);
+    koksma__rho_sums *of;
     const size_t v = index_of(r, &s->variants, &s->n_variants, source->variant),
                  scene = index_of(r, &s->scenes, &s->n_scenes, source->scene);
-    add_size(r, s, source->spp);
-    koksma__rho_cell *cell = of ? cell_of(r, of, scene, source->spp) : NULL;
+    size_t k = 0;
+    while (k < s->n_sizes && s->sizes[k] != source->spp) {
+        k++;
+    }
+    long long *size = k < s->n_sizes ? NULL : koksma__report_add(r, &s->sizes, &s->n_sizes, sizeof *size);
+    koksma__rho_cell *cell = cell_of(r, s, source, scene, &of);
     if (!cell) {
         return;
     }
+    s->sizes[k] = source->spp;
     const bool few = source->n_patterns < KOKSMA__LEAST_PAIRS;
     cell->total += rho->value;
     cell->all++;
@@ -107,30 +98,33 @@ void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const koksma__rho_
     }
 }
 
-static double mean_rho(const koksma__rho_sums *m)
+static int compare_sizes(const void *a, const void *b)
 {
-    return m->all ? m->total / (double)m->all : (double)NAN;
+    const long long x = *(const long long *)a, y = *(const long long *)b;
+    return x > y ? 1 : -(x < y);
 }
 
-/* Uses insertion sort, because measures and numbers of samples are few. */
+static double mean_of(const koksma__rho_sums *m)
+{
+    return m->total / (double)m->all;
+}
+
 void koksma__rho_order(koksma__report *r, koksma__rho_means *s)
 {
+    koksma__rho_sums *sorted = koksma__report_memory(r, s->n, sizeof *sorted);
+    double *means = koksma__report_memory(r, s->n, sizeof *means);
+    size_t *order = koksma__report_memory(r, s->n, sizeof *order);
     s->draws = koksma__report_memory(r, s->n * KOKSMA__RHO_SAMPLES, sizeof *s->draws);
-    for (size_t m = 1; m < s->n; m++) {
-        const koksma__rho_sums of = s->of[m];
-        size_t at = m;
-        for (; at > 0 && koksma__compare(mean_rho(&s->of[at - 1]), mean_rho(&of)) < 0; at--) {
-            s->of[at] = s->of[at - 1];
-        }
-        s->of[at] = of;
+    for (size_t m = 0; !r->status && m < s->n; m++) {
+        means[m] = mean_of(&s->of[m]);
     }
-    for (size_t k = 1; k < s->n_sizes; k++) {
-        const long long size = s->sizes[k];
-        size_t at = k;
-        for (; at > 0 && s->sizes[at - 1] > size; at--) {
-            s->sizes[at] = s->sizes[at - 1];
+    if (!r->status && s->n) {
+        koksma__order_means(means, 1, s->n, true, order);
+        for (size_t m = 0; m < s->n; m++) {
+            sorted[m] = s->of[order[m]];
         }
-        s->sizes[at] = size;
+        s->of = sorted;
+        qsort(s->sizes, s->n_sizes, sizeof *s->sizes, compare_sizes);
     }
 }
 
@@ -176,62 +170,37 @@ static void stand(koksma__report *r, const koksma__rho_sums *m, const koksma__rh
     }
 }
 
-/* Finds by how much each mean is less than the first, and adjusts the p-values of the means by Holm's method. */
-static void compare_means(koksma__report *r, koksma__rho_ranking *k, double *const *draws)
+/* Finds by how much each mean is less than the first, and adjusts the p-values of the means, and of all pairs of
+   measures that can be compared, by Holm's method. draws[i]: the resamples of mean i of the ranking. */
+static void compare(koksma__report *r, koksma__rho_ranking *k, double *const *draws)
 {
-    double *p = koksma__report_memory(r, k->n, sizeof *p);
-    for (size_t i = 0; p && i < k->n; i++) {
-        p[i] = k->at[i].p;
-    }
-    koksma__report_keep(r, p ? koksma__holm(p, k->n) : r->status);
-    for (size_t i = 0; !r->status && i < k->n; i++) {
+    const size_t n = k->n;
+    double *p = koksma__report_memory(r, n * (n + 1), sizeof *p), *pairs = p + n;
+    for (size_t i = 0; koksma__report_goes_on(r) && i < n; i++) {
         const koksma__draws mean = {k->at[i].mean.value, 1, draws[i]}, first = {k->at[0].mean.value, 1, draws[0]};
-        k->at[i].p = p[i];
         koksma__report_keep(r, koksma__bootstrap_difference(&mean, &first, KOKSMA__RHO_SAMPLES, &k->at[i].less));
         if (i == 0 || isnan(k->at[i].mean.low) || isnan(k->at[0].mean.low)) {
             k->at[i].less.low = k->at[i].less.high = NAN;
         }
-    }
-}
-
-/* Computes the p-values of all pairs of measures that can be compared, adjusted by Holm's method. */
-static void compare_pairs(koksma__report *r, koksma__rho_ranking *k, double *const *draws)
-{
-    const size_t n = k->n;
-    double *p = koksma__report_memory(r, n * n, sizeof *p);
-    for (size_t a = 0; koksma__report_goes_on(r) && a < n; a++) {
-        for (size_t b = a; b < n; b++) {
-            const koksma__rho_standing *x = &k->at[a], *y = &k->at[b];
-            const bool compared = a != b && x->cases == y->cases && !isnan(x->mean.low) && !isnan(y->mean.low);
-            k->p[a * n + b] = k->p[b * n + a] = compared ? 1 : (double)NAN;
+        p[i] = k->at[i].p;
+        for (size_t j = i; j < n; j++) {
+            const koksma__rho_standing *x = &k->at[i], *y = &k->at[j];
+            const bool compared = i != j && x->cases == y->cases && !isnan(x->mean.low) && !isnan(y->mean.low);
+            k->p[i * n + j] = k->p[j * n + i] = compared ? 1 : (double)NAN;
             if (compared) {
-                p[k->n_pairs++] = koksma__resampled_p(draws[a], 1, draws[b], 1, KOKSMA__RHO_SAMPLES);
+                pairs[k->n_pairs++] = koksma__resampled_p(draws[i], 1, draws[j], 1, KOKSMA__RHO_SAMPLES);
             }
         }
     }
-    koksma__report_keep(r, p ? koksma__holm(p, k->n_pairs) : r->status);
-    for (size_t a = 0, next = 0; !r->status && a < n; a++) {
-        for (size_t b = a + 1; b < n; b++) {
-            if (!isnan(k->p[a * n + b])) {
-                k->p[a * n + b] = k->p[b * n + a] = p[next++];
+    koksma__report_keep(r, r->status ? r->status : koksma__holm(p, n));
+    koksma__report_keep(r, r->status ? r->status : koksma__holm(pairs, k->n_pairs));
+    for (size_t i = 0, next = 0; !r->status && i < n; i++) {
+        k->at[i].p = p[i];
+        for (size_t j = i + 1; j < n; j++) {
+            if (!isnan(k->p[i * n + j])) {
+                k->p[i * n + j] = k->p[j * n + i] = pairs[next++];
             }
         }
-    }
-}
-
-/* Sorts the standings and their resamples by mean. */
-static void order(koksma__rho_ranking *r, double **draws)
-{
-    for (size_t m = 1; m < r->n; m++) {
-        const koksma__rho_standing of = r->at[m];
-        double *values = draws[m];
-        size_t at = m;
-        for (; at > 0 && koksma__compare(r->at[at - 1].mean.value, of.mean.value) < 0; at--) {
-            r->at[at] = r->at[at - 1];
-            draws[at] = draws[at - 1];
-        }
-        r->at[at] = of;
-        draws[at] = values;
     }
 }
 
@@ -240,23 +209,29 @@ koksma__rho_ranking koksma__rho_rank(koksma__report *r, const koksma__rho_means 
     koksma__rho_ranking k = {.at = koksma__report_memory(r, s->n, sizeof *k.at),
                              .place = koksma__report_memory(r, s->n, sizeof *k.place),
                              .p = koksma__report_memory(r, s->n * s->n, sizeof *k.p)};
+    koksma__rho_standing *found = koksma__report_memory(r, s->n, sizeof *found);
     double **draws = koksma__report_memory(r, s->n, sizeof *draws);
+    double *means = koksma__report_memory(r, s->n, sizeof *means);
+    size_t *order = koksma__report_memory(r, s->n, sizeof *order);
     for (size_t m = 0; koksma__report_goes_on(r) && m < s->n; m++) {
-        koksma__rho_standing *standing = &k.at[k.n];
-        *standing = (koksma__rho_standing){.measure = m};
-        draws[k.n] = s->draws + k.n * KOKSMA__RHO_SAMPLES;
-        stand(r, &s->of[m], of, draws[k.n], standing);
-        k.n += standing->cases > 0;
+        stand(r, &s->of[m], of, s->draws + k.n * KOKSMA__RHO_SAMPLES, &found[k.n]);
+        found[k.n].measure = m;
+        means[k.n] = found[k.n].mean.value;
+        k.n += found[k.n].cases > 0;
     }
-    order(&k, draws);
-    compare_means(r, &k, draws);
-    compare_pairs(r, &k, draws);
-    for (size_t m = 0; !r->status && m < s->n; m++) {
+    if (r->status) {
+        return (koksma__rho_ranking){0};
+    }
+    koksma__order_means(means, 1, k.n, true, order);
+    for (size_t m = 0; m < s->n; m++) {
         k.place[m] = k.n;
     }
-    for (size_t i = 0; !r->status && i < k.n; i++) {
+    for (size_t i = 0; i < k.n; i++) {
+        k.at[i] = found[order[i]];
+        draws[i] = s->draws + order[i] * KOKSMA__RHO_SAMPLES;
         k.place[k.at[i].measure] = i;
     }
+    compare(r, &k, draws);
     return r->status ? (koksma__rho_ranking){0} : k;
 }
 
@@ -316,11 +291,6 @@ koksma__estimate koksma__rho_range(const koksma__rho_jackknife *j, size_t measur
 }
 
 /* ---- Words ------------------------------------------------------------------------------------------------- */
-
-static double mean_of(const koksma__rho_sums *of)
-{
-    return of->total / (double)of->all;
-}
 
 /* The text before item i of n in an enumeration such as "a, b and c". */
 static const char *between(size_t i, size_t n)
