@@ -55,13 +55,12 @@ koksma_status koksma__plan_own(koksma__plan *p)
     }
     *part = (koksma__plan_part){.title = title,
                                 .about = about,
-                                .order = p->order,
                                 .metric = p->metric,
                                 .asks = p->n_tables || p->n_questions,
                                 .discrepancies = {0, p->n_discrepancies},
                                 .images = {0, p->n_images},
                                 .figures = {0, p->n_figures}};
-    p->order = p->metric = NULL;
+    p->metric = NULL;
     p->parts = part;
     p->n_parts = 1;
     return KOKSMA_OK;
@@ -202,12 +201,11 @@ void koksma__plan_fini(koksma__plan *p)
     for (size_t i = 0; i < p->n_parts; i++) {
         free(p->parts[i].title);
         free(p->parts[i].about);
-        free(p->parts[i].order);
         free(p->parts[i].metric);
     }
     koksma__texts_fini(&p->metrics);
     KOKSMA__FREE(p->parts, p->questions, p->conclusions, p->discrepancies, p->images, p->tables, p->figures, p->name,
-                 p->title, p->about, p->order, p->metric);
+                 p->title, p->about, p->metric);
     *p = (koksma__plan){0};
 }
 

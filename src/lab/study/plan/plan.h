@@ -215,8 +215,7 @@ typedef struct koksma__conclusion {
 /* One of the plans that were joined into one. Its tables and questions refer only to its own blocks. */
 typedef struct koksma__plan_part {
     char *title;
-    /* order: the overall order of the patterns as the paper prints it; either text may be NULL */
-    char *about, *order;
+    char *about;             /* may be NULL */
     char *metric;            /* canonical spec of the metric that ranks patterns */
     bool asks;               /* whether the part's plan has tables or questions */
     size_t discrepancies[2]; /* indices of the part's blocks: the index of the first, and 1 + the index of the last */
@@ -226,8 +225,7 @@ typedef struct koksma__plan_part {
 
 typedef struct koksma__plan {
     char *name, *title, *about;
-    /* order of the patterns, and the metric that ranks them; set while the plan is parsed and then moved to its part */
-    char *order, *metric;
+    char *metric;          /* that ranks the patterns; set while the plan is parsed and then moved to its part */
     koksma__texts metrics; /* further metrics that the plan names; used only while the plan is parsed */
     size_t n_parts, n_discrepancies, n_images, n_tables, n_figures, n_questions, n_conclusions;
     koksma__plan_part *parts;

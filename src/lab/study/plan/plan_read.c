@@ -454,14 +454,13 @@ static koksma_status check_ids(const koksma__json_node *root, const char *key)
 
 static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
 {
-    static const char *const keys[] = {"comment",       "name",    "title",       "about",   "order",
-                                       "discrepancies", "images",  "tables",      "figures", "questions",
-                                       "metric",        "metrics", "conclusions", NULL};
+    static const char *const keys[] = {"comment", "name",        "title",   "about",     "discrepancies",
+                                       "images",  "tables",      "figures", "questions", "metric",
+                                       "metrics", "conclusions", NULL};
     koksma_status status = koksma__json_only(root, keys);
     status = status ? status : koksma__plan_text(root, "name", true, &p->name);
     status = status ? status : koksma__plan_text(root, "title", true, &p->title);
     status = status ? status : koksma__plan_text(root, "about", false, &p->about);
-    status = status ? status : koksma__plan_text(root, "order", false, &p->order);
 #define LIST(items, parser)                                                                                          \
     status = status ? status                                                                                         \
                     : koksma__plan_list(root, #items, false, sizeof *p->items, parser, trials, (void **)&p->items,   \

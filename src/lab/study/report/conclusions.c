@@ -15,31 +15,36 @@
 #include "study/plan/plan.h"
 #include "study/report/report.h"
 
-/* The number of tests that a conclusion passes, of those that its rows allow; rows that are missing count as `open`. */
-typedef struct tested {
+/* A conclusion that is being judged: the words of the result and those of the evidence (whole sentences, each with a
+   space behind it), the number of tests that it passes, and of those that its rows allow; rows that are missing count as
+   `open`. */
+typedef struct judged {
+    koksma__report *r;
+    const koksma__conclusion *c;
+    koksma__document words, more;
     size_t passed, tests, open;
-    size_t other;          /* comparisons by another procedure than that of the printed numbers: no tests */
-    koksma__document more; /* words of the evidence: whole sentences, each with a space behind it */
-} tested;
+    size_t other; /* comparisons by another procedure than that of the printed numbers: no tests */
+} judged;
 
-static void test(tested *t, bool passes)
+static void test(judged *j, bool passes)
 {
-    t->tests++;
-    t->passed += passes;
+    j->tests++;
+    j->passed += passes;
 }
 
-/* The table of a conclusion's plan with this id. */
-static const koksma__table *table_of(const koksma__report *r, const koksma__conclusion *c, const char *id)
+/* The table of the conclusion's plan with this id. */
+static const koksma__table *table_of(const judged *j, const char *id)
 {
-    return koksma__plan_table_of(&r->study->plan, c->part, id);
+    return koksma__plan_table_of(&j->r->study->plan, j->c->part, id);
 }
 
 /* Writes the label of a pattern in the first table of the conclusion's plan that has it, or the pattern's spec. */
-static void say_label(koksma__document *d, const koksma__report *r, const koksma__conclusion *c, const char *pattern)
+static void say_label(const judged *j, koksma__document *d, const char *pattern)
 {
-    for (size_t i = 0; i < r->study->plan.n_tables; i++) {
-        const koksma__table *t = &r->study->plan.tables[i];
-        const koksma__table_row *row = t->part == c->part ? koksma__plan_row_of(t, pattern) : NULL;
+    const koksma__plan *plan = &j->r->study->plan;
+    for (size_t i = 0; i < plan->n_tables; i++) {
+        const koksma__table *t = &plan->tables[i];
+        const koksma__table_row *row = t->part == j->c->part ? koksma__plan_row_of(t, pattern) : NULL;
         if (row) {
             koksma__doc_say(d, "%s", row->label);
             return;
@@ -65,26 +70,23 @@ static const char *judged_by(const koksma__table *t)
     return t->also && koksma__table_is_over_n(t) && !is_other(t, 0) ? t->also : t->measure;
 }
 
-/* Our mean, and the printed one, of a table's row at column k; NaN: none. */
-typedef struct pair {
-    double ours, printed;
-} pair;
-
-static pair means_of(koksma__report *r, const koksma__table *t, const char *pattern, size_t k)
+/* Our mean [0], and the printed one [1], of a table's row at column k; NaN: none. */
+static void means_of(const judged *j, const koksma__table *t, const char *pattern, size_t k, double means[2])
 {
-    const koksma__cell cell = t->scene ? koksma__table_cell(r, t, pattern, k)
-                                       : koksma__points_cell(r, t, judged_by(t), pattern, t->n.at[k]);
-    return (pair){cell.mean.n ? cell.mean.mean : (double)NAN, koksma__plan_row_of(t, pattern)->published[k].value};
+    const koksma__cell cell = t->scene ? koksma__table_cell(j->r, t, pattern, k)
+                                       : koksma__points_cell(j->r, t, judged_by(t), pattern, t->n.at[k]);
+    means[0] = cell.mean.n ? cell.mean.mean : (double)NAN;
+    means[1] = koksma__plan_row_of(t, pattern)->published[k].value;
 }
 
-/* The means of all patterns of a conclusion in a table, in lists of ours and of printed ones. */
-static void list_means(koksma__report *r, const koksma__conclusion *c, const koksma__table *t, double *ours,
-                       double *printed)
+/* The means of all patterns of a conclusion in a table: ours, followed by the printed ones. */
+static void list_means(const judged *j, const koksma__table *t, double *means)
 {
-    for (size_t i = 0; i < c->patterns.n; i++) {
-        const pair means = means_of(r, t, c->patterns.at[i], 0);
-        ours[i] = means.ours;
-        printed[i] = means.printed;
+    for (size_t i = 0; i < j->c->patterns.n; i++) {
+        double both[2];
+        means_of(j, t, j->c->patterns.at[i], 0, both);
+        means[i] = both[0];
+        means[j->c->patterns.n + i] = both[1];
     }
 }
 
@@ -134,155 +136,151 @@ static bool overlap(const koksma__summary *x, const koksma__summary *y)
 }
 
 /* Names the pairs of means in the tables whose intervals overlap, so that chance may have ranked them. */
-static void say_overlaps(koksma__report *r, koksma__document *d, const koksma__conclusion *c)
+static void say_overlaps(judged *j)
 {
+    const koksma__texts *patterns = &j->c->patterns;
+    const size_t n = patterns->n;
     size_t said = 0;
-    for (size_t t = 0; t < c->tables.n; t++) {
-        const koksma__table *of = table_of(r, c, c->tables.at[t]);
-        for (size_t i = 0; i < c->patterns.n; i++) {
-            const koksma__summary x = koksma__table_cell(r, of, c->patterns.at[i], 0).mean;
-            for (size_t k = i + 1; k < c->patterns.n; k++) {
-                const koksma__summary y = koksma__table_cell(r, of, c->patterns.at[k], 0).mean;
-                if (overlap(&x, &y)) {
-                    koksma__doc_say(d, said++ ? "; " : "Chance may have ranked, as their intervals overlap: ");
-                    say_label(d, r, c, c->patterns.at[i]);
-                    koksma__doc_say(d, " and ");
-                    say_label(d, r, c, c->patterns.at[k]);
-                    koksma__doc_say(d, " in %s", of->id);
-                }
+    for (size_t t = 0; t < j->c->tables.n; t++) {
+        const koksma__table *of = table_of(j, j->c->tables.at[t]);
+        for (size_t i = 0; i < n * n; i++) {
+            if (i / n >= i % n) {
+                continue;
+            }
+            const koksma__summary x = koksma__table_cell(j->r, of, patterns->at[i / n], 0).mean,
+                                  y = koksma__table_cell(j->r, of, patterns->at[i % n], 0).mean;
+            if (overlap(&x, &y)) {
+                koksma__doc_say(&j->more, said++ ? "; " : "Chance may have ranked, as their intervals overlap: ");
+                say_label(j, &j->more, patterns->at[i / n]);
+                koksma__doc_say(&j->more, " and ");
+                say_label(j, &j->more, patterns->at[i % n]);
+                koksma__doc_say(&j->more, " in %s", of->id);
             }
         }
     }
-    koksma__doc_say(d, said ? ". " : "");
+    koksma__doc_say(&j->more, said ? ". " : "");
 }
 
 /* Each pattern's mean rank over the tables, by our means against the paper's reference, must not fall along that order:
    each neighbouring pair is a test. Beside it stands Spearman's correlation of the printed with our means. */
-static void conclude_order(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+static void conclude_order(judged *j)
 {
-    const size_t n = c->patterns.n, tables = c->tables.n;
-    double *ranks = koksma__report_memory(r, 3 * n + tables, sizeof *ranks);
+    const size_t n = j->c->patterns.n, tables = j->c->tables.n;
+    double *ranks = koksma__report_memory(j->r, 3 * n, sizeof *ranks), *means = ranks + n;
+    bool tied = false;
     if (!ranks) {
         return;
     }
-    double *ours = ranks + n, *printed = ours + n, *rho = printed + n;
+    say_overlaps(j);
+    koksma__doc_say(&j->more, "Rank correlation of the printed means with ours: ");
     for (size_t t = 0; t < tables; t++) {
-        list_means(r, c, table_of(r, c, c->tables.at[t]), ours, printed);
-        rho[t] = koksma__spearman(ours, printed, n);
-        add_ranks(ours, n, ranks);
+        list_means(j, table_of(j, j->c->tables.at[t]), means);
+        add_ranks(means, n, ranks);
         for (size_t i = 0; i < n; i++) {
-            all->open += isnan(ours[i]);
+            j->open += isnan(means[i]);
         }
+        koksma__doc_say(&j->more, "%s%.2f in %s%s", t ? "; " : "", koksma__spearman(means, means + n, n),
+                        t ? "" : "table ", j->c->tables.at[t]);
     }
-    bool tied = false;
-    say_overlaps(r, &all->more, c);
-    koksma__doc_say(&all->more, "Rank correlation of the printed means with ours: ");
-    for (size_t t = 0; t < tables; t++) {
-        koksma__doc_say(&all->more, "%s%.2f in %s%s", t ? "; " : "", rho[t], t ? "" : "table ", c->tables.at[t]);
-    }
-    koksma__doc_say(&all->more, ". ");
-    koksma__doc_say(d, "Ours by mean rank: ");
+    koksma__doc_say(&j->more, ". ");
+    koksma__doc_say(&j->words, "Ours by mean rank: ");
     for (size_t i = 0; i < n; i++) {
         if (i) {
-            const bool falls = ranks[i - 1] > ranks[i] * (1 + 1e-12),
-                       equal = !falls && ranks[i - 1] > ranks[i] * (1 - 1e-12);
-            test(all, !falls);
-            tied |= equal;
-            koksma__doc_say(d, "%s", falls ? " > " : equal ? " = " : " < ");
+            const int change = ranks[i - 1] > ranks[i] * (1 + 1e-12)   ? -1
+                               : ranks[i - 1] > ranks[i] * (1 - 1e-12) ? 0
+                                                                       : 1;
+            test(j, change >= 0);
+            tied |= !change;
+            koksma__doc_say(&j->words, "%s", change < 0 ? " > " : change ? " < " : " = ");
         }
-        say_label(d, r, c, c->patterns.at[i]);
-        koksma__doc_say(d, " %.3g", ranks[i] / (double)tables);
+        say_label(j, &j->words, j->c->patterns.at[i]);
+        koksma__doc_say(&j->words, " %.3g", ranks[i] / (double)tables);
     }
-    koksma__doc_say(d, "%s.", tied ? " (equal ranks neither confirm nor deny their order)" : "");
+    koksma__doc_say(&j->words, "%s.", tied ? " (equal ranks neither confirm nor deny their order)" : "");
 }
 
 /* ---- best: the first pattern has the least error ----------------------------------------------------------- */
 
-/* Whether a pattern has the least SD (1) or maximum (2) of a table, in ours [0] and in print [1]. */
-static void find_least(koksma__report *r, const koksma__table *t, const char *pattern, int statistic, size_t least[2])
-{
-    double best[2] = {INFINITY, INFINITY}, own[2] = {NAN, NAN};
-    for (size_t i = 0; i < t->n_rows; i++) {
-        const koksma__cell cell = koksma__table_cell(r, t, t->rows[i].pattern, 0);
-        const double values[] = {statistic == 1 ? cell.sd : cell.max, t->rows[i].published[statistic].value};
-        for (size_t k = 0; k < 2; k++) {
-            best[k] = fmin(best[k], values[k]);
-            own[k] = strcmp(t->rows[i].pattern, pattern) ? own[k] : values[k];
-        }
-    }
-    for (size_t k = 0; k < 2; k++) {
-        least[k] += own[k] <= best[k];
-    }
-}
-
 /* In the tables where it has not, only the patterns of `against` have less: each table is a test. More than half of the
-   tables must have it first, which is one more test. SD and maximum stand beside it. */
-static void conclude_best(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+   tables must have it first, which is one more test. In how many its SD [1] and maximum [2] are least, in ours [0] and in
+   print [1], stands beside it. */
+static void conclude_best(judged *j)
 {
-    size_t first = 0, by_sd[2] = {0}, by_max[2] = {0};
-    for (size_t k = 0; k < c->tables.n; k++) {
-        const koksma__table *t = table_of(r, c, c->tables.at[k]);
-        const double best = means_of(r, t, c->patterns.at[0], 0).ours;
+    const char *pattern = j->c->patterns.at[0];
+    size_t first = 0, least[3][2] = {{0}};
+    for (size_t k = 0; k < j->c->tables.n; k++) {
+        const koksma__table *t = table_of(j, j->c->tables.at[k]);
+        double best[3][2], own[3][2], ours[2];
         size_t before = 0, unexpected = 0;
-        koksma__doc_say(&all->more, "Table %s: ", t->id);
+        means_of(j, t, pattern, 0, ours);
+        koksma__doc_say(&j->more, "Table %s: ", t->id);
         for (size_t i = 0; i < t->n_rows; i++) {
             const koksma__table_row *row = &t->rows[i];
-            const double mean = means_of(r, t, row->pattern, 0).ours;
-            all->open += isnan(mean);
-            if (mean < best) {
-                koksma__doc_say(&all->more, "%s%s", before++ ? "; " : "after ", row->label);
-                unexpected += !koksma__texts_have(&c->against, row->pattern);
+            const koksma__cell cell = koksma__table_cell(j->r, t, row->pattern, 0);
+            const double values[] = {cell.mean.mean, cell.sd, cell.max};
+            double mean[2];
+            means_of(j, t, row->pattern, 0, mean);
+            j->open += isnan(mean[0]);
+            if (mean[0] < ours[0]) {
+                koksma__doc_say(&j->more, "%s%s", before++ ? "; " : "after ", row->label);
+                unexpected += !koksma__texts_have(&j->c->against, row->pattern);
+            }
+            for (size_t s = 0; s < 6; s++) {
+                const double value = s % 2 ? row->published[s / 2].value : values[s / 2];
+                best[s / 2][s % 2] = fmin(i ? best[s / 2][s % 2] : INFINITY, value);
+                own[s / 2][s % 2] = !strcmp(row->pattern, pattern) ? value : i ? own[s / 2][s % 2] : (double)NAN;
             }
         }
-        koksma__doc_say(&all->more, before ? ". " : "first. ");
+        koksma__doc_say(&j->more, before ? ". " : "first. ");
         first += !before;
-        test(all, !unexpected);
-        find_least(r, t, c->patterns.at[0], 1, by_sd);
-        find_least(r, t, c->patterns.at[0], 2, by_max);
+        test(j, !unexpected);
+        for (size_t s = 0; s < 6; s++) {
+            least[s / 2][s % 2] += own[s / 2][s % 2] <= best[s / 2][s % 2];
+        }
     }
-    test(all, 2 * first > c->tables.n);
+    test(j, 2 * first > j->c->tables.n);
     koksma__doc_say(
-        d, "First in %zu of %zu tables. Its SD is the least in %zu (in print %zu), its maximum in %zu (%zu).", first,
-        c->tables.n, by_sd[0], by_sd[1], by_max[0], by_max[1]);
+        &j->words, "First in %zu of %zu tables. Its SD is the least in %zu (in print %zu), its maximum in %zu (%zu).",
+        first, j->c->tables.n, least[1][0], least[1][1], least[2][0], least[2][1]);
 }
 
 /* ---- predictor: a measure orders the patterns as the errors do --------------------------------------------- */
 
-/* The rank correlation of a measure with the errors of each table, ours [0] and in print [1], in r's memory; open: of the
-   tests, to count missing rows. NULL after a failure. */
-static double *correlate(koksma__report *r, const koksma__conclusion *c, const koksma__table *by, size_t *open)
+/* The rank correlation of a measure with the errors of each table, ours [0] and in print [1], in the report's memory;
+   open: to count missing rows. NULL after a failure. */
+static double *correlate(judged *j, const koksma__table *by, size_t *open)
 {
-    const size_t n = c->patterns.n;
-    double *x = koksma__report_memory(r, 4 * n, sizeof *x);
-    double *rho = koksma__report_memory(r, 2 * c->tables.n, sizeof *rho);
+    const size_t n = j->c->patterns.n;
+    double *x = koksma__report_memory(j->r, 4 * n, sizeof *x), *y = x + 2 * n;
+    double *rho = koksma__report_memory(j->r, 2 * j->c->tables.n, sizeof *rho);
     if (!x || !rho) {
         return NULL;
     }
-    list_means(r, c, by, x, x + n);
-    for (size_t k = 0; k < c->tables.n; k++) {
-        list_means(r, c, table_of(r, c, c->tables.at[k]), x + 2 * n, x + 3 * n);
-        rho[2 * k] = koksma__spearman(x, x + 2 * n, n);
-        rho[2 * k + 1] = koksma__spearman(x + n, x + 3 * n, n);
+    list_means(j, by, x);
+    for (size_t k = 0; k < j->c->tables.n; k++) {
+        list_means(j, table_of(j, j->c->tables.at[k]), y);
+        rho[2 * k] = koksma__spearman(x, y, n);
+        rho[2 * k + 1] = koksma__spearman(x + n, y + n, n);
         for (size_t i = 0; i < n; i++) {
-            *open += isnan(x[i]) || isnan(x[2 * n + i]);
+            *open += isnan(x[i]) || isnan(y[i]);
         }
     }
     return rho;
 }
 
 /* Writes the correlations of a measure in all tables, and where they are not surely above 0. */
-static void say_correlations(koksma__document *d, const koksma__conclusion *c, const double *rho, double least)
+static void say_correlations(const judged *j, koksma__document *d, const double *rho, double least)
 {
+    const koksma__texts *tables = &j->c->tables;
     size_t unsure = 0;
-    for (size_t side = 0; side < 2; side++) {
-        for (size_t k = 0; k < c->tables.n; k++) {
-            koksma__doc_say(d, "%s%.2f", k ? ", " : side ? " (in print " : "", rho[2 * k + side]);
-        }
+    for (size_t i = 0; i < 2 * tables->n; i++) {
+        const size_t k = i % tables->n, side = i / tables->n;
+        koksma__doc_say(d, "%s%.2f", k ? ", " : side ? " (in print " : "", rho[2 * k + side]);
     }
     koksma__doc_say(d, ")");
-    for (size_t k = 0; k < c->tables.n; k++) {
+    for (size_t k = 0; k < tables->n; k++) {
         if (!(rho[2 * k] > least - 1e-12)) {
-            koksma__doc_say(d, "%s%s", unsure++ ? ", " : ", not surely above 0 in ", c->tables.at[k]);
+            koksma__doc_say(d, "%s%s", unsure++ ? ", " : ", not surely above 0 in ", tables->at[k]);
         }
     }
     koksma__doc_say(d, ". ");
@@ -294,260 +292,242 @@ static const char *name_of(const koksma__table *t)
     return t->symbol ? t->symbol : t->scene ? t->scene : t->measure;
 }
 
-/* Names the pattern with the least mean of a table, ours and in print. */
-static void say_least(koksma__report *r, const koksma__conclusion *c, const koksma__table *t, koksma__document *d)
-{
-    for (size_t side = 0; side < 2; side++) {
-        const char *best = NULL;
-        double least = INFINITY;
-        for (size_t i = 0; i < c->patterns.n; i++) {
-            const pair means = means_of(r, t, c->patterns.at[i], 0);
-            const double mean = side ? means.printed : means.ours;
-            best = mean < least ? c->patterns.at[i] : best;
-            least = fmin(least, mean);
-        }
-        if (best) {
-            koksma__doc_say(d, side ? ", in print that of " : "Least %s: that of ", name_of(t));
-            say_label(d, r, c, best);
-        }
-    }
-    koksma__doc_say(d, ". ");
-}
-
-/* Writes what the correlations of the exact measure beside that of the printed numbers are. */
-static void say_exact(koksma__report *r, const koksma__conclusion *c, const koksma__table *by, koksma__document *d)
+/* Writes as evidence what the correlations of the exact measure beside that of the printed numbers are, and which
+   pattern has the least mean of a table, ours and in print. */
+static void say_exact_and_least(judged *j, const koksma__table *by)
 {
     size_t open = 0;
     koksma__table exact = *by;
     exact.measure = by->also;
-    const double *rho = by->also ? correlate(r, c, &exact, &open) : NULL;
-    for (size_t k = 0; rho && k < c->tables.n; k++) {
-        koksma__doc_say(d, k ? ", " : "By the exact `%s` ", by->also);
-        koksma__doc_say(d, "%.2f", rho[2 * k]);
+    const double *rho = by->also ? correlate(j, &exact, &open) : NULL;
+    for (size_t k = 0; rho && k < j->c->tables.n; k++) {
+        koksma__doc_say(&j->more, k ? ", " : "By the exact `%s` ", by->also);
+        koksma__doc_say(&j->more, "%.2f", rho[2 * k]);
     }
-    koksma__doc_say(d, rho ? ". " : "");
-}
-
-/* The averages of the measures' correlations, ours [0] and in print [1], and the measures with the least. */
-typedef struct averages {
-    koksma__document words;
-    double least[2];
-    const char *worst[2];
-    bool printed; /* whether all measures are in print */
-} averages;
-
-/* Adds a measure's averages over the n tables and the number of its correlations of at least `limit`. */
-static void add_averages(averages *a, const koksma__table *of, const double *rho, size_t n, double limit)
-{
-    double means[2] = {0};
-    size_t sure = 0;
-    for (size_t k = 0; k < n; k++) {
-        sure += rho[2 * k] > limit - 1e-12;
-        means[0] += rho[2 * k] / (double)n;
-        means[1] += rho[2 * k + 1] / (double)n;
-    }
-    koksma__doc_say(&a->words, "%s%s%s`%s` %.2f (%.2f in print; %zu sure)",
-                    koksma__doc_is_empty(&a->words) ? "On average " : ", ", of->symbol ? of->symbol : "",
-                    of->symbol ? " " : "", of->scene ? of->scene : of->measure, means[0], means[1], sure);
-    a->printed &= !isnan(means[1]);
+    koksma__doc_say(&j->more, rho ? ". " : "");
     for (size_t side = 0; side < 2; side++) {
-        a->worst[side] = means[side] < a->least[side] ? name_of(of) : a->worst[side];
-        a->least[side] = fmin(a->least[side], means[side]);
+        const char *best = NULL;
+        double least = INFINITY, means[2];
+        for (size_t i = 0; i < j->c->patterns.n; i++) {
+            means_of(j, by, j->c->patterns.at[i], 0, means);
+            best = means[side] < least ? j->c->patterns.at[i] : best;
+            least = fmin(least, means[side]);
+        }
+        if (best) {
+            koksma__doc_say(&j->more, side ? ", in print that of " : "Least %s: that of ", name_of(by));
+            say_label(j, &j->more, best);
+        }
     }
+    koksma__doc_say(&j->more, ". ");
 }
 
 /* Each measure of `by` must be surely correlated with the errors of each table, which is a test. The words give the
    correlations of the first, those of the others are evidence; then the means over the tables of all, those of `than`
-   beside them, and which is least. */
-static void conclude_predictor(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+   beside them, and which is least, ours [0] and in print [1]. */
+static void conclude_predictor(judged *j)
 {
-    const double least = koksma__spearman_limit(c->patterns.n, 0.025);
-    averages means = {.least = {INFINITY, INFINITY}, .worst = {"", ""}, .printed = true};
+    const koksma__conclusion *c = j->c;
+    const size_t tables = c->tables.n;
+    const double limit = koksma__spearman_limit(c->patterns.n, 0.025);
+    double least[2] = {INFINITY, INFINITY};
+    const char *worst[2] = {"", ""};
+    koksma__document averages = {0};
+    bool printed = true; /* whether all measures are in print */
     for (size_t i = 0; i < c->by.n + c->than.n; i++) {
-        const koksma__table *of = table_of(r, c, i < c->by.n ? c->by.at[i] : c->than.at[i - c->by.n]);
-        const double *rho = correlate(r, c, of, &all->open);
-        koksma__document *to = i ? &all->more : d;
+        const koksma__table *of = table_of(j, i < c->by.n ? c->by.at[i] : c->than.at[i - c->by.n]);
+        const char *spec = of->scene ? of->scene : of->measure;
+        const double *rho = correlate(j, of, &j->open);
+        koksma__document *to = i ? &j->more : &j->words;
+        double means[2] = {0};
+        size_t sure = 0;
         if (!rho) {
             break;
         }
-        add_averages(&means, of, rho, c->tables.n, least);
+        for (size_t k = 0; k < tables; k++) {
+            sure += rho[2 * k] > limit - 1e-12;
+            means[0] += rho[2 * k] / (double)tables;
+            means[1] += rho[2 * k + 1] / (double)tables;
+        }
+        koksma__doc_say(&averages, "%s%s%s`%s` %.2f (%.2f in print; %zu sure)", i ? ", " : "On average ",
+                        of->symbol ? of->symbol : "", of->symbol ? " " : "", spec, means[0], means[1], sure);
+        printed &= !isnan(means[1]);
+        for (size_t side = 0; side < 2; side++) {
+            worst[side] = means[side] < least[side] ? name_of(of) : worst[side];
+            least[side] = fmin(least[side], means[side]);
+        }
         if (i >= c->by.n) {
             continue;
         }
         if (i) {
-            koksma__doc_say(to, "%s (`%s`, table %s): ", name_of(of), of->scene ? of->scene : of->measure, of->id);
+            koksma__doc_say(to, "%s (`%s`, table %s): ", name_of(of), spec, of->id);
         }
-        for (size_t k = 0; k < c->tables.n; k++) {
-            test(all, rho[2 * k] > least - 1e-12);
+        for (size_t k = 0; k < tables; k++) {
+            test(j, rho[2 * k] > limit - 1e-12);
             if (!i) {
-                koksma__doc_say(d, k ? ", " : "Rank correlation of %s with the error in ", name_of(of));
-                koksma__doc_say(d, k + 1 < c->tables.n ? "%s" : "%s: ", c->tables.at[k]);
+                koksma__doc_say(to, k ? ", " : "Rank correlation of %s with the error in ", name_of(of));
+                koksma__doc_say(to, k + 1 < tables ? "%s" : "%s: ", c->tables.at[k]);
             }
         }
-        say_correlations(to, c, rho, least);
-        say_exact(r, c, of, &all->more);
-        say_least(r, c, of, &all->more);
+        say_correlations(j, to, rho, limit);
+        say_exact_and_least(j, of);
     }
-    koksma__doc_say_words(d, &means.words);
+    koksma__doc_say_words(&j->words, &averages);
     if (c->by.n + c->than.n > 2) {
-        koksma__doc_say(d, ": %s predicts worst", means.worst[0]);
-        koksma__doc_say(d, means.printed ? ", in print %s" : "%s",
-                        !means.printed                           ? ""
-                        : strcmp(means.worst[0], means.worst[1]) ? means.worst[1]
-                                                                 : "too");
+        koksma__doc_say(&j->words, ": %s predicts worst", worst[0]);
+        koksma__doc_say(&j->words, printed ? ", in print %s" : "%s",
+                        !printed                     ? ""
+                        : strcmp(worst[0], worst[1]) ? worst[1]
+                                                     : "too");
     }
-    koksma__doc_say(d, ". %zu of %zu correlations are surely above 0.", all->passed, all->tests);
-    koksma__doc_say(&all->more,
-                    "Of %zu patterns a correlation is surely above 0 (at 5 %% on two sides) from %.2f on. ",
-                    c->patterns.n, least);
+    koksma__doc_say(&j->words, ". %zu of %zu correlations are surely above 0.", j->passed, j->tests);
+    koksma__doc_say(&j->more, "Of %zu patterns a correlation is surely above 0 (at 5 %% on two sides) from %.2f on. ",
+                    c->patterns.n, limit);
 }
 
 /* ---- before: each pattern has a smaller mean than each of `against` ---------------------------------------- */
 
 enum { NAMED = 2 };
 
-/* The comparisons that find a smaller mean in ours [0] and in print [1], and their numbers. */
-typedef struct comparisons {
-    size_t smaller[2], of[2];
-} comparisons;
-
-/* Every comparison in each table at each number of points is a test, by our means; the same comparisons of the printed
-   means stand beside them. NAMED of those that fail are named. Comparisons by another procedure than the printed one are no
-   tests, neither for nor against the paper. */
-static void conclude_before(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+/* Every comparison in each table at each number of points is a test, by our means [0]; the same comparisons of the
+   printed means [1] stand beside them. NAMED of those that fail are named. Comparisons by another procedure than the
+   printed one are no tests, neither for nor against the paper. */
+static void conclude_before(judged *j)
 {
-    comparisons n[2] = {0};
+    const koksma__conclusion *c = j->c;
+    size_t smaller[2][2] = {{0}}, of[2][2] = {{0}}, failed = 0; /* [by another procedure][ours, in print] */
     const char *procedure = "";
-    size_t failed = 0;
     for (size_t i = 0; i < c->tables.n * KOKSMA__TABLE_PRINTED; i++) {
-        const koksma__table *t = table_of(r, c, c->tables.at[i / KOKSMA__TABLE_PRINTED]);
+        const koksma__table *t = table_of(j, c->tables.at[i / KOKSMA__TABLE_PRINTED]);
         const size_t k = i % KOKSMA__TABLE_PRINTED;
-        for (size_t j = 0; k < t->n.n && j < c->patterns.n * c->against.n; j++) {
-            const char *better = c->patterns.at[j / c->against.n], *worse = c->against.at[j % c->against.n];
-            const pair x = means_of(r, t, better, k), y = means_of(r, t, worse, k);
-            const bool other = is_other(t, k), smaller = x.ours < y.ours;
-            all->open += isnan(x.ours) || isnan(y.ours);
-            n[other].of[0]++;
-            n[other].smaller[0] += smaller;
-            n[other].of[1] += !isnan(x.printed) && !isnan(y.printed);
-            n[other].smaller[1] += x.printed < y.printed;
+        for (size_t p = 0; k < t->n.n && p < c->patterns.n * c->against.n; p++) {
+            const char *better = c->patterns.at[p / c->against.n], *worse = c->against.at[p % c->against.n];
+            const bool other = is_other(t, k);
+            double x[2], y[2];
+            means_of(j, t, better, k, x);
+            means_of(j, t, worse, k, y);
+            j->open += isnan(x[0]) || isnan(y[0]);
+            of[other][0]++;
+            of[other][1] += !isnan(x[1]) && !isnan(y[1]);
+            for (size_t side = 0; side < 2; side++) {
+                smaller[other][side] += x[side] < y[side];
+            }
             if (other) {
                 procedure = t->measure;
-                all->other++;
+                j->other++;
                 continue;
             }
-            test(all, smaller);
-            if (!smaller && failed++ < NAMED) {
-                koksma__doc_say(&all->more, failed > 1 ? "; " : "Not: ");
-                say_label(&all->more, r, c, better);
-                koksma__doc_say(&all->more, " against ");
-                say_label(&all->more, r, c, worse);
-                koksma__doc_say(&all->more, koksma__table_is_over_n(t) ? " in table %s at N = %lld" : " in table %s",
+            test(j, x[0] < y[0]);
+            if (!(x[0] < y[0]) && failed++ < NAMED) {
+                koksma__doc_say(&j->more, failed > 1 ? "; " : "Not: ");
+                say_label(j, &j->more, better);
+                koksma__doc_say(&j->more, " against ");
+                say_label(j, &j->more, worse);
+                koksma__doc_say(&j->more, koksma__table_is_over_n(t) ? " in table %s at N = %lld" : " in table %s",
                                 t->id, t->n.at[k]);
             }
         }
     }
     if (failed > NAMED) {
-        koksma__doc_say(&all->more, "; and %zu more", failed - NAMED);
+        koksma__doc_say(&j->more, "; and %zu more", failed - NAMED);
     }
-    koksma__doc_say(&all->more, failed ? ". " : "");
-    if (all->tests) {
-        koksma__doc_say(d, "The mean is smaller in %zu of %zu comparisons, in print in %zu of %zu.", n[0].smaller[0],
-                        n[0].of[0], n[0].smaller[1], n[0].of[1]);
+    koksma__doc_say(&j->more, failed ? ". " : "");
+    if (j->tests) {
+        koksma__doc_say(&j->words, "The mean is smaller in %zu of %zu comparisons, in print in %zu of %zu.",
+                        smaller[0][0], of[0][0], smaller[0][1], of[0][1]);
     }
-    if (all->other) {
-        koksma__doc_say(all->tests ? &all->more : d,
-                        "By our rows' procedure (`%s`) it is the other way round in %zu of %zu comparisons, in print "
-                        "in %zu of %zu.%s",
-                        procedure, n[1].of[0] - n[1].smaller[0], n[1].of[0], n[1].of[1] - n[1].smaller[1], n[1].of[1],
-                        all->tests ? " " : "");
+    if (j->other) {
+        koksma__doc_say(
+            j->tests ? &j->more : &j->words,
+            "By our rows' procedure (`%s`) it is the other way round in %zu of %zu comparisons, in print in "
+            "%zu of %zu.%s",
+            procedure, of[1][0] - smaller[1][0], of[1][0], of[1][1] - smaller[1][1], of[1][1], j->tests ? " " : "");
     }
 }
 
 /* ---- bands: the errors of the patterns are in visible bands, and those of `against` are not ---------------- */
 
-/* The least and the largest coherence of errors that are in bands [0], and of those that are noise [1]. */
+/* What is found of coherences: the least and the largest of errors that are in bands [0], and of those that are noise
+   [1]. */
 typedef struct coherences {
     double low[2], high[2];
     size_t shades;           /* errors that should be in bands and are one slow wave */
     koksma__document beside; /* the words of those of `beside` */
 } coherences;
 
-/* Whether errors are in bands: coherent, with at least two periods over the longer side of the picture. A single slow wave
-   is a shade. *period: in pixels. */
-static bool is_banded(const koksma__report *r, const koksma__subject *s, const koksma_coherence_values *v,
-                      double *period)
+/* Tests a pattern of list 0 (in bands), 1 (noise) or 2 (beside them, no test) by the coherence of the mean spectrum. In
+   bands is an error that is coherent, with at least two periods over the longer side of the picture; a single slow wave is
+   a shade. */
+static void test_coherence(judged *j, const koksma__subject *s, const koksma_coherence_values *v, size_t list,
+                           const char *pattern, coherences *found)
 {
     int width, height;
-    koksma__block_size(s->images, koksma__study_scene_of(r->study, s->scene), &width, &height);
-    *period = 1 / koksma__hypot(v->frequency_x, v->frequency_y);
-    return v->coherent && 2 * *period <= (width > height ? width : height);
+    koksma__block_size(s->images, koksma__study_scene_of(j->r->study, s->scene), &width, &height);
+    const double period = 1 / koksma__hypot(v->frequency_x, v->frequency_y);
+    const bool banded = v->coherent && 2 * period <= (width > height ? width : height);
+    const char *kind = !v->coherent ? "noise" : banded ? "in bands" : "a shade";
+    say_label(j, &j->more, pattern);
+    koksma__doc_say(&j->more, " %.3g, %s", v->coherence, kind);
+    if (v->coherent) {
+        koksma__doc_say(&j->more, " of period %.3g pixels", period);
+    }
+    if (list == 2) {
+        koksma__doc_say(&found->beside, koksma__doc_is_empty(&found->beside) ? " Beside it: " : "; ");
+        say_label(j, &found->beside, pattern);
+        koksma__doc_say(&found->beside, " in %s %.3g, %s", s->scene, v->coherence, kind);
+        return;
+    }
+    test(j, banded == (list == 0));
+    found->shades += !list && v->coherent && !banded;
+    if (banded == v->coherent) {
+        found->low[!banded] = fmin(found->low[!banded], v->coherence);
+        found->high[!banded] = fmax(found->high[!banded], v->coherence);
+    }
 }
 
-/* Each pattern in each image is a test, by the coherence of the mean spectrum; those of `beside` stand beside them. */
-static void test_bands(koksma__report *r, const koksma__conclusion *c, const koksma__subject *s, long long spp,
-                       coherences *found, tested *all)
+/* Each pattern in each image is a test. */
+static void test_bands(judged *j, const koksma__subject *s, long long spp, coherences *found)
 {
-    const koksma__texts *lists[] = {&c->patterns, &c->against, &c->beside};
-    koksma__doc_say(&all->more, "_%s_: ", s->scene);
+    const koksma__texts *lists[] = {&j->c->patterns, &j->c->against, &j->c->beside};
+    koksma__doc_say(&j->more, "_%s_: ", s->scene);
     for (size_t list = 0, said = 0; list < 3; list++) {
         for (size_t i = 0; i < lists[list]->n; i++) {
-            const koksma_coherence_values v = koksma__mean_coherence(r, s, lists[list]->at[i], spp);
+            const koksma_coherence_values v = koksma__mean_coherence(j->r, s, lists[list]->at[i], spp);
             if (!v.images) {
-                all->open++;
+                j->open++;
                 continue;
             }
-            double period;
-            const bool banded = is_banded(r, s, &v, &period);
-            const char *kind = !v.coherent ? "noise" : banded ? "in bands" : "a shade";
-            koksma__doc_say(&all->more, "%s", said++ ? "; " : "");
-            say_label(&all->more, r, c, lists[list]->at[i]);
-            koksma__doc_say(&all->more, " %.3g, %s", v.coherence, kind);
-            if (v.coherent) {
-                koksma__doc_say(&all->more, " of period %.3g pixels", period);
-            }
-            if (list == 2) {
-                koksma__doc_say(&found->beside, koksma__doc_is_empty(&found->beside) ? " Beside it: " : "; ");
-                say_label(&found->beside, r, c, lists[list]->at[i]);
-                koksma__doc_say(&found->beside, " in %s %.3g, %s", s->scene, v.coherence, kind);
-            } else {
-                test(all, banded == (list == 0));
-                found->shades += !list && v.coherent && !banded;
-                if (banded == v.coherent) {
-                    found->low[!banded] = fmin(found->low[!banded], v.coherence);
-                    found->high[!banded] = fmax(found->high[!banded], v.coherence);
-                }
-            }
+            koksma__doc_say(&j->more, "%s", said++ ? "; " : "");
+            test_coherence(j, s, &v, list, lists[list]->at[i], found);
         }
     }
-    koksma__doc_say(&all->more, ". ");
+    koksma__doc_say(&j->more, ". ");
 }
 
-static void conclude_bands(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+static void conclude_bands(judged *j)
 {
     koksma__subject s;
     long long spp;
     coherences found = {.low = {INFINITY, INFINITY}};
-    koksma__doc_say(&all->more, "Coherence of the errors in ");
-    for (size_t i = 0; i < c->tables.n; i++) {
-        const koksma__table *t = table_of(r, c, c->tables.at[i]);
-        s = koksma__table_images(r->study, t);
-        test_bands(r, c, &s, t->n.at[0], &found, all);
+    koksma__doc_say(&j->more, "Coherence of the errors in ");
+    for (size_t i = 0; i < j->c->tables.n; i++) {
+        const koksma__table *t = table_of(j, j->c->tables.at[i]);
+        s = koksma__table_images(j->r->study, t);
+        test_bands(j, &s, t->n.at[0], &found);
     }
-    for (size_t i = 0; next_images(r, c, &i, &s, &spp);) {
-        test_bands(r, c, &s, spp, &found, all);
+    for (size_t i = 0; next_images(j->r, j->c, &i, &s, &spp);) {
+        test_bands(j, &s, spp, &found);
     }
-    koksma__doc_say(d, "%zu of %zu errors are as concluded", all->passed, all->tests);
+    koksma__doc_say(&j->words, "%zu of %zu errors are as concluded", j->passed, j->tests);
     for (size_t k = 0; k < 2; k++) {
         if (found.low[k] <= found.high[k]) {
-            koksma__doc_say(d, found.low[k] < found.high[k] ? "%s%.3g to %.3g" : "%s%.3g",
+            koksma__doc_say(&j->words, found.low[k] < found.high[k] ? "%s%.3g to %.3g" : "%s%.3g",
                             k ? ", of noise " : ": coherence with bands ", found.low[k], found.high[k]);
         }
     }
-    koksma__doc_say(d, found.shades ? ", and %zu a shade, one slow wave." : ".", found.shades);
+    koksma__doc_say(&j->words, found.shades ? ", and %zu a shade, one slow wave." : ".", found.shades);
     if (!koksma__doc_is_empty(&found.beside)) {
-        koksma__doc_say_words(d, &found.beside);
-        koksma__doc_say(d, ".");
+        koksma__doc_say_words(&j->words, &found.beside);
+        koksma__doc_say(&j->words, ".");
     }
 }
 
@@ -555,34 +535,35 @@ static void conclude_bands(koksma__report *r, koksma__document *d, const koksma_
 
 /* By a metric such as grain, in every scene of the block. Each scene is a test: the ratio of the means, with an interval
    from those of both by first-order propagation, must be surely above 1. */
-static void conclude_metric(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+static void conclude_metric(judged *j)
 {
+    const koksma__conclusion *c = j->c;
     koksma__subject s;
     long long spp;
     size_t least = SIZE_MAX;
-    koksma__doc_say(d, "Ratios of their %s: ", c->metric);
-    koksma__doc_say(&all->more, "`%s` of ", c->metric);
-    say_label(&all->more, r, c, c->patterns.at[0]);
-    koksma__doc_say(&all->more, " over that of ");
-    say_label(&all->more, r, c, c->against.at[0]);
-    for (size_t i = 0; next_images(r, c, &i, &s, &spp);) {
-        const koksma__summary x = koksma__read_mean(r, &s, c->patterns.at[0], spp, NULL),
-                              y = koksma__read_mean(r, &s, c->against.at[0], spp, NULL);
+    koksma__doc_say(&j->words, "Ratios of their %s: ", c->metric);
+    koksma__doc_say(&j->more, "`%s` of ", c->metric);
+    say_label(j, &j->more, c->patterns.at[0]);
+    koksma__doc_say(&j->more, " over that of ");
+    say_label(j, &j->more, c->against.at[0]);
+    for (size_t i = 0; next_images(j->r, c, &i, &s, &spp);) {
+        const koksma__summary x = koksma__read_mean(j->r, &s, c->patterns.at[0], spp, NULL),
+                              y = koksma__read_mean(j->r, &s, c->against.at[0], spp, NULL);
         if (x.n < 2 || y.n < 2) {
-            all->open++;
+            j->open++;
             continue;
         }
         const double ratio = x.mean / y.mean;
         const double half = ratio * koksma__hypot((x.high - x.mean) / x.mean, (y.high - y.mean) / y.mean);
-        test(all, ratio - half > 1);
-        koksma__doc_say(d, "%s%.2f in %s", all->tests > 1 ? ", " : "", ratio, s.scene);
-        koksma__doc_say(&all->more, "%s %.3f (%.3f to %.3f) in %s", all->tests > 1 ? "," : ":", ratio, ratio - half,
+        test(j, ratio - half > 1);
+        koksma__doc_say(&j->words, "%s%.2f in %s", j->tests > 1 ? ", " : "", ratio, s.scene);
+        koksma__doc_say(&j->more, "%s %.3f (%.3f to %.3f) in %s", j->tests > 1 ? "," : ":", ratio, ratio - half,
                         ratio + half, s.scene);
         least = x.n < least ? x.n : least;
         least = y.n < least ? y.n : least;
     }
-    koksma__doc_say(d, "; surely above 1 in %zu of %zu.", all->passed, all->tests);
-    koksma__doc_say(&all->more, ", of the means of %zu images. ", all->tests ? least : 0);
+    koksma__doc_say(&j->words, "; surely above 1 in %zu of %zu.", j->passed, j->tests);
+    koksma__doc_say(&j->more, ", of the means of %zu images. ", j->tests ? least : 0);
 }
 
 /* ---- rates: the patterns converge faster than random points ------------------------------------------------ */
@@ -591,82 +572,81 @@ static void conclude_metric(koksma__report *r, koksma__document *d, const koksma
    still tilts it. */
 #define TOLERANCE 0.05
 
-static void say_tolerance(tested *all)
+static void say_tolerance(judged *j)
 {
-    koksma__doc_say(&all->more,
+    koksma__doc_say(&j->more,
                     "Faster means an exponent surely below %.2f; one nearer to -1/2 may be that of finite sizes. ",
                     -0.5 - TOLERANCE);
 }
 
 /* The means of a pattern at all sizes, those above 0. */
-static koksma__curve read_curve(koksma__report *r, const koksma__subject *s, const char *pattern)
+static koksma__curve read_curve(const judged *j, const koksma__subject *s, const char *pattern)
 {
-    koksma__curve c = koksma__curve_of(r, s->n->n);
+    koksma__curve c = koksma__curve_of(j->r, s->n->n);
     for (size_t k = 0; k < s->n->n; k++) {
-        koksma__curve_add(&c, s->n->at[k], koksma__read_mean(r, s, pattern, s->n->at[k], NULL));
+        koksma__curve_add(&c, s->n->at[k], koksma__read_mean(j->r, s, pattern, s->n->at[k], NULL));
     }
     return c;
 }
 
 /* Each pattern and measure is a test: the whole interval of the slope over the block's numbers of points must be below
    -1/2 - TOLERANCE. If the block has random points, each pattern's means are given, the last as a multiple of theirs. */
-static void test_rates(koksma__report *r, koksma__document *d, const koksma__conclusion *c, const koksma__subject *s,
-                       tested *all)
+static void test_rates(judged *j, const koksma__subject *s)
 {
+    const koksma__texts *patterns = &j->c->patterns;
     const size_t sizes = s->n->n;
     koksma__curve random = {0};
-    koksma__doc_say(d, "`%s`, N = %lld to %lld: ", s->measure, s->n->at[0], s->n->at[sizes - 1]);
-    if (koksma__texts_have(s->patterns, "random") && (random = read_curve(r, s, "random")).n == sizes) {
+    koksma__doc_say(&j->words, "`%s`, N = %lld to %lld: ", s->measure, s->n->at[0], s->n->at[sizes - 1]);
+    if (koksma__texts_have(s->patterns, "random") && (random = read_curve(j, s, "random")).n == sizes) {
         const koksma__estimate slope = koksma__trend_of(random.x, random.y, sizes).slope;
-        koksma__doc_say(d, "random N^%.3f^ (± %.3f), ", slope.value, slope.high - slope.value);
+        koksma__doc_say(&j->words, "random N^%.3f^ (± %.3f), ", slope.value, slope.high - slope.value);
     }
-    for (size_t i = 0; i < c->patterns.n; i++) {
-        const koksma__curve curve = read_curve(r, s, c->patterns.at[i]);
+    for (size_t i = 0; i < patterns->n; i++) {
+        const koksma__curve curve = read_curve(j, s, patterns->at[i]);
         const koksma__estimate slope = koksma__trend_of(curve.x, curve.y, curve.n).slope;
         if (curve.n < sizes || isnan(slope.high)) {
-            all->open++;
+            j->open++;
             continue;
         }
-        test(all, slope.high < -0.5 - TOLERANCE);
-        say_label(d, r, c, c->patterns.at[i]);
-        koksma__doc_say(d, " N^%.3f^ (± %.3f%s)%s", slope.value, slope.high - slope.value,
-                        slope.high < -0.5 - TOLERANCE ? "" : ", not surely better",
-                        i + 1 < c->patterns.n ? ", " : ".");
-        for (size_t k = 0; k < sizes && random.n == sizes; k++) {
-            if (!k) {
-                say_label(&all->more, r, c, c->patterns.at[i]);
-            }
-            koksma__doc_say(&all->more, k ? ", %.3g at %lld" : " has means of %.3g at N = %lld", curve.y[k].mean,
-                            s->n->at[k]);
-            if (k + 1 == sizes) {
-                koksma__doc_say(&all->more, ", the last %.2g times that of random points. ",
-                                curve.y[k].mean / random.y[k].mean);
-            }
+        test(j, slope.high < -0.5 - TOLERANCE);
+        say_label(j, &j->words, patterns->at[i]);
+        koksma__doc_say(&j->words, " N^%.3f^ (± %.3f%s)%s", slope.value, slope.high - slope.value,
+                        slope.high < -0.5 - TOLERANCE ? "" : ", not surely better", i + 1 < patterns->n ? ", " : ".");
+        if (random.n < sizes) {
+            continue;
         }
+        say_label(j, &j->more, patterns->at[i]);
+        for (size_t k = 0; k < sizes; k++) {
+            koksma__doc_say(&j->more, k ? ", %.3g at %lld" : " has means of %.3g at N = %lld", curve.y[k].mean,
+                            s->n->at[k]);
+        }
+        koksma__doc_say(&j->more, ", the last %.2g times that of random points. ",
+                        curve.y[sizes - 1].mean / random.y[sizes - 1].mean);
     }
 }
 
-static void conclude_rates(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+static void conclude_rates(judged *j)
 {
-    const koksma__plan_part *part = &r->study->plan.parts[c->part];
+    const koksma__plan *plan = &j->r->study->plan;
+    const koksma__plan_part *part = &plan->parts[j->c->part];
     for (size_t b = part->discrepancies[0]; b < part->discrepancies[1]; b++) {
-        const koksma__discrepancy_block *block = &r->study->plan.discrepancies[b];
-        for (size_t m = 0; block->id && !strcmp(block->id, c->discrepancies) && m < block->measures.n; m++) {
+        const koksma__discrepancy_block *block = &plan->discrepancies[b];
+        for (size_t m = 0; block->id && !strcmp(block->id, j->c->discrepancies) && m < block->measures.n; m++) {
             const koksma__subject s = koksma__subject_of_points(block, block->measures.at[m], "");
-            test_rates(r, d, c, &s, all);
+            test_rates(j, &s);
         }
     }
-    say_tolerance(all);
+    say_tolerance(j);
 }
 
 /* ---- slopes: the printed tables over several n, by the slopes that stand beside their rows ------------------- */
 
 /* The slope of our means of a row by a measure of its table, of all columns; NaN if one is missing. */
-static koksma__estimate slope_of(koksma__report *r, const koksma__table *t, const char *measure, const char *pattern)
+static koksma__estimate slope_of(const judged *j, const koksma__table *t, const char *measure, const char *pattern)
 {
-    koksma__curve c = koksma__curve_of(r, t->n.n);
+    koksma__curve c = koksma__curve_of(j->r, t->n.n);
     for (size_t k = 0; k < t->n.n; k++) {
-        koksma__curve_add(&c, t->n.at[k], koksma__points_cell(r, t, measure, pattern, t->n.at[k]).mean);
+        koksma__curve_add(&c, t->n.at[k], koksma__points_cell(j->r, t, measure, pattern, t->n.at[k]).mean);
     }
     return c.n == t->n.n ? koksma__trend_of(c.x, c.y, c.n).slope : (koksma__estimate){NAN, NAN, NAN};
 }
@@ -678,115 +658,110 @@ static bool slope_passes(koksma__estimate slope, const koksma__estimate *other, 
     return other ? slope.low > other->high : (slope.high < -0.5 - TOLERANCE) == faster;
 }
 
+static void say_slope(const judged *j, koksma__document *d, const char *pattern, koksma__estimate slope)
+{
+    say_label(j, d, pattern);
+    koksma__doc_say(d, " %.3f ± %.3f", slope.value, slope.high - slope.value);
+}
+
 /* Each row of a pattern is a test: its slope must be surely below -1/2 - TOLERANCE and, of a pattern of `against`, must not
    be; with `by` it must be surely above the pattern's slope in that table. Rows by another procedure than the printed
    one are no tests. */
-static void conclude_slopes(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+static void conclude_slopes(judged *j)
 {
-    const koksma__table *by = c->by.n ? table_of(r, c, c->by.at[0]) : NULL;
-    const koksma__estimate none = {NAN, NAN, NAN};
+    const koksma__conclusion *c = j->c;
+    const koksma__table *by = c->by.n ? table_of(j, c->by.at[0]) : NULL;
     for (size_t i = 0; i < c->tables.n; i++) {
-        const koksma__table *t = table_of(r, c, c->tables.at[i]);
+        const koksma__table *t = table_of(j, c->tables.at[i]);
         const bool other = is_other(t, 0), exact = judged_by(t) != t->measure;
-        koksma__document *to = other && c->tables.n > 1 ? &all->more : d;
+        koksma__document *to = other && c->tables.n > 1 ? &j->more : &j->words;
+        size_t said = 0, unsure = 0; /* unsure: slopes that do not pass by the printed procedure */
         koksma__doc_say(to, other ? "By our rows' procedure (`%s`) in table %s:" : "%s in table %s",
-                        other        ? t->measure
-                        : all->tests ? ";"
-                                     : "Slopes",
+                        other      ? t->measure
+                        : j->tests ? ";"
+                                   : "Slopes",
                         t->id);
         if (!other && exact) {
             koksma__doc_say(to, " (`%s`)", judged_by(t));
         }
-        size_t said = 0, unsure = 0; /* unsure: slopes that do not pass by the printed procedure */
         for (size_t k = 0; k < c->patterns.n + c->against.n; k++) {
             const bool faster = k < c->patterns.n;
             const char *pattern = faster ? c->patterns.at[k] : c->against.at[k - c->patterns.n];
+            koksma__estimate slope, least, *above = by ? &least : NULL;
             if (!koksma__plan_row_of(t, pattern)) {
                 continue;
             }
-            const koksma__estimate slope = slope_of(r, t, judged_by(t), pattern),
-                                   least = by ? slope_of(r, by, judged_by(by), pattern) : none;
+            slope = slope_of(j, t, judged_by(t), pattern);
             koksma__doc_say(to, said++ ? ", " : " ");
-            say_label(to, r, c, pattern);
-            koksma__doc_say(to, " %.3f ± %.3f", slope.value, slope.high - slope.value);
-            if (exact) {
-                const koksma__estimate printed = slope_of(r, t, t->measure, pattern);
-                koksma__doc_say(&all->more, said > 1 ? ", " : "By `%s`, as printed, ", t->measure);
-                say_label(&all->more, r, c, pattern);
-                koksma__doc_say(&all->more, " %.3f ± %.3f", printed.value, printed.high - printed.value);
-                unsure += !slope_passes(printed, by ? &least : NULL, faster);
-            }
+            say_slope(j, to, pattern, slope);
             if (by) {
+                least = slope_of(j, by, judged_by(by), pattern);
                 koksma__doc_say(to, " (%.3f ± %.3f in table %s)", least.value, least.high - least.value, by->id);
             }
-            all->other += other;
-            all->open += isnan(slope.high) || (by && isnan(least.high));
+            if (exact) {
+                const koksma__estimate printed = slope_of(j, t, t->measure, pattern);
+                koksma__doc_say(&j->more, said > 1 ? ", " : "By `%s`, as printed, ", t->measure);
+                say_slope(j, &j->more, pattern, printed);
+                unsure += !slope_passes(printed, above, faster);
+            }
+            j->other += other;
+            j->open += isnan(slope.high) || (by && isnan(least.high));
             if (!other) {
-                test(all, slope_passes(slope, by ? &least : NULL, faster));
+                test(j, slope_passes(slope, above, faster));
             }
         }
-        koksma__doc_say(&all->more, exact ? ". " : "");
+        koksma__doc_say(&j->more, exact ? ". " : "");
         if (unsure) {
-            koksma__doc_say(d,
+            koksma__doc_say(&j->words,
                             by ? "; by the printed procedure the intervals overlap in %zu of %zu"
                                : "; by the printed procedure not surely in %zu of %zu",
                             unsure, said);
         }
-        koksma__doc_say(to, other ? to == d ? "." : ". " : "");
+        koksma__doc_say(to, other ? to == &j->words ? "." : ". " : "");
     }
-    koksma__doc_say(d, all->tests ? "." : "");
+    koksma__doc_say(&j->words, j->tests ? "." : "");
     if (by) {
-        koksma__doc_say(&all->more,
-                        "The intervals must be apart; that of a pattern with one set is that of the fit. ");
+        koksma__doc_say(&j->more, "The intervals must be apart; that of a pattern with one set is that of the fit. ");
     } else {
-        say_tolerance(all);
+        say_tolerance(j);
     }
 }
 
 /* ---- adaptive: adaptive sampling splits fewer strata needlessly in the first of two figures ------------------ */
 
 /* Each pair of figures is a test, by the share of splits that were needless. */
-static void conclude_adaptive(koksma__report *r, koksma__document *d, const koksma__conclusion *c, tested *all)
+static void conclude_adaptive(judged *j)
 {
+    const koksma__plan *plan = &j->r->study->plan;
     double share[2] = {0};
-    for (size_t i = 0; i < c->figures.n; i++) {
-        const koksma__figure *f = koksma__plan_figure_of(&r->study->plan, c->part, c->figures.at[i]);
-        const koksma_adaptive_report *cost = &r->adaptive[f - r->study->plan.figures];
+    for (size_t i = 0; i < j->c->figures.n; i++) {
+        const koksma__figure *f = koksma__plan_figure_of(plan, j->c->part, j->c->figures.at[i]);
+        const koksma_adaptive_report *cost = &j->r->adaptive[f - plan->figures];
         share[i % 2] = (double)cost->needless / (double)cost->splits;
-        koksma__doc_say(d, "%s%.0f %% in %s%s (`%s`)",
+        koksma__doc_say(&j->words, "%s%.0f %% in %s%s (`%s`)",
                         i % 2 ? " against "
                         : i   ? "; "
                               : "Needless splits: ",
                         100 * share[i % 2], i ? "" : "figure ", f->id, f->adaptive);
-        koksma__doc_say(&all->more, "%s%s: %.1f more samples a pixel", i ? ", " : "Figure ", f->id,
+        koksma__doc_say(&j->more, "%s%s: %.1f more samples a pixel", i ? ", " : "Figure ", f->id,
                         (double)(cost->samples - cost->first) / (double)cost->first * (double)f->n);
         if (i % 2) {
-            test(all, share[0] < share[1]);
-            all->open += isnan(share[0] + share[1]);
+            test(j, share[0] < share[1]);
+            j->open += isnan(share[0] + share[1]);
         }
     }
-    koksma__doc_say(d, ".");
-    koksma__doc_say(&all->more, ". ");
+    koksma__doc_say(&j->words, ".");
+    koksma__doc_say(&j->more, ". ");
 }
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
 
 /* The functions, in the order of koksma__conclusion_kinds. */
-static void (*const functions[])(koksma__report *, koksma__document *, const koksma__conclusion *, tested *) = {
+static void (*const functions[])(judged *) = {
 #define CONCLUSION(name, fields) conclude_##name,
 #include "study/plan/conclusions.def"
 #undef CONCLUSION
 };
-
-static bool has_conclusions(const koksma__report *r)
-{
-    bool found = false;
-    for (size_t i = 0; i < r->study->plan.n_conclusions; i++) {
-        const koksma__conclusion *c = &r->study->plan.conclusions[i];
-        found |= c->part == r->part && !(c->kind->fields & KOKSMA__NEEDS_FIGURES);
-    }
-    return found;
-}
 
 /* Whether the scenes of a conclusion's tables or images were fitted to printed numbers of its plan. */
 static bool is_fitted(const koksma__report *r, const koksma__conclusion *c)
@@ -805,41 +780,45 @@ static bool is_fitted(const koksma__report *r, const koksma__conclusion *c)
     return fitted;
 }
 
-void koksma__conclude(koksma__report *r, koksma__document *d, const koksma__conclusion *c)
+static void conclude(koksma__report *r, koksma__document *d, const koksma__conclusion *c)
 {
     static const char *const verdicts[] = {[KOKSMA__ANSWER_HOLDS] = "Holds",
                                            [KOKSMA__ANSWER_PARTLY] = "Holds in part",
                                            [KOKSMA__ANSWER_FAILS] = "Does not hold"};
-    tested all = {0};
-    koksma__document words = {0};
-    functions[c->kind - koksma__conclusion_kinds](r, &words, c, &all);
-    const koksma__answer_kind answer = all.open || !all.tests    ? KOKSMA__ANSWER_UNDECIDED
-                                       : all.passed == all.tests ? KOKSMA__ANSWER_HOLDS
-                                       : all.passed              ? KOKSMA__ANSWER_PARTLY
-                                                                 : KOKSMA__ANSWER_FAILS;
+    judged j = {.r = r, .c = c};
+    functions[c->kind - koksma__conclusion_kinds](&j);
+    const koksma__answer_kind answer = j.open || !j.tests    ? KOKSMA__ANSWER_UNDECIDED
+                                       : j.passed == j.tests ? KOKSMA__ANSWER_HOLDS
+                                       : j.passed            ? KOKSMA__ANSWER_PARTLY
+                                                             : KOKSMA__ANSWER_FAILS;
     koksma__doc_answer(d, answer, "*%s%s%s:* %s ",
-                       answer                   ? verdicts[answer]
-                       : all.other && !all.open ? "Not decided, as our rows are by another procedure"
-                                                : "Not decided, as rows are missing",
-                       all.other && answer ? ", as far as our procedure is the printed one" : "",
+                       answer               ? verdicts[answer]
+                       : j.other && !j.open ? "Not decided, as our rows are by another procedure"
+                                            : "Not decided, as rows are missing",
+                       j.other && answer ? ", as far as our procedure is the printed one" : "",
                        is_fitted(r, c) ? " (scenes fitted)" : "", c->says);
-    koksma__doc_say_words(d, &words);
-    if (c->remark || !koksma__doc_is_empty(&all.more)) {
+    koksma__doc_say_words(d, &j.words);
+    if (c->remark || !koksma__doc_is_empty(&j.more)) {
         koksma__doc_paragraph(d, "%s", "");
-        koksma__doc_say_words(d, &all.more);
+        koksma__doc_say_words(d, &j.more);
         koksma__doc_say(d, "%s", c->remark ? c->remark : "");
+    }
+}
+
+void koksma__conclude(koksma__report *r, koksma__document *d, bool on_figures)
+{
+    for (size_t i = 0; !r->status && i < r->study->plan.n_conclusions; i++) {
+        const koksma__conclusion *c = &r->study->plan.conclusions[i];
+        if (c->part == r->part && !(c->kind->fields & KOKSMA__NEEDS_FIGURES) == !on_figures) {
+            conclude(r, d, c);
+        }
     }
 }
 
 static void write_conclusions(koksma__report *r, koksma__document *d)
 {
-    for (size_t i = 0; !r->status && i < r->study->plan.n_conclusions; i++) {
-        const koksma__conclusion *c = &r->study->plan.conclusions[i];
-        if (c->part == r->part && !(c->kind->fields & KOKSMA__NEEDS_FIGURES)) {
-            koksma__conclude(r, d, c);
-        }
-    }
+    koksma__conclude(r, d, false);
 }
 
 const koksma__section koksma__section_conclusions = {"What the paper concludes, and whether it holds", true,
-                                                     has_conclusions, write_conclusions};
+                                                     write_conclusions};

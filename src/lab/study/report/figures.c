@@ -234,11 +234,6 @@ static void add_lines(koksma__document *d, const koksma__figure *f)
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
 
-static bool has_figures(const koksma__report *r)
-{
-    return koksma__plan_of(r)->figures[0] < koksma__plan_of(r)->figures[1];
-}
-
 static void add_figure(koksma__report *r, koksma__document *d, const koksma__figure *f,
                        koksma_adaptive_report *report)
 {
@@ -268,12 +263,7 @@ static void write_figures(koksma__report *r, koksma__document *d)
         add_figure(r, d, &plan->figures[i], &reports[i]);
     }
     r->adaptive = reports;
-    for (size_t i = 0; !r->status && i < plan->n_conclusions; i++) {
-        const koksma__conclusion *c = &plan->conclusions[i];
-        if (c->part == r->part && c->kind->fields & KOKSMA__NEEDS_FIGURES) {
-            koksma__conclude(r, d, c);
-        }
-    }
+    koksma__conclude(r, d, true);
 }
 
-const koksma__section koksma__section_figures = {"Figures", true, has_figures, write_figures};
+const koksma__section koksma__section_figures = {"Figures", true, write_figures};

@@ -227,11 +227,6 @@ koksma_coherence_values koksma__mean_coherence(koksma__report *r, const koksma__
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
 
-static bool has_images(const koksma__report *r)
-{
-    return r->study->plan.n_images > 0;
-}
-
 /* Whether pattern p of a block can make the block's middle number of samples, with which the pictures are rendered. */
 static bool is_served(const koksma__image_block *block, size_t p)
 {
@@ -388,4 +383,4 @@ static void write_pictures(koksma__report *r, koksma__document *d)
     }
 }
 
-const koksma__section koksma__section_pictures = {"Pictures", false, has_images, write_pictures};
+const koksma__section koksma__section_pictures = {"Pictures", false, write_pictures};

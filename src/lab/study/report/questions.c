@@ -174,15 +174,6 @@ static void answer_all(koksma__report *r, koksma__document *d, size_t part)
     }
 }
 
-static bool has_questions(const koksma__report *r)
-{
-    bool found = r->study->plan.n_questions > 0;
-    for (size_t i = 0; i < r->study->plan.n_parts; i++) {
-        found |= !r->study->plan.parts[i].asks;
-    }
-    return found;
-}
-
 static void write_questions(koksma__report *r, koksma__document *d)
 {
     const koksma__plan *plan = &r->study->plan;
@@ -207,4 +198,4 @@ static void write_questions(koksma__report *r, koksma__document *d)
     }
 }
 
-const koksma__section koksma__section_questions = {"Questions and answers", false, has_questions, write_questions};
+const koksma__section koksma__section_questions = {"Questions and answers", false, write_questions};

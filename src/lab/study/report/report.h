@@ -222,8 +222,7 @@ void koksma__z_say(koksma__document *d, const koksma__z_sums *sums);
    content is left out. */
 typedef struct koksma__section {
     const char *heading;
-    bool of_each_plan;                         /* the section is written once for every plan of the study */
-    bool (*is_shown)(const koksma__report *r); /* NULL: always */
+    bool of_each_plan; /* the section is written once for every plan of the study */
     void (*write)(koksma__report *r, koksma__document *d);
 } koksma__section;
 
@@ -231,8 +230,9 @@ typedef struct koksma__section {
 #include "study/report/sections.def"
 #undef SECTION
 
-/* Writes a conclusion of a plan: whether it holds, and the evidence. Those on figures follow the figures. */
-void koksma__conclude(koksma__report *r, koksma__document *d, const koksma__conclusion *c);
+/* Writes of each conclusion of the plan whether it holds, and the evidence: of those on figures, which follow the
+   figures, or of all others. */
+void koksma__conclude(koksma__report *r, koksma__document *d, bool on_figures);
 
 /* A question of a plan with its blocks. */
 typedef struct koksma__topic {

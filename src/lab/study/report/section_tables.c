@@ -11,8 +11,7 @@
  *
  * Errors of images: our means against the block's first reference (the paper's), the coherence of the error and, if the
  * block has several references, our means against the last one (the converged image). The text below a table reports the
- * effect of the choice of the reference, that below all tables the order of the patterns by their mean rank, and the
- * overall order that the paper gives.
+ * effect of the choice of the reference.
  */
 #include <math.h>
 #include <stdio.h>
@@ -187,79 +186,49 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
 
 /* ---- Discrepancies over several numbers of points ---------------------------------------------------------- */
 
-/* The table that is being written, and the chart that follows it. */
-typedef struct sizes_table {
-    koksma__report *report;
-    koksma__document *document, chart;
-    const koksma__table *table;
-    koksma__z_sums together;
-} sizes_table;
-
-static void add_size_columns(koksma__document *d, const koksma__table *t)
+/* Adds the row with the printed means; with `chart` their hollow marks, in the style of our curve, instead. */
+static void add_printed_line(koksma__document *d, koksma__document *chart, const koksma__table *t,
+                             const koksma__table_row *row)
 {
-    koksma__doc_columns(d, "tm row#pattern;th pattern;t values#mean");
+    const double slope = koksma__table_printed_slope(t, row);
+    if (chart) {
+        koksma__doc_series(chart, row->label, row->pattern, KOKSMA__SERIES_HOLLOW);
+    } else {
+        koksma__doc_row(d, "ttt", row->label, row->pattern, "printed");
+    }
     for (size_t i = 0; i < t->n.n; i++) {
-        koksma__doc_columns(d, "i4 %lld point%s", t->n.at[i], koksma__plural((double)t->n.at[i]));
-    }
-    koksma__doc_columns(d, "i3f slope#slope 95 %%;n3 theory;n2 × random");
-}
-
-/* Adds the row with the printed means. */
-static void add_printed_line(sizes_table *s, const koksma__table_row *row)
-{
-    const koksma__wholes *n = &s->table->n;
-    const double slope = koksma__table_printed_slope(s->table, row);
-    koksma__doc_row(s->document, "ttt", row->label, row->pattern, "printed");
-    for (size_t i = 0; i < n->n; i++) {
-        add_published(s->document, &row->published[i], koksma__table_note(s->table, row->pattern, n->at[i], 0));
-    }
-    koksma__doc_cells(s->document, "inn", (koksma__estimate){slope, slope, slope}, row->rate, row->of_random);
-}
-
-/* Adds a row with our means of a measure. own: whether it is the table's first measure, whose means get verdicts and
-   a curve. */
-static void add_our_line(sizes_table *s, const koksma__table_row *row, const char *measure, bool own)
-{
-    const koksma__wholes *n = &s->table->n;
-    koksma__curve curve = koksma__curve_of(s->report, n->n);
-    koksma__doc_row(s->document, "ttt", row->label, row->pattern, measure);
-    if (own) {
-        koksma__doc_series(&s->chart, row->label, row->pattern, KOKSMA__SERIES_LINE);
-    }
-    for (size_t i = 0; i < n->n; i++) {
-        const koksma__cell cell = koksma__points_cell(s->report, s->table, measure, row->pattern, n->at[i]);
-        const koksma__verdict verdict = koksma__table_judge(s->table, row, i, &cell);
-        add_mean(s->document, &cell.mean, 0, own ? &verdict : NULL);
-        if (own) {
-            koksma__z_add(&s->together, &verdict, &cell);
-            koksma__doc_point(&s->chart, (double)n->at[i], cell.mean.mean, cell.mean.low, cell.mean.high);
+        if (chart) {
+            koksma__doc_point(chart, (double)t->n.at[i], row->published[i].value, NAN, NAN);
+        } else {
+            add_published(d, &row->published[i], koksma__table_note(t, row->pattern, t->n.at[i], 0));
         }
-        koksma__curve_add(&curve, n->at[i], cell.mean);
     }
-    if (own) {
-    }
-    koksma__doc_cells(s->document, "i", koksma__trend_of(curve.x, curve.y, curve.n).slope);
-}
-
-/* Adds the published means of a row to the chart, as hollow marks in the style of our curve. */
-static void add_printed_marks(sizes_table *s, const koksma__table_row *row)
-{
-    koksma__doc_series(&s->chart, row->label, row->pattern, KOKSMA__SERIES_HOLLOW);
-    for (size_t i = 0; i < s->table->n.n; i++) {
-        koksma__doc_point(&s->chart, (double)s->table->n.at[i], row->published[i].value, NAN, NAN);
+    if (!chart) {
+        koksma__doc_cells(d, "inn", (koksma__estimate){slope, slope, slope}, row->rate, row->of_random);
     }
 }
 
-/* Says over how many sets the means are, and how slopes are computed: of published means, too, if the table has some. */
-static void say_means(koksma__document *d, bool published, size_t sets, bool differ)
+/* Adds a row with our means of a measure. Those of the table's first measure get verdicts, added to `together`, and a
+   curve; of the second one both are NULL. */
+static void add_our_line(koksma__report *r, koksma__document *d, const koksma__table *t, const koksma__table_row *row,
+                         const char *measure, koksma__document *chart, koksma__z_sums *together)
 {
-    koksma__doc_paragraph(d,
-                          published ? "Published means are taken to be over 100 sets, ours are over %s%zu"
-                                    : "Means are over %s%zu sets",
-                          differ ? "up to " : "", sets);
-    koksma__doc_say(d, ". Slopes are least squares over all columns; _theory_ is the exponent of the pattern for "
-                       "large N, which a slope over these columns need not have reached, and _× random_ the factor, "
-                       "where known, of its mean there to that of random points.");
+    koksma__curve curve = koksma__curve_of(r, t->n.n);
+    koksma__doc_row(d, "ttt", row->label, row->pattern, measure);
+    if (chart) {
+        koksma__doc_series(chart, row->label, row->pattern, KOKSMA__SERIES_LINE);
+    }
+    for (size_t i = 0; i < t->n.n; i++) {
+        const koksma__cell cell = koksma__points_cell(r, t, measure, row->pattern, t->n.at[i]);
+        const koksma__verdict verdict = koksma__table_judge(t, row, i, &cell);
+        add_mean(d, &cell.mean, 0, chart ? &verdict : NULL);
+        if (chart) {
+            koksma__z_add(together, &verdict, &cell);
+            koksma__doc_point(chart, (double)t->n.at[i], cell.mean.mean, cell.mean.low, cell.mean.high);
+        }
+        koksma__curve_add(&curve, t->n.at[i], cell.mean);
+    }
+    koksma__doc_cells(d, "i", koksma__trend_of(curve.x, curve.y, curve.n).slope);
 }
 
 static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma__table *t)
@@ -267,41 +236,51 @@ static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma
     char title[200];
     size_t sets;
     bool differ, published = false;
-    sizes_table s = {.report = r, .document = d, .table = t};
+    koksma__document chart = {0};
+    koksma__z_sums together = {0};
     snprintf(title, sizeof title, "Table %.60s: %.110s%s", t->id, t->title,
              t->rows[0].n_published ? ". Hollow: printed" : "");
-    koksma__doc_chart(&s.chart, &(koksma__chart){title, "points", t->measure, true, true, 0, NULL});
+    koksma__doc_chart(&chart, &(koksma__chart){title, "points", t->measure, true, true, 0, NULL});
     begin_table(d, t);
-    add_size_columns(d, t);
+    koksma__doc_columns(d, "tm row#pattern;th pattern;t values#mean");
+    for (size_t i = 0; i < t->n.n; i++) {
+        koksma__doc_columns(d, "i4 %lld point%s", t->n.at[i], koksma__plural((double)t->n.at[i]));
+    }
+    koksma__doc_columns(d, "i3f slope#slope 95 %%;n3 theory;n2 × random");
     for (size_t i = 0; i < t->n_rows; i++) {
-        add_printed_line(&s, &t->rows[i]);
-        add_our_line(&s, &t->rows[i], t->measure, true);
+        add_printed_line(d, NULL, t, &t->rows[i]);
+        add_our_line(r, d, t, &t->rows[i], t->measure, &chart, &together);
         if (t->also) {
-            add_our_line(&s, &t->rows[i], t->also, false);
+            add_our_line(r, d, t, &t->rows[i], t->also, NULL, NULL);
         }
-        published |= t->rows[i].n_published > 0;
     }
     for (size_t i = 0; i < t->n_rows; i++) {
         if (t->rows[i].n_published) {
-            add_printed_marks(&s, &t->rows[i]);
+            published = true;
+            add_printed_line(d, &chart, t, &t->rows[i]);
         }
     }
     end_table(d, t);
-    koksma__z_say(d, &s.together);
+    koksma__z_say(d, &together);
     count_sets(r, t, &sets, &differ);
-    say_means(d, published, sets, differ);
-    koksma__doc_append(d, &s.chart);
+    koksma__doc_paragraph(d,
+                          published ? "Published means are taken to be over 100 sets, ours are over %s%zu"
+                                    : "Means are over %s%zu sets",
+                          differ ? "up to " : "", sets);
+    koksma__doc_say(d, ". Slopes are least squares over all columns; _theory_ is the exponent of the pattern for "
+                       "large N, which a slope over these columns need not have reached, and _× random_ the factor, "
+                       "where known, of its mean there to that of random points.");
+    koksma__doc_append(d, &chart);
     koksma__doc_end(d);
-}
-
-static bool has_point_tables(const koksma__report *r)
-{
-    return next_table(r, false, &(size_t){0}) != NULL;
 }
 
 static void write_point_tables(koksma__report *r, koksma__document *d)
 {
     size_t i = 0;
+    const koksma__table *t = next_table(r, false, &i);
+    if (!t) {
+        return;
+    }
     koksma__doc_paragraph(
         d,
         "The numbers are means over point sets, by the measure that heads the column. z is the published mean minus "
@@ -312,13 +291,12 @@ static void write_point_tables(koksma__report *r, koksma__document *d)
         "values in blocks of 100 sets; its ±, from five blocks on, is the SD of these largest values, whereas the "
         "other intervals are " KOKSMA__MEAN_INTERVALS ". With fewer than 100 sets it is the largest value of all.",
         KOKSMA__AGREEMENT_Z);
-    for (const koksma__table *t; !r->status && (t = next_table(r, false, &i));) {
+    for (; !r->status && t; t = next_table(r, false, &i)) {
         (koksma__table_is_over_n(t) ? add_sizes_table : add_table)(r, d, t);
     }
 }
 
-const koksma__section koksma__section_point_tables = {"Irregularity of the patterns", true, has_point_tables,
-                                                      write_point_tables};
+const koksma__section koksma__section_point_tables = {"Irregularity of the patterns", true, write_point_tables};
 
 /* ---- Errors of images -------------------------------------------------------------------------------------- */
 
@@ -351,16 +329,15 @@ static void add_image_row(koksma__report *r, koksma__document *d, const koksma__
 {
     const koksma__subject s = koksma__table_images(r->study, t);
     const koksma__cell cell = koksma__table_cell(r, t, row->pattern, 0),
-                       last =
-                           koksma__image_cell(r, t, &s.images->references[s.images->n_references - 1], row->pattern);
+                       last = koksma__image_cell(r, t, s.reference, row->pattern);
     const koksma_coherence_values v = koksma__mean_coherence(r, &s, row->pattern, t->n.at[0]);
     const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
+    const double none = NAN;
     means[0] = cell.mean.mean;
     means[1] = last.mean.mean;
     begin_row(d, t, row, &verdict);
-    koksma__doc_cells(d, "inn", koksma__estimate_of(&cell.mean), cell.sd, cell.max);
-    koksma__doc_cells(d, "nnnt", v.images ? v.coherence : (double)NAN, v.images ? v.noise_high : (double)NAN,
-                      v.images ? v.p : (double)NAN,
+    koksma__doc_cells(d, "innnnnt", koksma__estimate_of(&cell.mean), cell.sd, cell.max, v.images ? v.coherence : none,
+                      v.images ? v.noise_high : none, v.images ? v.p : none,
                       !v.images    ? "not known"
                       : v.coherent ? "yes"
                                    : "no");
@@ -369,67 +346,42 @@ static void add_image_row(koksma__report *r, koksma__document *d, const koksma__
     }
 }
 
-/* Sorts the indices of n rows by values[stride * row], by insertion; rows with equal values keep their order. */
-static void order_rows(const double *values, size_t stride, size_t n, size_t *order)
-{
-    for (size_t i = 0; i < n; i++) {
-        size_t at = i;
-        for (; at > 0 && values[stride * order[at - 1]] > values[stride * i]; at--) {
-            order[at] = order[at - 1];
-        }
-        order[at] = i;
-    }
-}
-
-/* Writes how much the choice of the reference changes the means, and whether it changes the order. */
-static void say_changes(koksma__document *d, const koksma__table *t, const double *means, size_t *const order[2])
-{
-    double low = INFINITY, high = -INFINITY;
-    koksma__doc_say(d, "Best to worst against the converged reference: ");
-    for (size_t i = 0; i < t->n_rows; i++) {
-        const double change = means[2 * i + 1] / means[2 * i] - 1;
-        low = fmin(low, change);
-        high = fmax(high, change);
-        koksma__doc_say(d, "%s%s", t->rows[order[1][i]].label, i + 1 < t->n_rows ? "; " : ". ");
-    }
-    if (isfinite(low) && isfinite(high)) {
-        const bool differ = memcmp(order[0], order[1], t->n_rows * sizeof *order[0]) != 0;
-        koksma__doc_say(d,
-                        "Taking the converged reference instead of the paper's changes the means by %+.1f to %+.1f "
-                        "%% and %s the order of the patterns. ",
-                        100 * low, 100 * high, differ ? "changes" : "does not change");
-    }
-}
-
-/* Writes the effect of the choice of the reference if every row has a mean. */
+/* Writes how much the choice of the reference changes the means, and whether it changes the order, if every row has both
+   means. */
 static void say_reference(koksma__report *r, koksma__document *d, const koksma__table *t, const double *means)
 {
     const size_t n = t->n_rows;
     const koksma__subject s = koksma__table_images(r->study, t);
-    size_t *positions = koksma__report_memory(r, 2 * n, sizeof *positions);
-    size_t *const order[2] = {positions, positions + n};
-    double smallest = INFINITY;
-    if (!positions) {
+    size_t *paper = koksma__report_memory(r, 2 * n, sizeof *paper), *order = paper + n;
+    double low = INFINITY, high = -INFINITY;
+    if (!paper) {
         return;
     }
-    for (size_t i = 0; i < n; i++) {
-        if (isnan(means[2 * i]) || isnan(means[2 * i + 1])) {
-            koksma__doc_paragraph(d, "Some rows have no trials yet.");
-            return;
-        }
-        smallest = fmin(smallest, means[2 * i + 1]);
+    if (koksma__order_means(means, 2, n, false, paper) < n ||
+        koksma__order_means(means + 1, 2, n, false, order) < n) {
+        koksma__doc_paragraph(d, "Some rows have no trials yet.");
+        return;
     }
-    for (size_t k = 0; k < 2; k++) {
-        order_rows(means + k, 2, n, order[k]);
+    koksma__doc_paragraph(d, "Best to worst against the converged reference: ");
+    for (size_t i = 0; i < n; i++) {
+        const double change = means[2 * i + 1] / means[2 * i] - 1;
+        low = fmin(low, change);
+        high = fmax(high, change);
+        koksma__doc_say(d, "%s%s", t->rows[order[i]].label, i + 1 < n ? "; " : ". ");
+    }
+    if (isfinite(low) && isfinite(high)) {
+        koksma__doc_say(d,
+                        "Taking the converged reference instead of the paper's changes the means by %+.1f to %+.1f "
+                        "%% and %s the order of the patterns. ",
+                        100 * low, 100 * high,
+                        memcmp(paper, order, n * sizeof *order) ? "changes" : "does not change");
     }
     const double error = koksma__reference_error(r, &s);
-    koksma__doc_paragraph(d, "%s", "");
-    say_changes(d, t, means, order);
     if (isfinite(error)) {
         koksma__doc_say(d,
                         "The mean error of the converged reference itself is %.2g, which is %.2g times the smallest "
                         "error in the table.",
-                        error, error / smallest);
+                        error, error / means[2 * order[0] + 1]);
     }
 }
 
@@ -449,67 +401,13 @@ static void add_image_table(koksma__report *r, koksma__document *d, const koksma
     koksma__doc_end(d);
 }
 
-/* Adds the rank of every row of table t, by its mean against the first reference, to ranks[k], where row k of the table
-   `first` is the row with the same pattern. Returns whether all rows have trials, and a row there. */
-static bool add_ranks(koksma__report *r, const koksma__table *t, const koksma__table *first, double *ranks)
-{
-    bool whole = t->n_rows == first->n_rows;
-    double *means = koksma__report_memory(r, t->n_rows, sizeof *means);
-    for (size_t i = 0; means && i < t->n_rows; i++) {
-        const koksma__cell cell = koksma__table_cell(r, t, t->rows[i].pattern, 0);
-        means[i] = cell.mean.mean;
-        whole &= cell.mean.n > 0;
-    }
-    for (size_t i = 0; means && i < t->n_rows; i++) {
-        const koksma__table_row *row = koksma__plan_row_of(first, t->rows[i].pattern);
-        size_t below = 0;
-        for (size_t k = 0; k < t->n_rows; k++) {
-            below += means[k] < means[i];
-        }
-        whole &= row != NULL;
-        if (row) {
-            ranks[row - first->rows] += (double)below + 1;
-        }
-    }
-    return means && whole;
-}
-
-/* Writes the order of the patterns by their mean rank over the tables, if there are several tables of the same
-   patterns. */
-static void add_order(koksma__report *r, koksma__document *d)
-{
-    size_t i = 0, tables = 0;
-    bool whole = true;
-    const koksma__table *first = next_table(r, true, &i);
-    double *ranks = koksma__report_memory(r, first->n_rows, sizeof *ranks);
-    size_t *order = koksma__report_memory(r, first->n_rows, sizeof *order);
-    for (const koksma__table *t = first; !r->status && t; t = next_table(r, true, &i)) {
-        whole &= add_ranks(r, t, first, ranks);
-        tables++;
-    }
-    if (r->status || !whole || tables < 2) {
-        return;
-    }
-    order_rows(ranks, 1, first->n_rows, order);
-    koksma__doc_paragraph(d,
-                          "Best to worst over the %zu tables, by mean rank against the paper's reference: ", tables);
-    for (size_t k = 0; k < first->n_rows; k++) {
-        koksma__doc_say(d, "%s (%.4g)%s", first->rows[order[k]].label, ranks[order[k]] / (double)tables,
-                        k + 1 < first->n_rows ? "; " : ".");
-    }
-    if (koksma__plan_of(r)->order) {
-        koksma__doc_say(d, " The overall order that the paper's text gives: %s.", koksma__plan_of(r)->order);
-    }
-}
-
-static bool has_image_tables(const koksma__report *r)
-{
-    return next_table(r, true, &(size_t){0}) != NULL;
-}
-
 static void write_image_tables(koksma__report *r, koksma__document *d)
 {
     size_t i = 0;
+    const koksma__table *t = next_table(r, true, &i);
+    if (!t) {
+        return;
+    }
     koksma__doc_paragraph(
         d,
         "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
@@ -519,10 +417,9 @@ static void write_image_tables(koksma__report *r, koksma__document *d)
         "cases, and as large as here with probability p. An error with p below %g is coherent: in bands, a slow "
         "shade or another pattern that the eye sees.",
         KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
-    for (const koksma__table *t; !r->status && (t = next_table(r, true, &i));) {
+    for (; !r->status && t; t = next_table(r, true, &i)) {
         add_image_table(r, d, t);
     }
-    add_order(r, d);
 }
 
-const koksma__section koksma__section_image_tables = {"Errors of images", true, has_image_tables, write_image_tables};
+const koksma__section koksma__section_image_tables = {"Errors of images", true, write_image_tables};

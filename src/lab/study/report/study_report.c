@@ -52,7 +52,7 @@ static void add_sections(koksma__report *r, progress *p, bool of_each_plan, koks
         }
         const koksma_run part = koksma__phase_run(&p->phases, p->run, p->share);
         r->run = &part;
-        if (koksma__report_goes_on(r) && (!s->is_shown || s->is_shown(r))) {
+        if (koksma__report_goes_on(r)) {
             s->write(r, &content);
             koksma__report_release(r);
         }
@@ -174,25 +174,23 @@ static void write_undone(koksma__report *r, koksma__document *d)
     }
 }
 
-const koksma__section koksma__section_undone = {"Not done", false, NULL, write_undone};
-
-static bool has_left_out(const koksma__report *r)
-{
-    return koksma_study_left_out_at(r->study, 0) != NULL;
-}
+const koksma__section koksma__section_undone = {"Not done", false, write_undone};
 
 /* Lists the sizes that blocks with `skip` leave out, and the jobs that failed when they ran. */
 static void write_left_out(koksma__report *r, koksma__document *d)
 {
     const char *line;
-    koksma__doc_paragraph(d, "These combinations have no results; where trials are counted, only those have none:");
-    koksma__doc_list(d, NULL, false);
+    if (koksma_study_left_out_at(r->study, 0)) {
+        koksma__doc_paragraph(d,
+                              "These combinations have no results; where trials are counted, only those have none:");
+        koksma__doc_list(d, NULL, false);
+    }
     for (size_t i = 0; koksma__report_goes_on(r) && (line = koksma_study_left_out_at(r->study, i)); i++) {
         koksma__doc_item(d, "%s", line);
     }
 }
 
-const koksma__section koksma__section_left_out = {"Left out", false, has_left_out, write_left_out};
+const koksma__section koksma__section_left_out = {"Left out", false, write_left_out};
 
 /* ---- Origin ------------------------------------------------------------------------------------------------ */
 
@@ -230,4 +228,4 @@ static void write_origin(koksma__report *r, koksma__document *d)
                              "those of numbers of samples in 92 to 96 %%.");
 }
 
-const koksma__section koksma__section_origin = {"How it was made", false, NULL, write_origin};
+const koksma__section koksma__section_origin = {"How it was made", false, write_origin};

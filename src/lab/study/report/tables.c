@@ -225,11 +225,6 @@ typedef struct counts {
     koksma__z_sums *z;  /* [table] */
 } counts;
 
-static bool has_tables(const koksma__report *r)
-{
-    return r->study->plan.n_tables > 0;
-}
-
 /* Whether a note on all means of a table says which procedure they are probably of, which explains no difference. */
 static bool is_inferred(const koksma__table *t)
 {
@@ -397,8 +392,7 @@ static void write_agreement(koksma__report *r, koksma__document *d)
     }
 }
 
-const koksma__section koksma__section_agreement = {"Agreement with the published means", false, has_tables,
-                                                   write_agreement};
+const koksma__section koksma__section_agreement = {"Agreement with the published means", false, write_agreement};
 
 /* ---- The public interface ---------------------------------------------------------------------------------- */
 
