@@ -88,6 +88,8 @@ static const struct {
     {"random-state", {"seed"}},
     {"dimension", {"dim"}},
     {"ndim", {"dim"}},
+    {"spp", {"n"}},
+    {"trials", {"seed", "replicates"}},
     {"outfile", {"output"}},
     {"json", {"output"}},
     {"type", {"curve"}},
@@ -103,6 +105,7 @@ static const struct {
     {"i", "files are operands, without an option; "},
     {"f", "files are operands, without an option; "},
     {"o", "it writes to standard output, as in '> FILE'; "},
+    {"gamma", "PNG has sRGB's curve, EXR and PFM linear light; "},
     {"gpu", "it runs on processors alone; "},
     {"scramble", "it is a parameter of patterns, as in sobol:scramble=owen; "},
     {"scrambling", "it is a parameter of patterns, as in sobol:scramble=owen; "},
@@ -201,6 +204,10 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
         snprintf(text, CLI_KNOWN,
                  *word == 'h' && word[1] == 't' ? "; only files are read: download it first"
                                                 : "; --help describes the command");
+        return text;
+    }
+    if (!strncmp(word, "\xe2\x80", 2)) { /* an en or em dash, of a word processor */
+        snprintf(text, CLI_KNOWN, "; it begins with a long dash, options begin with -");
         return text;
     }
     for (size_t i = 0; dot && dot[1] && i < sizeof files / sizeof *files && !access(word, R_OK); i++) {

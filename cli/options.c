@@ -449,7 +449,7 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
     const double value = strtod(text, &end);
     if (end == text || *end || !(value >= min && value <= max)) {
         cli_usage_error(arguments, "--%s %s: it takes a number from %g to %g%s", name, text, min, max,
-                        strchr(text, '%') || (max == 1 && value > 1 && value <= 100) ? "; 1 % is 0.01"
+                        strchr(text, '%') || (max <= 1 && value > 1 && value <= 100) ? "; 1 % is 0.01"
                         : end > text && *end                                         ? ", without a unit"
                                                                                      : "");
         return false;

@@ -101,6 +101,8 @@ def hint_of_values(message: str, function: "Callable[..., Any]", values: Sequenc
         return "; plot(points).save(path) writes a file"
     if function.__name__ == "verify_sets" and "shape" in message:
         return "; it takes several sets, verify(points) takes one"
+    if "is outside [0,1]" in message and ";" not in message:
+        return "; points lie in the unit cube: divide by the largest coordinate there can be"
     found = re.match(r"no (\w+) '([^']*)'", message)
     if not found:
         return ""

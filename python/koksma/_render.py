@@ -166,7 +166,11 @@ def _choice(argument: str, kind: str, word: str) -> int:
 def _found(kind: str, name: str) -> int:
     found: int = getattr(lab(), f"koksma_{kind}_find")(text(name, kind))
     if not found:
-        raise ArgumentError(f"no {kind} {quoted(name)}; koksma.{kind}s() names them")
+        from difflib import get_close_matches
+
+        near = get_close_matches(str(name).lower(), [member.name for member in named(getattr(lab(), f"koksma_{kind}_at"))], 1)
+        meant = f"did you mean {near[0]!r}? " if near else ""
+        raise ArgumentError(f"no {kind} {quoted(name)}; {meant}koksma.{kind}s() names them")
     return found
 
 

@@ -102,6 +102,9 @@ static koksma_status fail_no_value(const char *member, const koksma_param *param
     const int i = find_param(params, word);
     KOKSMA__FAIL_IF(i >= 0, KOKSMA_ARGUMENT, "%s: '%s' takes a value, as in %s=%s", member, word, word,
                     i >= 0 && params[i].choices ? params[i].choices[1] ? params[i].choices[1] : "" : "1");
+    const bool alone = params && params[0].name && !params[1].name && !params[0].choices;
+    KOKSMA__FAIL_IF(alone && *word && strspn(word, "0123456789.") == strlen(word), KOKSMA_ARGUMENT,
+                    "%s: did you mean %s=%s?", member, params[0].name, word);
     return koksma__fail(KOKSMA_ARGUMENT, "%s: '%s' is not of the form key=value", member, word);
 }
 
