@@ -89,7 +89,7 @@ static const struct {
     {"dimension", {"dim"}},
     {"ndim", {"dim"}},
     {"spp", {"n"}},
-    {"trials", {"seed", "replicates"}},
+    {"trials", {"max-trials", "seed"}},
     {"outfile", {"output"}},
     {"json", {"output"}},
     {"type", {"curve"}},
