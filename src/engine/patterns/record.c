@@ -74,7 +74,7 @@ const koksma_pattern koksma__pattern_record = {
     .min_dim = 2,
     .max_dim = 3,
     .claims = KOKSMA_CLAIM_DETERMINISTIC,
-    .revision = 7,
+    .revision = 8,
     .params = params,
     .generate = generate,
 };
