@@ -30,22 +30,28 @@ static const koksma_param blur_params[] = {
     {0},
 };
 
-/* The differences of the pixels, blurred. */
-static koksma_status differences(const koksma_metric_input *in, double *out)
+/* The differences of the pixels, blurred, and their squares or sizes: in one pass where nothing is blurred. */
+static koksma_status differences(const koksma_metric_input *in, bool squared, double *out)
 {
-    for (size_t p = 0; p < koksma__metric_pixels(in); p++) {
-        out[p] = in->image[p] - in->reference[p];
+    const size_t n = koksma__metric_pixels(in);
+    const double sd = in->params[0];
+    for (size_t p = 0; p < n; p++) {
+        const double e = in->image[p] - in->reference[p];
+        out[p] = sd > 0 ? e : squared ? e * e : fabs(e);
     }
-    return koksma__blur(in->width, in->height, in->params[0], out);
+    if (!(sd > 0)) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__blur(in->width, in->height, sd, out);
+    for (size_t p = 0; p < n; p++) {
+        out[p] = squared ? out[p] * out[p] : fabs(out[p]);
+    }
+    return status;
 }
 
 static koksma_status mae_errors(const koksma_metric_input *in, double *out)
 {
-    const koksma_status status = differences(in, out);
-    for (size_t p = 0; p < koksma__metric_pixels(in); p++) {
-        out[p] = fabs(out[p]);
-    }
-    return status;
+    return differences(in, false, out);
 }
 
 const koksma_metric koksma__metric_mae = {
@@ -61,11 +67,7 @@ const koksma_metric koksma__metric_mae = {
 
 static koksma_status rmse_errors(const koksma_metric_input *in, double *out)
 {
-    const koksma_status status = differences(in, out);
-    for (size_t p = 0; p < koksma__metric_pixels(in); p++) {
-        out[p] *= out[p];
-    }
-    return status;
+    return differences(in, true, out);
 }
 
 const koksma_metric koksma__metric_rmse = {

@@ -147,17 +147,27 @@ static void select_largest(double *x, size_t n, size_t k)
     }
 }
 
-/* A sum that does not depend on the order, except where the exact one is all but between two numbers. */
+/* A sum that does not depend on the order, except where the exact one is all but between two numbers. The errors of the
+   additions are found without a branch (Knuth's two-sum), so that lanes are those of SIMD. */
 static double exact_sum(const double *x, size_t n)
 {
     enum { LANES = 4 };
-    koksma__sum lanes[LANES] = {{0}}, sum = {0};
-    for (size_t i = 0; i < n; i++) {
-        koksma__sum_add(&lanes[i % LANES], x[i]);
+    double total[LANES] = {0}, lost[LANES] = {0};
+    const size_t whole = n - n % LANES;
+    for (size_t i = 0; i < whole; i += LANES) {
+        for (size_t k = 0; k < LANES; k++) {
+            const double next = total[k] + x[i + k], added = next - total[k];
+            lost[k] += (total[k] - (next - added)) + (x[i + k] - added);
+            total[k] = next;
+        }
     }
-    for (size_t i = 0; i < LANES; i++) {
-        koksma__sum_add(&sum, lanes[i].total);
-        sum.lost += lanes[i].lost;
+    koksma__sum sum = {0};
+    for (size_t k = 0; k < LANES; k++) {
+        koksma__sum_add(&sum, total[k]);
+        sum.lost += lost[k];
+    }
+    for (size_t i = whole; i < n; i++) {
+        koksma__sum_add(&sum, x[i]);
     }
     return koksma__sum_value(&sum);
 }
