@@ -189,6 +189,7 @@ typedef struct cli_work {
     bool unknown;        /* the progress of this part is not known: the line shows the time so far */
     double part_s;       /* the start of this part */
     double limit_s;      /* the work takes at most this number of seconds; 0: unknown */
+    bool visible;        /* there is a progress line */
     bool hidden;         /* show nothing */
     double started_s, updated_s;
 } cli_work;

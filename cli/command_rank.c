@@ -292,6 +292,24 @@ static void say_unranked(const koksma_rank_options *options, const koksma_rank_r
     }
 }
 
+/* The first look at a ranking: printed at once where the progress is shown, else only if the ranking gets no further. */
+typedef struct first_look {
+    const koksma_rank_options *options;
+    bool at_once, waits;
+    double errors[MAX_PATTERNS];
+} first_look;
+
+static void take_look(void *context, const double *errors)
+{
+    first_look *look = context;
+    memcpy(look->errors, errors, look->options->n_patterns * sizeof *errors);
+    look->waits = !look->at_once;
+    if (look->at_once) {
+        cli_work_end();
+        cli_rank_say_look(look->options, errors);
+    }
+}
+
 /* Ranks the patterns for one number of samples, and prints the rows and the advice. *settled: whether it is decided which
    pattern to use. */
 static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_options *options, cli_work *work,
@@ -299,7 +317,11 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
 {
     koksma_rank_row table[MAX_PATTERNS];
     koksma_ranking ranking;
-    const koksma_status status = koksma_rank_patterns(options, &work->run, table, &ranking);
+    koksma_rank_options asked = *options;
+    first_look look = {.options = options, .at_once = work->visible};
+    asked.look = cli_flag(arguments, "quiet") ? NULL : take_look;
+    asked.look_context = &look;
+    const koksma_status status = koksma_rank_patterns(&asked, &work->run, table, &ranking);
     cli_work_end();
     if (status) {
         return status;
@@ -313,6 +335,9 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     }
     if (!cli_flag(arguments, "quiet")) {
         cli_rank_advise(&shown, table, &ranking);
+    }
+    if (look.waits && !ranking.n) {
+        cli_rank_say_look(options, look.errors);
     }
     say_unranked(&shown, table, &ranking);
     *settled = cli_rank_decided(&ranking);
@@ -640,8 +665,10 @@ const cli_command cli_command_rank = {
         "\n"
         "Errors are measured against the mean of 16 independent images of sobol:scramble=owen with as many samples "
         "as the patterns, at least 16. From 24 trials of a pattern on they have 4 times as many samples, and from "
-        "96 trials 16 times as many, so that the first rows need little time. All intervals include the "
-        "reference's own error. --reference FILE takes an image in their place, as if it had no error; it must "
+        "96 trials 16 times as many, so that the first rows need little time. Before, two images of each pattern "
+        "give a first look: their difference tells the root mean square error, but no bias. It is printed where "
+        "progress is shown, or if the time is up before the first row. All intervals include the reference's own "
+        "error. --reference FILE takes an image in their place, as if it had no error; it must "
         "have the size of the images (default: they have its size), and no other sizes are checked.\n"
         "\n"
         "coherence: the peak of the error's power spectrum divided by its mean, with the allowance for blue noise "

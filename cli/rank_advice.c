@@ -456,3 +456,26 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
     }
     say_worth(options, rows, ranking);
 }
+
+void cli_rank_say_look(const koksma_rank_options *options, const double *errors)
+{
+    double below = -1, next;
+    fprintf(stderr,
+            "%s at %d samples a pixel, a first look: root mean square errors by two images of each pattern, "
+            "without bias\n",
+            base_of(options->scene), options->spp);
+    do { /* patterns of equal errors stand together */
+        next = INFINITY;
+        for (size_t i = 0; i < options->n_patterns; i++) {
+            next = errors[i] > below && errors[i] < next ? errors[i] : next;
+        }
+        for (size_t i = 0; i < options->n_patterns; i++) {
+            if (errors[i] == next) {
+                fprintf(stderr, "  %-10.3g %s\n", errors[i], name_of(options, i));
+            } else if (isinf(next) && isnan(errors[i])) {
+                fprintf(stderr, "  not known  %s\n", name_of(options, i));
+            }
+        }
+        below = next;
+    } while (isfinite(next));
+}

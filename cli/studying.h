@@ -30,6 +30,8 @@ int cli_study_audit(const cli_arguments *arguments);
 /* Whether it is decided which pattern to use: the best, or one that exceeds it by at most KOKSMA_RANK_TIE. */
 bool cli_rank_decided(const koksma_ranking *ranking);
 void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking);
+/* Prints what a koksma_rank_look gets, on stderr, the least error first. */
+void cli_rank_say_look(const koksma_rank_options *options, const double *errors);
 
 /* Prints how many samples of each pattern leave the error of --target-error. spp: N of a pattern SPEC@N, or 0. Returns the
    exit code. */

@@ -151,7 +151,7 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     }
     const bool visible =
         !cli_flag(arguments, "quiet") && (when == ALWAYS || (when == AUTOMATIC && isatty(STDERR_FILENO)));
-    *work = (cli_work){.what = what, .share = 1, .started_s = cli_seconds()};
+    *work = (cli_work){.what = what, .share = 1, .visible = visible, .started_s = cli_seconds()};
     work->part_s = work->started_s;
     work->run = (koksma_run){
         .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};

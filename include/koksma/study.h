@@ -264,6 +264,12 @@ typedef koksma_status (*koksma_rank_process)(void *context, const koksma_image *
 KOKSMA_API koksma_status koksma_rank_process_by_command(void *context, const koksma_image *image,
                                                         const koksma_run *run, koksma_image *out);
 
+/* Gets, at most once and in the caller's thread, the error of each pattern of koksma_rank_patterns before the first
+   reference is rendered: the root of half the mean squared difference in luminance of two independent images, which is the
+   root mean square error without its bias. NaN: not known, as of patterns that are slow or not known to be unbiased, or
+   whose images are equal. */
+typedef void (*koksma_rank_look)(void *context, const double *errors);
+
 /* Options of koksma_rank_patterns. */
 typedef struct koksma_rank_options {
     const char *scene;           /* as for koksma_scene_open */
@@ -300,6 +306,10 @@ typedef struct koksma_rank_options {
     /* further settings of the images, as the options of a study's plan: "scope=image;lights=one;depth=4" (NULL: defaults).
        Unused with an external renderer */
     const char *variant;
+    /* a first look at the errors (NULL: none). There is none with an external renderer, a method of adaptive sampling, a
+       process or a finished reference, nor of images that together exceed 256 MiB. It changes no result */
+    koksma_rank_look look;
+    void *look_context;
 } koksma_rank_options;
 
 /* Whether a pattern was ranked. */

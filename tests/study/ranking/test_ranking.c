@@ -613,6 +613,43 @@ TEST_CASE(adaptive_rankings_are_those_of_the_pictures)
     koksma_scene_close(scene);
 }
 
+static void keep_look(void *context, const double *errors)
+{
+    memcpy(context, errors, 4 * sizeof *errors);
+}
+
+/* A first look is near the root mean square error that the ranking finds against its reference; it says nothing of patterns
+   that may be biased, and changes no row. */
+TEST_CASE(first_look_is_the_error)
+{
+    static const char *const patterns[] = {"random", "jittered", "regular", "n-rooks"};
+    koksma_rank_row looked[4], rows[4];
+    koksma_ranking ranking;
+    double errors[4] = {-1, -1, -1, -1};
+    koksma_metric_spec rmse;
+    assert_ok(koksma_metric_parse("rmse", &rmse));
+    koksma_rank_options options = {.scene = "ball",
+                                   .patterns = patterns,
+                                   .n_patterns = 4,
+                                   .spp = 16,
+                                   .width = 96,
+                                   .height = 72,
+                                   .metric = &rmse,
+                                   .max_trials = 16,
+                                   .one_size = true};
+    assert_ok(koksma_rank_patterns(&options, NULL, rows, &ranking));
+    options.look = keep_look;
+    options.look_context = errors;
+    assert_ok(koksma_rank_patterns(&options, NULL, looked, &ranking));
+    for (size_t p = 0; p < 4; p++) {
+        const koksma_rank_row *row = row_of(looked, p), *other = row_of(rows, p);
+        assert_true(row->mean == other->mean && row->low == other->low && row->high == other->high);
+        assert_true(row->robust == other->robust && row->coherence.coherence == other->coherence.coherence);
+        assert_true(row->trials == other->trials && row->position == other->position);
+        assert_true(p == 2 ? isnan(errors[p]) : fabs(errors[p] / row->mean - 1) < 0.1);
+    }
+}
+
 /* ---- Pictures under a test's clock ---------------------------------------------------------------------- */
 
 static atomic_ullong ticks;

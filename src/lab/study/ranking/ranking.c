@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Finds the pattern that leaves the least error in a scene. The ranking works in three steps:
+ * Finds the pattern that leaves the least error in a scene. The ranking works in steps:
+ *     0. a first look, if it is asked for: two images of each pattern, whose difference tells the error before there is a
+ *        reference. They are the first trials of the contest;
  *     1. a contest of all patterns at the requested image size, until the best pattern is decided, and then until the
  *        advised pattern is decided: the best one whose error is not coherent, that is, has no bands or other visible
  *        pattern (koksma_coherence_values in image.h);
@@ -439,11 +441,15 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
     if (!needed) {
         return;
     }
-    const double made = c->references[0].made + r->control.fraction; /* another renderer tells no fraction */
-    if (c->references[0].made < KOKSMA__RANK_REPLICATES) { /* a trial is estimated by its number of samples */
-        const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(r->options->spp, 0);
-        const double trials = (double)(needed * open) * r->options->spp / samples;
-        out->needed_s = made > 0 ? elapsed_s * (1 + trials) * KOKSMA__RANK_REPLICATES / made : 0;
+    const koksma__rank_reference *reference = &c->references[0];
+    if (reference->made <
+        KOKSMA__RANK_REPLICATES) { /* all work is estimated by its number of samples, in references */
+        const double one = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(r->options->spp, 0);
+        const double trial = r->options->spp / one, all = 1 + (double)(needed * open) * trial;
+        const double begun =
+            reference->pixels ? reference->made + r->control.fraction : 0; /* another renderer tells no fraction */
+        const double done = begun / KOKSMA__RANK_REPLICATES + 1e-6 * (double)atomic_load(&c->looked) * trial;
+        out->needed_s = done > 0 ? elapsed_s * all / done : 0;
         return;
     }
     for (size_t i = 0; i < c->n; i++) {
@@ -478,11 +484,33 @@ static bool check_sizes(const koksma_rank_options *options)
     return !options->one_size && !options->reference_image && (!options->render || options->width);
 }
 
+/* Takes the first look, if it is asked for and the two images of a pattern tell its error. */
+static koksma_status look(ranking *r)
+{
+    const koksma_rank_options *o = r->options;
+    if (!o->look || o->render || o->adaptive || o->process || o->reference_image) {
+        return KOKSMA_OK;
+    }
+    double *errors = malloc(o->n_patterns * sizeof *errors);
+    KOKSMA__REQUIRE_MEMORY(errors, o->n_patterns * sizeof *errors);
+    bool known = false;
+    const koksma_status status = koksma__contest_look(&r->contest, errors);
+    for (size_t i = 0; !status && i < o->n_patterns; i++) {
+        known |= !isnan(errors[i]);
+    }
+    if (known) {
+        o->look(o->look_context, errors);
+    }
+    free(errors);
+    return status;
+}
+
 static koksma_status do_sequence(ranking *r, koksma_ranking *out)
 {
     koksma__contest *c = &r->contest;
     koksma_status status = koksma__contest_try_patterns(c);
     status = status ? status : nobody_can_serve(c);
+    status = status ? status : look(r);
     status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_LEADER);
     status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_ADVISED);
     status = status ? status : nobody_can_serve(c);

@@ -22,6 +22,7 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
+#include "core/sum.h"
 #include "image/coherence.h"
 #include "image/formats.h"
 #include "image/image.h"
@@ -249,7 +250,7 @@ typedef struct batch {
 typedef struct timed {
     koksma__contest *contest;
     koksma__contestant *contestant;
-    double start_s;
+    double start_s, fraction; /* fraction: the part of the image that is done */
     bool late;
 } timed;
 
@@ -262,6 +263,7 @@ static bool keep_in_share(void *context, double fraction)
 {
     timed *t = context;
     const koksma__contest *c = t->contest;
+    t->fraction = fraction;
     if (!koksma__keep_going(&c->control->job, fraction)) {
         return false;
     }
@@ -348,14 +350,11 @@ static koksma_status process(const koksma__contest *c, const koksma_run *run, ko
     return status;
 }
 
-/* Renders a trial and measures its errors. In the first round, also adds the errors of its pixels to the sums from
-   which the coherence of the pattern's error is computed. */
-static koksma_status render_trial(const batch *b, koksma__contestant *p, size_t trial, const koksma_run *run,
-                                  double errors[ERRORS])
+/* Renders the image of a trial, or takes it from the first look. */
+static koksma_status make_image(const koksma__contest *c, koksma__contestant *p, size_t trial, const koksma_run *run,
+                                koksma_image *image)
 {
-    const koksma__contest *c = b->contest;
     const char *pattern = c->options->patterns[p->pattern];
-    koksma_image image;
     const koksma__picture picture = {.pattern = pattern,
                                      .variant = c->variant,
                                      .spp = c->options->spp,
@@ -364,8 +363,22 @@ static koksma_status render_trial(const batch *b, koksma__contestant *p, size_t 
                                      .seed = koksma__job_seed("rank|%s|%s|%s|%d|%dx%d|%zu", c->scene.hash, pattern,
                                                               c->variant, c->options->spp, c->scene.width,
                                                               c->scene.height, trial)};
-    koksma_status status = koksma__study_render(&c->scene, &picture, run, &image);
-    status = status || !c->options->process ? status : process(c, run, &image);
+    if (trial < KOKSMA__RANK_LOOKS && p->seen[trial].pixels) {
+        *image = p->seen[trial];
+        p->seen[trial] = (koksma_image){0};
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__study_render(&c->scene, &picture, run, image);
+    return status || !c->options->process ? status : process(c, run, image);
+}
+
+/* Measures the errors of a trial. In the first round, also adds the errors of its pixels to the sums from
+   which the coherence of the pattern's error is computed. */
+static koksma_status measure_trial(const batch *b, koksma__contestant *p, size_t trial, const koksma_run *run,
+                                   double errors[ERRORS])
+{
+    koksma_image image;
+    koksma_status status = make_image(b->contest, p, trial, run, &image);
     if (!status) {
         status = compare_with(b->reference, &image, errors);
         status = status || isfinite(errors[0])
@@ -389,13 +402,71 @@ static koksma_status do_trial(void *context, size_t i)
     timed work = {.contest = c, .contestant = p, .start_s = koksma__now_s()};
     const koksma_run run = run_in_share(&work);
     double *errors = b->first_round ? p->first[t] : b->errors + (a * b->count + t) * ERRORS;
-    const koksma_status status = render_trial(b, p, b->first + t, &run, errors);
+    const koksma_status status = measure_trial(b, p, b->first + t, &run, errors);
     atomic_fetch_add(&p->busy_ns, since_ns(work.start_s));
     if (!status && b->first_round) {
         atomic_store(&p->done[t], true);
     }
     return take_out(&work, b->first + t, status);
 }
+
+/* Divides the given fraction of the remaining thread time evenly among the patterns. */
+static void set_share(koksma__contest *c, double part)
+{
+    const double left_s = c->control->end_s - koksma__now_s();
+    c->share_ns =
+        c->control->end_s > 0 && c->n > 1
+            ? (unsigned long long)fmin(fmax(1e9 * part * left_s * c->control->run.threads / (double)c->n, 1), 1e18)
+            : 0;
+}
+
+/* ---- The first look --------------------------------------------------------------------------------------------- */
+
+#define MOST_SEEN ((size_t)1 << 28) /* bytes */
+
+static koksma_status look_at_trial(void *context, size_t i)
+{
+    koksma__contest *c = context;
+    const size_t trial = i / c->n;
+    koksma__contestant *p = &c->contestants[i % c->n];
+    const koksma__rank_entrant *e = &c->table.entrants[i % c->n];
+    if (e->out || e->aside || koksma__image_pattern_is_biased(c->options->patterns[p->pattern])) {
+        return KOKSMA_OK;
+    }
+    timed work = {.contest = c, .contestant = p, .start_s = koksma__now_s()};
+    const koksma_run run = run_in_share(&work);
+    koksma_image image = {0};
+    const koksma_status status = make_image(c, p, trial, &run, &image);
+    atomic_fetch_add(&c->looked, (unsigned long long)(1e6 * (status ? work.fraction : 1)));
+    if (!status) {
+        p->seen[trial] = image;
+        atomic_fetch_add(&p->busy_ns, since_ns(work.start_s));
+    }
+    return koksma__rank_leaves_out(status) || (status == KOKSMA_INTERRUPTED && work.late) ? KOKSMA_OK : status;
+}
+
+koksma_status koksma__contest_look(koksma__contest *c, double *errors)
+{
+    const size_t pixels = (size_t)c->scene.width * (size_t)c->scene.height, pictures = KOKSMA__RANK_LOOKS * c->n;
+    set_share(c, 0.5);
+    if (pixels * pictures <= MOST_SEEN / (3 * sizeof(float))) {
+        KOKSMA__TRY(koksma__parallel(&c->control->run, pictures, look_at_trial, c));
+    }
+    for (size_t i = 0; i < c->n; i++) {
+        const koksma_image *seen = c->contestants[i].seen;
+        koksma__sum sum = {0};
+        for (size_t p = 0; seen[0].pixels && seen[1].pixels && p < pixels; p++) {
+            const double difference = koksma__luminance(&seen[0], p) - koksma__luminance(&seen[1], p);
+            koksma__sum_add(&sum, difference * difference);
+        }
+        const double error = sqrt(koksma__sum_value(&sum) / 2 / (double)pixels);
+        errors[i] = error > 0 && isfinite(error) ? error : (double)NAN;
+    }
+    c->control->fraction = 0;
+    return KOKSMA_OK;
+}
+
+/* ---- Sums of errors --------------------------------------------------------------------------------------------- */
 
 /* Updates the running mean and the squared deviations by Welford's method (1962). */
 static void add_errors(koksma__rank_sums *sums, size_t n, const double *errors)
@@ -565,16 +636,6 @@ static bool call_back(koksma__contest *c)
     return any;
 }
 
-/* Divides the given fraction of the remaining thread time evenly among the patterns. */
-static void set_share(koksma__contest *c, double part)
-{
-    const double left_s = c->control->end_s - koksma__now_s();
-    c->share_ns =
-        c->control->end_s > 0 && c->n > 1
-            ? (unsigned long long)fmin(fmax(1e9 * part * left_s * c->control->run.threads / (double)c->n, 1), 1e18)
-            : 0;
-}
-
 koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
 {
     koksma_status status = KOKSMA_OK;
@@ -658,6 +719,9 @@ void koksma__contest_fini(koksma__contest *c)
     for (size_t i = 0; c->contestants && i < c->n; i++) {
         for (size_t t = 0; t < FIRST; t++) {
             free(c->contestants[i].waiting[t]);
+        }
+        for (size_t t = 0; t < KOKSMA__RANK_LOOKS; t++) {
+            koksma_image_fini(&c->contestants[i].seen[t]);
         }
         koksma_coherence_fini(&c->contestants[i].sums);
         pthread_mutex_destroy(&c->contestants[i].lock);

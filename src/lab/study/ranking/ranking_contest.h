@@ -59,6 +59,8 @@ typedef struct koksma__rank_sums {
 
 /* ---- Contests ---------------------------------------------------------------------------------------------- */
 
+enum { KOKSMA__RANK_LOOKS = 2 };
+
 typedef struct koksma__contestant {
     size_t pattern;        /* index into the options' patterns */
     atomic_bool late;      /* postponed: whether its first round took more than its share of the time */
@@ -73,6 +75,7 @@ typedef struct koksma__contestant {
     koksma__rank_sums all, robust; /* of all pixels, and without the few that err most */
     double top_share;              /* a sum */
     pthread_mutex_t lock;          /* guards the next four fields until round 0 is complete */
+    koksma_image seen[KOKSMA__RANK_LOOKS]; /* the first trials, rendered for the first look and not yet measured */
     double *waiting[KOKSMA__RANK_FIRST_ROUND]; /* pixel errors of trials that wait for an earlier trial to be added */
     size_t added;                              /* number of trials added to `sums` */
     koksma_coherence sums;
@@ -94,6 +97,7 @@ typedef struct koksma__contest {
     koksma__rank_table
         robust; /* that of the errors without a few pixels: their rounds; all else is set where it is used */
     koksma__rank_reference references[KOKSMA__RANK_STAGES]; /* pixels is 0 before a stage is begun */
+    atomic_ullong looked;                                   /* millionths of images that the first look rendered */
     unsigned long long share_ns; /* thread time allowed for a pattern's first round; 0: no limit */
     pthread_mutex_t lock;        /* guards `reason` of all contestants */
 } koksma__contest;
@@ -116,6 +120,11 @@ void koksma__contest_fini(koksma__contest *contest);
    Errors: MISSING, MALFORMED (a file or program of a pattern), FORBIDDEN (a program that may not run), MEMORY,
    INTERRUPTED. */
 koksma_status koksma__contest_try_patterns(koksma__contest *contest);
+
+/* The first look of koksma_rank_options: sets errors[i] for contestant i. Its images are those of the first two trials,
+   which round 0 measures. Errors: MEMORY, INTERRUPTED; what fails for one pattern fails again in round 0, which says so.
+   */
+koksma_status koksma__contest_look(koksma__contest *contest, double *errors);
 
 /* Runs rounds until the goal is decided or max_rounds is reached. Errors: those of rendering the reference, MEMORY,
    INTERRUPTED (also when the time limit is reached). */
