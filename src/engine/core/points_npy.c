@@ -184,15 +184,19 @@ static koksma_status put_item(const char *name, const layout *l, size_t item, do
     return KOKSMA_OK;
 }
 
-/* Returns whether all numbers are in [0,1]. A -0 becomes 0. */
-static bool are_coordinates(double *xs, size_t n)
+/* Returns whether all numbers are in [0,1] and none is -0: as unsigned integers, their bits are in the order of the numbers
+   and not above those of 1, and the sign's bit is set neither in them nor in what is left to those. */
+static bool are_coordinates(const double *xs, size_t n)
 {
-    int bad = 0;
+    const double one = 1;
+    uint64_t most, signs = 0;
+    memcpy(&most, &one, sizeof most);
     for (size_t i = 0; i < n; i++) {
-        bad |= !(xs[i] >= 0) | !(xs[i] <= 1);
-        xs[i] += 0.0;
+        uint64_t bits;
+        memcpy(&bits, &xs[i], sizeof bits);
+        signs |= bits | (most - bits);
     }
-    return !bad;
+    return !(signs >> 63);
 }
 
 /* Returns whether a double's lowest byte comes first in memory. */
