@@ -125,22 +125,26 @@ static bool choose_blocks(koksma__report *r, const koksma__plan_part *part, cons
     return !r->status;
 }
 
-static void answer_question(koksma__report *r, koksma__document *d, const koksma__question *q)
+/* Writes the answer to a question; q NULL: to what a plan without questions may ask, if its blocks can answer it. */
+static void answer(koksma__report *r, koksma__document *d, const koksma__plan_kind *kind, const koksma__question *q,
+                   const koksma__topic *topic, const metric_facts *facts)
 {
-    koksma__topic topic;
     koksma__document content = {0};
     char id[128];
-    if (!choose_blocks(r, &r->study->plan.parts[q->part], q, &topic)) {
+    answers[kind - koksma__question_kinds](r, &content, topic);
+    const bool empty = koksma__doc_is_empty(&content);
+    if (q) {
+        snprintf(id, sizeof id, "question-%.110s", q->id);
+        koksma__doc_section(d, id, "(%s) %s", q->id, q->title);
+    } else if (!empty) {
+        koksma__doc_section(d, NULL, "%s", kind->heading);
+    } else {
         return;
     }
-    const metric_facts facts = find_facts(r, &topic);
-    snprintf(id, sizeof id, "question-%.110s", q->id);
-    koksma__doc_section(d, id, "(%s) %s", q->id, q->title);
-    answers[q->kind - koksma__question_kinds](r, &content, &topic);
-    if (koksma__doc_is_empty(&content)) {
-        koksma__doc_paragraph(d, "No answer: this needs %s.", q->kind->rows);
-    } else if (names_metric(q->kind, &topic)) {
-        say_metric(d, topic.metric, &facts);
+    if (empty) {
+        koksma__doc_paragraph(d, "No answer: this needs %s.", kind->rows);
+    } else if (names_metric(kind, topic)) {
+        say_metric(d, topic->metric, facts);
     }
     koksma__doc_append(d, &content);
     koksma__doc_end(d);
@@ -151,26 +155,15 @@ static void answer_all(koksma__report *r, koksma__document *d, size_t part)
 {
     const koksma__plan *plan = &r->study->plan;
     koksma__topic topic;
-    size_t number = 0;
     if (!choose_blocks(r, &plan->parts[part], NULL, &topic)) {
         return;
     }
     const metric_facts facts = find_facts(r, &topic);
     for (size_t k = 0; !r->status && k < sizeof answers / sizeof *answers; k++) {
-        const koksma__plan_kind *kind = &koksma__question_kinds[k];
-        koksma__document content = {0};
         char id[48]; /* the number of an answer: "1.2" for answer 2 of plan 1, or "2" if there is only one plan */
-        snprintf(id, sizeof id, "%zu.%zu", part + 1, ++number);
+        snprintf(id, sizeof id, "%zu.%zu", part + 1, k + 1);
         topic.id = plan->n_parts > 1 ? id : strchr(id, '.') + 1;
-        answers[k](r, &content, &topic);
-        if (!koksma__doc_is_empty(&content)) {
-            koksma__doc_section(d, NULL, "%s", kind->heading);
-            if (names_metric(kind, &topic)) {
-                say_metric(d, topic.metric, &facts);
-            }
-            koksma__doc_append(d, &content);
-            koksma__doc_end(d);
-        }
+        answer(r, d, &koksma__question_kinds[k], NULL, &topic, &facts);
     }
 }
 
@@ -178,10 +171,15 @@ static void write_questions(koksma__report *r, koksma__document *d)
 {
     const koksma__plan *plan = &r->study->plan;
     for (size_t i = 0; i < plan->n_questions; i++) {
+        const koksma__question *q = &plan->questions[i];
+        koksma__topic topic;
         if (!r->status && !koksma__keep_going(r->run, (double)i / (double)plan->n_questions)) {
             koksma__report_keep(r, koksma__fail_interrupted());
         }
-        answer_question(r, d, &plan->questions[i]);
+        if (choose_blocks(r, &plan->parts[q->part], q, &topic)) {
+            const metric_facts facts = find_facts(r, &topic);
+            answer(r, d, q->kind, q, &topic, &facts);
+        }
         koksma__report_release(r);
     }
     for (size_t i = 0; !r->status && i < plan->n_parts; i++) {

@@ -292,17 +292,6 @@ koksma__estimate koksma__rho_range(const koksma__rho_jackknife *j, size_t measur
 
 /* ---- Words ------------------------------------------------------------------------------------------------- */
 
-/* The text before item i of n in an enumeration such as "a, b and c". */
-static const char *between(size_t i, size_t n)
-{
-    return i == 0 ? "" : i + 1 < n ? ", " : " and ";
-}
-
-static const char *whichever(const koksma__rho_jackknife *j)
-{
-    return j->n > 1 ? ", whichever one scene is left out" : "";
-}
-
 /* Writes the mean correlation and the number of its cases with and without an interval. */
 static void say_cases(koksma__document *d, const koksma__rho_sums *of)
 {
@@ -360,63 +349,61 @@ static void say_first(koksma__document *d, const koksma__rho_means *s, const kok
     }
 }
 
-/* Writes the measures whose mean is significantly above 0. */
-static void say_predictors(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
+/* Writes, unless d is NULL, the measures whose mean is always surely above 0 (with their means), or, with a measure `than`,
+   those that are always surely worse than it, as "a, b and c". Returns their number. */
+static size_t list_measures(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j,
+                            const size_t *than)
 {
-    size_t always = 0, sure = 0, named = 0;
+    size_t n = d ? list_measures(NULL, s, j, than) : 0, named = 0;
     for (size_t m = 0; m < s->n; m++) {
-        always += koksma__rho_always(j, KOKSMA__RHO_PREDICTS, m, 0);
-        sure += predicts(&j->of[0], m);
-    }
-    koksma__doc_say(d, always ? " Surely above 0%s: " : " No measure's mean is surely above 0%s.", whichever(j));
-    for (size_t m = 0; m < s->n; m++) {
-        if (koksma__rho_always(j, KOKSMA__RHO_PREDICTS, m, 0)) {
-            koksma__doc_say(d, "%s`%s` %+.2f", between(named++, always), s->of[m].measure, mean_of(&s->of[m]));
+        if (!(than ? koksma__rho_always(j, KOKSMA__RHO_BETTER, *than, m)
+                   : koksma__rho_always(j, KOKSMA__RHO_PREDICTS, m, 0))) {
+            continue;
+        }
+        named++;
+        if (d) {
+            koksma__doc_say(d, "%s`%s`", named == 1 ? "" : named < n ? ", " : " and ", s->of[m].measure);
+        }
+        if (d && !than) {
+            koksma__doc_say(d, " %+.2f", mean_of(&s->of[m]));
         }
     }
+    return named;
+}
+
+/* Writes the measures whose mean is significantly above 0, and all pairs of measures of which one is significantly
+   better. */
+static void say_sure(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
+{
+    const char *whichever = j->n > 1 ? ", whichever one scene is left out" : "", *before = "";
+    const size_t always = list_measures(NULL, s, j, NULL);
+    size_t sure = 0, better = 0, sure_better = 0;
+    for (size_t a = 0; a < s->n; a++) {
+        sure += predicts(&j->of[0], a);
+        better += list_measures(NULL, s, j, &a);
+        for (size_t b = 0; b < s->n; b++) {
+            sure_better += koksma__rho_is_better(&j->of[0], a, b);
+        }
+    }
+    koksma__doc_say(d, always ? " Surely above 0%s: " : " No measure's mean is surely above 0%s.", whichever);
+    list_measures(d, s, j, NULL);
     koksma__doc_say(d, "%s", always ? "." : "");
     if (sure > always) {
         koksma__doc_say(d, " %zu more are surely above 0 over all scenes, but not if some scene is left out.",
                         sure - always);
     }
-}
-
-/* Writes the names of the measures that are significantly worse than measure number `a`. */
-static void say_worse(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j, size_t a,
-                      const char **before)
-{
-    size_t n = 0, named = 0;
-    for (size_t b = 0; b < s->n; b++) {
-        n += koksma__rho_always(j, KOKSMA__RHO_BETTER, a, b);
-    }
-    if (n) {
-        koksma__doc_say(d, "%s`%s` than ", *before, s->of[a].measure);
-        *before = "; ";
-    }
-    for (size_t b = 0; b < s->n; b++) {
-        if (koksma__rho_always(j, KOKSMA__RHO_BETTER, a, b)) {
-            koksma__doc_say(d, "%s`%s`", between(named++, n), s->of[b].measure);
+    koksma__doc_say(d, better ? " Surely better%s: " : " No measure is surely better than another%s.", whichever);
+    for (size_t a = 0; a < s->n; a++) {
+        if (list_measures(NULL, s, j, &a)) {
+            koksma__doc_say(d, "%s`%s` than ", before, s->of[a].measure);
+            list_measures(d, s, j, &a);
+            before = "; ";
         }
     }
-}
-
-/* Writes all pairs of measures of which one is significantly better. */
-static void say_pairs(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
-{
-    size_t always = 0, sure = 0;
-    const char *before = "";
-    for (size_t i = 0; i < s->n * s->n; i++) {
-        always += koksma__rho_always(j, KOKSMA__RHO_BETTER, i / s->n, i % s->n);
-        sure += koksma__rho_is_better(&j->of[0], i / s->n, i % s->n);
-    }
-    koksma__doc_say(d, always ? " Surely better%s: " : " No measure is surely better than another%s.", whichever(j));
-    for (size_t a = 0; a < s->n; a++) {
-        say_worse(d, s, j, a, &before);
-    }
-    koksma__doc_say(d, "%s", always ? "." : "");
-    if (sure > always) {
+    koksma__doc_say(d, "%s", better ? "." : "");
+    if (sure_better > better) {
         koksma__doc_say(d, " %zu more differences are sure over all scenes, but not if some scene is left out.",
-                        sure - always);
+                        sure_better - better);
     }
 }
 
@@ -435,8 +422,7 @@ void koksma__rho_say(koksma__document *d, const koksma__rho_means *s, const koks
         koksma__doc_say(d, ").");
     } else {
         say_first(d, s, j);
-        say_predictors(d, s, j);
-        say_pairs(d, s, j);
+        say_sure(d, s, j);
         if (s->n > 1 && koksma__rho_always(j, KOKSMA__RHO_LAST, last, 0)) {
             koksma__doc_say(d, " The last is `%s` with %+.2f.", s->of[last].measure, mean_of(&s->of[last]));
         }

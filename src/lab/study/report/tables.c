@@ -179,24 +179,24 @@ void koksma__z_say(koksma__document *d, const koksma__z_sums *z)
     if (!z->count && !z->untested) {
         return;
     }
-    koksma__doc_paragraph(d, "%s", "");
     if (z->count > 1) {
         const bool one_side = koksma__z_deviates(z, 0.05), spread = koksma__z_spreads(z, 0.05);
-        koksma__doc_say(d,
-                        "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by chance "
-                        "between -1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one side), and "
-                        "the sum of their squares is %.1f, which %s (by chance below %.1f in 95 %%).",
-                        z->count,
-                        one_side && spread   ? "fail both tests"
-                        : one_side || spread ? "fail one of two tests"
-                                             : "pass both tests",
-                        z->count, z->sum / sqrt(k), one_side ? "fails" : "passes", z->squares,
-                        spread ? "fails" : "passes", koksma__chi_squared_quantile(0.95, k));
+        koksma__doc_paragraph(
+            d,
+            "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by chance between "
+            "-1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one side), and the sum of their "
+            "squares is %.1f, which %s (by chance below %.1f in 95 %%).",
+            z->count,
+            one_side && spread   ? "fail both tests"
+            : one_side || spread ? "fail one of two tests"
+                                 : "pass both tests",
+            z->count, z->sum / sqrt(k), one_side ? "fails" : "passes", z->squares, spread ? "fails" : "passes",
+            koksma__chi_squared_quantile(0.95, k));
         if (one_side || spread) {
             koksma__doc_say(d, " The section _Agreement with the published means_ weighs the tests of all tables.");
         }
     } else {
-        koksma__doc_say(d, "The values of z have no joint test.");
+        koksma__doc_paragraph(d, "The values of z have no joint test.");
     }
     if (z->one_set || z->untested) {
         koksma__doc_say(d, " Left out whatever their z:");

@@ -49,7 +49,7 @@ static void note_bounds(koksma__sheet *sheet)
 {
     for (size_t m = 0; m < sheet->plane.n_measures; m++) {
         const koksma__sheet_measure *measure = &sheet->plane.measures[m];
-        if (measure->n_bounds && !measure->left_out) {
+        if (measure->n_bounds) {
             koksma__fail(KOKSMA_ARGUMENT, "%zu values are lower bounds: the search was cut short", measure->n_bounds);
             koksma__sheet_note_error(sheet, measure->name);
         }

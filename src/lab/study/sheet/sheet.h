@@ -31,12 +31,10 @@ typedef struct koksma__sheet_sampler {
     bool same;     /* whether the set is the same for every seed */
 } koksma__sheet_sampler;
 
-/* A measure in two or more dimensions. left_out: whether the sheet omits the measure, because a sampler has no value
-   at some size. */
+/* A measure in two or more dimensions. */
 typedef struct koksma__sheet_measure {
     koksma_spec spec;
     char name[KOKSMA_MAX_SPEC];
-    bool left_out;
     size_t n_bounds; /* number of values that are only bounds, because a search was cut short */
 } koksma__sheet_measure;
 

@@ -26,9 +26,10 @@
 
 typedef struct evaluation {
     koksma__sheet_values *values;
-    const koksma__run_control *control; /* whose `job` asks within a set whether to go on, on any thread */
-    size_t trials;                      /* the largest number of trials of any sampler */
-    double *found;         /* a value's index is ((sampler * sizes + size) * trials + trial) * measures + measure */
+    const koksma__run_control *control;     /* whose `job` asks within a set whether to go on, on any thread */
+    size_t trials;                          /* the largest number of trials of any sampler */
+    size_t n, kept[KOKSMA__SHEET_MEASURES]; /* the number of measures; the indices of those that stay */
+    double *found;         /* a value's index is ((sampler * sizes + size) * trials + trial) * n + measure */
     unsigned char *status; /* has the same indices as `found`; 0: a value, 1: a bound, 2: no value */
 } evaluation;
 
@@ -44,13 +45,13 @@ static koksma_status evaluate_set(void *context, size_t job)
         return KOKSMA_OK;
     }
     koksma_status status = koksma__sheet_points(sampler, v->sizes[i], v->dim, t, alone, &points);
-    for (size_t m = 0; m < v->n_measures && !status; m++) {
+    for (size_t m = 0; m < e->n && !status; m++) {
         koksma_value value = {.value = NAN};
         const koksma_status found = koksma_evaluate(&v->measures[m].spec, &points, alone, &value);
         const bool none = found != KOKSMA_OK;
         status = found == KOKSMA_INTERRUPTED ? found : KOKSMA_OK;
-        e->found[job * v->n_measures + m] = value.value;
-        e->status[job * v->n_measures + m] = none ? 2 : !value.exact;
+        e->found[job * e->n + m] = value.value;
+        e->status[job * e->n + m] = none ? 2 : !value.exact;
     }
     koksma_points_fini(&points);
     return status;
@@ -64,7 +65,7 @@ static void note_missing(koksma__sheet *sheet, const evaluation *e, size_t m)
         koksma_points points = {0};
         koksma_value value;
         const size_t t = job % e->trials, i = job / e->trials % v->n_sizes, s = job / e->trials / v->n_sizes;
-        if (e->status[job * v->n_measures + m] == 2 &&
+        if (e->status[job * e->n + m] == 2 &&
             !koksma__sheet_points(v->samplers[s], v->sizes[i], v->dim, t, &e->control->job, &points)) {
             koksma_evaluate(&v->measures[m].spec, &points, &e->control->job, &value);
             koksma_points_fini(&points);
@@ -82,8 +83,8 @@ static void add_up(const evaluation *e, size_t s, size_t m)
         double values[KOKSMA__SHEET_SIZES];
         for (size_t i = 0; i < v->n_sizes; i++) {
             const size_t job = (s * v->n_sizes + i) * e->trials + t;
-            values[i] = e->found[job * v->n_measures + m];
-            v->measures[m].n_bounds += e->status[job * v->n_measures + m] == 1;
+            values[i] = e->found[job * e->n + e->kept[m]];
+            v->measures[m].n_bounds += e->status[job * e->n + e->kept[m]] == 1;
             koksma_tally_add(&v->tallies[(s * v->n_measures + m) * v->n_sizes + i], values[i]);
         }
         koksma_joint_add(&v->joints[s * v->n_measures + m], v->n_sizes, values);
@@ -98,24 +99,29 @@ koksma_status koksma__sheet_evaluate(koksma__sheet *sheet, koksma__sheet_values 
     for (size_t s = 0; s < v->n_samplers; s++) {
         e.trials = v->trials[s] > e.trials ? v->trials[s] : e.trials;
     }
-    const size_t jobs = v->n_samplers * v->n_sizes * e.trials, rows = v->n_samplers * v->n_measures;
-    e.found = calloc(jobs * v->n_measures, sizeof *e.found);
-    e.status = calloc(jobs * v->n_measures, sizeof *e.status);
-    v->tallies = calloc(rows * v->n_sizes, sizeof *v->tallies);
-    v->joints = calloc(rows, sizeof *v->joints);
+    const size_t jobs = v->n_samplers * v->n_sizes * e.trials;
+    e.n = v->n_measures;
+    e.found = calloc(jobs * e.n, sizeof *e.found);
+    e.status = calloc(jobs * e.n, sizeof *e.status);
+    v->tallies = calloc(v->n_samplers * e.n * v->n_sizes, sizeof *v->tallies);
+    v->joints = calloc(v->n_samplers * e.n, sizeof *v->joints);
     koksma_status status = e.found && e.status && v->tallies && v->joints
                                ? koksma__parallel(&control.run, jobs, evaluate_set, &e)
-                               : koksma__fail_memory(jobs * v->n_measures * sizeof *e.found);
-    for (size_t m = 0; m < v->n_measures && !status; m++) {
+                               : koksma__fail_memory(jobs * e.n * sizeof *e.found);
+    for (size_t m = v->n_measures = 0; m < e.n && !status; m++) {
+        bool missing = false;
         for (size_t job = 0; job < jobs; job++) {
-            v->measures[m].left_out |= e.status[job * v->n_measures + m] == 2;
+            missing |= e.status[job * e.n + m] == 2;
         }
-        if (v->measures[m].left_out) {
+        if (missing) {
             note_missing(sheet, &e, m);
+        } else {
+            v->measures[v->n_measures] = v->measures[m];
+            e.kept[v->n_measures++] = m;
         }
-        for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
-            add_up(&e, s, m);
-        }
+    }
+    for (size_t row = 0; row < v->n_samplers * v->n_measures && !status; row++) {
+        add_up(&e, row / v->n_measures, row % v->n_measures);
     }
     free(e.found);
     free(e.status);
@@ -236,9 +242,6 @@ static void put_summary(const koksma__sheet_values *v, koksma__document *d)
                            : others      ? "t measure;i3 mean;i2f slope;t best of the others;i3 its mean"
                                          : "t measure;i3 mean;i2f slope");
     for (size_t m = 0; m < v->n_measures; m++) {
-        if (v->measures[m].left_out) {
-            continue;
-        }
         koksma__doc_row(d, "ti", v->measures[m].name, mean_of(v, 0, m, last));
         if (!one) {
             koksma__doc_cells(d, "i", slope_of(v, 0, m));
@@ -297,22 +300,17 @@ static void put_dots(const koksma__sheet *sheet, const koksma__sheet_values *v, 
     char text[KOKSMA__SHEET_MEASURES][KOKSMA_MAX_SPEC + 16];
     const char *names[KOKSMA__SHEET_MEASURES];
     double values[KOKSMA__SHEET_MEASURES * KOKSMA__SHEET_SAMPLERS];
-    size_t n = 0;
     for (size_t m = 0; m < v->n_measures; m++) {
-        if (v->measures[m].left_out) {
-            continue;
-        }
         const bool larger = v->measures[m].spec.measure->larger_is_better;
-        snprintf(text[n], sizeof text[n], "%s%s", larger ? "1 / " : "", v->measures[m].name);
-        names[n] = text[n];
+        snprintf(text[m], sizeof text[m], "%s%s", larger ? "1 / " : "", v->measures[m].name);
+        names[m] = text[m];
         for (size_t s = 0; s < v->n_samplers; s++) {
             const double mean = koksma__sheet_tally(v, s, m, 0)->mean;
-            values[n * v->n_samplers + s] = larger ? 1 / mean : mean;
+            values[m * v->n_samplers + s] = larger ? 1 / mean : mean;
         }
-        n++;
     }
-    if (n && v->n_samplers > 1) {
-        koksma__sheet_put_dots(sheet, "Measures", names, n, values, d);
+    if (v->n_measures && v->n_samplers > 1) {
+        koksma__sheet_put_dots(sheet, "Measures", names, v->n_measures, values, d);
     }
 }
 
@@ -322,7 +320,7 @@ static void put_values(const koksma__sheet_values *v, const char *name, koksma__
     koksma__doc_table(d, "%s", name);
     koksma__doc_columns(d, "tm measure;tm sampler;n9 n;i4 mean;n2 SD;n9 sets");
     for (size_t m = 0; m < v->n_measures; m++) {
-        for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
+        for (size_t s = 0; s < v->n_samplers; s++) {
             for (size_t i = 0; i < v->n_sizes; i++) {
                 const koksma_tally *t = koksma__sheet_tally(v, s, m, i);
                 koksma__doc_row(d, "ttninn", v->measures[m].name, v->samplers[s]->text, (double)v->sizes[i],
@@ -338,7 +336,7 @@ static void put_slopes(const koksma__sheet_values *v, koksma__document *d)
     koksma__doc_table(d, "slopes");
     koksma__doc_columns(d, "tm measure;t sampler;i3f slope;n2 theory;n2 best possible");
     for (size_t m = 0; m < v->n_measures; m++) {
-        for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
+        for (size_t s = 0; s < v->n_samplers; s++) {
             koksma__doc_row(d, "ttinn", v->measures[m].name, v->samplers[s]->text, slope_of(v, s, m),
                             -koksma_rate(&v->samplers[s]->spec, v->measures[m].spec.measure, v->dim),
                             -koksma_best_rate(v->measures[m].spec.measure, v->dim));
@@ -352,10 +350,7 @@ void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *
     char list[KOKSMA__SHEET_COMMAND] = "", sizes[128] = "", source[2 * KOKSMA_MAX_SPEC];
     put_values(v, name, d);
     for (size_t m = 0; m < v->n_measures; m++) {
-        const size_t used = strlen(list);
-        if (!v->measures[m].left_out) {
-            snprintf(list + used, sizeof list - used, "%s%s", used ? "," : "", v->measures[m].name);
-        }
+        koksma__text_join(list, sizeof list, ",", v->measures[m].name);
     }
     for (size_t i = 0; i < v->n_sizes; i++) {
         const size_t used = strlen(sizes);
@@ -383,9 +378,7 @@ void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
         put_dots(sheet, v, d);
     } else {
         for (size_t m = 0; m < v->n_measures; m++) {
-            if (!v->measures[m].left_out) {
-                put_chart(v, m, d);
-            }
+            put_chart(v, m, d);
         }
         koksma__doc_collapsed_section(d, "slopes", "Slopes of all samplers");
         put_slopes(v, d);

@@ -154,8 +154,7 @@ static void put_command(koksma__sheet *sheet, size_t scene, koksma__document *d)
     const koksma_ranking *ranking = &sheet->rankings[scene * sheet->n_spp].ranking;
     char patterns[KOKSMA__SHEET_COMMAND] = "", word[KOKSMA__SHEET_COMMAND], name[KOKSMA__SHEET_COMMAND], spp[64] = "";
     for (size_t s = 0; s < sheet->n_samplers; s++) {
-        const size_t used = strlen(patterns);
-        snprintf(patterns + used, sizeof patterns - used, "%s%s", used ? "," : "", sheet->samplers[s]->text);
+        koksma__text_join(patterns, sizeof patterns, ",", sheet->samplers[s]->text);
         if (strchr(sheet->samplers[s]->spec.path, ',')) {
             koksma__doc_paragraph(d,
                                   "No command is given for these numbers: `koksma rank` takes patterns with commas "

@@ -137,15 +137,10 @@ static outcome judge_measure(const koksma__sheet_values *v, size_t m, size_t tes
 
 static score score_measures(const koksma__sheet_values *v)
 {
-    score result = {0};
+    score result = {.tests = v->n_measures * (v->n_samplers - 1)};
     for (size_t m = 0; m < v->n_measures; m++) {
-        result.tests += v->measures[m].left_out ? 0 : v->n_samplers - 1;
-    }
-    for (size_t m = 0; m < v->n_measures; m++) {
-        if (!v->measures[m].left_out) {
-            result.of[m] = judge_measure(v, m, result.tests, &result.winner[m]);
-            result.n[result.of[m]]++;
-        }
+        result.of[m] = judge_measure(v, m, result.tests, &result.winner[m]);
+        result.n[result.of[m]]++;
     }
     return result;
 }
@@ -182,7 +177,7 @@ static void put_measures(const koksma__sheet_values *v, const score *result, out
     const size_t last = v->n_sizes - 1;
     bool first = true;
     for (size_t m = 0; m < v->n_measures; m++) {
-        if (v->measures[m].left_out || result->of[m] != which || (which == LOST && result->winner[m] != winner)) {
+        if (result->of[m] != which || (which == LOST && result->winner[m] != winner)) {
             continue;
         }
         if (first) {
@@ -235,11 +230,8 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
 {
     const koksma__sheet_values *v = &sheet->plane;
     const score s = score_measures(v);
-    size_t n = 0, scenes[4] = {0}, of_scenes = sheet->n_spp ? sheet->n_scenes : 0;
+    size_t scenes[4] = {0}, of_scenes = sheet->n_spp ? sheet->n_scenes : 0;
     const koksma_rank_row *row;
-    for (size_t m = 0; m < v->n_measures; m++) {
-        n += !v->measures[m].left_out;
-    }
     for (size_t i = 0; i < of_scenes; i++) {
         scenes[judge_scene(&sheet->rankings[(i + 1) * sheet->n_spp - 1], &row)]++;
     }
@@ -254,12 +246,12 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_paragraph(d, "It is beaten in *");
     } else {
         koksma__doc_paragraph(d, "`%s` is better than every other sampler here in *", sheet->samplers[0]->text);
-        say_count(d, s.n[WON], n, scenes[WON], of_scenes);
+        say_count(d, s.n[WON], v->n_measures, scenes[WON], of_scenes);
         koksma__doc_say(d, "*. It is beaten in *");
     }
-    say_count(d, s.n[LOST], n, scenes[LOST], of_scenes);
+    say_count(d, s.n[LOST], v->n_measures, scenes[LOST], of_scenes);
     koksma__doc_say(d, "*");
-    if (!sheet->bias.biased && (s.n[WON] + s.n[LOST] < n || scenes[WON] + scenes[LOST] < of_scenes)) {
+    if (!sheet->bias.biased && (s.n[WON] + s.n[LOST] < v->n_measures || scenes[WON] + scenes[LOST] < of_scenes)) {
         koksma__doc_say(d, "; in the rest it is equal to the best, or not decided");
     }
     koksma__doc_say(d, ".");
