@@ -450,6 +450,9 @@ def waits(table, row):
         table.alone("6 patterns", pattern + " 2D 1e7, with its search", ours(pattern, 10000000), .4, True, "s", lambda s: s, rounds=1)
     table.alone("5 measures", "l2-star of 100,000 sets of 16, n-rooks", lambda: run(
         KOKSMA, "measure", "pattern:n-rooks@16", "-m", "l2-star", "--trials", "100000", "--threads", "1"), 2, True, "us a set", lambda s: 10 * s)
+    table.alone("3 paths", "rank room.gltf, 4 patterns at 16 samples, until decided", lambda: run(
+        KOKSMA, "rank", os.path.join(ROOT, "examples/room.gltf"), "--patterns", "sobol:scramble=owen,multi-jittered,jittered,random",
+        "--one-size", "--threads", "1", "--time-limit", "600"), 60, True, "s", lambda s: s, rounds=1)
 
 
 def python_package(table):
