@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rank correlation: Spearman's rho and Kendall's tau-b, by their definitions in O(n^2), which is fast because n is
-   the number of patterns and thus small. Values that koksma__compare finds equal are ties, so that rounding does not
-   decide an order. */
+/* Spearman's rank correlation by its definition in O(n^2), which is fast because n is the number of patterns and thus
+   small. Values that koksma__compare finds equal are ties, so that rounding does not decide an order. */
 #include "stats/stats.h"
 
 #include <math.h>
@@ -63,19 +62,4 @@ double koksma__spearman_limit(size_t n, double alpha)
         limit = counts[squares] > 0 ? 1 - 6 * (double)squares / (size * (size * size - 1)) : limit; /* none is odd */
     }
     return limit;
-}
-
-/* tau-b (Kendall 1945): (concordant - discordant) / sqrt((pairs - ties in x) (pairs - ties in y)). */
-double koksma__kendall(const double *x, const double *y, size_t n)
-{
-    double score = 0, in_x = 0, in_y = 0;
-    for (size_t i = 0; i < n; i++) {
-        for (size_t j = i + 1; j < n; j++) {
-            const int a = koksma__compare(x[i], x[j]), b = koksma__compare(y[i], y[j]);
-            score += a * b;
-            in_x += a != 0;
-            in_y += b != 0;
-        }
-    }
-    return in_x > 0 && in_y > 0 ? score / sqrt(in_x * in_y) : (double)NAN;
 }

@@ -84,11 +84,10 @@ static void resample(const koksma__means *x, const koksma__means *y, size_t n, u
     }
 }
 
-koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n,
-                                      koksma__pair_statistic statistic, size_t samples, uint64_t seed,
-                                      const koksma_run *run, double *values, koksma__estimate *out)
+koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n, size_t samples,
+                                      uint64_t seed, const koksma_run *run, double *values, koksma__estimate *out)
 {
-    *out = (koksma__estimate){n ? statistic(x->mean, y->mean, n) : (double)NAN, -1, 1};
+    *out = (koksma__estimate){n ? koksma__spearman(x->mean, y->mean, n) : (double)NAN, -1, 1};
     if (n < KOKSMA__LEAST_PAIRS) {
         return KOKSMA_OK;
     }
@@ -101,7 +100,7 @@ koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__mean
             return koksma__fail_interrupted();
         }
         resample(x, y, n, seed, s, a, b);
-        room[s] = statistic(a, b, n);
+        room[s] = koksma__spearman(a, b, n);
     }
     if (values) {
         memcpy(values, room, samples * sizeof *values);

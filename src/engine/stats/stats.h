@@ -155,10 +155,9 @@ koksma__estimate koksma__samples_for(const koksma__convergence *pattern, double 
 
 /* ---- Rank correlation ------------------------------------------------------------------------------------------ */
 
-/* Spearman's rho, which is Pearson's correlation of the mean ranks, and Kendall's tau-b. Values that
-   koksma__compare finds equal are ties. Both are NaN when x or y is constant. */
+/* Spearman's rho, which is Pearson's correlation of the mean ranks. Values that koksma__compare finds equal are ties. NaN
+   when x or y is constant. */
 double koksma__spearman(const double *x, const double *y, size_t n);
-double koksma__kendall(const double *x, const double *y, size_t n);
 
 /* The least rho of n pairs without ties that chance reaches with probability alpha at most, one-sided: up to ten pairs by
    the number of orders with each sum of squared differences of ranks, beyond by Student's t = rho sqrt((n - 2) /
@@ -169,9 +168,6 @@ double koksma__spearman_limit(size_t n, double alpha);
 
 enum { KOKSMA__LEAST_PAIRS = 7 }; /* the fewest pairs for which an interval is computed */
 
-/* Computes a statistic of n pairs (x, y); NaN if it has no value. */
-typedef double (*koksma__pair_statistic)(const double *x, const double *y, size_t n);
-
 /* Means with their standard errors; an error counts as 0 if it is NaN or if `error` is NULL. `seed` is the seed for
    redrawing the means. */
 typedef struct koksma__means {
@@ -179,18 +175,17 @@ typedef struct koksma__means {
     uint64_t seed;
 } koksma__means;
 
-/* Computes the statistic and its percentile bootstrap interval (Efron 1979) over the pairs from `samples` resamples;
-   resamples in which the statistic has no value are ignored. Each resample also redraws the means from normal
+/* Computes Spearman's rho and its percentile bootstrap interval (Efron 1979) over the pairs from `samples` resamples;
+   resamples in which it has no value are ignored. Each resample also redraws the means from normal
    distributions with their standard errors. Random numbers are hashes: equal seeds draw the same pairs, and means
-   with equal `seed` get the same deviations in units of their errors. `values` is NULL or receives the statistic of
+   with equal `seed` get the same deviations in units of their errors. `values` is NULL or receives the rho of
    each resample, in order, or NaN where it has no value. With n below 7 the interval is [-1, 1] and `values` is not
    set: bootstrap intervals of so few pairs exclude 0 in 8 to 13 % of cases without any correlation. If the pairs are
-   in perfect order, all resamples have the same order. The interval then has width 0, although the statistic is not
+   in perfect order, all resamples have the same order. The interval then has width 0, although rho is not
    certain. Calls run->keep_going from time to time, always with the fraction 0; run may be NULL. Errors: MEMORY,
    INTERRUPTED. */
-koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n,
-                                      koksma__pair_statistic statistic, size_t samples, uint64_t seed,
-                                      const koksma_run *run, double *values, koksma__estimate *out);
+koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n, size_t samples,
+                                      uint64_t seed, const koksma_run *run, double *values, koksma__estimate *out);
 
 /* The value of a statistic; in resample s it is values[s] * factor. */
 typedef struct koksma__draws {

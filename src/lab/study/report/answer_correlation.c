@@ -203,29 +203,19 @@ static void read_pairs(koksma__report *r, const koksma__topic *topic, const one_
 
 /* ---- Correlations ------------------------------------------------------------------------------------------ */
 
-/* Reverses the sign of a correlation and its interval, for a measure that is better when larger. */
-static koksma__estimate turned(const koksma__estimate *of)
-{
-    return (koksma__estimate){-of->value, -of->high, -of->low};
-}
-
-/* Computes Spearman's rho with its resamples, and Kendall's tau. For tau a quarter of the resamples suffices,
-   because its interval is only shown and enters no significance test. */
+/* Computes Spearman's rho with its resamples, of the sign that is positive if the measure orders the patterns as the error
+   does. */
 static koksma_status correlate(const koksma_run *run, const one_case *p, const pairs *found,
-                               double draws[KOKSMA__RHO_SAMPLES], koksma__estimate *rho, koksma__estimate *tau)
+                               double draws[KOKSMA__RHO_SAMPLES], koksma__estimate *rho)
 {
     const koksma__means x = {found->x, found->x_error, koksma__job_seed("means|%s|%lld", p->of->label, p->spp)};
     const koksma__means y = {found->y, found->y_error,
                              koksma__job_seed("means|%s|%s|%lld", p->scene, p->variant, p->spp)};
-    const uint64_t seed = koksma__job_seed("correlation");
     memset(draws, 0, KOKSMA__RHO_SAMPLES * sizeof *draws);
-    KOKSMA__TRY(
-        koksma__bootstrap_pairs(&x, &y, found->n, koksma__spearman, KOKSMA__RHO_SAMPLES, seed, run, draws, rho));
-    KOKSMA__TRY(
-        koksma__bootstrap_pairs(&x, &y, found->n, koksma__kendall, KOKSMA__RHO_SAMPLES / 4, seed, run, NULL, tau));
+    KOKSMA__TRY(koksma__bootstrap_pairs(&x, &y, found->n, KOKSMA__RHO_SAMPLES, koksma__job_seed("correlation"), run,
+                                        draws, rho));
     if (p->of->larger) {
-        *rho = turned(rho);
-        *tau = turned(tau);
+        *rho = (koksma__estimate){-rho->value, -rho->high, -rho->low};
         for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
             draws[i] = -draws[i];
         }
@@ -240,13 +230,13 @@ static size_t add_case(koksma__report *r, koksma__document *d, const koksma__top
 {
     pairs found;
     double draws[KOKSMA__RHO_SAMPLES];
-    koksma__estimate rho, tau;
+    koksma__estimate rho;
     read_pairs(r, topic, p, &found);
-    if (!r->status && found.n >= 4 && koksma__report_keep(r, correlate(r->run, p, &found, draws, &rho, &tau)) &&
+    if (!r->status && found.n >= 4 && koksma__report_keep(r, correlate(r->run, p, &found, draws, &rho)) &&
         !isnan(rho.value)) {
         rho = koksma__rho_shown(&rho, found.n);
-        koksma__doc_row(d, "ttdtzii", p->scene, p->variant[0] ? p->variant : "defaults", p->spp, p->of->label,
-                        found.n, rho, koksma__rho_shown(&tau, found.n));
+        koksma__doc_row(d, "ttdtzi", p->scene, p->variant[0] ? p->variant : "defaults", p->spp, p->of->label, found.n,
+                        rho);
         const koksma__rho_source source = {p->of->label, p->scene, p->variant, p->spp, found.n};
         koksma__rho_add(r, means, &source, &rho, draws);
     }
@@ -364,8 +354,7 @@ void koksma__answer_correlation(koksma__report *r, koksma__document *d, const ko
     size_t n = 0, most = 0;
     const one_case *cases = list_cases(r, topic, &n);
     koksma__doc_table(&list, "correlations-%.40s", topic->id);
-    koksma__doc_columns(&list, "t scene;t options;n7 samples;t measure;n7 patterns;i3 Spearman##%s;i3 Kendall##%s",
-                        topic->metric, topic->metric);
+    koksma__doc_columns(&list, "t scene;t options;n7 samples;t measure;n7 patterns;i3 Spearman##%s", topic->metric);
     for (size_t i = 0; !r->status && i < n; i++) {
         const size_t patterns = add_case(r, &list, topic, &cases[i], &means);
         most = patterns > most ? patterns : most;
