@@ -15,12 +15,4 @@ static inline void need_meshes(void)
     }
 }
 
-static inline void write_text(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
-
 #endif

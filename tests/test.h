@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -77,6 +78,20 @@ void test_around(CMFixtureFunction begin, CMFixtureFunction end);
             fail_msg("%s: %s", #call, koksma_error_text());                                                          \
         }                                                                                                            \
     } while (0)
+
+/* Writes a file. */
+static inline void test_write_bytes(const char *path, const void *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static inline void test_write(const char *path, const char *text)
+{
+    test_write_bytes(path, text, strlen(text));
+}
 
 /* A fresh set of points by spec; the test ends it with koksma_points_fini. */
 static inline koksma_points test_points(const char *text, size_t n, int dim, uint64_t seed)

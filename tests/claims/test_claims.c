@@ -251,10 +251,7 @@ static const struct {
 static void write_operand(const char *name, const char *operand, const char *text)
 {
     if (text) {
-        FILE *file = fopen(operand, "w");
-        assert_non_null(file);
-        assert_true(fputs(text, file) >= 0);
-        assert_int_equal(fclose(file), 0);
+        test_write(operand, text);
     } else if (!strcmp(name, "file")) {
         koksma_points points = test_points("random", 1000, 3, 9);
         assert_ok(koksma_points_write(operand, &points, NULL, NULL));

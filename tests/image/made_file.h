@@ -33,10 +33,7 @@ static inline void put_number(file *f, uint64_t x, size_t size)
 
 static inline koksma_status read_bytes(const char *name, const file *f, size_t size, koksma_image *image)
 {
-    FILE *stream = fopen(name, "wb");
-    assert_non_null(stream);
-    assert_int_equal(fwrite(f->bytes, 1, size, stream), size);
-    assert_int_equal(fclose(stream), 0);
+    test_write_bytes(name, f->bytes, size);
     const koksma_status status = koksma_image_read(name, image);
     unlink(name);
     return status;

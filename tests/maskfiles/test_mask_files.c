@@ -28,14 +28,6 @@ static koksma_mask mask_of(const char *space, float *values)
     return (koksma_mask){W, H, o.space, values};
 }
 
-static void put(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
-
 static bool has(const char *ending)
 {
     if (koksma_image_check_path(ending)) {
@@ -152,7 +144,7 @@ TEST_CASE(recipes_make_the_mask_again)
     assert_memory_equal(again.options.state, stands, sizeof stands);
     assert_true(!*again.filter && !*again.from);
     koksma_mask_recipe_fini(&again);
-    put("b.json", "{\"revision\": 1}");
+    test_write("b.json", "{\"revision\": 1}");
     assert_error(koksma_mask_read_recipe("b.json", &again), KOKSMA_MALFORMED, "width");
     assert_error(koksma_mask_read_recipe("absent.json", &again), KOKSMA_MISSING, "absent.json");
 }
@@ -177,10 +169,10 @@ TEST_CASE(the_space_follows_from_the_recipe)
     }
     assert_ok(koksma_mask_recipe_space("absent.npy", &found));
     assert_null(found);
-    put("r.npy.json", "{\"space\": \"tent\"}");
+    test_write("r.npy.json", "{\"space\": \"tent\"}");
     assert_ok(koksma_mask_recipe_space("r.npy", &found));
     assert_null(found);
-    put("r.npy.json", "{\"format\": \"koksma-mask\", \"space\": \"tents\"}");
+    test_write("r.npy.json", "{\"format\": \"koksma-mask\", \"space\": \"tents\"}");
     assert_error(koksma_mask_recipe_space("r.npy", &found), KOKSMA_MALFORMED, "tents");
     const koksma_mask mask = mask_of("gaussian", values);
     assert_ok(koksma_mask_write("g.npy", &mask, 0));
@@ -208,7 +200,7 @@ TEST_CASE(filters_have_their_weights)
     assert_weights("binomial", 3, 3, binomial);
     assert_weights("box:size=2", 2, 2, box);
     assert_weights("tent", 3, 3, tent);
-    put("k.txt", "# a filter\n 1, 2 3\n\n-2 0 6 # its last row\n");
+    test_write("k.txt", "# a filter\n 1, 2 3\n\n-2 0 6 # its last row\n");
     assert_weights("file:k.txt", 3, 2, file);
     assert_ok(
         koksma_mask_filter_parse("gaussian:sigma=1", &f)); /* radius 4: the normal distribution at whole numbers */
@@ -228,9 +220,9 @@ TEST_CASE(bad_files_are_refused)
     assert_error(koksma_mask_write("a.npy", &mask, 8), KOKSMA_ARGUMENT, "8 bits");
     assert_ok(koksma_mask_write("a.npy", &mask, 0));
     assert_error(koksma_mask_read("a.npy", koksma_mask_space_find("scalar"), &out), KOKSMA_MALFORMED, "4 numbers");
-    put("cut.npy", "\x93NUMPY");
+    test_write("cut.npy", "\x93NUMPY");
     assert_error(koksma_mask_read("cut.npy", NULL, &out), KOKSMA_MALFORMED, "npy header");
-    put("a.txt", "no image");
+    test_write("a.txt", "no image");
     assert_error(koksma_mask_read("a.txt", NULL, &out), KOKSMA_MALFORMED, "a.txt");
     values[5] = 7;
     assert_error(koksma_mask_write("a.npy", &mask, 0), KOKSMA_ARGUMENT, "(1, 0)");

@@ -13,14 +13,6 @@
 #include "render/light_sample.h"
 #include "scene/scene.h"
 
-static void write_bytes(const char *path, const void *bytes, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    fwrite(bytes, 1, size, file);
-    fclose(file);
-}
-
 static void write_image(const char *path, int width, const float *pixels)
 {
     koksma_image image;
@@ -56,7 +48,7 @@ static void write_model(const char *path, const model *m)
     unsigned char bytes[188];
     memcpy(bytes, square, 176);
     memcpy(bytes + 176, corners, 12);
-    write_bytes("my square.bin", bytes, sizeof bytes);
+    test_write_bytes("my square.bin", bytes, sizeof bytes);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fprintf(file,
@@ -402,7 +394,7 @@ TEST_CASE(mirrored_squares_glow_in_front)
         snprintf(json, sizeof json,
                  "{\"camera\": {\"eye\": [0, 0, 3], \"target\": [0, 0, 0], \"fov_deg\": 0.1}, \"materials\": [], "
                  "\"shapes\": [{\"kind\": \"mesh\", \"file\": \"lit.gltf\", \"emission\": 1}]}");
-        write_bytes("lit.json", json, strlen(json));
+        test_write_bytes("lit.json", json, strlen(json));
         double rgb[3];
         char warnings[2048];
         look("./lit.json", rgb, warnings, sizeof warnings);
@@ -485,7 +477,7 @@ TEST_CASE(mirrored_normals_stay_outside)
 {
     need_meshes();
     static const float square[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-    write_bytes("turn.bin", square, sizeof square);
+    test_write_bytes("turn.bin", square, sizeof square);
     for (int i = 0; i < 8; i++) {
         const int x = i & 1 ? -2 : 1, y = i & 2 ? -1 : 3, z = i & 4 ? -1 : 1;
         char text[1024];
@@ -498,7 +490,7 @@ TEST_CASE(mirrored_normals_stay_outside)
             "\"byteOffset\": 48, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}], \"bufferViews\": "
             "[{\"buffer\": 0, \"byteLength\": 96}], \"buffers\": [{\"byteLength\": 96, \"uri\": \"turn.bin\"}]}",
             x, y, z);
-        write_bytes("turn.gltf", text, strlen(text));
+        test_write_bytes("turn.gltf", text, strlen(text));
         koksma__mesh one = {0};
         koksma_scene *scene;
         assert_ok(koksma__mesh_read("turn.gltf", KOKSMA__BY_FILE, NULL, &one));

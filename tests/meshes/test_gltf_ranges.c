@@ -50,14 +50,6 @@ static void fill(unsigned char bytes[BYTES])
     }
 }
 
-static void put_file(const char *path, const void *bytes, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    fclose(file);
-}
-
 static void put_word(unsigned char *to, size_t value)
 {
     for (int i = 0; i < 4; i++) {
@@ -91,8 +83,8 @@ static void put_model(container how, const unsigned char *bytes, size_t size, co
     assert_non_null(at);
     snprintf(changed, sizeof changed - 4, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
     if (how != BINARY) {
-        put_file("./ranges.bin", bytes, size);
-        put_file(names[how], changed, strlen(changed));
+        test_write_bytes("./ranges.bin", bytes, size);
+        test_write_bytes(names[how], changed, strlen(changed));
         return;
     }
     while (strlen(changed) % 4) {
@@ -108,7 +100,7 @@ static void put_model(container how, const unsigned char *bytes, size_t size, co
     put_word(head + 20 + length, size);
     memcpy(head + 24 + length, "BIN\0", 4);
     memcpy(head + 28 + length, bytes, size);
-    put_file(names[how], binary, whole);
+    test_write_bytes(names[how], binary, whole);
 }
 
 static void expect_refusal(container how, const char *what, const char *reason)

@@ -170,10 +170,7 @@ TEST_CASE(malformed_scenes_and_meshes)
         koksma_scene *scene = NULL;
         snprintf(path, sizeof path, "./bad_%s", cases[i].file);
         snprintf(name, sizeof name, "%zu (%s)", i, cases[i].file);
-        FILE *file = fopen(path, "w");
-        assert_non_null(file);
-        fputs(cases[i].text, file);
-        fclose(file);
+        test_write(path, cases[i].text);
         const koksma_status status = koksma_scene_open(path, &scene);
         look_at_error(name, status, cases[i].reason);
         unlink(path);

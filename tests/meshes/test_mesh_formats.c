@@ -12,14 +12,6 @@
 #include "meshes/mesh_file.h"
 #include "meshes/mesh_text.h"
 
-static void write_bytes(const char *path, const void *bytes, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    fclose(file);
-}
-
 /* The mesh of a file whose corners, in their order, are at these places. */
 static koksma__mesh read_mesh(const char *path, size_t n_corners, const float (*places)[3])
 {
@@ -63,7 +55,7 @@ TEST_CASE(the_cubes_of_the_obj_manual)
         snprintf(text + strlen(text), 64, "f %d %d %d %d\n", faces[i][0] + 1, faces[i][1] + 1, faces[i][2] + 1,
                  faces[i][3] + 1);
     }
-    write_text("cube.obj", text);
+    test_write("cube.obj", text);
     koksma__mesh mesh = read_mesh("cube.obj", 36, corners);
     assert_null(mesh.normals);
     assert_null(mesh.uvs);
@@ -73,7 +65,7 @@ TEST_CASE(the_cubes_of_the_obj_manual)
         snprintf(text + strlen(text), 64, "f %d %d \\\n %d %d\r\n", faces[i][0] - 8, faces[i][1] - 8, faces[i][2] - 8,
                  faces[i][3] - 8);
     }
-    write_text("cube.obj", text);
+    test_write("cube.obj", text);
     mesh = read_mesh("cube.obj", 36, corners);
     koksma__mesh_fini(&mesh);
 }
@@ -86,7 +78,7 @@ TEST_CASE(corners_of_obj_name_three_things)
                                         {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0.5f, 0.25f, 1}};
     static const float uvs[12][2] = {{0.25f, 0.5f}, {0.75f, 0}, {0.5f, 1}, {0, 0}, {0, 0}, {0, 0},
                                      {0.25f, 0.5f}, {0.75f, 0}, {0.5f, 1}, {0, 0}, {0, 0}, {0, 0}};
-    write_text("three.obj",
+    test_write("three.obj",
                "f 1/1/1 2/2/1 3/3/2 # forward\nv 0 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 1 1 1\nvt .25 .5 9\nvt .75\n"
                "vt 5e-1 1\nvn 0 0 2\nvn 0 0 -1\nf 2//1 3//1 1//2\nf -1/-3 -3/-2 -2/-1\nl 1 2\np 3\n"
                "s 1\nv 1 .5 2 2\nf 1 2 4\n");
@@ -99,9 +91,9 @@ TEST_CASE(corners_of_obj_name_three_things)
     }
     koksma__mesh_fini(&mesh);
     koksma__mesh_file file;
-    write_text("parts.mtl", "newmtl a\nKd 1 0.5\nPm 0.75\nPr 0.25\nmap_Kd -s 2 -o 1 1 1 -clamp on a b.png\n"
+    test_write("parts.mtl", "newmtl a\nKd 1 0.5\nPm 0.75\nPr 0.25\nmap_Kd -s 2 -o 1 1 1 -clamp on a b.png\n"
                             "newmtl b\nd 0.5\nKe 2 3 4\nmap_ke 1.png\nnewmtl c\nTr 0\n");
-    write_text("parts.obj", "mtllib parts.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl b\nf 1 2 3\nf 2 3 1\ng x\n"
+    test_write("parts.obj", "mtllib parts.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl b\nf 1 2 3\nf 2 3 1\ng x\n"
                             "f 3 1 2\ng x\nusemtl a\nusemtl b\nf 1 2 3\nusemtl nobody\nf 1 2 3\n");
     assert_ok(koksma__mesh_file_read("parts.obj", KOKSMA__BY_USER, &file));
     static const size_t materials[4] = {0, 2, 2, 4}, triangles[4] = {1, 2, 2, 1};
@@ -190,7 +182,7 @@ TEST_CASE(the_cube_of_turk)
                             : (size_t)sprintf(text + n, "%g%s", values[k], k < 5 ? " \t" : "\r\n");
             }
         }
-        write_bytes("turk.ply", file, n);
+        test_write_bytes("turk.ply", file, n);
         koksma__mesh mesh = read_mesh("turk.ply", 36, corners);
         assert_int_equal(mesh.n_vertices, 8); /* shared, as in the file */
         for (size_t i = 0; i < 8; i++) {
@@ -244,14 +236,14 @@ TEST_CASE(many_faces_of_binary_ply)
     size_t n_corners;
     for (int form = 0; form < 4; form++) {
         const size_t n = write_many(form & 1, form & 2 ? "int" : "uint", SIZE_MAX, file, corners, &n_corners);
-        write_bytes("many.ply", file, n);
+        test_write_bytes("many.ply", file, n);
         koksma__mesh mesh = read_mesh("many.ply", n_corners, corners);
         assert_int_equal(mesh.n_vertices, MANY_VERTICES);
         koksma__mesh_fini(&mesh);
-        write_bytes("many.ply", file, n - 5);
+        test_write_bytes("many.ply", file, n - 5);
         assert_int_equal(koksma__mesh_read("many.ply", KOKSMA__BY_FILE, NULL, &mesh), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "the file ends within element 'face' number 8999 of 9000"));
-        write_bytes("many.ply", file, write_many(form & 1, "int", 18000, file, corners, &n_corners));
+        test_write_bytes("many.ply", file, write_many(form & 1, "int", 18000, file, corners, &n_corners));
         assert_int_equal(koksma__mesh_read("many.ply", KOKSMA__BY_FILE, NULL, &mesh), KOKSMA_MALFORMED);
         assert_non_null(
             strstr(koksma_error_text(), "face 6000 names vertex 1300, but there are 1300, numbered from 0"));
@@ -269,11 +261,11 @@ TEST_CASE(a_ply_that_ends_among_its_vertices)
                                     "property list uchar int vertex_index\nend_header\n\2\0\0\0";
     unsigned char file[sizeof text + 36] = {0};
     koksma__mesh mesh = {0};
-    write_bytes("short.ply", no_vertex, sizeof no_vertex - 1);
+    test_write_bytes("short.ply", no_vertex, sizeof no_vertex - 1);
     assert_int_equal(koksma__mesh_read("short.ply", KOKSMA__BY_FILE, NULL, &mesh), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "the file ends within element 'face' number 0 of 1"));
     memcpy(file, text, sizeof text - 1);
-    write_bytes("short.ply", file, sizeof text - 1 + 35);
+    test_write_bytes("short.ply", file, sizeof text - 1 + 35);
     assert_int_equal(koksma__mesh_read("short.ply", KOKSMA__BY_FILE, NULL, &mesh), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "the file ends within element 'vertex' number 2 of 3"));
     unlink("short.ply");
@@ -283,7 +275,7 @@ TEST_CASE(a_ply_that_ends_among_its_vertices)
 TEST_CASE(wedges_of_ply_are_of_vertices)
 {
     koksma__mesh_file file;
-    write_text("wedge.ply",
+    test_write("wedge.ply",
                "ply\nformat ascii 1.0\ncomment TextureFile my wood.png\nelement vertex 3\nproperty float x\n"
                "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 2 0 1 6 0 1 .25 .5 1 0\n");
@@ -304,7 +296,7 @@ TEST_CASE(a_pyramid_in_off)
     for (int i = 0; i < 18; i++) {
         memcpy(wanted[i], places[corners[i]], sizeof *wanted);
     }
-    write_text("pyramid.off",
+    test_write("pyramid.off",
                "# a pyramid\nOFF\n5 5 8 # counts\n\n1 1 0\n-1 1 0 # second\n-1. -1 .0\n1e0 -10E-1 0 0.5 0.5 1\n"
                "+0 -0 1.5\n4 3 2 1 0 255 0 0\n3 0 1 4\n  3\t1 2 4\n# none\n3 2 3 4 0.5\r\n3 3 0 4");
     koksma__mesh mesh = read_mesh("pyramid.off", 18, wanted);
@@ -395,8 +387,8 @@ static void write_gltf(const void *bytes, size_t size, const char *nodes, const 
              "[{%s}]}], \"accessors\": [%s], \"bufferViews\": [%s], \"buffers\": [{\"byteLength\": %zu, \"uri\": "
              "\"format.bin\"}]}",
              nodes, primitive, accessors, views, size);
-    write_bytes("format.bin", bytes, size);
-    write_text("format.gltf", text);
+    test_write_bytes("format.bin", bytes, size);
+    test_write("format.gltf", text);
 }
 
 #define POSITIONS "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 5, \"type\": \"VEC3\"}"
@@ -560,7 +552,7 @@ TEST_CASE(meshes_of_one_file_stay_apart)
 {
     unsigned char bytes[256];
     koksma__mesh_file file = {0};
-    write_bytes("two.serialized", bytes, put_serialized(bytes));
+    test_write_bytes("two.serialized", bytes, put_serialized(bytes));
     const koksma_status status = koksma__mesh_file_read("two.serialized", KOKSMA__BY_USER, &file);
     unlink("two.serialized");
     if (status == KOKSMA_UNSUPPORTED) {

@@ -18,10 +18,7 @@ enum { SIDE = 48 };
 static koksma_scene *scene_of(const char *text)
 {
     koksma_scene *scene;
-    FILE *file = fopen("test_meshes.json", "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
+    test_write("test_meshes.json", text);
     assert_ok(koksma_scene_open("./test_meshes.json", &scene));
     unlink("test_meshes.json");
     return scene;
@@ -336,7 +333,7 @@ TEST_CASE(motion_covers_its_share_of_time)
 TEST_CASE(rotation_covers_its_share_of_time)
 {
     need_meshes();
-    write_text("half.ply",
+    test_write("half.ply",
                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
                "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
                "-3 0 3\n0 0 3\n0 0 -3\n-3 0 -3\n4 0 1 2 3\n");
@@ -461,7 +458,7 @@ TEST_CASE(poses_are_placements)
                    "0], \"scale\": 0.5}" TAIL) == 0);
     assert_true(difference(BALL(", \"to\": {\"scale\": 0.5}"), BALL("")) > 1e-2);
     koksma_scene *scene;
-    write_text("both.json", BALL(", \"motion\": [1, 0, 0], \"to\": {\"scale\": 0.5}"));
+    test_write("both.json", BALL(", \"motion\": [1, 0, 0], \"to\": {\"scale\": 0.5}"));
     assert_int_equal(koksma_scene_open("./both.json", &scene), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "it takes one of 'motion' and 'to'"));
     unlink("both.json");

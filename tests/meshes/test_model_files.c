@@ -38,7 +38,7 @@ TEST_CASE(ways_to_write_a_mesh_are_one)
     need_meshes();
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
         koksma_scene *scene;
-        write_text(ways[i].file, ways[i].text);
+        test_write(ways[i].file, ways[i].text);
         assert_that(!koksma_scene_open(ways[i].file, &scene), "way %zu: %s", i, koksma_error_text());
         const koksma__mesh *mesh = scene->meshes;
         assert_int_equal(scene->n_meshes, 1);
@@ -57,7 +57,7 @@ TEST_CASE(ways_to_write_a_mesh_are_one)
         snprintf(text + strlen(text), sizeof text - strlen(text), "%g %g 0\n", cos(i * M_PI / 6), sin(i * M_PI / 6));
     }
     koksma_scene *scene;
-    write_text("way.off", strcat(text, "12 0 1 2 3 4 5 6 7 8 9 10 11\n"));
+    test_write("way.off", strcat(text, "12 0 1 2 3 4 5 6 7 8 9 10 11\n"));
     assert_ok(koksma_scene_open("way.off", &scene));
     assert_int_equal(koksma_scene_count(scene).triangles, 10);
     koksma_scene_close(scene);
@@ -68,8 +68,8 @@ TEST_CASE(ways_to_write_a_mesh_are_one)
 static double first_red(const char *mtl)
 {
     koksma_scene *scene;
-    write_text("red.mtl", mtl);
-    write_text("red.obj", "mtllib red.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl a b\nf 1 2 3\n");
+    test_write("red.mtl", mtl);
+    test_write("red.obj", "mtllib red.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl a b\nf 1 2 3\n");
     const koksma_status status = koksma_scene_open("red.obj", &scene);
     char text[64];
     double red = -1;
@@ -106,15 +106,15 @@ TEST_CASE(a_material_file_is_read_once)
                                         "mtllib a.mtl b.mtl ./a.mtl\n", "mtllib a.mtl b.mtl link.mtl\n",
                                         "mtllib once.mtl b.mtl missing.mtl\n"};
     need_meshes();
-    write_text("a.mtl", "newmtl m\nKd 0.25\n");
-    write_text("b.mtl", "newmtl m\nKd 0.5\n");
-    write_text("once.mtl", "newmtl m\nKd 0.25\n");
+    test_write("a.mtl", "newmtl m\nKd 0.25\n");
+    test_write("b.mtl", "newmtl m\nKd 0.5\n");
+    test_write("once.mtl", "newmtl m\nKd 0.25\n");
     assert_int_equal(symlink("a.mtl", "link.mtl"), 0);
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         koksma_scene *scene;
         char text[256];
         snprintf(text, sizeof text, "%sv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl m\nf 1 2 3\n", lines[i]);
-        write_text("once.obj", text);
+        test_write("once.obj", text);
         assert_ok(koksma_scene_open("once.obj", &scene));
         assert_near(scene->materials[scene->placements[0].material].albedo[0][0], 0.5, 1e-7);
         koksma_scene_close(scene);
@@ -143,7 +143,7 @@ TEST_CASE(what_render_would_refuse_is_refused_at_once)
         fclose(file);
         snprintf(text, sizeof text, "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}, %s}",
                  parts[i / 2]);
-        write_text("refused.json", text);
+        test_write("refused.json", text);
         assert_int_equal(koksma_scene_open("./refused.json", &scene), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "refused.json': line 2: "));
         assert_non_null(strstr(koksma_error_text(), "bad.pfm: pixel 0,0 has the value"));
@@ -151,8 +151,8 @@ TEST_CASE(what_render_would_refuse_is_refused_at_once)
     unlink("bad.pfm");
     if (koksma_mesh_tracer()) {
         koksma_scene *scene;
-        write_text("bad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
-        write_text("refused.json", "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40},"
+        test_write("bad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+        test_write("refused.json", "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40},"
                                    "\"materials\": [], \"shapes\":\n[{\"kind\": \"mesh\", \"file\": \"bad.obj\","
                                    "\"emission\": 1, \"scale\": 1e-6, \"translate\": [1000, 1000, 0]}]}");
         assert_int_equal(koksma_scene_open("./refused.json", &scene), KOKSMA_MALFORMED);

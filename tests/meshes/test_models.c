@@ -16,7 +16,7 @@ static double mean(const char *scene_text, const char *path, const char *integra
     koksma_render_options options;
     koksma_image image;
     if (scene_text) {
-        write_text("test_models.json", scene_text);
+        test_write("test_models.json", scene_text);
     }
     assert_ok(koksma_scene_open(scene_text ? "./test_models.json" : path, &scene));
     koksma_render_options_init(&options, scene);
@@ -52,7 +52,7 @@ TEST_CASE(luminous_meshes_have_their_form_factor)
 {
     need_meshes();
     /* a rectangle of 2 x 1 of three triangles that face down, of very different areas */
-    write_text("lamp.obj",
+    test_write("lamp.obj",
                "v -1 0 -0.5\nv 1 0 -0.5\nv 1 0 0.5\nv -1 0 0.5\nv -0.9 0 0.5\nf 1 2 5\nf 2 3 5\nf 1 5 4\n");
     const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
 #define LAMP "{\"kind\": \"mesh\", \"file\": \"lamp.obj\", \"translate\": [0, 2, 0], \"emission\": 2},"
@@ -73,8 +73,8 @@ TEST_CASE(luminous_meshes_have_their_form_factor)
 TEST_CASE(luminous_meshes_light_meshes)
 {
     need_meshes();
-    write_text("lamp.obj", "v -1 0 -0.5\nv 1 0 -0.5\nv 1 0 0.5\nv -1 0 0.5\nf 1 2 3 4\n");
-    write_text("floor.obj", "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 4 3 2 1\n");
+    test_write("lamp.obj", "v -1 0 -0.5\nv 1 0 -0.5\nv 1 0 0.5\nv -1 0 0.5\nf 1 2 3 4\n");
+    test_write("floor.obj", "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 4 3 2 1\n");
     const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
     static const double cases[][2] = {{5, 0}, {50, 0}, {1000, 0}, {5, 1000}, {5, 10000}, {1000, 10000}};
     for (size_t i = 0; i < 12; i++) {
@@ -116,7 +116,7 @@ TEST_CASE(images_are_albedos)
     assert_near(mean(TEXTURED("0.9, 0.5", WALL), NULL, "distribution", 1, 1), 0.2, 1e-3);
     assert_near(mean(TEXTURED("-0.5, -0.9", WALL), NULL, "distribution", 1, 1), 0.3, 1e-3);
     if (koksma_mesh_tracer()) {
-        write_text("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+        test_write("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
                                "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
 #define MESH_WALL "{\"kind\": \"mesh\", \"file\": \"wall.obj\""
         assert_near(mean(TEXTURED("-0.5, 0.5", MESH_WALL), NULL, "distribution", 1, 1), 0.1, 1e-3);
@@ -212,10 +212,10 @@ TEST_CASE(bare_files_bring_or_get_cameras_and_lights)
     fwrite(corners, sizeof corners, 1, file);
     fwrite(indices, sizeof indices, 1, file);
     fclose(file);
-    write_text("square.gltf", gltf);
+    test_write("square.gltf", gltf);
     /* intensity / distance^2 times base colour below a surface that reflects .04, and that over 4 pi */
     assert_near(mean(NULL, "square.gltf", "distribution", 1, 1), (0.5 * 0.96 * 0.96 + 0.04 / 4) / M_PI * 9 / 9, 1e-3);
-    write_text("glowing.gltf", glowing);
+    test_write("glowing.gltf", glowing);
     assert_near(mean(NULL, "glowing.gltf", "distribution", 1, 16), 4.5 / 4, 1e-6);
     unlink("glowing.gltf");
     unlink("square.gltf");
@@ -230,7 +230,7 @@ TEST_CASE(bare_files_without_light_get_a_studio)
     koksma_scene *scene;
     koksma_render_options options;
     koksma_image image;
-    write_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    test_write("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
     assert_ok(koksma_scene_open("square.obj", &scene));
     koksma_scene_counts counts = koksma_scene_count(scene);
     assert_true(counts.lights == 2 && counts.shapes == 1 && counts.placements == 1 && counts.materials == 2);
@@ -271,21 +271,21 @@ static uint64_t hash_of(const char *path)
 TEST_CASE(hashes_cover_the_files_that_a_scene_names)
 {
     need_meshes();
-    write_text("part.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");
-    write_text("part.obj", "mtllib part.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    test_write("part.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");
+    test_write("part.obj", "mtllib part.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
     const uint64_t once = hash_of("part.obj");
     assert_true(once == hash_of("part.obj"));
-    write_text("part.mtl", "newmtl a\nKd 0.5 0.5 0.25\n");
+    test_write("part.mtl", "newmtl a\nKd 0.5 0.5 0.25\n");
     assert_true(once != hash_of("part.obj"));
-    write_text("textured.json",
+    test_write("textured.json",
                "{\"camera\": {\"eye\": [0, 0, 3], \"target\": [0, 0, 0], \"fov_deg\": 40}, "
                "\"ambient\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", "
                "\"albedo\": {\"image\": \"one.pfm\"}}], \"shapes\": [{\"kind\": \"rectangle\", "
                "\"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], \"material\": \"m\"}]}");
-    write_text("one.pfm", "Pf\n1 1\n-1\n\1\1\1\076");
+    test_write("one.pfm", "Pf\n1 1\n-1\n\1\1\1\076");
     const uint64_t dark = hash_of("./textured.json");
     assert_true(dark == hash_of("./textured.json"));
-    write_text("one.pfm", "Pf\n1 1\n-1\n\1\1\1\077");
+    test_write("one.pfm", "Pf\n1 1\n-1\n\1\1\1\077");
     assert_true(dark != hash_of("./textured.json"));
     unlink("part.mtl");
     unlink("part.obj");
@@ -300,18 +300,18 @@ TEST_CASE(textures_of_models_are_read)
 #define SQUARE_OBJ(mtl)                                                                                              \
     "mtllib " mtl "\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl a\n"             \
     "f 1/1 2/2 3/3 4/4\n"
-    write_text("plain.obj", SQUARE_OBJ("plain.mtl"));
-    write_text("textured.obj", SQUARE_OBJ("textured.mtl"));
-    write_text("textured.mtl", "newmtl a\nKd 0.75 0.75 0.75\nmap_Kd texture.pfm\n");
-    write_text("texture.pfm", "Pf\n1 1\n-1\n\1\1\1\076"); /* 0.126 */
-    write_text("plain.mtl", "newmtl a\nKd 0.094485294 0.094485294 0.094485294\n");
+    test_write("plain.obj", SQUARE_OBJ("plain.mtl"));
+    test_write("textured.obj", SQUARE_OBJ("textured.mtl"));
+    test_write("textured.mtl", "newmtl a\nKd 0.75 0.75 0.75\nmap_Kd texture.pfm\n");
+    test_write("texture.pfm", "Pf\n1 1\n-1\n\1\1\1\076"); /* 0.126 */
+    test_write("plain.mtl", "newmtl a\nKd 0.094485294 0.094485294 0.094485294\n");
     const uint64_t hash = hash_of("textured.obj");
     assert_near(mean(NULL, "textured.obj", "distribution", 16, 4), mean(NULL, "plain.obj", "distribution", 16, 4),
                 1e-6);
-    write_text("texture.pfm", "Pf\n1 1\n-1\n\1\1\1\077");
+    test_write("texture.pfm", "Pf\n1 1\n-1\n\1\1\1\077");
     assert_true(hash != hash_of("textured.obj"));
-    write_text("texture.pfm", "no picture");
-    write_text("plain.mtl", "newmtl a\nKd 0.75 0.75 0.75\n");
+    test_write("texture.pfm", "no picture");
+    test_write("plain.mtl", "newmtl a\nKd 0.75 0.75 0.75\n");
     assert_near(mean(NULL, "textured.obj", "distribution", 16, 4), mean(NULL, "plain.obj", "distribution", 16, 4),
                 1e-6);
     unlink("plain.obj");

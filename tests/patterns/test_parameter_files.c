@@ -10,14 +10,6 @@
 
 enum { MOST = 4096 };
 
-static void write_file(const char *name, const char *text)
-{
-    FILE *file = fopen(name, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
-
 static koksma_status points_of(const char *text, size_t n, int dim, koksma_points *points)
 {
     koksma_spec spec;
@@ -46,7 +38,7 @@ TEST_CASE(lattices_are_their_multiples)
         {"5\r\n 433\r\n", {5, 433}, 2, 4096},
     };
     for (size_t f = 0; f < sizeof files / sizeof *files; f++) {
-        write_file("lattice.txt", files[f].text);
+        test_write("lattice.txt", files[f].text);
         for (uint64_t n = 1; n <= files[f].most; n *= files[f].base) {
             koksma_points points;
             double expected[MOST][2];
@@ -64,7 +56,7 @@ TEST_CASE(lattices_are_their_multiples)
         }
     }
     koksma_points points;
-    write_file("prime.txt", "# lattice\n2\n101\n1\n40\n");
+    test_write("prime.txt", "# lattice\n2\n101\n1\n40\n");
     assert_ok(points_of("lattice-file:prime.txt", 101, 2, &points));
     for (uint64_t i = 0; i < 101; i++) {
         assert_near(points.xs[2 * i + 1], (double)(i * 40 % 101) / 101, 1e-15);
@@ -179,7 +171,7 @@ TEST_CASE(polynomial_lattices_are_quotients)
         snprintf(text, sizeof text, "# plattice\n%llu\n3\n%d\n%llu\n%llu\n%llu\n%llu\n", (unsigned long long)b,
                  rules[f].m, (unsigned long long)rules[f].modulus, (unsigned long long)rules[f].q[0],
                  (unsigned long long)rules[f].q[1], (unsigned long long)rules[f].q[2]);
-        write_file("plattice.txt", text);
+        test_write("plattice.txt", text);
         coefficients(rules[f].modulus, b, modulus);
         for (int c = 0; c < rules[f].m; c++) {
             n *= b;
@@ -216,7 +208,7 @@ TEST_CASE(sobol_numbers_give_sobol_points)
         char text[400];
         koksma_points a, b;
         snprintf(text, sizeof text, "%s%s", heads[h], lines);
-        write_file("jk.txt", text);
+        test_write("jk.txt", text);
         assert_ok(points_of("net-file:jk.txt", 5000, 8, &a));
         assert_ok(points_of("sobol", 5000, 8, &b));
         assert_memory_equal(a.xs, b.xs, 5000 * 8 * sizeof *a.xs);
@@ -235,7 +227,7 @@ TEST_CASE(sobol_numbers_have_their_bits)
         char text[80];
         koksma_points points;
         snprintf(text, sizeof text, "d s a m_i\n2 1 0 1\n%s # last\n", lines[i]);
-        write_file("jk.txt", text);
+        test_write("jk.txt", text);
         assert_int_equal(points_of("net-file:jk.txt", 16, 3, &points), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "line 3: a is "));
         koksma_points_fini(&points);
@@ -308,8 +300,8 @@ TEST_CASE(latnet_builders_forms_agree)
                  {sobol_net, sobol_short, 4096, 10, 0x1p31}};
     for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
         koksma_points a, b;
-        write_file("net.txt", pairs[p].net);
-        write_file("other.txt", pairs[p].other);
+        test_write("net.txt", pairs[p].net);
+        test_write("other.txt", pairs[p].other);
         assert_ok(points_of("net-file:net.txt", pairs[p].n, pairs[p].dim, &a));
         assert_ok(points_of("net-file:other.txt", pairs[p].n, pairs[p].dim, &b));
         for (size_t i = 0; i < pairs[p].n * (size_t)pairs[p].dim; i++) {
@@ -319,7 +311,7 @@ TEST_CASE(latnet_builders_forms_agree)
         koksma_points_fini(&b);
     }
     koksma_points points;
-    write_file("net.txt", sobol_short);
+    test_write("net.txt", sobol_short);
     assert_int_equal(points_of("net-file:net.txt", 4, 11, &points), KOKSMA_DIM);
     koksma_points_fini(&points);
 }
@@ -328,7 +320,7 @@ TEST_CASE(latnet_builders_forms_agree)
 TEST_CASE(latnet_builders_lattices_are_read)
 {
     koksma_points points;
-    write_file(
+    test_write(
         "lattice.txt",
         "# Input Command Line: -t lattice -c ordinary -s 2^16 -d 100 -f CU:P2 -q 2 --multilevel true\n"
         "# Merit: 4.49877e+12\n# Parameters for a lattice rule, embedded from 2 to 16\n100    # 100 dimensions\n"
@@ -384,7 +376,7 @@ TEST_CASE(latnet_builders_interlaced_nets_are_interlaced)
         }
     }
     koksma_points_fini(&points);
-    write_file("net.txt", "# Parameters for a digital net in base 2\n2\n2 # Interlacing factor\n5\n2\n2\n");
+    test_write("net.txt", "# Parameters for a digital net in base 2\n2\n2 # Interlacing factor\n5\n2\n2\n");
     assert_int_equal(points_of("net-file:net.txt", 4, 2, &points), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "5 components, not 2 times 2"));
     koksma_points_fini(&points);
@@ -429,7 +421,7 @@ TEST_CASE(bad_files_are_refused)
         koksma_points points;
         char text[64];
         snprintf(text, sizeof text, "%s:bad.txt", files[f].pattern);
-        write_file("bad.txt", files[f].text);
+        test_write("bad.txt", files[f].text);
         const koksma_status status = points_of(text, 2, 2, &points);
         assert_that(status == files[f].status && strstr(koksma_error_text(), files[f].says) &&
                         strstr(koksma_error_text(), "bad.txt"),

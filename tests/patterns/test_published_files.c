@@ -10,14 +10,6 @@
 
 #include "claims/claims.h"
 
-static void write_file(const char *name, const char *text)
-{
-    FILE *file = fopen(name, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
-
 /* ---- Lattices ---------------------------------------------------------------------------------------------- */
 
 /* P_2 with product weights 0.7 of three lattices, as Lattice Builder prints it (umontreal-simul/latnetbuilder: its
@@ -37,7 +29,7 @@ TEST_CASE(lattices_have_the_printed_merits)
     const double weight = 0.7 * 2 * acos(-1) * acos(-1);
     for (size_t t = 0; t < sizeof lattices / sizeof *lattices; t++) {
         double mean = 0;
-        write_file("published.txt", lattices[t].file);
+        test_write("published.txt", lattices[t].file);
         koksma_points points = test_points("lattice-file:published.txt", lattices[t].n, lattices[t].dim, 0);
         for (size_t i = 0; i < points.n; i++) {
             double product = 1;
@@ -57,7 +49,7 @@ TEST_CASE(lattices_have_the_printed_merits)
    for x = 0 (Dick, Kuo, Pillichshammer & Sloan 2005). */
 TEST_CASE(polynomial_lattices_have_the_printed_merit)
 {
-    write_file("published.txt", "# Merit: 0.000818148\n# Parameters for a polynomial lattice rule in base 2\n"
+    test_write("published.txt", "# Merit: 0.000818148\n# Parameters for a polynomial lattice rule in base 2\n"
                                 "10       # 10 dimensions\n10      # k = 10, n = 2^10 = 1024 points\n"
                                 "1033   # polynomial modulus\n1\n800\n839\n753\n622\n150\n827\n676\n108\n970\n");
     koksma_points points = test_points("net-file:published.txt", 1024, 10, 0);
@@ -165,11 +157,11 @@ static int largest_quality(const net *a)
    inf -w order-dependent:0:0,1,1. */
 TEST_CASE(nets_have_the_printed_t_values)
 {
-    write_file("published.txt", "# Merit: 5\n# Parameters m_{j,c} for Sobol points\n10    # 10 dimensions\n1\n1 1\n"
+    test_write("published.txt", "# Merit: 5\n# Parameters m_{j,c} for Sobol points\n10    # 10 dimensions\n1\n1 1\n"
                                 "1 3 1\n1 1 7\n1 3 1 15\n1 3 1 15\n1 3 3 1 9\n1 1 3 7 3\n1 3 7 15 11\n");
     const net sobol = net_of("net-file:published.txt", 16, 10);
     assert_int_equal(largest_quality(&sobol), 5);
-    write_file(
+    test_write(
         "published.txt",
         "# Merit: 6\n# Parameters for a polynomial lattice rule in base 2\n10       # 10 dimensions\n"
         "16      # k = 16, n = 2^16 = 65536 points\n66525   # polynomial modulus\n1\n52453\n29874\n12667\n26826\n"
@@ -235,7 +227,7 @@ TEST_CASE(sequences_have_the_published_t_values)
     assert_int_equal(t[1], 2);
     /* Sobol' sequences have t = sum of (degree - 1) of their polynomials (Sobol' 1967; Dick & Niederreiter 2008), which
        the first 2^13 points attain in up to 5 dimensions: Joe & Kuo's numbers. */
-    write_file("published.txt", "d       s       a       m_i\n2 1 0 1\n3 2 1 1 3\n4 3 1 1 3 1\n5 3 2 1 1 1\n"
+    test_write("published.txt", "d       s       a       m_i\n2 1 0 1\n3 2 1 1 3\n4 3 1 1 3 1\n5 3 2 1 1 1\n"
                                 "6 4 1 1 1 3 3\n7 4 4 1 3 5 13\n");
     for (int dim = 1; dim <= 7; dim++) {
         int largest = 0;

@@ -434,10 +434,7 @@ TEST_CASE(lanes_are_alike)
 TEST_CASE(geometries_agree)
 {
     static const char *const file = "koksma-test-shape.off";
-    FILE *mesh = fopen(file, "w");
-    assert_non_null(mesh);
-    fputs("OFF\n3 1 0\n900 900 900\n901 900 900\n900 901 900\n3 0 1 2\n", mesh);
-    assert_int_equal(fclose(mesh), 0);
+    test_write(file, "OFF\n3 1 0\n900 900 900\n901 900 900\n900 901 900\n3 0 1 2\n");
     const bool embree = koksma_mesh_tracer() != NULL;
     for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {

@@ -15,10 +15,7 @@ static inline void write_bytes(const char *name, const void *bytes, size_t size)
 {
     char path[128];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
+    test_write_bytes(path, bytes, size);
 }
 
 static inline void write_file(const char *name, const char *text)

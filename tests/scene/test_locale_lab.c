@@ -14,10 +14,7 @@ static void write_text(const char *name, const char *text)
 {
     char path[192];
     path_of(name, path);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
+    test_write(path, text);
 }
 
 /* ---- Scenes and images --------------------------------------------------------------------------------- */
@@ -95,10 +92,7 @@ static void make_models(FILE *out)
     static const float corners[9] = {-0.5F, -0.5F, 0, 0.5F, -0.25F, 0.25F, 0.125F, 0.75F, 0};
     char path[192];
     path_of("triangle.bin", path);
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    fwrite(corners, sizeof corners, 1, file);
-    fclose(file);
+    test_write_bytes(path, corners, sizeof corners);
     write_text("model.mtl", "newmtl a\nKd 0.75 0.5 0.25\n");
     write_text("model.obj",
                "mtllib model.mtl\nv -0.5 -0.5 0\nv 0.5 -2.5e-1 0.25\nv 0.125 0.75 0\nusemtl a\nf 1 2 3\n");
