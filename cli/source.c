@@ -313,7 +313,7 @@ size_t cli_family_files(const char *family, glob_t *found)
     size_t used = 0, n = 0;
     *found = (glob_t){0};
     for (const char *at = family; *at && used + 8 < sizeof names; at += placeholder(at) ? placeholder(at) : 1) {
-        used += (size_t)(placeholder(at)        ? snprintf(names + used, 8, "[0-9]*")
+        used += (size_t)(placeholder(at)        ? snprintf(names + used, 8, "*")
                          : strchr("*?[\\", *at) ? snprintf(names + used, 8, "\\%c", *at)
                                                 : snprintf(names + used, 8, "%c", *at));
     }
