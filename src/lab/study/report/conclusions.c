@@ -227,7 +227,7 @@ static void conclude_best(judged *j)
             }
             for (size_t s = 0; s < 6; s++) {
                 const double value = s % 2 ? row->published[s / 2].value : values[s / 2];
-                best[s / 2][s % 2] = fmin(i ? best[s / 2][s % 2] : INFINITY, value);
+                best[s / 2][s % 2] = fmin(i ? best[s / 2][s % 2] : (double)INFINITY, value);
                 own[s / 2][s % 2] = !strcmp(row->pattern, pattern) ? value : i ? own[s / 2][s % 2] : (double)NAN;
             }
         }
