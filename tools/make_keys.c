@@ -327,8 +327,9 @@ int main(int argc, char **argv)
     }
     printf("/* SPDX-License-Identifier: Apache-2.0 */\n"
            "/* The keys of koksma/keys.h for %s ... 64 samples a pixel. Made by tools/make_keys.c. */\n",
-           dims == 2 ? "pairs, for 1, 2, 4" : "quadruples, for 2, 4, 8"); /* make_keys_single.c: quadruples for 1 */
-    for (int m = dims == 2 ? 0 : 1; m < TABLES; m++) {
+           dims == 2 ? "pairs, for 1, 2, 4" : "quadruples, for 2 and 8");
+    for (int m = dims == 2 ? 0 : 1; m < TABLES;
+         m += dims == 4 && m == 1 ? 2 : 1) { /* make_keys_tile.c makes 1 and 4 */
         for (int p = 0; p < PIXELS; p++) {
             printf("%s%d", p % 20 ? ", " : p ? ",\n" : "{", keys[m][p]);
         }

@@ -38,12 +38,17 @@
  *     double xs[4];
  *     koksma_keys_4d(&pixel, i, xs);
  *
- * With one sample a pixel the image is a tile of 64 x 64 pixels that repeats. Its points, one in each of 8^4 boxes, are
- * moved by random digits of the cell within their boxes in place of Owen scrambling, which would scatter neighbours; a
- * symmetry of the square and a mirroring of the boxes are those of the image, so that cells fit together. Errors are blue
- * whatever the four couple; one coordinate alone is less so than with pairs, and of the pairs of coordinates within a
- * quadruple only the first has (0,m,2)-nets. docs/findings/screen-noise.md has both beside each other. Seeds,
- * distributions and orders of samples are as with pairs, and so are the cells of 2 and more samples.
+ * With 1, 3 or 4 samples a pixel the image is a tile that repeats, of 32 x 32 pixels or, with one sample, 64 x 64. Its
+ * points, one in each of 8^4 boxes, are moved by random digits of the cell within their boxes in place of Owen
+ * scrambling, which would scatter neighbours; a symmetry of the square and a mirroring of the boxes are those of the
+ * image, so that cells fit together. Each sample of a pixel is uniform, but three or four are no longer Owen's: they are
+ * in different quarters of every coordinate, the first two in different halves, and the mean square error of a single
+ * function may be a quarter more or less than with Owen scrambling; the mean over functions is a little less.
+ *
+ * Errors are blue whatever the four couple; one coordinate alone is less so than with pairs, and of the pairs of
+ * coordinates within a quadruple only the first has (0,m,2)-nets, except in tiles. docs/findings/screen-noise.md
+ * has both beside each other. Orders of samples are as with pairs; so are seeds, distributions and cells of 2 and of
+ * more than 4 samples.
  *
  * Number the pairs of dimensions 0, 1, 2 ... as you like: each number has its own cells and scramblings. Errors that
  * come from one pair of dimensions are blue noise, errors from several pairs together are white noise. In each pixel
@@ -64,7 +69,7 @@ typedef struct koksma_keys {
     uint32_t key;      /* index of sample 0 in the sequence: the pixel's key XOR a random word of the cell */
     uint32_t order;    /* seed of the order of samples 2^k .. 2^(k+1) - 1, used if ordered is 1 */
     uint32_t ordered;
-    uint32_t single; /* 1: a quadruple with one sample a pixel; seeds are digits in place of those of a scrambling */
+    uint32_t tile; /* of quadruples in a tile: 1 or 4 samples a pixel; the key is of the tile, seeds are digits */
 } koksma_keys;
 
 /* Returns index i of a random order that permutes the indices 2^m .. 2^(m+1) - 1 among themselves, for each m. Owen
@@ -94,21 +99,22 @@ KOKSMA_INLINE uint32_t koksma__key(uint32_t m, uint32_t pixel)
     return keys[m][pixel];
 }
 
-KOKSMA_INLINE uint32_t koksma__key_4d(uint32_t m, uint32_t pixel) /* m > 0 */
+KOKSMA_INLINE uint32_t koksma__key_4d(uint32_t m, uint32_t pixel) /* m = 1 or > 2 */
 {
-    static const uint16_t keys[KOKSMA_KEYS_TABLES - 1][32 * 32] = {
+    static const uint16_t keys[KOKSMA_KEYS_TABLES - 2][32 * 32] = {
 #include <koksma/keys_4d.def>
     };
-    return keys[m - 1][pixel];
+    return keys[m > 1 ? m - 2 : 0][pixel];
 }
 
-/* Returns the key of a pixel of a cell of quadruples with one sample a pixel, 64 v + u. */
-KOKSMA_INLINE uint32_t koksma__key_single(uint32_t pixel)
+/* Returns the index in the sequence of a sample of the tile with 1 or 4 samples a pixel. */
+KOKSMA_INLINE uint32_t koksma__key_of_tile(uint32_t tile, uint32_t sample)
 {
-    static const uint16_t keys[64 * 64] = {
+    static const uint16_t keys[2 * 4096] = {
+#include <koksma/keys_4d_four.def>
 #include <koksma/keys_4d_single.def>
     };
-    return keys[pixel];
+    return keys[(tile > 1 ? 0 : 4096) + (sample & 4095)];
 }
 
 /* Returns the key of a pixel and its scrambling for `group`, the number of a pair (dims = 2) or quadruple (dims = 4). */
@@ -117,12 +123,13 @@ KOKSMA_INLINE koksma_keys koksma__keys_of(uint64_t seed, uint32_t x, uint32_t y,
 {
     const uint64_t image = koksma__derived(seed, dims == 2 ? 0xbe5466cfu : 0x34e90c6cu, group);
     const uint64_t offset = koksma_mix(image);
-    const uint32_t single = dims == 4 && spp == 1, size = single ? KOKSMA_KEYS_SINGLE_SIZE : KOKSMA_KEYS_SIZE;
+    const uint32_t tile = dims == 2 || spp == 2 || spp > 4 ? 0 : spp == 1 ? 1 : 4;
+    const uint32_t size = tile == 1 ? KOKSMA_KEYS_SINGLE_SIZE : KOKSMA_KEYS_SIZE;
     const uint32_t last = size - 1, largest = KOKSMA_KEYS_TABLES - 1;
     const uint32_t column = x + ((uint32_t)offset & last), row = y + ((uint32_t)(offset >> 32) & last);
     const uint64_t cell = koksma_domain_of_pixel(image, column / size, row / size).key;
     const uint64_t pixel = koksma__derived(koksma_domain_of_pixel(image, column, row).key, 0x38d01377u, 0);
-    const uint32_t symmetry = koksma_seed_of(single ? image : cell, 2);
+    const uint32_t symmetry = koksma_seed_of(tile ? image : cell, 2);
     const uint32_t u = (column & last) ^ (symmetry & 1 ? last : 0), v = (row & last) ^ (symmetry & 2 ? last : 0);
     const uint32_t place = symmetry & 4 ? u * size + v : v * size + u;
     uint32_t m = 0, lower, key, k;
@@ -132,7 +139,7 @@ KOKSMA_INLINE koksma_keys koksma__keys_of(uint64_t seed, uint32_t x, uint32_t y,
         m++;
     }
     lower = m > largest ? m - largest : 0;
-    key = single      ? koksma__key_single(place)
+    key = tile        ? place * tile + (symmetry >> 7 & (tile - 1)) /* any sample of the pixel may be the first */
           : dims == 2 ? koksma__key(m - lower, place)
                       : koksma__key_4d(m - lower, place);
     keys.seeds[0] = koksma_seed_of(cell, 0);
@@ -143,8 +150,8 @@ KOKSMA_INLINE koksma_keys koksma__keys_of(uint64_t seed, uint32_t x, uint32_t y,
                koksma_seed_of(cell, 3); /* indices whose bits are mostly 0 would have few different scramblings */
     keys.order = koksma_seed_of_order(pixel);
     keys.ordered = group > 0;
-    keys.single = single;
-    if (single) {
+    keys.tile = tile;
+    if (tile) {
         keys.key = key;
         for (k = 0; k < 4; k++) { /* 29 digits of the cell; three of the image, which mirror the boxes or not */
             keys.seeds[k] = keys.seeds[k] >> 3 | (0u - (symmetry >> (3 + k) & 1)) << 29;
@@ -181,7 +188,7 @@ KOKSMA_INLINE koksma__four koksma__two_words(uint32_t a, uint32_t b)
     return x;
 }
 
-/* Returns the index in the sequence of sample i of a pixel. */
+/* Returns the index in the sequence of sample i of a pixel; of a tile, its number in the tile. */
 KOKSMA_INLINE uint32_t koksma__keys_index(const koksma_keys *keys, uint32_t i)
 {
     return keys->key ^ (keys->ordered ? koksma__shuffled_by_octaves(i, keys->order) : i);
@@ -239,9 +246,10 @@ KOKSMA_INLINE void koksma__sobol_quadruple(uint32_t index, uint32_t words[4])
 /* Returns sample i of a pixel and quadruple of dimensions as 32-bit fractions. */
 KOKSMA_INLINE koksma__four koksma__keys_quadruple(const koksma_keys *keys, uint32_t i)
 {
+    const uint32_t index = koksma__keys_index(keys, i);
     uint32_t words[4], k;
-    koksma__sobol_quadruple(koksma__keys_index(keys, i), words);
-    if (keys->single) {
+    koksma__sobol_quadruple(keys->tile ? koksma__key_of_tile(keys->tile, index) : index, words);
+    if (keys->tile) {
         for (k = 0; k < 4; k++) {
             words[k] = koksma_mirror(words[k]) ^ keys->seeds[k];
         }

@@ -33,7 +33,7 @@ for table in $(files 'src/*.def' 'cli/*.def' 'include/*.def'); do
     */uses.def | */status.def) ;;
     */patterns.def | */measures.def | */integrands.def | */metrics.def | */materials.def | */lights.def | */shapes.def | */adaptive.def | */formats.def | \
       */commands.def | */methods.def | */sections.def) grep -nE '^[A-Z]+\([^)]*,' "$table" && complain "$table: lines of more than a name" ;;
-    */kernels.def | */batch.def | */file_kinds.def | */palette.def | */keys.def | */keys_4d.def | */keys_4d_single.def) ;;
+    */kernels.def | */batch.def | */file_kinds.def | */palette.def | */keys.def | */keys_4d.def | */keys_4d_single.def | */keys_4d_four.def) ;;
     */properties.def | */claims.def | */curves.def | */questions.def | */conclusions.def) ;;
     *) complain "$table: a table that tests/lint/tables.sh doesn't know" ;;
   esac

@@ -6,12 +6,12 @@
  *
  *     point s of pixel (x, y), pair of dimensions k = koksma_keys_2d(koksma_keys_of(seed, x, y, k, spp), s)
  *
- * With dims=4 a key covers four coordinates, koksma_keys_4d, of one Owen-scrambled Sobol' sequence; with one sample a pixel
- * a tile of its points repeats, moved within boxes of 1/8.
+ * With dims=4 a key covers four coordinates, koksma_keys_4d, of one Owen-scrambled Sobol' sequence; with 1, 3 or 4 samples
+ * a pixel a tile of its points repeats, moved within boxes of 1/8.
  *
  * n = width^2 spp; koksma/keys.h documents how the keys are applied. The points of one pixel have the distribution of
- * Owen-scrambled Sobol' points; for spp = 2^m they are a (0,m,2)-net in base 2 in each pair of dimensions, with
- * dims=4 in the first pair of a quadruple. Sources:
+ * Owen-scrambled Sobol' points, but for such tiles; for spp = 2^m they are a (0,m,2)-net in base 2 in each pair of
+ * dimensions, with dims=4 in the first pair of a quadruple but in tiles. Sources:
  * Heitz & others 2019 (ranking keys), Ahmed & Wonka 2020 (blocks of one sequence); the optimised permutation of the
  * blocks is new in this project.
  */
@@ -85,7 +85,7 @@ const koksma_pattern koksma__pattern_ranking_keys = {
     .max_dim = 128,
     .claims = KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_DIMENSION_PREFIXES,
     .params = params,
-    .revision = 4, /* of 1 the renderer gave each pixel a whole image */
+    .revision = 5, /* of 1 the renderer gave each pixel a whole image */
     .ranges = koksma__ranges_always,
     .generate = generate,
 };
