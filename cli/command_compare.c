@@ -276,7 +276,8 @@ static int run(const cli_arguments *arguments)
         !cli_metrics_parse(arguments, false, &c.metrics)) {
         return CLI_USAGE;
     }
-    for (int i = 0; i < c.n; i++) {
+    const int code = compare_all(arguments, &c, output, !reference);
+    for (int i = 0; i < c.n && !code; i++) {
         const char *image = arguments->operands[i];
         if (cli_is_same_file(image, c.reference_path)) {
             cli_say("compare", "%s: warning: it is the reference itself", image);
@@ -285,7 +286,6 @@ static int run(const cli_arguments *arguments)
                     c.reference_path);
         }
     }
-    const int code = compare_all(arguments, &c, output, !reference);
     return code ? code : c.all.error.mean <= most * (double)c.all.images ? CLI_YES : CLI_NO;
 }
 

@@ -99,15 +99,11 @@ static inline double koksma__log(double x)
     return e * 0x1.62e42feep-1 + (2 * f + (2 * f * square * sum + e * 0x1.a39ef35793c76p-33));
 }
 
-/* cos(x) and sin(x) for |x| <= 2^20: x = k pi/2 + r with pi/2 in three parts (Cody & Waite 1980), |r| <= pi/4, and Taylor's
-   series of r up to r^18, which leave out less than 3e-19. r has a low part, so that the results are off by less than one
-   unit in the last place. */
-static inline void koksma__cos_sin(double x, double *cosine, double *sine)
+/* cos(r + rest) and sin(r + rest) for |r| <= pi/4 and `rest` below its last digit: Taylor's series up to r^18, which leave
+   out less than 3e-19. */
+static inline void koksma__cos_sin_near(double r, double rest, double *cosine, double *sine)
 {
-    const double k = floor(x * 0x1.45f306dc9c883p-1 + 0.5); /* 2 / pi */
-    const double high = x - k * 0x1.921fb544p+0, middle = k * 0x1.0b4611a6p-34, near = high - middle;
-    const double low = k * 0x1.3198a2e037073p-69 - ((high - near) - middle);
-    const double r = near - low, rest = (near - r) - low, z = r * r;
+    const double z = r * r;
     double s = 1.0 / 355687428096000, c = -1.0 / 6402373705728000;
     s = s * z - 1.0 / 1307674368000, c = c * z + 1.0 / 20922789888000;
     s = s * z + 1.0 / 6227020800, c = c * z - 1.0 / 87178291200;
@@ -116,9 +112,21 @@ static inline void koksma__cos_sin(double x, double *cosine, double *sine)
     s = s * z - 1.0 / 5040, c = c * z + 1.0 / 40320;
     s = s * z + 1.0 / 120, c = c * z - 1.0 / 720;
     s = s * z - 1.0 / 6, c = c * z + 1.0 / 24;
-    s = r + (rest + s * z * r);
     const double half = 0.5 * z, one = 1 - half;
-    c = one + (((1 - one) - half) + (c * z * z - r * rest));
+    *sine = r + (rest + s * z * r);
+    *cosine = one + (((1 - one) - half) + (c * z * z - r * rest));
+}
+
+/* cos(x) and sin(x) for |x| <= 2^20: x = k pi/2 + r with pi/2 in three parts (Cody & Waite 1980), |r| <= pi/4. r has a low
+   part, so that the results are off by less than one unit in the last place. */
+static inline void koksma__cos_sin(double x, double *cosine, double *sine)
+{
+    const double k = floor(x * 0x1.45f306dc9c883p-1 + 0.5); /* 2 / pi */
+    const double high = x - k * 0x1.921fb544p+0, middle = k * 0x1.0b4611a6p-34, near = high - middle;
+    const double low = k * 0x1.3198a2e037073p-69 - ((high - near) - middle);
+    const double r = near - low, rest = (near - r) - low;
+    double c, s;
+    koksma__cos_sin_near(r, rest, &c, &s);
     const int quarter = (int)k & 3;
     *cosine = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
     *sine = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;

@@ -10,6 +10,16 @@
 
 /* ---- Maps of the square to the disk, and of the disk to the hemisphere --------------------------------------- */
 
+/* cos and sin of |x| <= pi/4, the same bits as koksma__cos_sin's, which takes 1.3 times as long: below .78 its k is 0. */
+static void cos_sin_of_eighth(double x, double *cosine, double *sine)
+{
+    if (fabs(x) < 0.78) {
+        koksma__cos_sin_near(x, 0, cosine, sine);
+    } else {
+        koksma__cos_sin(x, cosine, sine);
+    }
+}
+
 /* Maps squares about the centre to circles: a point (a, b) of [-1,1]^2 with |a| > |b| goes to radius a and angle
    (pi/4) b/a; one with |a| <= |b| goes to radius b and angle pi/2 - (pi/4) a/b. */
 static void map_concentric(const double *u, double *x)
@@ -18,11 +28,11 @@ static void map_concentric(const double *u, double *x)
     if (a == 0 && b == 0) {
         x[0] = x[1] = 0;
     } else if (fabs(a) > fabs(b)) {
-        koksma__cos_sin(M_PI / 4 * (b / a), &x[0], &x[1]);
+        cos_sin_of_eighth(M_PI / 4 * (b / a), &x[0], &x[1]);
         x[0] *= a;
         x[1] *= a;
     } else {
-        koksma__cos_sin(M_PI / 4 * (a / b), &x[1], &x[0]);
+        cos_sin_of_eighth(M_PI / 4 * (a / b), &x[1], &x[0]);
         x[0] *= b;
         x[1] *= b;
     }
