@@ -6,7 +6,7 @@
  *
  *     cc -O3 -march=native -std=c11 -ffp-contract=off -fno-math-errno -Iinclude tools/make_keys_tile.c -lm -o /tmp/make
  *     /tmp/make 1 16000 > /tmp/keys.def && mv /tmp/keys.def include/koksma/keys_4d_single.def
- *     /tmp/make 4 6000 > /tmp/keys.def && mv /tmp/keys.def include/koksma/keys_4d_four.def
+ *     /tmp/make 4 24000 > /tmp/keys.def && mv /tmp/keys.def include/koksma/keys_4d_four.def
  *
  * The first 4,096 points of Sobol's sequence in four dimensions, one in each box of 1/8 in every dimension, go to the
  * pixels of a tile that repeats, of 64 x 64 pixels with one sample or 32 x 32 with four. An exclusive or with random
@@ -47,7 +47,7 @@ enum {
     SETS = 1024
 };
 
-static const float WITHIN = 1.25f;
+static const float WITHIN = 1.075f;
 
 static uint32_t sobol[POINTS][4];                   /* points as fractions */
 static double alone[SETS][4][4];                    /* samples of pixels with Owen-scrambled points */
