@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include "cli.h"
 #include "source.h"
@@ -63,9 +63,11 @@ void cli_warn_file(const cli_arguments *arguments, const char *pattern)
     const char *use = strstr(pattern, "=file:"), *path = use ? use + 6 : pattern + 5;
     char name[KOKSMA_MAX_SPEC];
     koksma_points points;
+    struct stat info;
     if (use || !strncmp(pattern, "file:", 5)) {
         snprintf(name, sizeof name, "%.*s", (int)strcspn(path, ",;@"), path);
-        if (!access(name, R_OK) && !koksma_points_read(name, &points)) {
+        const bool plain = !stat(name, &info) && S_ISREG(info.st_mode); /* a pipe is refused, without reading it */
+        if (plain && !koksma_points_read(name, &points)) {
             cli_warn_points(arguments, name, &points);
             koksma_points_fini(&points);
         }
