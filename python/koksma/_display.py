@@ -55,7 +55,8 @@ def chart(x_label: str, y_label: str, curves: Sequence[Tuple[str, npt.ArrayLike,
 
 def png(image: npt.ArrayLike) -> bytes:
     """An image of linear light as the bytes of a PNG file, encoded as sRGB."""
-    view, data, size = view_image(as_image(image)), POINTER(c_ubyte)(), c_size_t()
+    array = as_image(image)  # a copy, perhaps, which the name keeps
+    view, data, size = view_image(array), POINTER(c_ubyte)(), c_size_t()
     check(lab().koksma_image_png_bytes(byref(view), byref(data), byref(size)))
     try:
         return ctypes.string_at(data, size.value)

@@ -767,7 +767,8 @@ def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding
     >>> all(f.holds for f in found if f.property == "latin")
     True
     """
-    c_points = view(as_points(points))
+    array = as_points(points)  # a copy, perhaps, which the name keeps
+    c_points = view(array)
     return _findings(core().koksma_verify, byref(c_points), threads=threads, run_at=1)
 
 
@@ -824,7 +825,8 @@ def identify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Ident
     ('equal', "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201)", 5)
     """
     identities = s.Identities()
-    c_points = view(as_points(points))
+    array = as_points(points)  # a copy, perhaps, which the name keeps
+    c_points = view(array)
     try:
         call(core().koksma_identify, byref(c_points), byref(identities), threads=threads, run_at=1)
         return [Identity(i.relation.decode(), i.what.decode(), i.spec.decode(), i.first, i.seed, i.detail.decode(),

@@ -48,6 +48,15 @@ class Values(unittest.TestCase):
         self.assertEqual((min([v, w]), sorted([v, w])[1], sum([v, w])), (min(x, y), max(x, y), x + y))
         self.assertEqual(np.array([v, w]).dtype, np.float64)
 
+    def test_lists_and_arrays_of_any_layout_are_the_same_points(self):
+        points = koksma.generate("halton", 256)
+        wide = np.random.default_rng(1).random((256, 5))
+        wide[:, 1:3] = points
+        for function in (koksma.identify, koksma.verify, koksma.measure):
+            said = repr(function(points))
+            for other in (points.tolist(), np.asfortranarray(points), wide[:, 1:3], points[::-1][::-1], points.astype(object)):
+                self.assertEqual(repr(function(other)), said)
+
     def test_members_complete_and_are_read_only(self):
         v = koksma.measure(POINTS)
         self.assertLessEqual({"value", "square", "lower", "upper", "standard_error", "exact", "witness"}, set(dir(v)))
