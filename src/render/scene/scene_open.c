@@ -105,18 +105,18 @@ static bool is_import_file(const char *path)
     return is_pbrt(path) || (dot && !strcmp(dot, ".xml"));
 }
 
-/* Returns the status of reading a scene's text. A failure names the format that the text begins as, if the ending of the
-   file's name is that of another: XML, JSON, glTF with its "asset", or pbrt's directives and comments. */
-static koksma_status check_ending(koksma_status status, const char *path, const char *text)
+/* Returns the status of reading a scene's text as the format `as`, an ending of files' names. A failure names the format
+   that the text begins as, if it is another: XML, JSON, glTF with its "asset", or pbrt's directives and comments. */
+static koksma_status check_format(koksma_status status, const char *as, const char *path, const char *text)
 {
-    const char first = text[strspn(text, " \t\r\n")], *dot = strrchr(path, '.');
+    const char first = text[strspn(text, " \t\r\n")];
     const char *meant = first == '<'                                                   ? ".xml"
                         : first == '{' && strstr(text, "\"asset\"")                    ? ".gltf"
                         : first == '{'                                                 ? ".json"
                         : first == '#' || ((first | 32) >= 'a' && (first | 32) <= 'z') ? ".pbrt"
-                                                                                       : NULL;
-    KOKSMA__FAIL_IF(status == KOKSMA_MALFORMED && meant && dot && strcmp(dot, meant) != 0, KOKSMA_MALFORMED,
-                    "scene '%s': its text is no %s but looks like %s; name it so", path, dot, meant);
+                                                                                       : as;
+    KOKSMA__FAIL_IF(status == KOKSMA_MALFORMED && strcmp(as, meant) != 0, KOKSMA_MALFORMED,
+                    "scene '%s': its text is no %s but looks like %s; name it so", path, as, meant);
     return status;
 }
 
@@ -147,8 +147,8 @@ static koksma_status read_import(const char *path, koksma__named by, koksma_scen
     unsigned char *bytes;
     size_t size;
     KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_SCENE, by, koksma__check_text, &bytes, &size));
-    const koksma_status status =
-        check_ending(read_import_text(path, (const char *)bytes, size, scene), path, (const char *)bytes);
+    const koksma_status status = check_format(read_import_text(path, (const char *)bytes, size, scene),
+                                              is_pbrt(path) ? ".pbrt" : ".xml", path, (const char *)bytes);
     free(bytes);
     return status;
 }
@@ -207,7 +207,7 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
     koksma_status status = koksma__read_file(name_or_path, KOKSMA__FILE_SCENE, by, koksma__check_text, &bytes, &size);
     if (!status) {
         status = koksma__scene_open_text(name_or_path, (const char *)bytes, size, out);
-        status = check_ending(status, name_or_path, (const char *)bytes);
+        status = check_format(status, ".json", name_or_path, (const char *)bytes);
         free(bytes);
     }
     return status;
