@@ -143,7 +143,7 @@ void koksma_render_options_init(koksma_render_options *options, const koksma_sce
         .width = scene->width,
         .height = scene->height,
         .lights = KOKSMA_LIGHTS_AUTO,
-        .integrator = koksma_integrator_find(koksma_scene_count(scene).paths ? "path" : "distribution"),
+        .integrator = koksma_integrator_find(koksma__scene_asks_for_paths(scene) ? "path" : "distribution"),
         .depth = -1,
         .filter = koksma_filter_find("box")};
     koksma_pattern_spec("n-rooks", &options->pattern);

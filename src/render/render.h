@@ -224,6 +224,12 @@ void koksma__lens_points(const koksma__camera *camera, const koksma__batch_table
 bool koksma__scene_warning(const koksma_scene *scene, const koksma__integrator_flags *flags, size_t i, char *text,
                            size_t size);
 
+/* Whether path tracing is what shows the scene: it has a medium, or its file's integrator follows paths. */
+static inline bool koksma__scene_asks_for_paths(const koksma_scene *scene)
+{
+    return scene->paths || scene->medium.is_there;
+}
+
 /* Writes the first part of a scene that is not read; returns false if there is none. */
 bool koksma__scene_unread(const koksma_scene *scene, char *text, size_t size);
 

@@ -287,7 +287,7 @@ koksma_scene_counts koksma_scene_count(const koksma_scene *scene)
                                   .materials = scene->n_materials,
                                   .lights = scene->n_lights,
                                   .media = scene->medium.is_there,
-                                  .paths = scene->paths || scene->medium.is_there,
+                                  .paths = koksma__scene_asks_for_paths(scene),
                                   .spp = (size_t)scene->spp};
     for (size_t i = 0; i < scene->n_placements; i++) {
         counts.triangles += scene->meshes[scene->placements[i].mesh].n_triangles;
