@@ -98,9 +98,8 @@ const cli_command cli_command_identify = {
         "digit-permutation, linear-scramble, nested-scramble: what happened to the digits; nested-scramble is "
         "Owen's or one of its hashes. lattice, recurrence, grid: 'detail' has the numbers. Where no table here has "
         "the source: sequence, one in base 2 of other matrices, scrambled or shuffled; stratified, a Latin hypercube "
-        "or jittered points. scaled, rounded: how the numbers were read. Each statement was tested for every point; "
-        "a "
-        "linear scramble may miss one point of 64, and its detail says how many.\n"
+        "or jittered points. scaled, rounded: how the numbers were read. Each statement was tested for every "
+        "point; a linear scramble may miss one point of 64, and its detail says how many.\n"
         "unknown: nothing that is known here makes these points. That is an answer, too; the docs page "
         "conventions-of-others.md has the conventions of other libraries. Exit codes: 0 when all sets are named; 1 "
         "when one is unknown; 2 for a wrong command line; 3 for points that are missing or malformed.",

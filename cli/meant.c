@@ -184,6 +184,22 @@ const char *cli_meant_option(const cli_option *options, const char *name, char t
     return text;
 }
 
+static bool is_member(size_t family, const char *name)
+{
+    const char *member;
+    for (size_t i = 0; (member = families[family].name(NULL, i)) && strcmp(member, name) != 0; i++) {
+    }
+    return member;
+}
+
+/* Whether the example of a family is of this command. */
+static bool is_taken(size_t family, const cli_arguments *arguments)
+{
+    const char *example = families[family].before + strlen("koksma "),
+               *name = arguments ? arguments->command->name : " ";
+    return !strncmp(example, name, strlen(name));
+}
+
 /* Writes "; 'WORD' is WHAT, as in '..'". */
 static const char *say_known(const char *word, const char *what, const char *before, const char *after,
                              char text[CLI_KNOWN])
@@ -219,31 +235,22 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
     }
     snprintf(name, sizeof name, "%.*s", (int)strcspn(base, ":@."), base);
     const bool whole = base == word && !dot;
-    const char *member = "";
-    enum { FAMILIES = sizeof families / sizeof *families };
-    for (size_t k = 0; k < (whole ? 2 * FAMILIES : 1); k++) { /* first those that the command takes */
-        const size_t f = k % FAMILIES, command = strlen("koksma ");
-        const bool taken = arguments && !strncmp(families[f].before + command, arguments->command->name,
-                                                 strlen(arguments->command->name));
-        if (whole && (k < FAMILIES) != taken) {
-            continue;
-        }
-        const cli_option *option = arguments ? find(arguments->command->options, families[f].option) : NULL;
-        const char letter = option ? option->letter : '\0', before[] = {'-', letter, ' ', '\0'};
-        size_t i = 0;
-        while ((member = families[f].name(NULL, i)) && strcmp(member, name) != 0) {
-            i++;
-        }
-        if (member && !whole) {
-            snprintf(text, CLI_KNOWN, "; did you mean '%s'?", member);
-            return text;
-        }
-        if (member) {
-            return letter ? say_known(word, families[f].what, before, "", text)
-                          : say_known(name, families[f].what, families[f].before, families[f].after, text);
-        }
+    enum { FAMILIES = sizeof families / sizeof *families, OF_SCENES = 0 };
+    if (!whole) {
+        snprintf(text, CLI_KNOWN, is_member(OF_SCENES, name) ? "; did you mean '%s'?" : "%.0s", name);
+        return text;
     }
-    return text;
+    size_t found = FAMILIES; /* the first family that has the name, or one that the command takes */
+    for (size_t f = 0; f < FAMILIES; f++) {
+        found = is_member(f, name) && (found == FAMILIES || is_taken(f, arguments)) ? f : found;
+    }
+    if (found == FAMILIES) {
+        return text;
+    }
+    const cli_option *option = arguments ? find(arguments->command->options, families[found].option) : NULL;
+    const char letter = option ? option->letter : '\0', before[] = {'-', letter, ' ', '\0'};
+    return letter ? say_known(word, families[found].what, before, "", text)
+                  : say_known(name, families[found].what, families[found].before, families[found].after, text);
 }
 
 int cli_explain(const cli_arguments *arguments, koksma_status status, const char *text, char known[CLI_KNOWN])

@@ -8,22 +8,13 @@
 #include "cli.h"
 #include "source.h"
 
-static bool is_quiet(const cli_arguments *arguments)
-{
-    const cli_option *option = arguments->command->options;
-    while (option->name && strcmp(option->name, "quiet") != 0) {
-        option++;
-    }
-    return option->name && cli_flag(arguments, "quiet");
-}
-
 void cli_warn_small(const cli_arguments *arguments, const char *path, const koksma_points *points)
 {
     double largest = 0;
     for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
         largest = fmax(largest, points->xs[i]);
     }
-    if (points->n >= 16 && largest > 0 && largest < 0.02 && !is_quiet(arguments)) {
+    if (points->n >= 16 && largest > 0 && largest < 0.02 && !cli_given(arguments, "quiet")) {
         cli_say(arguments->command->name,
                 "%s: warning: all coordinates are at most %.3g; is the unit or --scale right?", path, largest);
     }
@@ -33,7 +24,7 @@ void cli_warn_points(const cli_arguments *arguments, const char *path, const kok
 {
     const char *command = arguments->command->name;
     const size_t n = points->n, dim = (size_t)points->dim;
-    if (n < 2 || dim < 2 || is_quiet(arguments)) {
+    if (n < 2 || dim < 2 || cli_given(arguments, "quiet")) {
         return;
     }
     for (size_t k = 0; k < dim; k++) {

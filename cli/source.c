@@ -162,8 +162,7 @@ static bool has_option(const cli_arguments *arguments, const char *name)
     return option->name != NULL;
 }
 
-/* The text of an option; NULL: not given, or not an option of the command. */
-static const char *option_text(const cli_arguments *arguments, const char *name)
+const char *cli_given(const cli_arguments *arguments, const char *name)
 {
     return has_option(arguments, name) ? cli_text(arguments, name, NULL) : NULL;
 }
@@ -214,7 +213,7 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
         return code;
     }
     koksma_status status;
-    const char *scale = option_text(arguments, "scale");
+    const char *scale = cli_given(arguments, "scale");
     if (scale && !source.is_pattern) {
         const int scaled = read_scaled(arguments, text, scale, points);
         if (scaled) {
@@ -249,7 +248,7 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
 {
     size_t n_stdin = 0;
     const char *one_set = NULL; /* a pattern, if all of them have but one set */
-    bool all = (trials > 1 || option_text(arguments, "seed")) && !option_text(arguments, "quiet");
+    bool all = (trials > 1 || cli_given(arguments, "seed")) && !cli_given(arguments, "quiet");
     for (int i = first; i < arguments->n_operands; i++) {
         const char *text = arguments->operands[i];
         n_stdin += strcmp(text, "-") ? 0 : n_warps > 1 ? n_warps : 1;
@@ -489,7 +488,7 @@ int cli_sources_expand(cli_arguments *arguments)
     for (int i = 0; i < arguments->n_made; i++) {
         any_file |= (i > 0 || !takes_name_first(arguments)) && !cli_source_is_pattern(arguments->made[i]);
     }
-    if (!code && option_text(arguments, "scale") && arguments->n_made && !any_file) {
+    if (!code && cli_given(arguments, "scale") && arguments->n_made && !any_file) {
         code = cli_usage_error(arguments, "--scale has no effect: no operand is a file");
     }
     const char *dim = cli_text(arguments, "dim", NULL);
