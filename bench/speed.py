@@ -509,6 +509,17 @@ def python_package(table):
         write_exr(exr_package)
         return bool((koksma.read_image(exr) == koksma.read_image(other)).all())
     beside("write EXR, 768 x 768", lambda: koksma.write_image(exr, image), "OpenEXR", write_exr, same_exr, 1)
+    jpeg, other_jpeg = (os.path.join(WORK, name) for name in ("x.jpg", "y.jpg"))
+    levels = numpy.where(image <= .0031308, 12.92 * image, 1.055 * image ** (1 / 2.4) - .055)
+
+    def write_jpeg(imageio):
+        imageio.imwrite(other_jpeg, (255 * levels + .5).astype(numpy.uint8), quality=100, subsampling=0)
+
+    def same_jpeg(imageio):
+        koksma.write_image(jpeg, image)
+        write_jpeg(imageio)
+        return int(numpy.abs(imageio.imread(jpeg).astype(int) - imageio.imread(other_jpeg)).max()) <= 2
+    beside("write JPEG of full quality, 768 x 768; imageio from levels", lambda: koksma.write_image(jpeg, image), "imageio.v3", write_jpeg, same_jpeg, 1)
 
 
 def qmcpy_files(table, row, qmcpy, seconds):

@@ -80,9 +80,9 @@ static inline unsigned char koksma__srgb_byte(float linear)
     return (unsigned char)(255 * koksma__to_srgb(x) + 0.5);
 }
 
-/* A table of koksma__srgb_byte, for whole pictures: the least number of each byte, and the byte of each of 4096 steps of
-   linear light, from which the byte of a number in the step is at most a few ahead. */
-enum { KOKSMA__SRGB_STEPS = 1 << 12 };
+/* A table of koksma__srgb_byte, for whole pictures: the least number of each byte, and the byte at the start of each
+   128th of an octave from 2^-13 on, in which at most one byte begins (the steepest, at 1, has 78 an octave). */
+enum { KOKSMA__SRGB_STEPS = 13 * 128, KOKSMA__SRGB_FIRST = 0x3900 }; /* the upper halves of floats: 2^-13 is 0x3900 */
 
 typedef struct koksma__srgb_table {
     float least[257];
@@ -93,18 +93,19 @@ static inline void koksma__srgb_table_make(koksma__srgb_table *t)
 {
     t->least[0] = 0;
     t->least[256] = HUGE_VALF;
-    for (int b = 1; b < 256; b++) { /* by halving; the floats of [0,1] are in the order of their bits */
-        uint32_t below = 0, at = 0x3f800000;
-        while (at - below > 1) {
-            const uint32_t middle = below + (at - below) / 2;
-            float x;
-            memcpy(&x, &middle, sizeof x);
-            *(koksma__srgb_byte(x) >= b ? &at : &below) = middle;
+    for (int b = 1; b < 256; b++) {
+        float x = (float)koksma__from_srgb((b - 0.5) / 255);
+        for (; koksma__srgb_byte(x) >= b; x = nextafterf(x, 0)) {
         }
-        memcpy(&t->least[b], &at, sizeof at);
+        for (; koksma__srgb_byte(x) < b; x = nextafterf(x, 1)) {
+        }
+        t->least[b] = x;
     }
-    for (int i = 0, b = 0; i <= KOKSMA__SRGB_STEPS; i++) {
-        for (; t->least[b + 1] <= (float)i / KOKSMA__SRGB_STEPS; b++) {
+    for (uint32_t i = 0, b = 0; i <= KOKSMA__SRGB_STEPS; i++) {
+        const uint32_t bits = (i + KOKSMA__SRGB_FIRST) << 16;
+        float x;
+        memcpy(&x, &bits, sizeof x);
+        for (; t->least[b + 1] <= x; b++) {
         }
         t->byte[i] = (unsigned char)b;
     }
@@ -113,11 +114,10 @@ static inline void koksma__srgb_table_make(koksma__srgb_table *t)
 /* Does the same as koksma__srgb_byte. */
 static inline unsigned char koksma__srgb_table_byte(const koksma__srgb_table *t, float linear)
 {
-    const float x = linear >= 0 ? linear < 1 ? linear : 1 : 0;
-    unsigned b = t->byte[(int)(x * KOKSMA__SRGB_STEPS)];
-    while (t->least[b + 1] <= x) {
-        b++;
-    }
-    return (unsigned char)b;
+    const float x = linear > 0 ? linear < 1 ? linear : 1 : 0; /* NaN and -0 are 0 */
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    const uint32_t i = bits >> 16 > KOKSMA__SRGB_FIRST ? (bits >> 16) - KOKSMA__SRGB_FIRST : 0;
+    return (unsigned char)(t->byte[i] + (t->least[t->byte[i] + 1] <= x));
 }
 #endif
