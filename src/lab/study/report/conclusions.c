@@ -211,6 +211,10 @@ static void conclude_best(judged *j)
     for (size_t k = 0; k < j->c->tables.n; k++) {
         const koksma__table *t = table_of(j, j->c->tables.at[k]);
         double best[3][2], own[3][2], ours[2];
+        for (size_t s = 0; s < 6; s++) {
+            best[s / 2][s % 2] = INFINITY;
+            own[s / 2][s % 2] = NAN;
+        }
         size_t before = 0, unexpected = 0;
         means_of(j, t, pattern, 0, ours);
         koksma__doc_say(&j->more, "Table %s: ", t->id);
@@ -227,8 +231,8 @@ static void conclude_best(judged *j)
             }
             for (size_t s = 0; s < 6; s++) {
                 const double value = s % 2 ? row->published[s / 2].value : values[s / 2];
-                best[s / 2][s % 2] = fmin(i ? best[s / 2][s % 2] : (double)INFINITY, value);
-                own[s / 2][s % 2] = !strcmp(row->pattern, pattern) ? value : i ? own[s / 2][s % 2] : (double)NAN;
+                best[s / 2][s % 2] = fmin(best[s / 2][s % 2], value);
+                own[s / 2][s % 2] = !strcmp(row->pattern, pattern) ? value : own[s / 2][s % 2];
             }
         }
         koksma__doc_say(&j->more, before ? ". " : "first. ");
