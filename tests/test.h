@@ -35,23 +35,27 @@ void test_around(CMFixtureFunction begin, CMFixtureFunction end);
         test_around(begin, end);                                                                                     \
     }
 
-/* Whether AddressSanitizer or ThreadSanitizer checks this program, which then takes 4 to 10 times longer. */
+/* Whether this program makes few trials: AddressSanitizer or ThreadSanitizer checks it, which takes 4 to 10 times longer,
+   or it is of another machine, under an emulator (30 times; tests/CMakeLists.txt sets it). */
+#ifndef TEST_FEW
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define TEST_SANITIZED 1
+#define TEST_FEW 1
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define TEST_SANITIZED 1
+#define TEST_FEW 1
 #endif
 #endif
-#ifndef TEST_SANITIZED
-#define TEST_SANITIZED 0
+#endif
+#ifndef TEST_FEW
+#define TEST_FEW 0
 #endif
 
-/* A number of trials, points, cases or steps: `full` in optimised builds, `sanitized` under a sanitizer; a constant if
-   both are. A run with sanitizers looks for memory errors and undefined behaviour: it runs every code path and every row
-   of a table, and a few trials of each. Statistical power, large n and exhaustive walks belong to the optimised run.
-   A tolerance that depends on the number of trials is computed from it, so that both runs can fail. */
-#define test_repeats(full, sanitized) (TEST_SANITIZED ? (sanitized) : (full))
+/* A number of trials, points, cases or steps: `full` in optimised builds, `few` where there are to be few; a constant if
+   both are. A run with sanitizers looks for memory errors and undefined behaviour, one of another machine for what byte
+   order, the size of long and rounding change: it runs every code path and every row of a table, and a few trials of each.
+   Statistical power, large n and exhaustive walks belong to the optimised run; scripts/same-bits compares the bits of other
+   machines. A tolerance that depends on the number of trials is computed from it, so that both runs can fail. */
+#define test_repeats(full, few) (TEST_FEW ? (few) : (full))
 
 /* Fails with a message that has the values, unless the condition holds. */
 #define assert_that(condition, ...)                                                                                  \

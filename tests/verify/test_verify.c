@@ -392,7 +392,7 @@ TEST_CASE(biases_are_found)
         {"poisson-disk:d=0.15,torus=1", 4000, true, true, 0},
     };
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        if (TEST_SANITIZED && rows[r].n_sets > 200) {
+        if (TEST_FEW && rows[r].n_sets > 200) {
             continue;
         }
         koksma_spec spec;

@@ -734,7 +734,7 @@ TEST_CASE(time_limits_only_cut)
 {
     static const char *const patterns[] = {"zaremba", "jittered", "random"};
     koksma_rank_options options = small();
-    cut_everywhere(options, TEST_SANITIZED ? 5 : 1.5);
+    cut_everywhere(options, TEST_FEW ? 5 : 1.5);
     options.scene = "checker-45";
     options.patterns = patterns;
     cut_everywhere(options, 4);
