@@ -36,8 +36,6 @@ typedef const koksma__kernel_table *table;
 
 static uint32_t directions[32];
 static const uint32_t *const four[4] = {directions, directions, directions, directions};
-static const double *const pairs_a[2] = {units, units}, *const pairs_b[2] = {units + N, units + N};
-static double *const columns[2] = {out[0], out[1]};
 static double *const digits[2] = {out[2], out[3]};
 static const uint32_t runs[8] = {0, 20, 100, 120, 200, 220, 300, 320};
 
@@ -71,8 +69,8 @@ RUN(nested_digits, 2 * N, t->nested_digits(5, 2, N, 125, sorted, digits))
 RUN(l2_pairs, N *(N - 1) / 2.0, t->l2_pairs(0, N, N, 2, units, units + 2 * N, 0.5, -0.5, sums[0]))
 RUN(l2_linear, N, t->l2_linear(N, 2, units, N, (const double[]){9, -12, -12, 0}, out[0], out[1]))
 RUN(star_sweep, (double)N *N, size_t at[2]; t->star_sweep(N, sorted, words, sorted, out[0], sums[0], at))
-RUN(star_extremes, 48 * 32, t->star_extremes(48, pairs_a, 32, pairs_b, columns))
-RUN(star_pairs, 48 * 32, t->star_pairs(48, pairs_a, 32, pairs_b, 1000, 7, sums[0]))
+RUN(star_extremes, 48 * 32, t->star_extremes(48, units, 32, units + 64, true, out[0]))
+RUN(star_pairs, 48 * 32, sink += t->star_pairs(48, units, 32, units + 64, true, 1000, 7))
 RUN(far_corners, N, sink += t->far_corners(N, counts16, floats, 1, 1, 1000, found))
 RUN(cells_2d, N, t->cells_2d(0, 1, 32, 32, out[2]))
 RUN(truncated_normals, 2 * N, memcpy(out[2], units, 2 * N * sizeof(double));

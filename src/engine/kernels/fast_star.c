@@ -11,10 +11,9 @@
 
 void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, const double *y, double *count,
                              double best[2], size_t at[2]);
-void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
-                                double *const out[2]);
-void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, const double *const b[2], double n,
-                             double inside, double best[2]);
+void KERNEL_NAME(star_extremes)(size_t na, const double *a, size_t nb, const double *b, bool smallest, double *out);
+double KERNEL_NAME(star_pairs)(size_t na, const double *a, size_t nb, const double *b, bool smallest, double n,
+                               double inside);
 
 typedef struct step {
     double here, next; /* n times the x coordinate of this point and of the next one */
@@ -69,97 +68,101 @@ enum { WIDTH = 8, VECTORS = WIDTH / LANES64, ROOM = 256 };
    the largest product is wanted, infinity for the smallest (0 times infinity is NaN, which is not below any number).
    shorts: the shorter list, not copied. */
 typedef struct convolution {
-    size_t n_short, first, count;
-    const double *shorts[2];
-    double longs[2][ROOM + 2 * WIDTH];
+    bool smallest;
+    size_t n_short, n_long, first, count;
+    const double *shorts, *all_longs;
+    double longs[ROOM + 2 * WIDTH];
 } convolution;
 
+static inline void begin(convolution *s, size_t na, const double *a, size_t nb, const double *b, bool smallest)
+{
+    s->smallest = smallest;
+    s->n_short = na > nb ? nb : na;
+    s->n_long = na > nb ? na : nb;
+    s->shorts = na > nb ? b : a;
+    s->all_longs = na > nb ? a : b;
+}
+
 /* Updates the extremes of the products short[i] long[j] with i + j = c .. c + WIDTH - 1. */
-static inline void extremes(const convolution *s, size_t c, lanes64_d most[VECTORS], lanes64_d least[VECTORS])
+static inline void extremes(const convolution *s, size_t c, lanes64_d best[VECTORS])
 {
     const size_t past = s->first + s->count, begin = c >= past ? c - past + 1 : 0;
     const size_t end = c + WIDTH - s->first < s->n_short ? c + WIDTH - s->first : s->n_short;
     for (size_t i = begin; i < end; i++) {
         const size_t j = c + WIDTH - i - s->first;
         for (size_t v = 0; v < VECTORS; v++) {
-            most[v] = lanes64_max(s->shorts[0][i] * lanes64_load_d(s->longs[0] + j + v * LANES64), most[v]);
-            least[v] = lanes64_min(s->shorts[1][i] * lanes64_load_d(s->longs[1] + j + v * LANES64), least[v]);
+            const lanes64_d product = s->shorts[i] * lanes64_load_d(s->longs + j + v * LANES64);
+            best[v] = s->smallest ? lanes64_min(product, best[v]) : lanes64_max(product, best[v]);
         }
     }
 }
 
 /* Copies the chunk of the longer list that begins at `first`. Returns 1 + the largest sum of indices i + j of this
    chunk. */
-static inline size_t take_chunk(convolution *s, size_t n_long, const double *const longs[2], size_t first)
+static inline size_t take_chunk(convolution *s, size_t first)
 {
     s->first = first;
-    s->count = n_long - first < ROOM ? n_long - first : ROOM;
-    for (int k = 0; k < 2; k++) {
-        for (int l = 0; l < WIDTH; l++) {
-            s->longs[k][l] = s->longs[k][WIDTH + s->count + (size_t)l] = k ? INFINITY : 0;
-        }
-        memcpy(s->longs[k] + WIDTH, longs[k] + first, s->count * sizeof(double));
+    s->count = s->n_long - first < ROOM ? s->n_long - first : ROOM;
+    for (int l = 0; l < WIDTH; l++) {
+        s->longs[l] = s->longs[WIDTH + s->count + (size_t)l] = s->smallest ? INFINITY : 0;
     }
+    memcpy(s->longs + WIDTH, s->all_longs + first, s->count * sizeof(double));
     return first + s->count + s->n_short - 1;
 }
 
-void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
-                                double *const out[2])
+static inline void all_extremes(size_t na, const double *a, size_t nb, const double *b, bool smallest, double *out)
 {
-    const size_t n_long = na > nb ? na : nb;
-    const double *const *shorts = na > nb ? b : a, *const *longs = na > nb ? a : b;
     convolution s; /* without an initialiser, which would clear all of it */
-    s.n_short = na > nb ? nb : na;
-    s.shorts[0] = shorts[0];
-    s.shorts[1] = shorts[1];
+    begin(&s, na, a, nb, b, smallest);
     for (size_t c = 0; c < na + nb - 1 + WIDTH; c++) {
-        out[0][c] = 0;
-        out[1][c] = 1;
+        out[c] = smallest;
     }
-    for (size_t first = 0; first < n_long; first += ROOM) {
-        const size_t end = take_chunk(&s, n_long, longs, first);
+    for (size_t first = 0; first < s.n_long; first += ROOM) {
+        const size_t end = take_chunk(&s, first);
         for (size_t c = first; c < end; c += WIDTH) {
-            lanes64_d most[VECTORS], least[VECTORS];
-            memcpy(most, out[0] + c, sizeof most);
-            memcpy(least, out[1] + c, sizeof least);
-            extremes(&s, c, most, least);
-            memcpy(out[0] + c, most, sizeof most);
-            memcpy(out[1] + c, least, sizeof least);
+            lanes64_d best[VECTORS];
+            memcpy(best, out + c, sizeof best);
+            extremes(&s, c, best);
+            memcpy(out + c, best, sizeof best);
         }
     }
 }
 
 /* All pairs with the same i + j subtract the same share of points. Because rounding is monotonic, it is enough to
    subtract this share from the extreme products. */
-void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, const double *const b[2], double n,
-                             double inside, double best[2])
+static inline double all_pairs(size_t na, const double *a, size_t nb, const double *b, bool smallest, double n,
+                               double inside)
 {
-    const size_t n_long = na > nb ? na : nb;
-    const double *const *shorts = na > nb ? b : a, *const *longs = na > nb ? a : b;
-    convolution s; /* without an initialiser, which would clear all of it */
-    s.n_short = na > nb ? nb : na;
-    s.shorts[0] = shorts[0];
-    s.shorts[1] = shorts[1];
+    convolution s;
+    begin(&s, na, a, nb, b, smallest);
     const lanes64_d none = lanes64_splat_d(-1);
-    lanes64_d deficit = none, excess = none;
-    for (size_t first = 0; first < n_long; first += ROOM) {
-        const size_t end = take_chunk(&s, n_long, longs, first);
+    lanes64_d most = none;
+    for (size_t first = 0; first < s.n_long; first += ROOM) {
+        const size_t end = take_chunk(&s, first);
         for (size_t c = first; c < end; c += WIDTH) {
-            lanes64_d most[VECTORS], least[VECTORS];
+            lanes64_d best[VECTORS];
             for (int v = 0; v < VECTORS; v++) {
-                most[v] = lanes64_splat_d(0);
-                least[v] = lanes64_splat_d(1);
+                best[v] = lanes64_splat_d(smallest);
             }
-            extremes(&s, c, most, least);
+            extremes(&s, c, best);
             for (size_t v = 0; v < VECTORS; v++) {
                 const lanes64_u sum = lanes64_count() + (c + v * LANES64);
-                const lanes64_i within = (lanes64_i)(sum < end);
                 const lanes64_d share = (inside + lanes64_whole(sum)) / n;
-                deficit = lanes64_max(lanes64_chosen(within, most[v] - share, none), deficit);
-                excess = lanes64_max(lanes64_chosen(within, share - least[v], none), excess);
+                most = lanes64_max(
+                    lanes64_chosen((lanes64_i)(sum < end), smallest ? share - best[v] : best[v] - share, none), most);
             }
         }
     }
-    best[0] = lanes64_largest(deficit);
-    best[1] = lanes64_largest(excess);
+    return lanes64_largest(most);
+}
+
+void KERNEL_NAME(star_extremes)(size_t na, const double *a, size_t nb, const double *b, bool smallest, double *out)
+{
+    smallest ? all_extremes(na, a, nb, b, true, out) : all_extremes(na, a, nb, b, false, out);
+}
+
+double KERNEL_NAME(star_pairs)(size_t na, const double *a, size_t nb, const double *b, bool smallest, double n,
+                               double inside)
+{
+    return smallest ? all_pairs(na, a, nb, b, true, n, inside) : all_pairs(na, a, nb, b, false, n, inside);
 }

@@ -124,32 +124,30 @@ size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const float
     return found;
 }
 
-void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
-                                double *const out[2])
+void KERNEL_NAME(star_extremes)(size_t na, const double *a, size_t nb, const double *b, bool smallest, double *out)
 {
     for (size_t c = 0; c < na + nb - 1; c++) {
-        out[0][c] = 0;
-        out[1][c] = 1;
+        out[c] = smallest;
     }
     for (size_t i = 0; i < na; i++) {
         for (size_t j = 0; j < nb; j++) {
-            out[0][i + j] = fmax(out[0][i + j], a[0][i] * b[0][j]);
-            out[1][i + j] = fmin(out[1][i + j], a[1][i] * b[1][j]);
+            const double product = a[i] * b[j];
+            out[i + j] = smallest ? fmin(out[i + j], product) : fmax(out[i + j], product);
         }
     }
 }
 
-void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, const double *const b[2], double n,
-                             double inside, double best[2])
+double KERNEL_NAME(star_pairs)(size_t na, const double *a, size_t nb, const double *b, bool smallest, double n,
+                               double inside)
 {
-    best[0] = best[1] = -1;
+    double best = -1;
     for (size_t i = 0; i < na; i++) {
         for (size_t j = 0; j < nb; j++) {
             const double share = (inside + (double)(i + j)) / n;
-            best[0] = fmax(best[0], a[0][i] * b[0][j] - share);
-            best[1] = fmax(best[1], share - a[1][i] * b[1][j]);
+            best = fmax(best, smallest ? share - a[i] * b[j] : a[i] * b[j] - share);
         }
     }
+    return best;
 }
 
 void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y, const double sides[6][16],

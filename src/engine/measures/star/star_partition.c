@@ -22,13 +22,14 @@
 #include "kernels/kernels.h"
 #include "measures/shared/shared.h"
 
-enum { LEAVES_PER_CHECK = 256, INSIDE = 1, UNDECIDED = 2 };
+enum { LEAVES_PER_CHECK = 256 };
 
 typedef struct problem {
     const koksma_points *points;
     size_t n, dim, spacing;
-    uint32_t *orders; /* for each coordinate, the points in order of this coordinate */
-    size_t n_cuts;    /* of the first coordinate */
+    double *sorted;           /* for each coordinate, its sorted values */
+    uint32_t *orders, *ranks; /* for each coordinate, the points in order of it, and the place of each point there */
+    size_t n_cuts;            /* of the first coordinate */
     double deadline_s;
     const koksma_run *run;
     pthread_t caller; /* the caller's thread, which alone may call run->keep_going */
@@ -54,12 +55,15 @@ typedef struct searcher {
     uint32_t *ends;   /* dim rows of 2 n + 4: for each cut, how many points of `inside` are below it, and how many are
                              not above it */
     uint32_t *sorted; /* dim rows of n numbers: the points of `inside` in order of the next coordinate */
-    double *sorted_at;    /* dim rows of n numbers: the next coordinate of the points in `sorted` */
-    double *undecided_at; /* dim rows of n numbers: the next coordinate of the child's undecided points */
-    uint8_t *marks;       /* n of INSIDE, UNDECIDED or 0 */
-    double *sides;        /* 2 rows of n + dim numbers: the sides of boxes in a leaf */
-    double **products;    /* products of the sides in coordinates 0 .. k, for each k: dim pairs of rows of n + 2 dim +
-                          8 numbers */
+    double *undecided_at;      /* dim rows of n numbers: the next coordinate of the child's undecided points */
+    uint64_t *inside, *chosen; /* a bit for each place in the order of a coordinate: whether its point is inside, and
+                                  whether it is inside or undecided */
+    double *sides;             /* 2 rows of n + dim numbers: the sides of boxes in a leaf */
+    const double *sides_of[2][KOKSMA__STAR_MAX_DIM]; /* those of open and of closed boxes for each coordinate */
+    size_t counts[KOKSMA__STAR_MAX_DIM];             /* how many */
+    const double *products[KOKSMA__STAR_MAX_DIM];    /* of the sides in coordinates 0 .. k, for each k */
+    double *rows;                                    /* dim rows of `room` numbers, for the products */
+    size_t room;
     size_t leaves;
     bool stop;
     koksma_value *best;
@@ -72,12 +76,14 @@ static double coordinate(const searcher *s, uint32_t i, size_t k)
 }
 
 /* Finds the corner that has the best value of a leaf, from the last coordinate to the first. */
-static void trace(searcher *s, const double *const *sides[2], const size_t *counts, bool closed, double n_inside)
+static void trace(searcher *s, bool closed, double n_inside)
 {
+    const double *const *sides = s->sides_of[closed];
+    const size_t *counts = s->counts;
     const size_t dim = s->p->dim;
     double corner[KOKSMA__STAR_MAX_DIM], best = -2, n = (double)s->p->n;
     size_t total = 0, chosen = 0;
-    const double *product = s->products[2 * (dim - 2) + closed], *side = sides[closed][dim - 1];
+    const double *product = s->products[dim - 2], *side = sides[dim - 1];
     size_t n_product = 1;
     for (size_t k = 0; k + 1 < dim; k++) {
         n_product += counts[k] - 1;
@@ -94,18 +100,18 @@ static void trace(searcher *s, const double *const *sides[2], const size_t *coun
     }
     corner[dim - 1] = side[chosen];
     for (size_t k = dim - 2; k > 0; k--) {
-        const double *before = s->products[2 * (k - 1) + closed], *here = sides[closed][k];
+        const double *before = s->products[k - 1], *here = sides[k];
         n_product -= counts[k] - 1;
         chosen = 0;
         for (size_t j = 0; j < counts[k] && j <= total; j++) {
-            if (total - j < n_product && before[total - j] * here[j] == s->products[2 * k + closed][total]) {
+            if (total - j < n_product && before[total - j] * here[j] == s->products[k][total]) {
                 chosen = j;
             }
         }
         corner[k] = here[chosen];
         total -= chosen;
     }
-    corner[0] = sides[closed][0][total];
+    corner[0] = sides[0][total];
     koksma__star_keep(s->p->points, corner, closed, s->best);
 }
 
@@ -115,43 +121,42 @@ static void leaf(searcher *s)
     const region *r = &s->levels[dim];
     const double n = (double)s->p->n, n_inside = (double)r->n_inside;
     double high = 1, low = 1, *next = s->sides;
-    size_t counts[KOKSMA__STAR_MAX_DIM] = {0};
-    const double *open_sides[KOKSMA__STAR_MAX_DIM] = {0}, *closed_sides[KOKSMA__STAR_MAX_DIM] = {0};
     for (size_t k = 0; k < dim; k++) {
         high *= s->hi[k] < 1 ? s->hi[k] : 1;
         low *= s->lo[k];
     }
-    if (fmax(high - n_inside / n, (n_inside + (double)r->first[dim]) / n - low) <= s->best->value) {
+    const double most[2] = {high - n_inside / n, (n_inside + (double)r->first[dim]) / n - low};
+    if (!(most[0] > s->best->value || most[1] > s->best->value)) {
         return;
     }
     for (size_t k = 0; k < dim; k++) {
         /* the sides are lo, z_1, .. z_g, hi; closed boxes use the first g + 1 of them, open boxes the last g + 1 */
-        closed_sides[k] = next;
+        s->sides_of[1][k] = next;
         *next++ = s->lo[k];
         for (size_t u = r->first[k]; u < r->first[k + 1]; u++) {
             *next++ = coordinate(s, r->undecided[u], k);
         }
         *next++ = s->hi[k] < 1 ? s->hi[k] : 1;
-        open_sides[k] = closed_sides[k] + 1;
-        counts[k] = r->first[k + 1] - r->first[k] + 1;
+        s->sides_of[0][k] = s->sides_of[1][k] + 1;
+        s->counts[k] = r->first[k + 1] - r->first[k] + 1;
     }
     const koksma__kernel_table *kernels = koksma__kernels();
-    memcpy(s->products[0], open_sides[0], counts[0] * sizeof(double));
-    memcpy(s->products[1], closed_sides[0], counts[0] * sizeof(double));
-    size_t n_product = counts[0];
-    for (size_t k = 1; k + 1 < dim; k++) {
-        kernels->star_extremes(n_product, (const double *const[]){s->products[2 * k - 2], s->products[2 * k - 1]},
-                               counts[k], (const double *const[]){open_sides[k], closed_sides[k]},
-                               &s->products[2 * k]);
-        n_product += counts[k] - 1;
-    }
-    double best[2];
-    kernels->star_pairs(n_product, (const double *const[]){s->products[2 * dim - 4], s->products[2 * dim - 3]},
-                        counts[dim - 1], (const double *const[]){open_sides[dim - 1], closed_sides[dim - 1]}, n,
-                        n_inside, best);
     for (int closed = 0; closed < 2; closed++) {
-        if (best[closed] > s->best->value) {
-            trace(s, (const double *const *[]){open_sides, closed_sides}, counts, closed, n_inside);
+        if (!(most[closed] > s->best->value)) {
+            continue;
+        }
+        const double *const *sides = s->sides_of[closed];
+        size_t n_product = s->counts[0];
+        s->products[0] = sides[0];
+        for (size_t k = 1; k + 1 < dim; k++) {
+            double *row = s->rows + k * s->room;
+            kernels->star_extremes(n_product, s->products[k - 1], s->counts[k], sides[k], closed, row);
+            s->products[k] = row;
+            n_product += s->counts[k] - 1;
+        }
+        if (kernels->star_pairs(n_product, s->products[dim - 2], s->counts[dim - 1], sides[dim - 1], closed, n,
+                                n_inside) > s->best->value) {
+            trace(s, closed, n_inside);
         }
     }
 }
@@ -162,49 +167,49 @@ static size_t find_slabs(searcher *s, size_t k)
 {
     const problem *p = s->p;
     const region *r = &s->levels[k];
+    const uint32_t *orders = p->orders + k * p->n, *ranks = p->ranks + k * p->n;
+    const size_t spacing = k == 0 ? p->spacing : p->spacing * 7 / 5;
     uint32_t *sorted = s->sorted + k * p->n, *ends = s->ends + k * (2 * p->n + 4);
-    double *at = s->sorted_at + k * p->n, *cuts = s->cuts + k * (p->n + 2);
-    size_t count = 0, kept = 1;
-    memset(s->marks, 0, p->n);
+    double *cuts = s->cuts + k * (p->n + 2);
+    const double *values = p->sorted + k * p->n;
+    const size_t words = p->n / 64 + 1;
+    size_t count = 0, start = 0, kept = 1, to_cut = spacing;
+    memset(s->inside, 0, 2 * words * sizeof *s->inside);
     for (size_t i = 0; i < r->n_inside; i++) {
-        s->marks[r->inside[i]] = INSIDE;
+        const uint32_t at = ranks[r->inside[i]];
+        s->inside[at / 64] |= (uint64_t)1 << at % 64;
     }
+    memcpy(s->chosen, s->inside, words * sizeof *s->chosen);
     for (size_t u = 0; u < r->first[k]; u++) {
-        s->marks[r->undecided[u]] = UNDECIDED;
-    }
-    for (size_t i = 0; i < p->n; i++) { /* without branches, which nothing could predict */
-        const uint32_t point = p->orders[k * p->n + i];
-        sorted[count] = point;
-        count += s->marks[point] != 0;
+        const uint32_t at = ranks[r->undecided[u]];
+        s->chosen[at / 64] |= (uint64_t)1 << at % 64;
     }
     cuts[0] = 0;
-    const size_t chosen = count;
-    count = 0;
-    for (size_t i = 0, to_cut = p->spacing; i < chosen; i++) {
-        const uint32_t point = sorted[i];
-        const bool inside = s->marks[point] == INSIDE;
-        const double x = coordinate(s, point, k);
-        sorted[count] = point;
-        at[count] = x;
-        count += inside;
-        to_cut -= inside;
-        if (!inside || !to_cut) {
-            to_cut = to_cut ? to_cut : p->spacing;
-            kept += x != cuts[kept - 1];
-            cuts[kept - 1] = x;
+    ends[0] = ends[1] = 0;
+    double last = 0;
+    for (size_t word = 0; word < words; word++) {
+        for (uint64_t left = s->chosen[word]; left; left &= left - 1) {
+            const size_t at = 64 * word + (size_t)__builtin_ctzll(left);
+            const bool inside = s->inside[word] >> at % 64 & 1;
+            const double x = values[at];
+            start = x == last ? start : count; /* the points inside that are below x */
+            last = x;
+            sorted[count] = orders[at];
+            count += inside;
+            to_cut -= inside;
+            if (!inside || !to_cut) {
+                to_cut = to_cut ? to_cut : spacing;
+                kept += x != cuts[kept - 1];
+                cuts[kept - 1] = x;
+                ends[2 * kept - 2] = (uint32_t)start;
+            }
+            if (x == cuts[kept - 1]) {
+                ends[2 * kept - 1] = (uint32_t)count;
+            }
         }
     }
     cuts[kept] = INFINITY;
-    for (size_t c = 0, below = 0; c <= kept; c++) {
-        while (below < count && at[below] < cuts[c]) {
-            below++;
-        }
-        ends[2 * c] = (uint32_t)below;
-        while (below < count && at[below] == cuts[c]) {
-            below++;
-        }
-        ends[2 * c + 1] = (uint32_t)below;
-    }
+    ends[2 * kept] = ends[2 * kept + 1] = (uint32_t)count;
     return kept;
 }
 
@@ -281,7 +286,7 @@ static bool descend(searcher *s, size_t k, size_t c, double high, double low)
         search(s, k + 1);
         return true;
     }
-    if (fmax(high - fewest / n, most / n - low) > s->best->value) {
+    if (high - fewest / n > s->best->value || most / n - low > s->best->value) {
         fill_slab(s, k, of_k);
         leaf(s);
     }
@@ -307,10 +312,10 @@ static void search(searcher *s, size_t k)
 static bool open_searcher(problem *p, searcher *s)
 {
     const size_t n = p->n, dim = p->dim, room = n + 2 * dim + 8;
-    *s = (searcher){.p = p};
-    const size_t doubles = 2 * dim + dim * (n + 2) + room + 2 * dim * room + 2 * dim * n;
+    *s = (searcher){.p = p, .room = room};
+    const size_t doubles = 2 * dim + dim * (n + 2) + 2 * room + dim * room + dim * n + 2 * (n / 64 + 1);
     const size_t bytes = doubles * sizeof(double) + (dim + 1) * (sizeof(region) + (dim + 1) * sizeof(size_t)) +
-                         2 * dim * sizeof(double *) + ((2 * dim + 1) * n + dim * (2 * n + 4)) * sizeof(uint32_t) + n;
+                         ((2 * dim + 1) * n + dim * (2 * n + 4)) * sizeof(uint32_t);
     s->memory = malloc(bytes);
     if (!s->memory) {
         koksma__fail_memory(bytes);
@@ -320,21 +325,17 @@ static bool open_searcher(problem *p, searcher *s)
     s->hi = s->lo + dim;
     s->cuts = s->hi + dim;
     s->sides = s->cuts + dim * (n + 2);
-    double *rows = s->sides + room;
-    s->sorted_at = rows + 2 * dim * room;
-    s->undecided_at = s->sorted_at + dim * n;
-    s->levels = (region *)(s->undecided_at + dim * n);
+    s->rows = s->sides + 2 * room;
+    s->undecided_at = s->rows + dim * room;
+    s->inside = (uint64_t *)(s->undecided_at + dim * n);
+    s->chosen = s->inside + n / 64 + 1;
+    s->levels = (region *)(s->chosen + n / 64 + 1);
     size_t *firsts = (size_t *)(s->levels + dim + 1);
-    s->products = (double **)(firsts + (dim + 1) * (dim + 1));
-    s->sorted = (uint32_t *)(s->products + 2 * dim);
+    s->sorted = (uint32_t *)(firsts + (dim + 1) * (dim + 1));
     uint32_t *lists = s->sorted + dim * n;
     s->ends = lists + (dim + 1) * n;
-    s->marks = (uint8_t *)(s->ends + dim * (2 * n + 4));
     for (size_t k = 0; k <= dim; k++) {
         s->levels[k] = (region){.undecided = lists + k * n, .first = firsts + k * (dim + 1)};
-    }
-    for (size_t k = 0; k < 2 * dim; k++) {
-        s->products[k] = rows + k * room;
     }
     memset(s->levels[0].first, 0, (dim + 1) * sizeof(size_t));
     s->levels[0].inside = p->orders;
@@ -370,15 +371,22 @@ koksma_status koksma__star_partition(const koksma_points *points, const koksma_r
     problem p = {
         .points = points, .n = n, .dim = dim, .deadline_s = deadline_s, .run = run, .caller = pthread_self()};
     p.spacing = (size_t)ceil(sqrt((double)n));
-    const size_t bytes = (n + 2) * (sizeof(koksma_value) + dim * sizeof(uint32_t) + 1);
+    const size_t bytes = (n + 2) * (sizeof(koksma_value) + dim * (sizeof(double) + 2 * sizeof(uint32_t)) + 1);
     p.values = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(p.values, bytes);
-    p.orders = (uint32_t *)(p.values + n + 2);
-    p.cut_short = (bool *)(p.orders + dim * (n + 2));
+    p.sorted = (double *)(p.values + n + 2);
+    p.orders = (uint32_t *)(p.sorted + dim * (n + 2));
+    p.ranks = p.orders + dim * (n + 2);
+    p.cut_short = (bool *)(p.ranks + dim * (n + 2));
     koksma_status status = KOKSMA_OK;
     searcher first;
     for (size_t k = 0; k < dim && !status; k++) {
         status = koksma__order(run, n, points->xs + k, dim, p.orders + k * n);
+        for (size_t i = 0; i < n && !status; i++) {
+            const uint32_t point = p.orders[k * n + i];
+            p.ranks[k * n + point] = (uint32_t)i;
+            p.sorted[k * n + i] = points->xs[dim * point + k];
+        }
     }
     status = status ? status : open_searcher(&p, &first) ? KOKSMA_OK : KOKSMA_MEMORY;
     if (!status) {
