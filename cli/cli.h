@@ -94,6 +94,8 @@ const cli_command *cli_command_find(const char *name);
 /* cli_text returns the text of an option, or `fallback` when the option is not given; cli_flag returns whether a flag
    is set. The option table must contain an option of that name. */
 const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback);
+const char *cli_given(const cli_arguments *arguments, const char *name); /* NULL, too, if there is no such option */
+const cli_option *cli_option_of(const cli_option *options, const char *name); /* NULL: none of that name */
 bool cli_flag(const cli_arguments *arguments, const char *name);
 
 /* Reads an option as a whole number in [min, max], or takes `fallback`. Returns false after an error that names the

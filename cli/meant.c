@@ -146,21 +146,13 @@ static const struct {
     {".exr .png .pfm .jpg .jpeg", "an image", "koksma compare ", " other.exr"},
 };
 
-static const cli_option *find(const cli_option *options, const char *name)
-{
-    while (options->name && strcmp(options->name, name) != 0) {
-        options++;
-    }
-    return options->name ? options : NULL;
-}
-
 const char *cli_meant_option(const cli_option *options, const char *name, char text[128])
 {
     const cli_option *meant = NULL;
     for (size_t i = 0; i < sizeof foreign_options / sizeof *foreign_options; i++) {
         for (int k = 0; !meant && !strcmp(name, foreign_options[i].name) && k < 2 && foreign_options[i].ours[k];
              k++) {
-            meant = find(options, foreign_options[i].ours[k]);
+            meant = cli_option_of(options, foreign_options[i].ours[k]);
         }
     }
     if (meant) {
@@ -229,7 +221,7 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
     for (size_t i = 0; dot && dot[1] && i < sizeof files / sizeof *files && !access(word, R_OK); i++) {
         const char *at = strstr(files[i].endings, dot);
         if (at && (!at[strlen(dot)] || at[strlen(dot)] == ' ')) {
-            const bool as_pattern = i == 0 && arguments && find(arguments->command->options, "patterns");
+            const bool as_pattern = i == 0 && arguments && cli_option_of(arguments->command->options, "patterns");
             return say_known(word, files[i].holds, as_pattern ? "-p file:" : files[i].before, files[i].after, text);
         }
     }
@@ -247,7 +239,7 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
     if (found == FAMILIES) {
         return text;
     }
-    const cli_option *option = arguments ? find(arguments->command->options, families[found].option) : NULL;
+    const cli_option *option = arguments ? cli_option_of(arguments->command->options, families[found].option) : NULL;
     const char letter = option ? option->letter : '\0', before[] = {'-', letter, ' ', '\0'};
     return letter ? say_known(word, families[found].what, before, "", text)
                   : say_known(name, families[found].what, families[found].before, families[found].after, text);
@@ -292,7 +284,8 @@ const char *cli_operand_hint(const cli_arguments *arguments, const char *operand
 {
     static const char *const outputs[] = {".txt", ".csv", ".npy", ".png", ".exr", ".pfm", ".jpg", ".svg", ".pdf"};
     const size_t length = strlen(operand);
-    for (size_t i = 0; find(arguments->command->options, "output") && i < sizeof outputs / sizeof *outputs; i++) {
+    for (size_t i = 0; cli_option_of(arguments->command->options, "output") && i < sizeof outputs / sizeof *outputs;
+         i++) {
         if (length > 4 && !strcmp(operand + length - 4, outputs[i])) {
             return "; -o FILE names the file to write";
         }

@@ -72,13 +72,12 @@ void cli_print_help(const cli_command *command)
     }
 }
 
-static const cli_option *option_of(const cli_command *command, const char *name)
+const cli_option *cli_option_of(const cli_option *options, const char *name)
 {
-    const cli_option *o = command->options;
-    while (o->name && strcmp(o->name, name) != 0) {
-        o++;
+    while (options->name && strcmp(options->name, name) != 0) {
+        options++;
     }
-    return o->name ? o : NULL;
+    return options->name ? options : NULL;
 }
 
 /* Reports an option that does not exist or takes no argument. word: --NAME or --NAME=VALUE. */
@@ -86,7 +85,7 @@ static int unknown_option(const cli_arguments *arguments, const char *word)
 {
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    if (!strcmp(name, "help") || option_of(arguments->command, name)) {
+    if (!strcmp(name, "help") || cli_option_of(arguments->command->options, name)) {
         return cli_usage_error(arguments, "option --%s takes no argument", name);
     }
     char meant[128], known[CLI_KNOWN] = "";
@@ -213,7 +212,7 @@ static bool is_empty_name(const cli_arguments *arguments, const cli_option *o, c
 /* Takes --format where it says how rows are printed: in `study export` it is the format of a file. */
 static bool take_format(const cli_arguments *arguments)
 {
-    const cli_option *option = option_of(arguments->command, "format");
+    const cli_option *option = cli_option_of(arguments->command->options, "format");
     int format = CLI_TEXT;
     if (option && !strcmp(option->argument, "text|csv|latex")) {
         if (!cli_choice(arguments, "format", &format)) {
@@ -244,7 +243,7 @@ static int read_shared_options(cli_arguments *arguments)
     if (!cli_keeps_inputs(arguments)) {
         return CLI_USAGE;
     }
-    if (option_of(arguments->command, "digits")) {
+    if (cli_option_of(arguments->command->options, "digits")) {
         if (!cli_whole(arguments, "digits", CLI_DIGITS, 1, 17, &digits)) {
             return CLI_USAGE;
         }
@@ -253,7 +252,7 @@ static int read_shared_options(cli_arguments *arguments)
             return CLI_USAGE;
         }
     }
-    if (option_of(arguments->command, "allow-exec")) {
+    if (cli_option_of(arguments->command->options, "allow-exec")) {
         double seconds;
         const bool allowed = cli_flag(arguments, "allow-exec");
         if (!cli_real(arguments, "exec-seconds", 60, 1e-3, 86400, &seconds)) {
@@ -266,14 +265,14 @@ static int read_shared_options(cli_arguments *arguments)
         }
         koksma_allow_exec(allowed ? seconds : 0);
     }
-    if (option_of(arguments->command, "unknown")) {
+    if (cli_option_of(arguments->command->options, "unknown")) {
         int refuse = 0;
         if (!cli_choice(arguments, "unknown", &refuse)) {
             return CLI_USAGE;
         }
         koksma_scene_refuse_unknown(refuse);
     }
-    return option_of(arguments->command, "patterns") && option_of(arguments->command, "n")
+    return cli_option_of(arguments->command->options, "patterns") && cli_option_of(arguments->command->options, "n")
                ? cli_sources_expand(arguments)
                : CLI_YES;
 }
@@ -297,12 +296,17 @@ int cli_run(const cli_command *command, int argc, char **argv)
 
 const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback)
 {
-    const cli_option *option = option_of(arguments->command, name);
+    const cli_option *option = cli_option_of(arguments->command->options, name);
     if (!option) {
         abort(); /* a bug: the option table lacks this name */
     }
     const char *value = arguments->values[option - arguments->command->options];
     return value ? value : fallback;
+}
+
+const char *cli_given(const cli_arguments *arguments, const char *name)
+{
+    return cli_option_of(arguments->command->options, name) ? cli_text(arguments, name, NULL) : NULL;
 }
 
 bool cli_flag(const cli_arguments *arguments, const char *name)
@@ -312,7 +316,8 @@ bool cli_flag(const cli_arguments *arguments, const char *name)
 
 bool cli_choice(const cli_arguments *arguments, const char *name, int *choice)
 {
-    const char *text = cli_text(arguments, name, NULL), *at = option_of(arguments->command, name)->argument;
+    const char *text = cli_text(arguments, name, NULL),
+               *at = cli_option_of(arguments->command->options, name)->argument;
     char all[256] = "", meant[96];
     for (int i = 0; text && *at; i++) {
         const size_t used = strlen(all), length = strcspn(at, "|");
@@ -323,7 +328,7 @@ bool cli_choice(const cli_arguments *arguments, const char *name, int *choice)
         snprintf(all + used, sizeof all - used, "%s%.*s", !used ? "" : at[length] ? ", " : " or ", (int)length, at);
         at += length + (at[length] == '|');
     }
-    if (text && option_of(arguments->command, text)) {
+    if (text && cli_option_of(arguments->command->options, text)) {
         cli_usage_error(arguments, "--%s %s: it takes %s; did you mean --%s?", name, text, all, text);
     } else if (text) {
         cli_usage_error(arguments, "--%s %s: %sit takes %s", name, text, cli_meant_of(text, all, meant), all);

@@ -153,20 +153,6 @@ static const char *hint(const cli_arguments *arguments, const char *operand, cha
     return text;
 }
 
-static bool has_option(const cli_arguments *arguments, const char *name)
-{
-    const cli_option *option = arguments->command->options;
-    while (option->name && strcmp(option->name, name) != 0) {
-        option++;
-    }
-    return option->name != NULL;
-}
-
-const char *cli_given(const cli_arguments *arguments, const char *name)
-{
-    return has_option(arguments, name) ? cli_text(arguments, name, NULL) : NULL;
-}
-
 /* Reads a file and divides its coordinates by the numbers of --scale. Returns the exit code. */
 static int read_scaled(const cli_arguments *arguments, const char *path, const char *scale, koksma_points *points)
 {
@@ -232,7 +218,7 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
         cli_usage_error(arguments, "%s%s", koksma_error_text(), hint(arguments, text, meant));
         return koksma_status_exit_code(status);
     }
-    if (status == KOKSMA_MALFORMED && has_option(arguments, "scale") &&
+    if (status == KOKSMA_MALFORMED && cli_option_of(arguments->command->options, "scale") &&
         strstr(koksma_error_text(), "outside [0,1]") && !strstr(koksma_error_text(), "nan") &&
         !strchr(koksma_error_text(), ';')) {
         cli_usage_error(arguments, "%s; --scale W,H divides coordinates, such as pixels", koksma_error_text());

@@ -18,9 +18,6 @@
         'd', "dim", "DIM", "number of dimensions of patterns without @N (default: 2)"                                \
     }
 
-/* The text of an option; NULL: not given, or not an option of the command. */
-const char *cli_given(const cli_arguments *arguments, const char *name);
-
 /* Warns, unless --quiet, about what in a file's points looks like a mistake: columns that are constant or count the rows,
    rows and columns swapped, coordinates in another unit. */
 void cli_warn_points(const cli_arguments *arguments, const char *path, const koksma_points *points);
