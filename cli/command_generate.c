@@ -65,10 +65,6 @@ static int stream(const cli_arguments *arguments, const cli_source *source, uint
     if (first) {
         snprintf(comment + used, sizeof comment - (size_t)used, "\nfirst %llu", (unsigned long long)first);
     }
-    if (cli_flag(arguments, "seed") && koksma_has_one_set(&source->spec) && !cli_flag(arguments, "quiet")) {
-        cli_say("generate",
-                "warning: %s has one set, whatever the seed; a random modifier, such as shift=1, gives others", text);
-    }
     const koksma_status status = koksma_generate_write(&source->spec, seed, first, source->n, source->dim,
                                                        cli_text(arguments, "output", "-"), comment, &work->run);
     return status ? cli_fail(arguments, status) : CLI_YES;
@@ -101,6 +97,11 @@ static int run(const cli_arguments *arguments)
         !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
         !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "generating", &work)) {
         return CLI_USAGE;
+    }
+    if (cli_flag(arguments, "seed") && koksma_has_one_set(&source.spec) && !cli_flag(arguments, "quiet")) {
+        char text[KOKSMA_MAX_SPEC];
+        koksma_spec_text(&source.spec, text);
+        cli_warn_one_set(arguments, text);
     }
     dim = source.n ? (uint64_t)source.dim : dim;
     const char *name = cli_text(arguments, "warp", NULL);

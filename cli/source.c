@@ -230,6 +230,12 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+void cli_warn_one_set(const cli_arguments *arguments, const char *source)
+{
+    cli_say(arguments->command->name,
+            "warning: %s has one set, whatever the seed; a random modifier, such as shift=1, gives others", source);
+}
+
 bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trials, size_t n_warps)
 {
     size_t n_stdin = 0;
@@ -256,10 +262,7 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
         one_set = text;
     }
     if (all && one_set) {
-        cli_say(arguments->command->name,
-                "warning: %s is one set, whatever the seed; a pattern with a random modifier, such as shift=1, has "
-                "others",
-                one_set);
+        cli_warn_one_set(arguments, one_set);
     }
     return true;
 }

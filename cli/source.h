@@ -81,6 +81,9 @@ int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_sourc
 int cli_sources_expand(cli_arguments *arguments);
 void cli_sources_free(cli_arguments *arguments);
 
+/* Warns that --seed has no effect on the points of `source`. */
+void cli_warn_one_set(const cli_arguments *arguments, const char *source);
+
 /* Checks the operands from number `first` on. Refuses to read stdin twice, also for two warps, and to read files for
    several trials, because a file is one set. Returns false after an error on stderr. */
 bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trials, size_t n_warps);
