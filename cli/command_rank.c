@@ -590,6 +590,11 @@ static int run(const cli_arguments *arguments)
     if (!code && !cli_sizes(arguments, "spp", list, "", KOKSMA_MAX_SPP, spps, &n_spp)) {
         code = CLI_USAGE;
     }
+    bool said = code || n_spp > 1 || list == r.scene_spp;
+    for (size_t i = 0; i < r.p.n && !said; i++) {
+        koksma_spec spec;
+        said = !koksma_pattern_spec(r.p.at[i], &spec) && cli_warn_unbalanced(arguments, &spec, spps[0]);
+    }
     code = code ? code : rank_all(arguments, &r, spps, n_spp);
     koksma_image_fini(&r.reference);
     return code;

@@ -110,6 +110,11 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
     }
     options->spp = (int)spp;
     *code = CLI_USAGE;
+    bool said =
+        !valid || options->scope != KOKSMA_SCOPE_PIXEL || cli_warn_unbalanced(arguments, &options->pattern, spp);
+    for (size_t i = 0; koksma_use_at(i) && !said; i++) {
+        said = cli_warn_unbalanced(arguments, &options->patterns[i], spp);
+    }
     return valid && (!n || n == spp);
 }
 

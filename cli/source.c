@@ -429,6 +429,22 @@ static bool takes_name_first(const cli_arguments *arguments)
     return !strcmp(arguments->command->name, "integrate") || !strcmp(arguments->command->name, "curve");
 }
 
+/* Says so of the first pattern with a number of points at which it is not balanced, unless there are several numbers. */
+static void warn_of_count(const cli_arguments *arguments)
+{
+    const char *list = cli_text(arguments, "n", "");
+    bool said = strchr(list, ',');
+    for (int i = 0; i < arguments->n_made && !said; i++) {
+        char copy[KOKSMA_MAX_SPEC];
+        koksma_spec spec;
+        size_t n;
+        int dim;
+        snprintf(copy, sizeof copy, "%s", cli_spec_in(arguments->made[i]));
+        said = cli_source_is_pattern(arguments->made[i]) && split(copy, &n, &dim) &&
+               !koksma_pattern_spec(copy, &spec) && cli_warn_unbalanced(arguments, &spec, n);
+    }
+}
+
 /* Reports that -d has no effect on the points of an operand, and what would have. Returns the exit code. */
 static int refuse_dim(const cli_arguments *arguments, const char *dim, const char *operand)
 {
@@ -486,6 +502,9 @@ int cli_sources_expand(cli_arguments *arguments)
     }
     if (!code && *of.left_out && !cli_flag(arguments, "quiet")) {
         cli_say(arguments->command->name, "-p all leaves out patterns without such a set: %s", of.left_out);
+    }
+    if (!code && !cli_given(arguments, "first")) {
+        warn_of_count(arguments);
     }
     arguments->operands = arguments->made;
     arguments->n_operands = arguments->n_made;

@@ -19,11 +19,15 @@
     }
 
 /* Warns, unless --quiet, about what in a file's points looks like a mistake: columns that are constant or count the rows,
-   rows and columns swapped, coordinates in another unit. */
+   equal rows, rows and columns swapped, coordinates in another unit. */
 void cli_warn_points(const cli_arguments *arguments, const char *path, const koksma_points *points);
 
 /* Warns, unless --quiet, that all coordinates are small, as pixels read as fractions of 2^16 are. */
 void cli_warn_small(const cli_arguments *arguments, const char *path, const koksma_points *points);
+
+/* Says, unless --quiet, that a pattern whose first 2^m points are a net or lattice is better at such a number.
+   Returns whether that is so. */
+bool cli_warn_unbalanced(const cli_arguments *arguments, const koksma_spec *spec, uint64_t n);
 
 /* Does the first for the file of a pattern file:PATH. Other patterns and what can't be read give no
    warning here. */
