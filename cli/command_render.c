@@ -217,6 +217,23 @@ static koksma_status write_map(const char *path, koksma_image *map, const char *
     return koksma_image_write(path, map, metadata);
 }
 
+/* Warns of a picture without anything in it. */
+static void warn_of_flat(const char *scene, const koksma_image *image)
+{
+    const size_t channels = (size_t)image->channels, n = (size_t)image->width * (size_t)image->height * channels;
+    size_t same = channels, black = 0;
+    while (black < n && image->pixels[black] == 0) {
+        black++;
+    }
+    while (same < n && image->pixels[same] == image->pixels[same - channels]) {
+        same++;
+    }
+    if (black == n || (same == n && n > channels)) {
+        cli_say("render", "%s: warning: all pixels are %s", scene,
+                black == n ? "black; is the scene in view, and lit?" : "equal; is the camera inside a shape?");
+    }
+}
+
 /* Renders the mean of several images and its map of errors. Returns the exit code. */
 static int render_map(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options,
                       const cli_adaptive *adaptive, size_t count)
@@ -239,6 +256,9 @@ static int render_map(const cli_arguments *arguments, const koksma_scene *scene,
     snprintf(metadata + used, sizeof metadata - used, " replicates=%zu", count);
     status = koksma_image_write(cli_text(arguments, "output", ""), &replicates.image, metadata);
     status = status ? status : write_map(cli_text(arguments, "error-map", ""), &replicates.error, metadata);
+    if (!cli_flag(arguments, "quiet")) {
+        warn_of_flat(arguments->operands[0], &replicates.image);
+    }
     const int code = status ? cli_fail(arguments, status)
                             : put_row(arguments, options, adaptive, &replicates, replicates.rays, seconds);
     koksma_replicates_fini(&replicates);
@@ -264,6 +284,9 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
     const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);
     const koksma_status written =
         done ? write_image(arguments, scene, options, &adaptive->options, &layers) : KOKSMA_OK;
+    if (!status && !cli_flag(arguments, "quiet")) {
+        warn_of_flat(arguments->operands[0], &layers.image);
+    }
     koksma_layers_fini(&layers);
     if (!status && !written) {
         status = cli_adaptive_strata(adaptive);
@@ -321,6 +344,12 @@ static int run(const cli_arguments *arguments)
         if (!cli_flag(arguments, "quiet")) {
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_warn_unused(arguments, arguments->operands[0], scene, &options);
+            const size_t own = koksma_scene_count(scene).spp;
+            const bool typed = cli_text(arguments, "spp", NULL) || strchr(cli_text(arguments, "pattern", ""), '@');
+            if (own && own != (size_t)options.spp && !typed) {
+                cli_say("render", "%s: its sampler takes %zu samples a pixel: rendering with %d; -n N chooses",
+                        arguments->operands[0], own, options.spp);
+            }
         }
         code = try_files(arguments, &adaptive);
         code = code ? code

@@ -190,7 +190,8 @@ static void advise_best(const koksma_rank_options *options, const koksma_rank_ro
         fprintf(stderr, "the error of every pattern %s; %s leaves the least", in_all(options), name);
         print_coherence(&rows[best]);
     } else if (ranking->advised || ranking->within <= KOKSMA_RANK_TIE) {
-        fprintf(stderr, "use %s", name);
+        fprintf(stderr, options->n_patterns > 1 ? "use %s" : "%s is alone: there is nothing to rank it against",
+                name);
         if (ranking->n_slow) {
             fprintf(stderr, " (the time was too short to rank %zu of %zu patterns)", ranking->n_slow,
                     options->n_patterns);

@@ -105,6 +105,8 @@ class Ranking(Framed):
         return self.rows[0].pattern if self.settled else None
 
     def _advice(self) -> str:
+        if len(self.rows) == 1:
+            return f"{self.use} is alone: there is nothing to rank it against"
         if self.advised:
             return f"use {self.advised}"
         return f"use {self.use}, within {100 * self.within:.2g} % of the best{' but for few pixels' * self.without_few}" if self.within <= 0.05 else "undecided"

@@ -123,8 +123,8 @@ static bool of_hidden_lights(const koksma_scene *scene, asked *a)
                 hidden);
 }
 
-/* Warns about an environment whose image is black or has negative numbers. This check is the last one, because it reads
-   the whole image. */
+/* Warns about an environment whose image is black, has negative numbers, or is not twice as wide as high. This check is
+   the last one, because it reads the whole image. */
 static bool of_environment(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_lights; i++) {
@@ -136,6 +136,11 @@ static bool of_environment(const koksma_scene *scene, asked *a)
             const bool colour = image->channels == 3;
             negative += rgb[0] < 0 || (colour && (rgb[1] < 0 || rgb[2] < 0));
             lit += rgb[0] > 0 || (colour && (rgb[1] > 0 || rgb[2] > 0));
+        }
+        if (pixels && scene->lights[i].kind == &koksma__light_environment && image->width != 2 * image->height &&
+            tell(a, "the image of light %zu has %d x %d pixels: one of all directions is twice as wide as high", i,
+                 image->width, image->height)) {
+            return true;
         }
         if (pixels && (negative || !lit) && !is_dark(scene->lights[i].radiance) &&
             (lit ? tell(a, "the image of light %zu has negative numbers in %zu of %zu pixels; they count as 0", i,
