@@ -98,6 +98,10 @@ const char *cli_given(const cli_arguments *arguments, const char *name); /* NULL
 const cli_option *cli_option_of(const cli_option *options, const char *name); /* NULL: none of that name */
 bool cli_flag(const cli_arguments *arguments, const char *name);
 
+/* Reads the whole number that text begins with, as in 100 or 1e5, and sets *end to what follows it. Returns false if it
+   begins with none (then *end is text), or with one above 2^64 - 1. */
+bool cli_digits(const char *text, uint64_t *out, const char **end);
+
 /* Reads an option as a whole number in [min, max], or takes `fallback`. Returns false after an error that names the
    option. */
 bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallback, uint64_t min, uint64_t max,

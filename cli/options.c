@@ -353,13 +353,29 @@ bool cli_refuse(const cli_arguments *arguments, const char *names, const char *w
     return true;
 }
 
+bool cli_digits(const char *text, uint64_t *out, const char **end)
+{
+    char *after;
+    errno = 0;
+    *out = text[0] >= '0' && text[0] <= '9' ? strtoull(text, &after, 10) : 0;
+    *end = text[0] >= '0' && text[0] <= '9' ? after : text;
+    if (*end != text && **end == 'e' && (*end)[1] >= '0' && (*end)[1] <= '9') {
+        const unsigned long zeros = strtoul(*end + 1, &after, 10);
+        *end = after;
+        for (unsigned long k = 0; k<zeros && * out> 0 && !errno; k++) {
+            errno = *out > UINT64_MAX / 10 ? ERANGE : 0;
+            *out *= 10;
+        }
+    }
+    return *end != text && !errno;
+}
+
 bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *text, uint64_t min, uint64_t max,
                   uint64_t *out)
 {
-    char *end;
-    errno = 0;
-    const unsigned long long value = strtoull(text, &end, 10);
-    if (text[0] < '0' || text[0] > '9' || *end || errno || value < min || value > max) {
+    const char *end;
+    uint64_t value;
+    if (!cli_digits(text, &value, &end) || *end || value < min || value > max) {
         cli_usage_error(arguments, "%s%s %s: it takes %s from %llu to %llu", name[1] ? "--" : "-", name,
                         cli_text(arguments, name, text),
                         strchr(cli_text(arguments, name, text), ',') ? "one whole number, without commas,"
@@ -407,16 +423,16 @@ bool cli_sizes(const cli_arguments *arguments, const char *name, const char *lis
 {
     const char *item = list;
     for (*n = 0; item;) {
-        char *end;
-        const unsigned long long k = strtoull(item, &end, 10);
-        if (*item < '0' || *item > '9' || k == 0 || k > max || (*end && *end != ',') || *n == KOKSMA_MAX_SIZES) {
+        const char *end;
+        uint64_t k;
+        if (!cli_digits(item, &k, &end) || k == 0 || k > max || (*end && *end != ',') || *n == KOKSMA_MAX_SIZES) {
             cli_usage_error(arguments, "--%s %s: it takes %sup to %d numbers from 1 to %llu, as in 16,64,256", name,
                             list, also, KOKSMA_MAX_SIZES, (unsigned long long)max);
             return false;
         }
         for (size_t i = 0; i < *n; i++) {
             if (sizes[i] == k) {
-                cli_usage_error(arguments, "--%s: %llu is given twice", name, k);
+                cli_usage_error(arguments, "--%s: %llu is given twice", name, (unsigned long long)k);
                 return false;
             }
         }

@@ -36,7 +36,7 @@ static bool split(char *text, size_t *n, int *dim)
     char *before = strrchr(text, '@'), *end;
     char *n_text = last + 1;
     *dim = 2;
-    if (before && before[1 + strspn(before + 1, "0123456789")] == '\0') {
+    if (before && before[1 + strspn(before + 1, "0123456789e")] == '\0') {
         const long number = strtol(last + 1, &end, 10);
         *dim = number >= 1 && number <= KOKSMA_MAX_DIM ? (int)number : 0;
         if (last[1] < '0' || last[1] > '9' || *end) {
@@ -45,9 +45,11 @@ static bool split(char *text, size_t *n, int *dim)
         *before = '\0';
         n_text = before + 1;
     }
-    const unsigned long long count = strtoull(n_text, &end, 10);
-    *n = count < SIZE_MAX ? (size_t)count : SIZE_MAX; /* where size_t has 32 bits */
-    return n_text[0] >= '0' && n_text[0] <= '9' && !*end;
+    const char *past;
+    uint64_t count;
+    const bool number = cli_digits(n_text, &count, &past);
+    *n = number && count < SIZE_MAX ? (size_t)count : SIZE_MAX; /* where size_t has 32 bits */
+    return past != n_text && !*past;
 }
 
 bool cli_names_pattern(const char *text)
@@ -526,7 +528,7 @@ bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n)
         char *end = next ? next : item + strlen(item), *spec = item + strcspn(item, "=:;");
         spec = *spec == '=' ? spec + 1 : item;
         char *at = end;
-        while (at > spec && at[-1] >= '0' && at[-1] <= '9') {
+        while (at > spec && ((at[-1] >= '0' && at[-1] <= '9') || at[-1] == 'e')) {
             at--;
         }
         char whole[KOKSMA_MAX_SPEC];
@@ -535,7 +537,11 @@ bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n)
             fail_miscounted(arguments, whole);
             return false;
         }
-        const uint64_t count = at > spec && at < end && at[-1] == '@' ? strtoull(at, NULL, 10) : 0;
+        const char *past;
+        uint64_t count = 0;
+        if (at > spec && at[-1] == '@') {
+            cli_digits(at, &count, &past);
+        }
         if (count && *n && *n != count) {
             cli_usage_error(arguments,
                             "-p: @%llu and @%llu differ; all patterns need the same number of samples a pixel",
