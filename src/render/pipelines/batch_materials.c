@@ -53,10 +53,15 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
     if (traits & KOKSMA__IS_CHECKER) {
         find_squares(t, h, at, n, odd);
     }
+    const int32_t second = (int32_t)(t->albedo[1][0] - t->albedo[0][0]); /* all are columns of one table */
+    for (int i = 0; i < STEP(n); i++) {
+        odd[i] = at[i] + odd[i] * second;
+    }
     for (int k = 0; k < 3; k++) {
-        const float *even = t->albedo[0][k], *other = t->albedo[1][k];
+        const float *restrict column = t->albedo[0][k];
+        LANES_APART
         for (int i = 0; i < STEP(n); i++) {
-            s->albedo[k][i] = odd[i] ? other[at[i]] : even[at[i]];
+            s->albedo[k][i] = column[odd[i]];
         }
     }
     for (int k = 0; traits & (1 << KOKSMA__FORM_LOBES | 1 << KOKSMA__FORM_FACETS) && k < 4; k++) {
