@@ -14,7 +14,7 @@
 //! Every result has the bits of the header, whose comments say what the functions promise.
 
 // Column b of each dimension: the digits of point 2^b, bits reversed.
-const SOBOL: [[u32; 4]; 32] = [
+pub(crate) const SOBOL: [[u32; 4]; 32] = [
     [0x00000001, 0x00000001, 0x00000001, 0x00000001], [0x00000002, 0x00000003, 0x00000003, 0x00000003],
     [0x00000004, 0x00000005, 0x00000006, 0x00000004], [0x00000008, 0x0000000f, 0x00000009, 0x0000000a],
     [0x00000010, 0x00000011, 0x00000017, 0x0000001f], [0x00000020, 0x00000033, 0x0000003a, 0x0000002e],
@@ -49,12 +49,12 @@ pub struct Domain {
     pub key: u64,
 }
 
-fn mix(key: u64) -> u64 {
+pub(crate) fn mix(key: u64) -> u64 {
     let key = key.wrapping_mul(0xd6e8_feb8_6659_fd93);
     key ^ key >> 32
 }
 
-fn derived(key: u64, purpose: u32, number: u32) -> u64 {
+pub(crate) fn derived(key: u64, purpose: u32, number: u32) -> u64 {
     let constant = (purpose as u64) << 32 | 0x85a3_08d3;
     mix(key ^ constant ^ (number as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15))
 }
@@ -64,14 +64,14 @@ pub fn seed_of_frame(seed: u64, frame: u32) -> u64 {
     mix(derived(seed, 0x082e_fa98, frame))
 }
 
-fn owen_hash(x: u32, seed: u32) -> u32 {
+pub(crate) fn owen_hash(x: u32, seed: u32) -> u32 {
     let x = x ^ x.wrapping_mul(0x3d20_adea);
     let x = x.wrapping_add(seed).wrapping_mul(seed >> 16 | 1);
     let x = x ^ x.wrapping_mul(0x0552_6c56);
     x ^ x.wrapping_mul(0x53a2_2864)
 }
 
-fn seed_of(mixed: u64, dimension: u32) -> u32 {
+pub(crate) fn seed_of(mixed: u64, dimension: u32) -> u32 {
     let x = (mixed as u32).wrapping_add((dimension + 1).wrapping_mul(0x9e37_79b9));
     let x = (x ^ x >> 16).wrapping_mul(0x7feb_352d);
     let x = (x ^ x >> 15).wrapping_add((mixed >> 32) as u32).wrapping_mul(0x846c_a68b);
@@ -79,7 +79,7 @@ fn seed_of(mixed: u64, dimension: u32) -> u32 {
 }
 
 /// A 32-bit fraction as a number in [0, 1).
-fn fraction(word: u32) -> f64 {
+pub(crate) fn fraction(word: u32) -> f64 {
     word as f64 * (1.0 / 4294967296.0)
 }
 

@@ -13,9 +13,11 @@ except ModuleNotFoundError:
 
 sys.dont_write_bytecode = True  # `make install` takes the whole folder
 sys.path.insert(0, sys.argv[1] + "/python")
+import koksma_keys as kk  # pylint: disable=wrong-import-position,import-error
 import koksma_sampler as ks  # pylint: disable=wrong-import-position,import-error
 
-FUNCTIONS = ("domain", "sobol", "pmj02", "white")
+FUNCTIONS = ("domain", "sobol", "pmj02", "white", "keys")
+TABLES = kk.read_tables(sys.argv[1] + "/../include/koksma")
 
 
 def words(k):
@@ -25,7 +27,10 @@ def words(k):
     domain = ks.domain_of_sample(use, k % 3)
     index = (k * 2654435761 & 0xFFFFFFFF) >> k % 25
     key = np.stack([domain & np.uint64(0xFFFFFFFF), domain >> np.uint64(32)], -1)
-    return [key.astype(np.uint32)] + [(f(domain, index) * 2.0 ** 32).astype(np.uint32) for f in (ks.sobol, ks.pmj02, ks.white)]
+    spp = 1 + k % 130
+    quadruples = kk.keys_4d(TABLES, kk.keys_of_4d(TABLES, seed, k & 255, k >> 8 & 255, k % 5, spp), index % spp)
+    drawn = [f(domain, index) for f in (ks.sobol, ks.pmj02, ks.white)] + [quadruples]
+    return [key.astype(np.uint32)] + [(xs * 2.0 ** 32).astype(np.uint32) for xs in drawn]
 
 
 def hashes(block_words):
@@ -39,7 +44,7 @@ def hashes(block_words):
 
 table = np.array([[int(word, 16) for word in line.split()[1:]] for line in open(sys.argv[1] + "/vectors.txt") if line[0] != "#"])
 drawn = [words(np.arange(b << 14, (b + 1) << 14)) for b in range(64)]
-failed = table.shape != (64, 4)
+failed = table.shape != (64, 5)
 for f, name in enumerate(FUNCTIONS):
     different = np.flatnonzero(hashes(np.stack([block[f].ravel() for block in drawn])) != table[:, f])
     if different.size:

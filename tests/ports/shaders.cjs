@@ -10,7 +10,9 @@ let playwright;
 try { playwright = require(require.resolve("playwright-core", { paths: [modules] })); } catch { playwright = null; }
 const skip = why => { console.log("skipped: " + why); process.exit(77); };
 if (!chromium || !playwright) skip((chromium ? "playwright-core" : "Chromium") + " is not installed (scripts/setup browser)");
-const source = fs.readFileSync(`${ports}/${language}/koksma_sampler.${language}`, "utf8");
+const [source, keys] = ["sampler", "keys"].map(name => fs.readFileSync(`${ports}/${language}/koksma_${name}.${language}`, "utf8"));
+const numbers = ["", "_four", "_single"].flatMap(name => fs.readFileSync(`${ports}/../include/koksma/keys_4d${name}.def`, "utf8")
+  .replace(/\/\*[^]*?\*\//g, "").match(/\d+/g).map(Number)); // 128 x 104
 
 // Domain and index of draw k: of the vectors; and of sample 3 of 4,096 pixels, each in one use, in another, in the next pixel and in the
 // next frame.
@@ -44,31 +46,43 @@ const wgsl = {
 const fragment = draw => `#version 300 es
 precision highp float;
 precision highp int;
-${source}
+${source}${keys}
+uniform highp usampler2D numbers;
+uint koksma_key_at(uint i)
+{
+    return texelFetch(numbers, ivec2(i & 127u, i >> 7), 0).x;
+}
 layout(location = 0) out uvec4 first;
 layout(location = 1) out uvec4 second;
 layout(location = 2) out uvec4 third;
+layout(location = 3) out uvec4 fourth;
 void main()
 {
     uint k = uint(gl_FragCoord.y) * 1024u + uint(gl_FragCoord.x);${draw}
     first = uvec4(domain, koksma_pmj02(domain, index));
     second = koksma_sobol(domain, index);
     third = koksma_white(domain, index);
+    uint spp = 1u + k % 130u;
+    fourth = koksma_keys_4d(koksma_keys_of_4d(seed, k & 255u, k >> 8 & 255u, k % 5u, spp), index % spp);
 }`;
 
-const compute = draw => `${source}
+const compute = draw => `${source}${keys}
 @group(0) @binding(0) var<storage, read_write> words: array<vec4u>;
 @group(0) @binding(1) var<uniform> first: vec4u;
+@group(0) @binding(2) var<storage, read> numbers: array<u32>;
+fn koksma_key_at(i: u32) -> u32 { return numbers[i]; }
 @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u)
 {
     let k = first.x + id.x;${draw}
-    words[3u * id.x] = vec4u(domain, koksma_pmj02(domain, index));
-    words[3u * id.x + 1u] = koksma_sobol(domain, index);
-    words[3u * id.x + 2u] = koksma_white(domain, index);
+    words[4u * id.x] = vec4u(domain, koksma_pmj02(domain, index));
+    words[4u * id.x + 1u] = koksma_sobol(domain, index);
+    words[4u * id.x + 2u] = koksma_white(domain, index);
+    let spp = 1u + k % 130u;
+    words[4u * id.x + 3u] = koksma_keys_4d(koksma_keys_of_4d(seed, k & 255u, (k >> 8u) & 255u, k % 5u, spp), index % spp);
 }`;
 
 // In the page: what hashesOf or dependentOf makes of all draws by WebGL, or a reason why there are none.
-function byWebGL(text, what) {
+function byWebGL(text, what, numbers) {
   const gl = document.createElement("canvas").getContext("webgl2");
   if (!gl) return { missing: "no WebGL 2" };
   const program = gl.createProgram();
@@ -83,13 +97,18 @@ function byWebGL(text, what) {
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) return { wrong: gl.getProgramInfoLog(program) };
   gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
-  const targets = [0, 1, 2].map(k => gl.COLOR_ATTACHMENT0 + k);
+  const targets = [0, 1, 2, 3].map(k => gl.COLOR_ATTACHMENT0 + k);
   for (const target of targets) {
     const texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32UI, 1024, 1024);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, target, gl.TEXTURE_2D, texture, 0);
   }
+  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.R32UI, 128, 104);
+  gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 128, 104, gl.RED_INTEGER, gl.UNSIGNED_INT, Uint32Array.from(numbers));
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   gl.drawBuffers(targets);
   gl.viewport(0, 0, 1024, 1024);
   gl.useProgram(program);
@@ -103,22 +122,25 @@ function byWebGL(text, what) {
   return { found: window[what]((k, w) => words[w >> 2][4 * k + (w & 3)]) };
 }
 
-async function byWebGPU(text, what) {
+async function byWebGPU(text, what, numbers) {
   const adapter = navigator.gpu && await navigator.gpu.requestAdapter();
   if (!adapter) return { missing: "no WebGPU" };
   const device = await adapter.requestDevice();
   const shader = device.createShaderModule({ code: text });
   const { messages } = await shader.getCompilationInfo();
   if (messages.some(m => m.type === "error")) return { wrong: messages.map(m => `${m.lineNum}: ${m.message}`).join("\n") };
-  const size = 3 * 16 << 14, usage = GPUBufferUsage;
+  const size = 4 * 16 << 14, usage = GPUBufferUsage;
   const buffer = device.createBuffer({ size, usage: usage.STORAGE | usage.COPY_SRC });
   const pipeline = device.createComputePipeline({ layout: "auto", compute: { module: shader, entryPoint: "main" } });
-  const words = new Uint32Array(12 << 20), mask = (1 << 14) - 1;
+  const words = new Uint32Array(16 << 20), mask = (1 << 14) - 1;
   const constants = device.createBuffer({ size: 256 * 64, usage: usage.UNIFORM | usage.COPY_DST });
   device.queue.writeBuffer(constants, 0, Uint32Array.from({ length: 64 * 64 }, (_, k) => k % 64 ? 0 : k / 64 << 14));
+  const table = device.createBuffer({ size: 4 * numbers.length, usage: usage.STORAGE | usage.COPY_DST });
+  device.queue.writeBuffer(table, 0, Uint32Array.from(numbers));
   for (let block = 0; block < 64; block++) {
     const group = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries: [
-      { binding: 0, resource: { buffer } }, { binding: 1, resource: { buffer: constants, offset: 256 * block, size: 16 } }] });
+      { binding: 0, resource: { buffer } }, { binding: 1, resource: { buffer: constants, offset: 256 * block, size: 16 } },
+      { binding: 2, resource: { buffer: table } }] });
     const read = device.createBuffer({ size, usage: usage.COPY_DST | usage.MAP_READ });
     const encoder = device.createCommandEncoder(), pass = encoder.beginComputePass();
     pass.setPipeline(pipeline);
@@ -128,17 +150,17 @@ async function byWebGPU(text, what) {
     encoder.copyBufferToBuffer(buffer, 0, read, 0, size);
     device.queue.submit([encoder.finish()]);
     await read.mapAsync(GPUMapMode.READ);
-    words.set(new Uint32Array(read.getMappedRange()), 12 * (block << 14));
+    words.set(new Uint32Array(read.getMappedRange()), 16 * (block << 14));
     read.destroy();
   }
-  return { found: window[what]((k, w) => words[12 * k + w]) };
+  return { found: window[what]((k, w) => words[16 * k + w]) };
 }
 
-// In the page: for each block the hashes of domain, sobol, pmj02 and white. word(k, w) is word w of draw k.
+// In the page: for each block the hashes of domain, sobol, pmj02, white and keys. word(k, w) is word w of draw k.
 function hashesOf(word) {
   const rows = [];
   for (let block = 0; block < 64; block++) {
-    const h = [[0, 1], [4, 5, 6, 7], [2, 3], [8, 9, 10, 11]].map(of => {
+    const h = [[0, 1], [4, 5, 6, 7], [2, 3], [8, 9, 10, 11], [12, 13, 14, 15]].map(of => {
       let hash = 2166136261;
       for (let k = block << 14; k < block + 1 << 14; k++) for (const w of of) hash = Math.imul(hash ^ word(k, w), 16777619);
       return (hash >>> 0).toString(16).padStart(8, "0");
@@ -174,8 +196,8 @@ function dependentOf(word) {
   await page.route("https://koksma.invalid/", route => route.fulfill({ contentType: "text/html", body: "" })); /* WebGPU asks for https */
   await page.goto("https://koksma.invalid/");
   await page.addScriptTag({ content: hashesOf.toString() + dependentOf });
-  const drawn = what => page.evaluate(language === "glsl" ? `(${byWebGL})(${JSON.stringify(fragment(glsl[what]))}, "${what}")`
-    : `(${byWebGPU})(${JSON.stringify(compute(wgsl[what]))}, "${what}")`);
+  const drawn = what => page.evaluate(language === "glsl" ? `(${byWebGL})(${JSON.stringify(fragment(glsl[what]))}, "${what}", [${numbers}])`
+    : `(${byWebGPU})(${JSON.stringify(compute(wgsl[what]))}, "${what}", [${numbers}])`);
   const result = await drawn("hashesOf");
   let shown = "", dependent;
   if (result.found) {

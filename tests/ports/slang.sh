@@ -6,7 +6,7 @@ slangc=${KOKSMA_SLANGC:-slangc}
 command -v "$slangc" >/dev/null || { echo "no slangc"; exit 77; }
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
-"$slangc" "$1/tests/ports/vectors.slang" -I "$1/ports/slang" -warnings-as-errors all -target cpp -o "$folder/slang_vectors.cpp" || exit 1
+"$slangc" "$1/tests/ports/vectors.slang" -I "$1/ports/slang" -I "$1/include/koksma" -warnings-as-errors all -target cpp -o "$folder/slang_vectors.cpp" || exit 1
 mv "$folder/slang_vectors.cpp" "$folder/slang_vectors.h"
 ${CXX:-c++} -std=c++17 -O1 -w -I"$folder" -o "$folder/vectors" "$1/tests/ports/slang.cpp" -lpthread || exit 1
 "$folder/vectors" | cmp - "$1/ports/vectors.txt" || exit 1

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of tests/ports/vectors.c by the Rust port, which rust.sh compares with ports/vectors.txt, after a check that
 // uses, pixels and frames are independent.
+#[path = "../../ports/rust/koksma_keys.rs"]
+mod koksma_keys;
 #[path = "../../ports/rust/koksma_sampler.rs"]
 #[allow(dead_code)]
 mod koksma_sampler;
+use koksma_keys::Keys;
 use koksma_sampler::{seed_of_frame, to_float, Domain};
 
 fn hashed(h: u32, words: &[u32]) -> u32 {
@@ -44,9 +47,9 @@ fn check_domains() {
 fn main() {
     check_domains();
     assert!(to_float(1.0 - 1e-12) < 1.0);
-    println!("# Made by tests/ports/vectors.c, which says of what. block domain sobol pmj02 white");
+    println!("# Made by tests/ports/vectors.c, which says of what. block domain sobol pmj02 white keys");
     for block in 0..64u32 {
-        let mut h = [2166136261u32; 4];
+        let mut h = [2166136261u32; 5];
         for k in block << 14..(block + 1) << 14 {
             let seed = seed_of_frame(0x0123456789abcdef ^ (k >> 18) as u64, k >> 16 & 3);
             let domain = Domain::of_pixel(seed, k & 255, k >> 8 & 255).of_use(k % 5).of_sample(k % 3);
@@ -57,7 +60,10 @@ fn main() {
             h[1] = hashed(h[1], &words(&sobol));
             h[2] = hashed(h[2], &words(&domain.pmj02(index)));
             h[3] = hashed(h[3], &words(&domain.white(index)));
+            let spp = 1 + k % 130;
+            let keys = Keys::of_4d(seed, k & 255, k >> 8 & 255, k % 5, spp);
+            h[4] = hashed(h[4], &words(&keys.sample_4d(index % spp)));
         }
-        println!("{} {:08x} {:08x} {:08x} {:08x}", block, h[0], h[1], h[2], h[3]);
+        println!("{} {:08x} {:08x} {:08x} {:08x} {:08x}", block, h[0], h[1], h[2], h[3], h[4]);
     }
 }
