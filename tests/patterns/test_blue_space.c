@@ -219,12 +219,12 @@ static double mean_smallest(const char *spec, size_t n, int dim, uint64_t sets)
 TEST_CASE(blue_noise_keeps_apart_in_all_dimensions)
 {
     const size_t counts[] = {0, 0, 200, 100, 100, 64, 64, 300, 500};
-    for (int dim = 2; dim <= 8; dim++) {
-        const size_t n = TEST_FEW ? 40 : counts[dim];
+    for (int dim = 2; dim <= test_repeats(8, 3); dim++) {
+        const size_t n = test_repeats(counts[dim], 40);
         const double random = mean_smallest("random", n, dim, 24);
         const koksma_pattern *p;
         for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
-            if (!(p->claims & KOKSMA_CLAIM_BLUE) || dim < p->min_dim || dim > p->max_dim || (TEST_FEW && dim > 4)) {
+            if (!(p->claims & KOKSMA_CLAIM_BLUE) || dim < p->min_dim || dim > p->max_dim) {
                 continue;
             }
             char text[64];
