@@ -129,7 +129,8 @@ void koksma__medium_transmittance(const koksma__medium *m, const float o[3], con
 {
     const stretch inside = stretch_of(m, o, d, end);
     for (int k = 0; k < 3; k++) {
-        out[k] = (float)koksma__exp(-extinction(m, k) * inside.length);
+        const bool same = k > 0 && extinction(m, k) == extinction(m, k - 1);
+        out[k] = same ? out[k - 1] : (float)koksma__exp(-extinction(m, k) * inside.length);
     }
 }
 
@@ -163,14 +164,13 @@ bool koksma__medium_sample(const koksma__medium *m, const float o[3], const floa
     const double s = chosen > 0 ? -koksma__log(1 - rest) / chosen : (double)INFINITY;
     const bool scatters = s < inside.length;
     double passed[3], density = 0;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3 && !grey; k++) {
         passed[k] = koksma__exp(-extinction(m, k) * (scatters ? s : inside.length));
-        density += grey ? 0 : share[k] * (scatters ? extinction(m, k) : 1) * passed[k];
+        density += share[k] * (scatters ? extinction(m, k) : 1) * passed[k];
     }
     for (int k = 0; k < 3; k++) {
-        weight[k] = (float)(grey && scatters ? m->scattering[k] / chosen
-                            : grey           ? 1
-                                             : (scatters ? m->scattering[k] : 1) * passed[k] / density);
+        weight[k] = (float)(grey ? (scatters ? m->scattering[k] / chosen : 1)
+                                 : (scatters ? m->scattering[k] : 1) * passed[k] / density);
     }
     *t = scatters ? (float)(inside.first + s / inside.speed) : 0;
     return scatters;
