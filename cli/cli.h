@@ -145,6 +145,9 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
    cli_known_as does. Returns how much of the error's text stays before it. */
 int cli_explain(const cli_arguments *arguments, koksma_status status, const char *text, char known[CLI_KNOWN]);
 
+/* What would work where a command has an error of this text; "": unknown. */
+const char *cli_remedy(const char *command, const char *text);
+
 /* Prints that `word` is no command, and what it is or means; `command`: as in cli_say. */
 void cli_no_command(const char *command, const char *word);
 

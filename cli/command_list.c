@@ -339,8 +339,9 @@ static int run(const cli_arguments *arguments)
             return cli_usage_error(arguments, "no list '%s'%s", which, known);
         }
         cli_list_names(", ", names, sizeof names);
-        return cli_usage_error(arguments, "%sit takes one of %s", found ? "" : cli_meant_of(which, names, meant),
-                               names);
+        return found ? cli_usage_error(arguments, "it prints all %s, and '%s' is one operand more", which,
+                                       arguments->operands[1])
+                     : cli_usage_error(arguments, "%sit takes one of %s", cli_meant_of(which, names, meant), names);
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {

@@ -3,6 +3,7 @@
    the meaning of one of other programs, or a name or file that belongs elsewhere. */
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <koksma/integrate.h>
@@ -81,6 +82,7 @@ static const struct {
     {"precision", {"digits"}},
     {"replicates", {"trials"}},
     {"repeat", {"trials"}},
+    {"seeds", {"trials", "max-trials"}},
     {"ref", {"reference"}},
     {"out", {"output"}},
     {"file", {"output"}},
@@ -109,6 +111,11 @@ static const struct {
     {"gpu", "it runs on processors alone; "},
     {"scramble", "it is a parameter of patterns, as in sobol:scramble=owen; "},
     {"scrambling", "it is a parameter of patterns, as in sobol:scramble=owen; "},
+    {"format", "the ending of the file's name chooses it; "},
+    {"scale", "coordinates are divided in the file; "},
+    {"sigma", "it is a parameter of filters, as in gaussian:sigma=1; "},
+    {"pattern", "'koksma list patterns' names patterns; "},
+    {"patterns", "'koksma list patterns' names patterns; "},
 };
 
 /* What names stand for, and a command that takes one, or an option, if the command has it. */
@@ -122,6 +129,7 @@ NAME(pattern, koksma_pattern_at(i) ? koksma_pattern_at(i)->name : NULL)
 NAME(measure, koksma_measure_at(i) ? koksma_measure_at(i)->name : NULL)
 NAME(scene, koksma_scene_name_at(i))
 NAME(integrand, koksma_integrand_at(i) ? koksma_integrand_at(i)->name : NULL)
+NAME(use, koksma_use_at(i) ? koksma_use_at(i)->name : NULL)
 NAME(curve, cli_curve_at(i) ? cli_curve_at(i)->name : NULL)
 
 static const struct {
@@ -134,6 +142,7 @@ static const struct {
     {integrand, "an integrand", "", "koksma integrate ", " -p sobol -n 16"},
     {cli_integrator_name, "an integrator", "integrator", "koksma rank ball --integrator ", ""},
     {curve, "a curve", "curve", "koksma curve ", " sobol@64"},
+    {use, "a use", "", "koksma render ball -p ", "=sobol"},
     {cli_command_name, "a command", "", "koksma ", " --help"},
 };
 
@@ -218,6 +227,11 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
         snprintf(text, CLI_KNOWN, "; it begins with a long dash, options begin with -");
         return text;
     }
+    struct stat info;
+    if (!stat(word, &info) && S_ISDIR(info.st_mode)) {
+        snprintf(text, CLI_KNOWN, "; '%s' is a folder", word);
+        return text;
+    }
     for (size_t i = 0; dot && dot[1] && i < sizeof files / sizeof *files && !access(word, R_OK); i++) {
         const char *at = strstr(files[i].endings, dot);
         if (at && (!at[strlen(dot)] || at[strlen(dot)] == ' ')) {
@@ -255,6 +269,69 @@ int cli_explain(const cli_arguments *arguments, koksma_status status, const char
     char name[CLI_KNOWN];
     snprintf(name, sizeof name, "%.*s", end ? (int)(end - word) : 0, word);
     return *cli_known_as(arguments, name, known) && quote ? (int)(end + 1 - text) : (int)strlen(text);
+}
+
+/* What part of an error's text is about, in a command or (NULL) all, and what would work. */
+static const struct {
+    const char *command, *says, *remedy;
+} remedies[] = {
+    {NULL, "can't be written: it is a directory", "add the name of a file"},
+    {NULL, "its folder isn't there", "mkdir -p makes it"},
+    {"measure", "can't be read: it is a directory", "name the files in it, as in folder/*"},
+    {NULL, "--dim 0.", "a distance is a parameter, as in poisson-disk:d=0.2"},
+    {NULL, ": no parameter 'seed'", "the seed is an option, as in --seed 7"},
+    {NULL, "not float16, float32", "numpy.asarray(points, float) has such a type"},
+    {NULL, "the shape is not (n,) or (n, dim)", "a file has one set"},
+    {NULL, "coordinate nan is", "is a value missing?"},
+    {NULL, ", but the file has ", "was it cut off?"},
+    {NULL, "no points in the file", "are all lines comments?"},
+    {"datasheet", "is outside [0,1]", "divide coordinates by the size"},
+    {"atlas", "is outside [0,1]", "divide coordinates by the size"},
+    {NULL, "'%PDF-", "it is a PDF"},
+    {NULL, "'v' is not a number", "is it a model?"},
+    {NULL, "'&' is not a number", "the marks of LaTeX, & and \\\\, have to go"},
+    {NULL, "is not a whole number below 2^64", "a file of points is file:PATH"},
+    {NULL, ", but --at ", "a point has commas, as in 0.5,0.5"},
+    {NULL, "--time-limit ", "seconds, as in 60"},
+    {NULL, "--output goes with power", "--format csv prints the others"},
+    {NULL, "--output: it takes power of one", "'koksma plot --curve power' draws several"},
+    {NULL, "--warp disk", "concentric-disk and polar-disk map to it"},
+    {NULL, "--curve spectrum", "power is the spectrum"},
+    {"integrate", "no integrand '", "--with takes a program for one's own"},
+    {"integrate", "are more than --max-points", "raise that, or lower -n"},
+    {"optimise", "which differs from -n or -d", "leave these out"},
+    {NULL, "no built-in plan", "'koksma list plans' names them"},
+    {NULL, " values for ", "a number a line, one for each point"},
+    {NULL, "is no number: '", "a number a line, one for each point"},
+    {NULL, "coordinate that the points do not have", "coordinates count from 0, as in 0+1"},
+    {NULL, "files have no numbers of 8 bits", ".png and .raw have"},
+    {NULL, "expected near end of file", "is it empty, or cut off?"},
+    {NULL, "string or '}' expected near ','", "is there a comma too many?"},
+    {NULL, "mismatched tag", "each <tag> ends by </tag> or />"},
+    {NULL, ": comment: unknown field; it has title", "a scene has 'note'; a plan is run by 'koksma study run'"},
+    {NULL, ": name: unknown field; it has title", "a plan is run by 'koksma study run'"},
+    {"study", "image: unknown field", "a scene is rendered by 'koksma render'"},
+    {"study", "'[' or '{' expected", "a scene is rendered by 'koksma render'"},
+    {NULL, ".material: it takes a text", "the name of one in 'materials'"},
+    {NULL, "clamp: 0 is not", "without it nothing is clamped"},
+    {NULL, ".albedo[0]: ", "colours of 0 to 255 are divided by 255"},
+    {NULL, ": no material '", "'materials' has to have it"},
+    {NULL, "no kind 'diffuse'", "it is lambert here"},
+    {NULL, "no kind 'matte'", "it is lambert here"},
+    {NULL, "no kind 'glass'", "it is dielectric here"},
+    {NULL, "no kind 'metal'", "it is conductor here"},
+    {NULL, "no kind 'cube'", "it is box here"},
+};
+
+const char *cli_remedy(const char *command, const char *text)
+{
+    size_t i = 0;
+    const size_t n = sizeof remedies / sizeof *remedies;
+    while (i < n &&
+           ((remedies[i].command && strcmp(remedies[i].command, command) != 0) || !strstr(text, remedies[i].says))) {
+        i++;
+    }
+    return i < n ? remedies[i].remedy : "";
 }
 
 void cli_no_command(const char *command, const char *word)

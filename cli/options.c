@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * Parses a command line by the command's table of options (getopt_long), prints the table as --help, and reports
- * errors of the command line.
- */
+/* Parses a command line by the command's table of options (getopt_long), prints the table as --help, and reports errors
+   of the command line. */
 #include "cli.h"
 
 #include <errno.h>
@@ -231,9 +229,10 @@ static bool take_format(const cli_arguments *arguments)
 static int read_shared_options(cli_arguments *arguments)
 {
     uint64_t digits = CLI_DIGITS;
-    for (int i = 0; arguments->command->options[i].name; i++) {
-        const char *argument = arguments->command->options[i].argument, *value = arguments->values[i];
-        if (is_empty_name(arguments, &arguments->command->options[i], value)) {
+    const cli_option *options = arguments->command->options;
+    for (int i = 0; options[i].name; i++) {
+        const char *argument = options[i].argument, *value = arguments->values[i];
+        if (is_empty_name(arguments, &options[i], value)) {
             return CLI_USAGE;
         }
         if (value && argument && !strncmp(argument, "FILE.", 5) && !cli_ending_fits(arguments, argument, value)) {
@@ -243,7 +242,7 @@ static int read_shared_options(cli_arguments *arguments)
     if (!cli_keeps_inputs(arguments)) {
         return CLI_USAGE;
     }
-    if (cli_option_of(arguments->command->options, "digits")) {
+    if (cli_option_of(options, "digits")) {
         if (!cli_whole(arguments, "digits", CLI_DIGITS, 1, 17, &digits)) {
             return CLI_USAGE;
         }
@@ -252,7 +251,7 @@ static int read_shared_options(cli_arguments *arguments)
             return CLI_USAGE;
         }
     }
-    if (cli_option_of(arguments->command->options, "allow-exec")) {
+    if (cli_option_of(options, "allow-exec")) {
         double seconds;
         const bool allowed = cli_flag(arguments, "allow-exec");
         if (!cli_real(arguments, "exec-seconds", 60, 1e-3, 86400, &seconds)) {
@@ -265,16 +264,15 @@ static int read_shared_options(cli_arguments *arguments)
         }
         koksma_allow_exec(allowed ? seconds : 0);
     }
-    if (cli_option_of(arguments->command->options, "unknown")) {
+    if (cli_option_of(options, "unknown")) {
         int refuse = 0;
         if (!cli_choice(arguments, "unknown", &refuse)) {
             return CLI_USAGE;
         }
         koksma_scene_refuse_unknown(refuse);
     }
-    return cli_option_of(arguments->command->options, "patterns") && cli_option_of(arguments->command->options, "n")
-               ? cli_sources_expand(arguments)
-               : CLI_YES;
+    return cli_option_of(options, "patterns") && cli_option_of(options, "n") ? cli_sources_expand(arguments)
+                                                                             : CLI_YES;
 }
 
 int cli_run(const cli_command *command, int argc, char **argv)
@@ -469,10 +467,13 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
     char *end;
     const double value = strtod(text, &end);
     if (end == text || *end || !(value >= min && value <= max)) {
+        char percent[64];
+        const bool is_percent = strchr(text, '%') || (max <= 1 && value > 1 && value <= 100);
+        snprintf(percent, sizeof percent, "; %.4g %% is %.4g", value, value / 100);
         cli_usage_error(arguments, "--%s %s: it takes a number from %g to %g%s", name, text, min, max,
-                        strchr(text, '%') || (max <= 1 && value > 1 && value <= 100) ? "; 1 % is 0.01"
-                        : end > text && *end                                         ? ", without a unit"
-                                                                                     : "");
+                        is_percent           ? percent
+                        : end > text && *end ? ", without a unit"
+                                             : "");
         return false;
     }
     *out = value;
@@ -489,21 +490,16 @@ const char *cli_one_line(const char *text)
     return line;
 }
 
-static void put_line(const char *command, const char *format, va_list list)
-{
-    char text[4096];
-    vsnprintf(text, sizeof text, format, list);
-    koksma_text_escape(text, sizeof text);
-    cli_work_end();
-    fprintf(stderr, *command ? "koksma %s: %s\n" : "koksma%s: %s\n", command, text);
-}
-
 void cli_say(const char *command, const char *format, ...)
 {
     va_list list;
+    char text[4096];
     va_start(list, format);
-    put_line(command, format, list);
+    vsnprintf(text, sizeof text, format, list);
     va_end(list);
+    koksma_text_escape(text, sizeof text);
+    cli_work_end();
+    fprintf(stderr, *command ? "koksma %s: %s\n" : "koksma%s: %s\n", command, text);
 }
 
 /* Whether this is another MPI rank than 0 of a command whose ranks work together. All of them find the same mistake in
@@ -514,26 +510,35 @@ static bool is_other_rank(const cli_arguments *arguments)
     return (!strcmp(name, "study") || !strcmp(name, "reproduce")) && koksma_study_mpi_rank() > 0;
 }
 
+static void say_error(const cli_arguments *arguments, const char *text)
+{
+    const char *command = arguments->command->name, *remedy = cli_remedy(command, text);
+    cli_say(command, "%s%s%s", text, !*remedy ? "" : text[strlen(text) - 1] == '?' ? " " : "; ", remedy);
+}
+
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...)
 {
     va_list list;
+    char text[4096];
     complained = true;
     if (is_other_rank(arguments)) { /* mpirun may end all ranks once one has failed: rank 0 has time to say why */
         nanosleep(&(struct timespec){.tv_sec = 5}, NULL);
         return CLI_USAGE;
     }
     va_start(list, format);
-    put_line(arguments->command->name, format, list);
+    vsnprintf(text, sizeof text, format, list);
     va_end(list);
+    say_error(arguments, text);
     return CLI_USAGE;
 }
 
 int cli_fail(const cli_arguments *arguments, koksma_status status)
 {
-    char known[CLI_KNOWN];
+    char known[CLI_KNOWN], all[4096];
     const char *text = koksma_error_text();
     complained = true;
-    cli_say(arguments->command->name, "%.*s%s", cli_explain(arguments, status, text, known), text, known);
+    snprintf(all, sizeof all, "%.*s%s", cli_explain(arguments, status, text, known), text, known);
+    say_error(arguments, all);
     return koksma_status_exit_code(status);
 }
 

@@ -42,10 +42,10 @@ bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_inte
     *integrator = koksma_integrator_find(integrator_name);
     *filter = koksma_filter_find(filter_name);
     if (!*integrator) {
-        cli_usage_error(arguments, "--integrator %s: %s'koksma list integrators' names them", integrator_name,
+        cli_usage_error(arguments, "no integrator '%s'; %s'koksma list integrators' names them", integrator_name,
                         cli_meant(integrator_name, cli_integrator_name, NULL, meant));
     } else if (!*filter) {
-        cli_usage_error(arguments, "--filter %s: %s'koksma list filters' names them", filter_name,
+        cli_usage_error(arguments, "no filter '%s'; %s'koksma list filters' names them", filter_name,
                         cli_meant(filter_name, cli_filter_name, NULL, meant));
     }
     return *integrator && *filter;

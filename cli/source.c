@@ -149,6 +149,8 @@ static const char *hint(const cli_arguments *arguments, const char *operand, cha
         snprintf(text, size, "; it takes one name, and is given again for another");
     } else if (koksma_measure_find(name)) {
         snprintf(text, size, "; measures follow -m, with commas between them");
+    } else if (strpbrk(operand, "*?{")) {
+        snprintf(text, size, "; no file matches it");
     } else if (access(operand, F_OK)) {
         cli_known_as(arguments, operand, text);
     }

@@ -20,10 +20,11 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
     KOKSMA__TRY(koksma__spec_split(text, name, &rest));
     const koksma_pattern *pattern = koksma_pattern_find(name);
     if (!pattern) {
-        char hint[sizeof name + 64] = "'koksma list patterns' names them";
+        char hint[sizeof name + 64] = "'koksma list patterns' names them", head[sizeof name];
+        snprintf(head, sizeof head, "%.*s", (int)strcspn(name, ", "), name);
         if (strpbrk(name, "./{")) { /* no pattern's name contains these characters */
             snprintf(hint, sizeof hint, "points in a file are a pattern, as in file:%s", name);
-        } else if (strpbrk(name, "()[]?")) {
+        } else if (strpbrk(name, "()[]?") || (koksma_pattern_find(head) && strchr(name, '='))) {
             strcpy(hint, "parameters follow a colon, as in sobol:scramble=owen");
         }
         return koksma__fail_unknown("pattern", name, koksma_pattern_name_at, NULL, hint);

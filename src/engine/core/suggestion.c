@@ -182,5 +182,5 @@ koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_na
         }
     }
     return koksma__fail(KOKSMA_UNKNOWN, "no %s '%s'; %s%s", what, word, koksma__meant(word, name, table, meant),
-                        where);
+                        strchr(word, ',') && !strchr(word, '=') ? "one name is taken here, no list" : where);
 }

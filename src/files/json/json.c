@@ -283,7 +283,14 @@ static const char *key_at(const void *keys, size_t i)
 
 static koksma_status fail_unknown_field(const koksma__json_node *member, const char *key, const char *const *keys)
 {
+    static const char *const foreign[][2] = {{"position", "eye"},   {"origin", "eye"},    {"from", "eye"},
+                                             {"look_at", "target"}, {"lookat", "target"}, {"to", "target"}};
     const char *closest = koksma_closest_name(key, key_at, keys);
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) { /* names of other renderers */
+        for (size_t k = 0; keys[k] && !strcmp(key, foreign[i][0]); k++) {
+            closest = strcmp(keys[k], foreign[i][1]) ? closest : keys[k];
+        }
+    }
     if (closest) {
         return koksma__json_fail(member, "unknown field; did you mean '%s'?", closest);
     }
