@@ -60,24 +60,47 @@ _MEANT = {  # what others call an argument, and what functions of this package c
     "path": "file filename fname out output path", "out": "output result buffer out", "trials": "repeats replicates n_trials runs n_seeds trials",
     "reference": "ref truth ground_truth reference", "a": "image test first a", "b": "reference image second b",
     "first": "start skip offset fast_forward first", "scene": "file path filename scene",
-    "function": "f fun func integrand function",
+    "function": "f fun func integrand function", "steps": "iterations n_iter niter max_iter iters steps",
 }
 _PARTS = {  # what is no argument here, but a part of a spec
     "scramble": 'is a part of the pattern: "NAME:scramble=owen"', "shift": 'is a part of the pattern: "korobov,shift=1"',
-    "trials": "is of koksma.trials(pattern, n, measure)",
+    "trials": "is of koksma.trials(pattern, n, measure)", "optimise.method": "is chosen by the measure",
+    "radius": 'is a part of the pattern: "poisson-disk:d=0.1"', "r": 'is a part of the pattern: "poisson-disk:d=0.1"',
     "optimization": "is koksma.optimise(measure, n, d)", "bits": 'is a part of the pattern; koksma.patterns() has its parameters',
 }
 
 
 def hint_of_argument(name: str, function: "Callable[..., Any]") -> str:
     """The end of a message on an argument that a function lacks."""
-    word, known = name.lower(), [p for p in inspect.signature(function).parameters if p not in ("self", "cls")]
+    own = f"{function.__name__}.{name}"
+    word = own if own in _PARTS else name.lower()
+    known = [p for p in inspect.signature(function).parameters if p not in ("self", "cls")]
     meant = [k for k, others in _MEANT.items() if k in known and word in others.split()]
     near = meant or get_close_matches(word, known, 1)
     if word in ("output", "path", "out", "file") and not meant and function.__name__ in ("render", "datasheet", "plot"):
         return "; write_image(path, image) writes it" if function.__name__ == "render" else "; the method save(path) of its result writes it"
     return (f"; {name} {_PARTS[word]}" if word in _PARTS and not meant else f"; did you mean {near[0]}?" if near
             else f"; it takes {', '.join(known)}")
+
+
+_REMEDIES = (  # what a function ("": any) says, with FIRST for the name of its first argument, and what would work
+    ("", r"coordinate -.* is outside \[0,1\]", "points of [-0.5,0.5] are x + 0.5 here, those of [-1,1] (x + 1) / 2"),
+    ("", r"is outside \[0,1\]", "points lie in the unit cube: divide by the largest coordinate there can be"),
+    ("", r"scene must be a str, not <", "give its path"),
+    ("", r"scene must be a str, not {", "a scene of one's own is a JSON file"),
+    ("verify", r"takes 1 positional argument", "it tests all properties: [f for f in verify(points) if f.property == ...]"),
+    ("verify_sets", r"shape", "it takes several sets, verify(points) takes one"),
+    ("integrate", r"returned the shape", "the points are rows: x[:, 0] * x[:, 1], and a sum takes axis=1"),
+    ("integrate", r"^FIRST\(\) missing \d+ required positional", "it takes one array of shape (n, dim): x[:, 0], x[:, 1]"),
+    ("integrate", r"no integrand", "koksma.integrands() names them; a function of one's own is one of Python"),
+    ("mask_quality", r"those of scalar are 0 to 1", "divide values of 0 to 255 by 255"),
+    ("mask_quality", r"must be an array of numbers, not '", "read_mask(path) reads a file"),
+    ("rank", r"spp must be an int, not \[", "call it for each number"),
+    ("rank", r"patterns must be a list of texts, not 'all'", "[p.name for p in koksma.patterns()] is one of all"),
+    ("plot_compare", r"pattern must be a str, not \[", "plot(a, b) draws several sets"),
+    ("warp_points", r"no warp 'disk'", "concentric-disk and polar-disk map to it"),
+    ("", r"^(?:patterns|measures|integrands|metrics|warps|scenes)\(\) takes 0 positional", "it lists all; each has a name"),
+)
 
 
 _TEXTS = ("pattern", "measure", "measures", "path", "scene", "metrics", "sampler")
@@ -99,10 +122,13 @@ def hint_of_values(message: str, function: "Callable[..., Any]", values: Sequenc
                 else "; a set of one's own is a file, 'file:PATH'")
     if function.__name__ == "plot" and len(values) > 1 and any(isinstance(value, str) for value in values):
         return "; plot(points).save(path) writes a file"
-    if function.__name__ == "verify_sets" and "shape" in message:
-        return "; it takes several sets, verify(points) takes one"
-    if "is outside [0,1]" in message and ";" not in message:
-        return "; points lie in the unit cube: divide by the largest coordinate there can be"
+    if re.search(r"takes from \d+ to \d+ positional", message):
+        order = [p.name for p in inspect.signature(function).parameters.values() if p.kind == p.POSITIONAL_OR_KEYWORD]
+        return f"; the order is {function.__name__}({', '.join(order)}), the others have names"
+    first = re.escape(getattr(values[0], "__qualname__", " ")) if values else " "
+    for of, says, remedy in _REMEDIES:
+        if of in ("", function.__name__) and re.search(says.replace("FIRST", first), message) and (of or ";" not in message):
+            return f"; {remedy}"
     found = re.match(r"no (\w+) '([^']*)'", message)
     if not found:
         return ""
@@ -111,7 +137,7 @@ def hint_of_values(message: str, function: "Callable[..., Any]", values: Sequenc
         return f"; [x.name for x in koksma.{kind}s()] is a list of all"
     if "@" in word and kind == "pattern":
         return f"; the number is an argument of its own: {word.split('@')[0]!r}, {word.split('@')[1]}"
-    if "," in word and kind in ("pattern", "measure", "metric"):
+    if "," in word and "=" not in word and kind in ("pattern", "measure", "metric"):
         return f"; several are a list: {word.replace(' ', '').split(',')}"
     families = (("pattern", [p.name for p in patterns()]), ("measure", [m.name for m in measures()]), ("scene", scenes()))
     of = [what for what, names in families if what != kind in ("pattern", "measure", "scene") and word in names]

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _structs as s
 from ._frame import Framed
 from ._library import (ArgumentError, Seed, call, check, core, first_seed, flag, quoted, real, several, sizes_of, spec, text,
-                       whole)
+                       whole, warn_of_one_set)
 from ._points import Member, PointArray, as_points, canonical, generate, numbers, table, view
 from ._tolerance import Integral, integrate_to
 
@@ -120,7 +120,9 @@ class Integration(Framed):
         several = "" if len(self.sizes) == 1 else f"..{self.sizes[-1]}"
         slope = "" if math.isnan(self.slope) else f", slope {self.slope:.3f} ({self._slope_interval()})"
         error = f"rmse {self.rmse[-1]:.3g}"
-        if math.isnan(self.rmse[-1]):  # one set, of which a second trial is the same, and no integral
+        if not math.isfinite(self.mean[-1]):
+            error = f"mean {self.mean[-1]}: a value of the function is not finite"
+        elif math.isnan(self.rmse[-1]):  # one set, of which a second trial is the same, and no integral
             error = f"mean {self.mean[-1]:.6g}; its error takes integral=, or a pattern that depends on the seed"
         return f"Integration({self.integrand!r}, {self.pattern!r}, n={self.sizes[0]}{several}: {error}{slope})"
 
@@ -368,10 +370,12 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
                             interval=interval, confidence=confidence, replicates=replicates, max_points=max_points,
                             value_range=value_range, bounds=bounds, warp=warp, resume=resume, seed=seed, threads=threads)
     numbers_given = real("confidence", confidence), whole("max_points", max_points, 2, 1 << 40)
-    if flag("relative", relative) or numbers_given != (0.95, 1 << 24) or any(
-            x is not None for x in (estimator, interval, replicates, value_range, bounds, warp, resume)):
-        raise TypeError("relative, estimator, interval, confidence, replicates, max_points, value_range, bounds, warp and resume have "
-                        "an effect only with a tolerance")
+    given = {"relative": flag("relative", relative), "confidence": numbers_given[0] != 0.95, "max_points": numbers_given[1] != 1 << 24}
+    for name, value in dict(estimator=estimator, interval=interval, replicates=replicates, value_range=value_range, bounds=bounds,
+                            warp=warp, resume=resume).items():
+        given[name] = value is not None
+    for name in (name for name, is_given in given.items() if is_given):
+        raise TypeError(f"{name} has an effect only with a tolerance, integrate(..., tolerance=1e-3)")
     if pattern is None:
         raise TypeError("pattern must be a str or points, or tolerance a number")
     sizes: List[int]
@@ -388,6 +392,8 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
         sizes = sizes_of("n", _each("n", n))
     dim, trials = whole("dim", dim, 1, s.MAX_DIM), whole("trials", trials, 1, 1000000)
     if isinstance(source, str) and core().koksma_has_one_set(byref(spec("pattern", source))):
+        if trials != 32 or seed != 0:
+            warn_of_one_set(source)
         trials = 1
     seed = first_seed(seed, trials)
     if not 1 <= len(sizes) <= s.MAX_SIZES:

@@ -85,7 +85,32 @@ class Vocabulary(unittest.TestCase):
             self.assertIn(said, str(caught.exception))
             self.assertIsNone(caught.exception.__cause__)
 
+    def test_a_wrong_value_is_answered_by_its_remedy(self):
+        points = koksma.generate("random", 16)
+        for function, values, named, said in (
+                (koksma.measure, [points - 0.5, "star"], {}, "x + 0.5"), (koksma.measure, [points * 512, "star"], {}, "divide by"),
+                (koksma.verify, [points, "latin"], {}, "f.property"), (koksma.integrate, [lambda x: x[0] * x[1], "random", 16], {}, "x[:, 0]"),
+                (koksma.integrate, [lambda x, y: x * y, "random", 16], {}, "one array"), (koksma.integrate, ["x*y", "random", 16], {}, "Python"),
+                (koksma.integrate, ["disk", "random", 16], {"estimator": "mean"}, "estimator has an effect only with a tolerance"),
+                (koksma.mask_quality, [np.arange(16.0).reshape(4, 4)], {}, "by 255"), (koksma.mask_quality, ["m.png"], {}, "read_mask(path)"),
+                (koksma.generate, ["random", 16, 2, 3, 4], {}, "the order is generate(pattern, n, dim, seed)"),
+                (koksma.generate, ["sobol,scramble=owen", 16], {}, "follow a colon"), (koksma.warp_points, [points, "disk"], {}, "concentric-disk"),
+                (koksma.optimise, ["star", 8], {"method": "x"}, "chosen by the measure"), (koksma.rank, ["ball"], {"spp": [4, 16]}, "for each number"),
+                (koksma.render, [{}], {}, "JSON"), (koksma.patterns, ["sobol"], {}, "lists all"), (koksma.plot_compare, [[points]], {}, "plot(a, b)")):
+            with self.assertRaises((TypeError, koksma.ArgumentError)) as caught:
+                function(*values, **named)
+            self.assertIn(said, str(caught.exception))
+        with self.assertWarnsRegex(UserWarning, "one set, whatever the seed"):
+            koksma.integrate("disk", "sobol", 16, seed=3)
+        self.assertIn("not finite", repr(koksma.integrate(lambda x: x[:, 0] * np.nan, "random", 16)))
+        self.assertIn("nothing to rank it against", repr(koksma.rank("ball", patterns=["random"], spp=1, size=(8, 6), max_trials=8)))
+
     def test_errors_of_a_users_function_stay(self):
+        def helper(x, y):
+            return x + y
+        with self.assertRaisesRegex(TypeError, "argument: 'y'$"):
+            koksma.integrate(lambda x: helper(x), "random", 4)
+
         def of_user(x):
             return dict(x).update(1, unexpected=int("1", bass=2))
         with self.assertRaises(TypeError) as caught:
