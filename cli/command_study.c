@@ -194,7 +194,7 @@ static int run_plans(const cli_arguments *arguments)
 
 static int export_rows(const cli_arguments *arguments)
 {
-    static const char *const formats[] = {"csv", "json", "npy", "sha256", NULL};
+    static const char *const formats[] = {"csv", "json", "sha256", NULL};
     const char *path = cli_text(arguments, "output", "-");
     const bool given = cli_text(arguments, "format", NULL) != NULL;
     const char *name = given ? "" : ending_of(path);
@@ -206,7 +206,7 @@ static int export_rows(const cli_arguments *arguments)
         format++;
     }
     if (!formats[format]) {
-        return cli_usage_error(arguments, "%s: the name of an export must end in .csv, .json, .npy or .sha256", path);
+        return cli_usage_error(arguments, "%s: the name of an export must end in .csv, .json or .sha256", path);
     }
     if (!cli_choice(arguments, "format", &format)) {
         return CLI_USAGE;
@@ -303,7 +303,7 @@ static const cli_option options[] = {
     {0, "time-limit", "S", "run: stop after S seconds, with exit code 1 if jobs remain (default: 0, no limit)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
     {'s', "seed", "SEED", "audit: seed of the random draw (default: a random one, which is printed)"},
-    {0, "format", "csv|json|npy|sha256",
+    {0, "format", "csv|json|sha256",
      "export: the format; json: one object per line (default: by the file's ending, else csv)"},
     CLI_JSON_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -315,7 +315,7 @@ const cli_command cli_command_study = {
     .summary = "evaluate patterns with measures or scenes, as a plan says",
     .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
                 "new [FILE]\n"
-                "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
+                "export DIR [--format csv|json|sha256] [-o FILE]\n"
                 "report DIR\n"
                 "audit DIR [--rows N|all] [--seed SEED] [--json]",
     .details =

@@ -118,14 +118,12 @@ KOKSMA_API koksma_status koksma_study_left_out(const char *folder, char **lines)
 typedef enum koksma_export_format {
     KOKSMA_EXPORT_CSV,
     KOKSMA_EXPORT_JSON,
-    KOKSMA_EXPORT_NPY,
     KOKSMA_EXPORT_SHA256
 } koksma_export_format;
 
 /* Writes all results of a study, sorted by key; equal results give equal bytes, however they were computed. The
    function only reads the folder.
-     format  CSV; JSON with one object per line; NPY with one record per row and texts as byte strings; SHA256: one
-             line with the hash of the CSV
+     format  CSV; JSON with one object per line; SHA256: one line with the hash of the CSV
      path    file to write; "-" is standard output
    Errors: ARGUMENT (the path leads to the study's results or their log, or into DIR/references), MISSING, MALFORMED (the
    folder has no results of a study, or they are damaged or edited), IO (also if a run is using the folder), MEMORY. */

@@ -2,6 +2,7 @@
 """Studies: patterns x measures or scenes x trials, kept in a folder, and their report."""
 from __future__ import annotations
 
+import csv
 import json
 import os
 import re
@@ -183,15 +184,18 @@ class Study:
             raise ArgumentError("the study has no folder")
         self.close()
         with tempfile.TemporaryDirectory(prefix="koksma-rows-") as room:
-            path = os.path.join(room, "rows.npy")
-            check(lab().koksma_study_export(text(os.fspath(self.folder)), 2, text(path)))
-            raw = np.load(path)
-        kinds = [(name, f"U{raw.dtype[name].itemsize}" if raw.dtype[name].kind == "S" else raw.dtype[name])
-                 for name in raw.dtype.names]
-        decoded = np.empty(raw.shape, dtype=kinds)
-        for name in raw.dtype.names:
-            decoded[name] = np.char.decode(raw[name], "utf-8") if raw.dtype[name].kind == "S" else raw[name]
-        return decoded
+            path = os.path.join(room, "rows.csv")
+            check(lab().koksma_study_export(text(os.fspath(self.folder)), 0, text(path)))
+            with open(path, encoding="utf-8", newline="") as file:
+                names, *lines = csv.reader(file)
+        types = dict.fromkeys(("n", "dim", "width", "height", "trial"), "i8") | {"seed": "u8"} | dict.fromkeys(
+            names[names.index("value"):names.index("metric")], "f8")
+        columns = [np.array([field or "nan" for field in column] if types.get(name) == "f8" else column, types.get(name, "U"))
+                   for name, column in zip(names, zip(*lines) if lines else [()] * len(names))]
+        rows = np.empty(len(lines), [(name, column.dtype) for name, column in zip(names, columns)])
+        for name, column in zip(names, columns):
+            rows[name] = column
+        return rows
 
     def report(self) -> Path:
         """Writes report.html and report.json into the folder; returns the path of the first."""

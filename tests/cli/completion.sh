@@ -98,7 +98,7 @@ rank ball --with ^ mitsuba FILES
 study ^ run new export report audit
 study run ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 study export ^ FILES
-study export x --format ^ csv json npy sha256
+study export x --format ^ csv json sha256
 study export x --format=js^ json
 reproduce ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 reproduce shirley1991 --table ^ all none

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Exports the rows of a store, sorted by their keys, as CSV, JSON lines or NPY, or as the SHA-256 of the CSV. */
+/* Exports the rows of a store, sorted by their keys, as CSV or JSON lines, or as the SHA-256 of the CSV. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,6 @@
 #include "core/files.h"
 #include "core/json_writer.h"
 #include "core/parallel.h"
-#include "core/points_io.h"
 #include "core/status.h"
 #include "study/report/report.h"
 #include "study/run/study.h"
@@ -40,9 +39,8 @@ typedef struct writer {
     long long series;     /* the id of the series to which `before` and `after` belong; 0: no series */
     char *before, *after; /* the text of a CSV row before its trial, and the text after its values */
     koksma__json_writer json;
-    size_t rows;              /* NPY, SHA-256: number of rows */
-    size_t widths[N_COLUMNS]; /* NPY: lengths of the byte strings */
-    const koksma_run *run;    /* SHA-256: asked whether to go on */
+    size_t rows;           /* SHA-256: number of rows */
+    const koksma_run *run; /* SHA-256: asked whether to go on */
 } writer;
 
 /* The text of a column; NULL for a column of numbers. */
@@ -174,77 +172,6 @@ static koksma_status put_json(void *context, const koksma__series *series, const
     return koksma__json_line(&w->json, w->stream);
 }
 
-/* ---- NPY: an array of records, little-endian ------------------------------------------------------------ */
-
-static koksma_status measure_npy(void *context, const koksma__series *series, const koksma__result *result)
-{
-    writer *w = context;
-    (void)result;
-    w->rows++;
-    for (int k = 0; k < N_COLUMNS; k++) {
-        const size_t width = is_text(k) ? strlen(text_of(series, k)) : 0;
-        w->widths[k] = width > w->widths[k] ? width : w->widths[k];
-    }
-    return KOKSMA_OK;
-}
-
-static size_t width_of(const writer *w, int k)
-{
-    return w->widths[k] ? w->widths[k] : 1;
-}
-
-static void put_npy_header(const writer *w)
-{
-    char descr[KOKSMA__NPY_HEADER - 64] = "[", shape[32];
-    size_t size = 1;
-    for (int k = 0; k < N_COLUMNS; k++) {
-        char type[32];
-        snprintf(type, sizeof type, "|S%zu", width_of(w, k));
-        size += (size_t)snprintf(descr + size, sizeof descr - size, "%s('%s', '%s')", k ? ", " : "", names[k],
-                                 is_text(k)    ? type
-                                 : is_value(k) ? "<f8"
-                                 : k == SEED   ? "<u8"
-                                               : "<i8");
-    }
-    snprintf(descr + size, sizeof descr - size, "]");
-    snprintf(shape, sizeof shape, "(%zu,)", w->rows);
-    koksma__npy_put_header(w->stream, descr, shape);
-}
-
-static void put_npy_text(const writer *w, const char *text, size_t width)
-{
-    const size_t length = strlen(text);
-    fwrite(text, 1, length, w->stream);
-    for (size_t i = length; i < width; i++) {
-        putc(0, w->stream);
-    }
-}
-
-static koksma_status put_npy(void *context, const koksma__series *series, const koksma__result *result)
-{
-    const writer *w = context;
-    double values[N_VALUES];
-    values_of(series, result, values);
-    for (int k = 0; k < N_COLUMNS; k++) {
-        unsigned char bytes[8];
-        uint64_t word = result->seed;
-        if (is_text(k)) {
-            put_npy_text(w, text_of(series, k), width_of(w, k));
-            continue;
-        }
-        if (is_value(k)) {
-            const double value = values[k - FIRST_VALUE];
-            memcpy(&word, &value, sizeof word);
-            word = isnan(value) ? UINT64_C(0x7ff8000000000000) : word;
-        } else if (k != SEED) {
-            word = (uint64_t)whole_of(series, result, k);
-        }
-        koksma__npy_set_word(bytes, word);
-        fwrite(bytes, 1, sizeof bytes, w->stream);
-    }
-    return KOKSMA_OK;
-}
-
 /* ---- SHA-256 of the CSV -------------------------------------------------------------------------------- */
 
 static koksma_status hash_row(void *context, const koksma__series *series, const koksma__result *result)
@@ -289,13 +216,6 @@ static koksma_status write_rows(koksma__store *store, koksma_export_format forma
         return koksma__store_visit(store, put_csv, w);
     case KOKSMA_EXPORT_JSON:
         return koksma__store_visit(store, put_json, w);
-    case KOKSMA_EXPORT_NPY:
-        status = koksma__store_visit(store, measure_npy, w);
-        if (!status) {
-            put_npy_header(w);
-            status = koksma__store_visit(store, put_npy, w);
-        }
-        return status;
     case KOKSMA_EXPORT_SHA256:
         status = koksma__rows_sha256(store, NULL, hash);
         if (!status) {
