@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Pictures of a study, their errors' spectra and coherence. The store has no pictures: each is rendered again from the key
+ * Pictures of a study, and the coherence of their errors. The store has no pictures: each is rendered again from the key
  * of its row. Only trials that have a row are rendered, because the time that other trials would take is unknown.
- * Coherences are kept until the report is written, because several sections ask for them. The power of an error is computed
- * at every Fourier frequency (image/fourier.c) and averaged over rings of frequencies, in O(n log n) for n pixels.
+ * Coherences are kept until the report is written, because several sections ask for them.
  *
  * The section has, for every scene of the image blocks, the reference and the first trial of each pattern, from which the
- * page makes maps of the error and compares any two pictures; then the spectrum of the error and its coherence, averaged
- * over some trials.
+ * page makes maps of the error and compares any two pictures; then the coherence of the error over some trials.
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,65 +28,6 @@ enum { MOST_BYTES = 24 << 20, MAX_SHOWN = 24 };
 
 /* The largest number of samples that a report renders for coherences. */
 #define MOST_SAMPLES 268435456.0
-
-/* ---- The spectrum of an image's error ---------------------------------------------------------------------- */
-
-/* Averages the powers over rings. The errors are real, so the columns above W/2 mirror those below W/2, which
-   therefore count twice. */
-static void add_rings(const double *powers, size_t width, size_t height, size_t n_rings, double *power)
-{
-    const size_t half = width / 2 + 1;
-    double sums[KOKSMA__SPECTRUM_RINGS] = {0}, counts[KOKSMA__SPECTRUM_RINGS] = {0};
-    for (size_t u = 0; u < half; u++) {
-        const double times = u == 0 || 2 * u == width ? 1 : 2, fx = (double)u / (double)width;
-        for (size_t v = 0; v < height; v++) {
-            const double fy = (double)(2 * v <= height ? v : height - v) / (double)height;
-            const size_t ring = (size_t)(2 * (double)n_rings * sqrt(fx * fx + fy * fy));
-            if (ring >= n_rings || (u == 0 && v == 0)) {
-                continue;
-            }
-            sums[ring] += times * powers[v * half + u] / ((double)width * (double)height);
-            counts[ring] += times;
-        }
-    }
-    for (size_t r = 0; r < n_rings; r++) {
-        power[r] = counts[r] > 0 ? sums[r] / counts[r] : (double)NAN;
-    }
-}
-
-/* The number of rings for images of this size. */
-static size_t rings_of(int width, int height)
-{
-    const int side = width < height ? width : height;
-    return side < 4 ? 1 : side / 2 < KOKSMA__SPECTRUM_RINGS ? (size_t)side / 2 : (size_t)KOKSMA__SPECTRUM_RINGS;
-}
-
-koksma_status koksma__spectrum_add(koksma__error_spectrum *spectrum, const koksma_image *image,
-                                   const koksma_image *reference)
-{
-    KOKSMA__FAIL_IF(image->width != reference->width || image->height != reference->height, KOKSMA_ARGUMENT,
-                    "an image of %d x %d pixels cannot be compared with a reference of %d x %d", image->width,
-                    image->height, reference->width, reference->height);
-    const size_t width = (size_t)image->width, height = (size_t)image->height;
-    const size_t pixels = width * height, doubles = pixels + koksma__fourier_columns(image->width) * height;
-    double *errors = malloc(doubles * sizeof *errors), *powers = errors + pixels;
-    KOKSMA__REQUIRE_MEMORY(errors, doubles * sizeof *errors);
-    for (size_t i = 0; i < pixels; i++) {
-        errors[i] = koksma__luminance(image, i) - koksma__luminance(reference, i);
-    }
-    const koksma_status status = koksma__fourier_power(image->width, image->height, errors, powers);
-    if (!status) {
-        double power[KOKSMA__SPECTRUM_RINGS];
-        spectrum->n = rings_of(image->width, image->height);
-        add_rings(powers, width, height, spectrum->n, power);
-        const double before = (double)spectrum->images++;
-        for (size_t r = 0; r < spectrum->n; r++) {
-            spectrum->power[r] = (spectrum->power[r] * before + power[r]) / (before + 1);
-        }
-    }
-    free(errors);
-    return status;
-}
 
 /* ---- Trials of a task -------------------------------------------------------------------------------------- */
 
@@ -132,10 +71,8 @@ static bool has_reference(koksma__report *r, const koksma__task *t)
     return koksma__report_keep(r, koksma__reference_find(r->study, reference_of(r, t), &exists)) && exists;
 }
 
-/* Finds the coherence of the errors of a task's first trials together and, unless `spectrum` is NULL, their mean
-   spectrum. */
-static koksma_coherence_values average(koksma__report *r, const koksma__task *t, const koksma_run *run,
-                                       koksma__error_spectrum *spectrum)
+/* Finds the coherence of the errors of a task's first trials together. */
+static koksma_coherence_values average(koksma__report *r, const koksma__task *t, const koksma_run *run)
 {
     koksma_coherence_values values = {.coherence = NAN, .noise_high = NAN};
     koksma__reference_image *reference = reference_of(r, t);
@@ -149,9 +86,7 @@ static koksma_coherence_values average(koksma__report *r, const koksma__task *t,
         if (!koksma__report_keep(r, r->status ? r->status : render(t, trial, run, &image))) {
             break;
         }
-        koksma_status status = spectrum ? koksma__spectrum_add(spectrum, &image, &reference->image) : KOKSMA_OK;
-        status = status ? status : koksma_coherence_add(&coherence, &image, &reference->image);
-        koksma__report_keep(r, status);
+        koksma__report_keep(r, koksma_coherence_add(&coherence, &image, &reference->image));
         koksma_image_fini(&image);
     }
     if (!r->status) {
@@ -219,7 +154,7 @@ koksma_coherence_values koksma__mean_coherence(koksma__report *r, const koksma__
         c->of[i] = none;
         if (has_trials(r, t, averaged(t)) && has_reference(r, t) && c->samples + samples <= MOST_SAMPLES) {
             c->samples += samples;
-            c->of[i] = average(r, t, &run, NULL);
+            c->of[i] = average(r, t, &run);
         }
     }
     return i < c->tasks.n ? c->of[i] : none;
@@ -243,49 +178,23 @@ static size_t first_served(const koksma__image_block *block)
     return p;
 }
 
-/* Adds the table of coherences, with a row for each of the block's first n patterns. */
-static void add_coherence(koksma__document *d, const koksma__task *first, const koksma_coherence_values *values,
-                          size_t n)
+/* Adds the table of the coherences of the errors of the block's first n patterns. */
+static void add_coherence(koksma__report *r, koksma__document *d, const koksma__task *first, size_t n)
 {
     const char *id = first->image->id; /* blocks may have scenes in common */
     koksma__doc_table(d, "coherence-%.20s%s%.20s-%lld", id ? id : "", id ? "-" : "", first->scene->name, first->n);
     koksma__doc_columns(d, "t pattern;n3 coherence;n3 noise from;n3 to;n2 p;n2 in common;n2 cycles a pixel;t error");
-    for (size_t p = 0; p < n; p++) {
-        const koksma_coherence_values *v = &values[p];
-        if (is_served(first->image, p)) {
-            koksma__doc_row(d, "tnnnnnnt", first->image->patterns.at[p], v->coherence, v->noise_low, v->noise_high,
-                            v->p, v->common, koksma__hypot(v->frequency_x, v->frequency_y),
-                            v->images == 0 ? "none"
-                            : v->coherent  ? "coherent"
-                                           : "noise");
-        }
-    }
-}
-
-/* Adds the mean spectra of the errors of the block's first n patterns as a chart, and their coherences. */
-static void add_spectra(koksma__report *r, koksma__document *d, const koksma__task *first, size_t n)
-{
-    koksma_coherence_values values[MAX_SHOWN];
-    char title[512], name[256];
-    koksma__case_name(first->scene->name, first->variant, name, sizeof name);
-    snprintf(title, sizeof title,
-             "Spectrum of the image error: %.200s, %lld sample%s a pixel, mean over rings and %d trial%s", name,
-             first->n, koksma__plural((double)first->n), (int)averaged(first), koksma__plural((double)first->trials));
-    koksma__doc_chart(d, &(koksma__chart){title, "cycles a pixel", "power", false, true, 0, NULL});
     for (size_t p = 0; !r->status && p < n; p++) {
         const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
-        koksma__error_spectrum spectrum = {0};
         if (!is_served(first->image, p)) {
             continue;
         }
-        values[p] = average(r, &task, r->run, &spectrum);
-        koksma__doc_series(d, task.pattern, NULL, KOKSMA__SERIES_LINE);
-        for (size_t k = 0; k < spectrum.n; k++) {
-            koksma__doc_point(d, ((double)k + 0.5) / (2 * (double)spectrum.n), spectrum.power[k], NAN, NAN);
-        }
-    }
-    if (!r->status) {
-        add_coherence(d, first, values, n);
+        const koksma_coherence_values v = average(r, &task, r->run);
+        koksma__doc_row(d, "tnnnnnnt", task.pattern, v.coherence, v.noise_low, v.noise_high, v.p, v.common,
+                        koksma__hypot(v.frequency_x, v.frequency_y),
+                        v.images == 0 ? "none"
+                        : v.coherent  ? "coherent"
+                                      : "noise");
     }
 }
 
@@ -343,7 +252,7 @@ static void add_scene(koksma__report *r, koksma__document *d, const koksma__task
             patterns->n - shown);
     }
     if (!r->status && are_done(r, first, shown, averaged(first))) {
-        add_spectra(r, d, first, shown);
+        add_coherence(r, d, first, shown);
     }
     koksma__doc_end(d);
 }

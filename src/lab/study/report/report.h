@@ -125,7 +125,7 @@ size_t koksma__order_means(const double *values, size_t stride, size_t n, bool d
  * once for each report, as far as all of them have rows.
  */
 
-/* The number of trials over which spectra of the error are averaged. */
+/* The number of trials whose errors' spectra are averaged for a coherence. */
 enum { KOKSMA__SPECTRUM_TRIALS = 8 };
 
 /* The coherence of the errors of a subject's images with n samples of a pattern. images is 0 where it is not known: where
@@ -133,20 +133,6 @@ enum { KOKSMA__SPECTRUM_TRIALS = 8 };
 koksma_coherence_values koksma__mean_coherence(koksma__report *r, const koksma__subject *s, const char *pattern,
                                                long long n);
 void koksma__mean_coherence_forget(koksma__report *r);
-
-/* Averages the power of the error over rings of frequencies up to 1/2: P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W +
-   v y / H))|^2 / (W H) with e = luminance - reference luminance on W x H pixels and the frequency f = sqrt((u/W)^2 +
-   (v/H)^2) in cycles a pixel (Ulichney 1988, radially averaged power). For white noise it is the variance at every f.
-   Ring r holds the frequencies from r / (2 n) to (r + 1) / (2 n), with one ring per frequency of the shorter side, at
-   most KOKSMA__SPECTRUM_RINGS; power[r] is the mean of P over them, NaN if there is none. A spectrum is all zero at
-   first. Errors: ARGUMENT (image and reference differ in size), MEMORY. */
-enum { KOKSMA__SPECTRUM_RINGS = 48 };
-typedef struct koksma__error_spectrum {
-    size_t n, images;
-    double power[KOKSMA__SPECTRUM_RINGS]; /* mean over the images so far */
-} koksma__error_spectrum;
-koksma_status koksma__spectrum_add(koksma__error_spectrum *spectrum, const koksma_image *image,
-                                   const koksma_image *reference);
 
 /* ---- Published tables -------------------------------------------------------------------------------------- */
 
