@@ -6,7 +6,6 @@
  * differences, which hold together at 95 % (Bonferroni). If the best pattern does not differ from some other, the
  * sentence says how many trials might separate the two. A table of images has the numbers of samples at which a
  * pattern's error is in visible bands (koksma__mean_coherence), and the sentence names the best pattern without bands.
- * Below it a second table compares the images with the largest number of samples by all metrics of the block.
  */
 #include <math.h>
 #include <stdio.h>
@@ -190,65 +189,6 @@ static void say_reference(koksma__report *r, koksma__document *d, const koksma__
     }
 }
 
-/* ---- The other metrics ------------------------------------------------------------------------------------- */
-
-/* The position of a pattern by one of n metrics: 1 + the number of patterns with a smaller mean; NaN: no mean. means:
-   [pattern * n + metric]. */
-static double position_of(const koksma__metric_means *means, size_t patterns, size_t n, size_t pattern, size_t metric)
-{
-    const koksma__summary *mean = &means[pattern * n + metric].value;
-    double position = mean->n ? 1 : (double)NAN;
-    for (size_t p = 0; p < patterns; p++) {
-        const koksma__summary *other = &means[p * n + metric].value;
-        position += other->n && other->mean < mean->mean;
-    }
-    return position;
-}
-
-/* Adds the table of the means by all metrics of the block, of the images with the largest number of samples, in the order
-   of the table above it, and names the pattern with the least mean by each metric. */
-static void add_metrics(koksma__report *r, koksma__document *d, const char *id, size_t number, const standing *s)
-{
-    const koksma__texts *metrics = &s->of->images->metrics, *patterns = s->of->patterns;
-    const size_t n = metrics->n;
-    koksma__metric_means *means = koksma__report_memory(r, patterns->n * n, sizeof *means);
-    if (!means) {
-        return;
-    }
-    for (size_t i = 0; i < patterns->n * n; i++) {
-        means[i] =
-            koksma__read_metric(r, s->of, patterns->at[i / n], s->of->n->at[s->of->n->n - 1], metrics->at[i % n]);
-    }
-    koksma__doc_section(d, NULL, "By all metrics");
-    koksma__doc_paragraph(d, "The least error with %s, by each metric:", s->last);
-    for (size_t m = 0; m < n; m++) {
-        const char *best = NULL;
-        for (size_t p = patterns->n; p-- > 0;) {
-            best = position_of(means, patterns->n, n, p, m) < 1.5 ? patterns->at[p] : best; /* NaN: no mean */
-        }
-        koksma__doc_say(d, "%s `%s` %s", m ? "," : "", metrics->at[m], best ? best : "not measured");
-    }
-    koksma__doc_say(d, ".");
-    koksma__doc_table(d, "metrics-%.32s-%zu", id, number);
-    koksma__doc_columns(d, "t pattern");
-    for (size_t m = 0; m < n; m++) {
-        const char *metric = metrics->at[m];
-        koksma__doc_columns(
-            d,
-            "i4 %s#mean 95 %%#%s;n3 %s, position#position#%s;n4h %s, robust#without 0.1 %%#%s;n3h %s, top share##%s",
-            metric, metric, metric, metric, metric, metric, metric, metric);
-    }
-    for (size_t i = 0; i < patterns->n; i++) {
-        koksma__doc_row(d, "t", name_at(s, i));
-        for (size_t m = 0; m < n; m++) {
-            const koksma__metric_means *of = &means[s->by[i] * n + m];
-            koksma__doc_cells(d, "innn", koksma__estimate_of(&of->value),
-                              position_of(means, patterns->n, n, s->by[i], m), of->robust.mean, of->top_share.mean);
-        }
-    }
-    koksma__doc_end(d);
-}
-
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
 /* Adds the table of means. Returns whether some cell has no mean. */
@@ -303,9 +243,6 @@ static void add_table(koksma__report *r, koksma__document *d, const char *id, si
     koksma__doc_sorted_table(d, s.last, false, of->larger, "means-%.32s-%zu", id, number);
     if (add_means(r, d, &s) && koksma_study_left_out_at(r->study, 0)) {
         koksma__doc_paragraph(d, "A cell without a number has no results: the section *Left out* gives the reasons.");
-    }
-    if (of->images) {
-        add_metrics(r, d, id, number, &s);
     }
     koksma__doc_end(d);
 }
