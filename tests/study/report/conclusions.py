@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """conclusions.py PROGRAM: a study whose answers are known by construction. Of every kind of conclusion one is true, one is
-false and, where a kind has several tests, one is half true; the report has to say so. What stands beside them (rank
-correlations, coherences, joint tests of z) is computed here again from the rows, or is the same wherever a page says it."""
+false and, where a kind has several tests, one is half true; the report has to say so. What stands beside them (ratios,
+coherences, joint tests of z) is computed here again from the rows, or is the same wherever a page says it."""
 import csv
 import io
 import json
@@ -114,11 +114,6 @@ def koksma(*arguments):
     return subprocess.run([KOKSMA, *arguments], capture_output=True, text=True)
 
 
-def spearman(x, y):
-    ranks = [[sorted(v).index(a) for a in v] for v in (x, y)]
-    return 1 - 6 * sum((a - b) ** 2 for a, b in zip(*ranks)) / (len(x) * (len(x) ** 2 - 1))
-
-
 def report_of(plan, folder):
     Path(f"{folder}.json").write_text(json.dumps(plan))
     run = koksma("study", "run", f"./{folder}.json", "-o", folder, "-q")
@@ -128,37 +123,26 @@ def report_of(plan, folder):
     return json.loads(Path(folder, "report.json").read_text())
 
 
-def evidence(report, what):
-    """The paragraph below a conclusion."""
-    return next(words(c["text"]) for _, b in blocks(report["content"]) for c, before in zip(b.get("content", [])[1:], b.get("content", []))
-                if what in words(before.get("text", [])))
-
-
 def check_verdicts(report, rows):
     said = {words(b["text"]).split(": ", 1)[1]: b for under, b in blocks(report["content"]) if under and ("concludes" in under[-1] or under[-1] == "Figures") and "answer" in b}
     for what, verdict, _ in CONCLUSIONS:
         found = [b for text, b in said.items() if text.startswith(what + ".")]
         if len(found) != 1 or found[0]["answer"] != verdict:
             complain(f"{what}: {[(b['answer'], words(b['text'])) for b in found]}, not {verdict}")
-    means = {}
-    for row in rows:
-        if row["kind"] == "image" and row["scene"] == "checker":
-            means.setdefault(row["pattern"], []).append(float(row["value"]))
-    order = ["multi-jittered", "jittered", "random"]
-    rho = spearman([sum(means[p]) / len(means[p]) for p in order], [1, 2, 4])
-    if f"{rho:.2f} in table errors" not in evidence(report, "order true"):
-        complain(f"the rank correlation is {rho:.2f}")
-    # Means whose intervals by Student's t (8 trials: 2.3646) overlap may be in their order by chance.
-    mean = {p: sum(means[p]) / 8 for p in order}
-    half = {p: 2.3646 * math.sqrt(sum((v - mean[p]) ** 2 for v in means[p]) / 7 / 8) for p in order}
-    pairs = [f"{a} and {b} in errors" for i, a in enumerate(order) for b in order[i + 1:] if abs(mean[a] - mean[b]) < half[a] + half[b]]
-    if [len(v) for v in means.values()] != [8] * 5 or re.findall(r"[\w-]+ and [\w-]+ in errors", evidence(report, "order true")) != pairs:
-        complain(f"overlapping means are {pairs}: {evidence(report, 'order true')}")
-    # Each measure is named as its table computes it; of five patterns only a rho of 1 is sure on two sides (Zar 1984).
+    # The interval of a ratio, by first-order propagation from those of both means (8 trials: Student's t is 2.3646).
+    mean, half = {}, {}
+    for pattern in ("random", "jittered"):
+        values = [float(r["value"]) for r in rows if (r["scene"], r["metric"], r["pattern"]) == ("checker-45", "rmse", pattern)]
+        mean[pattern] = sum(values) / 8
+        half[pattern] = 2.3646 * math.sqrt(sum((v - mean[pattern]) ** 2 for v in values) / 7 / 8)
+    ratio = mean["random"] / mean["jittered"]
+    text = words(next(b for t, b in said.items() if t.startswith("metric true"))["text"])
+    if f"rmse: {ratio:.2f} ± {ratio * math.hypot(*(half[p] / mean[p] for p in mean)):.2g} in checker-45; surely" not in text:
+        complain(f"the ratio is {ratio}: {text}")
+    # Each measure is named as its table computes it.
     text = words(next(b for t, b in said.items() if t.startswith("predictor half true"))["text"])
-    below = evidence(report, "predictor half true")
-    if "min-distance predicts worst." not in text or "S l2-star" not in text or "S (l2-star, table S)" not in below or "from 1.00 on" not in below:
-        complain(f"predictors: {text} {below}")
+    if "min-distance predicts worst." not in text or "S l2-star" not in text:
+        complain(f"predictors: {text}")
     # What stands beside a measure is averaged and no test.
     text = words(next(b for t, b in said.items() if t.startswith("predictor beside others"))["text"])
     if "min-distance predicts worst." not in text or "1 of 1 correlations" not in text:

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What a paper concludes, and whether the rows of the study bear it out: one paragraph for each conclusion of the plan,
- * with which the page begins, and one with the evidence, which stands in the section alone. A conclusion holds if it passes
+ * with which the page begins; the tables have the evidence. A conclusion holds if it passes
  * all its tests, in part if it passes some, and not if it passes none; it is undecided while rows are missing. Each kind of
  * conclusions.def has a function here, which writes the words of the result and counts its tests. Long because it has every
  * kind.
@@ -15,13 +15,12 @@
 #include "study/plan/plan.h"
 #include "study/report/report.h"
 
-/* A conclusion that is being judged: the words of the result and those of the evidence (whole sentences, each with a
-   space behind it), the number of tests that it passes, and of those that its rows allow; rows that are missing count as
-   `open`. */
+/* A conclusion that is being judged: the words of the result, the number of tests that it passes, and of those that its
+   rows allow; rows that are missing count as `open`. */
 typedef struct judged {
     koksma__report *r;
     const koksma__conclusion *c;
-    koksma__document words, more;
+    koksma__document words;
     size_t passed, tests, open;
     size_t other; /* comparisons by another procedure than that of the printed numbers: no tests */
 } judged;
@@ -128,41 +127,8 @@ static void add_ranks(const double *values, size_t n, double *ranks)
     }
 }
 
-/* Whether the intervals of two means overlap; without an interval a mean is one point. */
-static bool overlap(const koksma__summary *x, const koksma__summary *y)
-{
-    return (isnan(x->low) ? x->mean : x->low) <= (isnan(y->high) ? y->mean : y->high) &&
-           (isnan(y->low) ? y->mean : y->low) <= (isnan(x->high) ? x->mean : x->high);
-}
-
-/* Names the pairs of means in the tables whose intervals overlap, so that chance may have ranked them. */
-static void say_overlaps(judged *j)
-{
-    const koksma__texts *patterns = &j->c->patterns;
-    const size_t n = patterns->n;
-    size_t said = 0;
-    for (size_t t = 0; t < j->c->tables.n; t++) {
-        const koksma__table *of = table_of(j, j->c->tables.at[t]);
-        for (size_t i = 0; i < n * n; i++) {
-            if (i / n >= i % n) {
-                continue;
-            }
-            const koksma__summary x = koksma__table_cell(j->r, of, patterns->at[i / n], 0).mean,
-                                  y = koksma__table_cell(j->r, of, patterns->at[i % n], 0).mean;
-            if (overlap(&x, &y)) {
-                koksma__doc_say(&j->more, said++ ? "; " : "Chance may have ranked, as their intervals overlap: ");
-                say_label(j, &j->more, patterns->at[i / n]);
-                koksma__doc_say(&j->more, " and ");
-                say_label(j, &j->more, patterns->at[i % n]);
-                koksma__doc_say(&j->more, " in %s", of->id);
-            }
-        }
-    }
-    koksma__doc_say(&j->more, said ? ". " : "");
-}
-
 /* Each pattern's mean rank over the tables, by our means against the paper's reference, must not fall along that order:
-   each neighbouring pair is a test. Beside it stands Spearman's correlation of the printed with our means. */
+   each neighbouring pair is a test. */
 static void conclude_order(judged *j)
 {
     const size_t n = j->c->patterns.n, tables = j->c->tables.n;
@@ -171,18 +137,13 @@ static void conclude_order(judged *j)
     if (!ranks) {
         return;
     }
-    say_overlaps(j);
-    koksma__doc_say(&j->more, "Rank correlation of the printed means with ours: ");
     for (size_t t = 0; t < tables; t++) {
         list_means(j, table_of(j, j->c->tables.at[t]), means);
         add_ranks(means, n, ranks);
         for (size_t i = 0; i < n; i++) {
             j->open += isnan(means[i]);
         }
-        koksma__doc_say(&j->more, "%s%.2f in %s%s", t ? "; " : "", koksma__spearman(means, means + n, n),
-                        t ? "" : "table ", j->c->tables.at[t]);
     }
-    koksma__doc_say(&j->more, ". ");
     koksma__doc_say(&j->words, "Ours by mean rank: ");
     for (size_t i = 0; i < n; i++) {
         if (i) {
@@ -217,7 +178,6 @@ static void conclude_best(judged *j)
         }
         size_t before = 0, unexpected = 0;
         means_of(j, t, pattern, 0, ours);
-        koksma__doc_say(&j->more, "Table %s: ", t->id);
         for (size_t i = 0; i < t->n_rows; i++) {
             const koksma__table_row *row = &t->rows[i];
             const koksma__cell cell = koksma__table_cell(j->r, t, row->pattern, 0);
@@ -226,7 +186,7 @@ static void conclude_best(judged *j)
             means_of(j, t, row->pattern, 0, mean);
             j->open += isnan(mean[0]);
             if (mean[0] < ours[0]) {
-                koksma__doc_say(&j->more, "%s%s", before++ ? "; " : "after ", row->label);
+                before++;
                 unexpected += !koksma__texts_have(&j->c->against, row->pattern);
             }
             for (size_t s = 0; s < 6; s++) {
@@ -235,7 +195,6 @@ static void conclude_best(judged *j)
                 own[s / 2][s % 2] = !strcmp(row->pattern, pattern) ? value : own[s / 2][s % 2];
             }
         }
-        koksma__doc_say(&j->more, before ? ". " : "first. ");
         first += !before;
         test(j, !unexpected);
         for (size_t s = 0; s < 6; s++) {
@@ -296,38 +255,9 @@ static const char *name_of(const koksma__table *t)
     return t->symbol ? t->symbol : t->scene ? t->scene : t->measure;
 }
 
-/* Writes as evidence what the correlations of the exact measure beside that of the printed numbers are, and which
-   pattern has the least mean of a table, ours and in print. */
-static void say_exact_and_least(judged *j, const koksma__table *by)
-{
-    size_t open = 0;
-    koksma__table exact = *by;
-    exact.measure = by->also;
-    const double *rho = by->also ? correlate(j, &exact, &open) : NULL;
-    for (size_t k = 0; rho && k < j->c->tables.n; k++) {
-        koksma__doc_say(&j->more, k ? ", " : "By the exact `%s` ", by->also);
-        koksma__doc_say(&j->more, "%.2f", rho[2 * k]);
-    }
-    koksma__doc_say(&j->more, rho ? ". " : "");
-    for (size_t side = 0; side < 2; side++) {
-        const char *best = NULL;
-        double least = INFINITY, means[2];
-        for (size_t i = 0; i < j->c->patterns.n; i++) {
-            means_of(j, by, j->c->patterns.at[i], 0, means);
-            best = means[side] < least ? j->c->patterns.at[i] : best;
-            least = fmin(least, means[side]);
-        }
-        if (best) {
-            koksma__doc_say(&j->more, side ? ", in print that of " : "Least %s: that of ", name_of(by));
-            say_label(j, &j->more, best);
-        }
-    }
-    koksma__doc_say(&j->more, ". ");
-}
-
 /* Each measure of `by` must be surely correlated with the errors of each table, which is a test. The words give the
-   correlations of the first, those of the others are evidence; then the means over the tables of all, those of `than`
-   beside them, and which is least, ours [0] and in print [1]. */
+   correlations of the first, then the means over the tables of all, those of `than` beside them, and which is least, ours
+   [0] and in print [1]. */
 static void conclude_predictor(judged *j)
 {
     const koksma__conclusion *c = j->c;
@@ -341,7 +271,6 @@ static void conclude_predictor(judged *j)
         const koksma__table *of = table_of(j, i < c->by.n ? c->by.at[i] : c->than.at[i - c->by.n]);
         const char *spec = of->scene ? of->scene : of->measure;
         const double *rho = correlate(j, of, &j->open);
-        koksma__document *to = i ? &j->more : &j->words;
         double means[2] = {0};
         size_t sure = 0;
         if (!rho) {
@@ -362,18 +291,16 @@ static void conclude_predictor(judged *j)
         if (i >= c->by.n) {
             continue;
         }
-        if (i) {
-            koksma__doc_say(to, "%s (`%s`, table %s): ", name_of(of), spec, of->id);
-        }
         for (size_t k = 0; k < tables; k++) {
             test(j, rho[2 * k] > limit - 1e-12);
             if (!i) {
-                koksma__doc_say(to, k ? ", " : "Rank correlation of %s with the error in ", name_of(of));
-                koksma__doc_say(to, k + 1 < tables ? "%s" : "%s: ", c->tables.at[k]);
+                koksma__doc_say(&j->words, k ? ", " : "Rank correlation of %s with the error in ", name_of(of));
+                koksma__doc_say(&j->words, k + 1 < tables ? "%s" : "%s: ", c->tables.at[k]);
             }
         }
-        say_correlations(j, to, rho, limit);
-        say_exact_and_least(j, of);
+        if (!i) {
+            say_correlations(j, &j->words, rho, limit);
+        }
     }
     koksma__doc_say_words(&j->words, &averages);
     if (c->by.n + c->than.n > 2) {
@@ -384,21 +311,17 @@ static void conclude_predictor(judged *j)
                                                      : "too");
     }
     koksma__doc_say(&j->words, ". %zu of %zu correlations are surely above 0.", j->passed, j->tests);
-    koksma__doc_say(&j->more, "Of %zu patterns a correlation is surely above 0 (at 5 %% on two sides) from %.2f on. ",
-                    c->patterns.n, limit);
 }
 
 /* ---- before: each pattern has a smaller mean than each of `against` ---------------------------------------- */
 
-enum { NAMED = 2 };
-
 /* Every comparison in each table at each number of points is a test, by our means [0]; the same comparisons of the
-   printed means [1] stand beside them. NAMED of those that fail are named. Comparisons by another procedure than the
-   printed one are no tests, neither for nor against the paper. */
+   printed means [1] stand beside them. Comparisons by another procedure than the printed one are no tests, neither for
+   nor against the paper. */
 static void conclude_before(judged *j)
 {
     const koksma__conclusion *c = j->c;
-    size_t smaller[2][2] = {{0}}, of[2][2] = {{0}}, failed = 0; /* [by another procedure][ours, in print] */
+    size_t smaller[2][2] = {{0}}, of[2][2] = {{0}}; /* [by another procedure][ours, in print] */
     const char *procedure = "";
     for (size_t i = 0; i < c->tables.n * KOKSMA__TABLE_PRINTED; i++) {
         const koksma__table *t = table_of(j, c->tables.at[i / KOKSMA__TABLE_PRINTED]);
@@ -421,30 +344,18 @@ static void conclude_before(judged *j)
                 continue;
             }
             test(j, x[0] < y[0]);
-            if (!(x[0] < y[0]) && failed++ < NAMED) {
-                koksma__doc_say(&j->more, failed > 1 ? "; " : "Not: ");
-                say_label(j, &j->more, better);
-                koksma__doc_say(&j->more, " against ");
-                say_label(j, &j->more, worse);
-                koksma__doc_say(&j->more, koksma__table_is_over_n(t) ? " in table %s at N = %lld" : " in table %s",
-                                t->id, t->n.at[k]);
-            }
         }
     }
-    if (failed > NAMED) {
-        koksma__doc_say(&j->more, "; and %zu more", failed - NAMED);
-    }
-    koksma__doc_say(&j->more, failed ? ". " : "");
     if (j->tests) {
         koksma__doc_say(&j->words, "The mean is smaller in %zu of %zu comparisons, in print in %zu of %zu.",
                         smaller[0][0], of[0][0], smaller[0][1], of[0][1]);
     }
-    if (j->other) {
+    if (j->other && !j->tests) {
         koksma__doc_say(
-            j->tests ? &j->more : &j->words,
+            &j->words,
             "By our rows' procedure (`%s`) it is the other way round in %zu of %zu comparisons, in print in "
-            "%zu of %zu.%s",
-            procedure, of[1][0] - smaller[1][0], of[1][0], of[1][1] - smaller[1][1], of[1][1], j->tests ? " " : "");
+            "%zu of %zu.",
+            procedure, of[1][0] - smaller[1][0], of[1][0], of[1][1] - smaller[1][1], of[1][1]);
     }
 }
 
@@ -469,11 +380,6 @@ static void test_coherence(judged *j, const koksma__subject *s, const koksma_coh
     const double period = 1 / koksma__hypot(v->frequency_x, v->frequency_y);
     const bool banded = v->coherent && 2 * period <= (width > height ? width : height);
     const char *kind = !v->coherent ? "noise" : banded ? "in bands" : "a shade";
-    say_label(j, &j->more, pattern);
-    koksma__doc_say(&j->more, " %.3g, %s", v->coherence, kind);
-    if (v->coherent) {
-        koksma__doc_say(&j->more, " of period %.3g pixels", period);
-    }
     if (list == 2) {
         koksma__doc_say(&found->beside, koksma__doc_is_empty(&found->beside) ? " Beside it: " : "; ");
         say_label(j, &found->beside, pattern);
@@ -492,19 +398,16 @@ static void test_coherence(judged *j, const koksma__subject *s, const koksma_coh
 static void test_bands(judged *j, const koksma__subject *s, long long spp, coherences *found)
 {
     const koksma__texts *lists[] = {&j->c->patterns, &j->c->against, &j->c->beside};
-    koksma__doc_say(&j->more, "_%s_: ", s->scene);
-    for (size_t list = 0, said = 0; list < 3; list++) {
+    for (size_t list = 0; list < 3; list++) {
         for (size_t i = 0; i < lists[list]->n; i++) {
             const koksma_coherence_values v = koksma__mean_coherence(j->r, s, lists[list]->at[i], spp);
-            if (!v.images) {
+            if (v.images) {
+                test_coherence(j, s, &v, list, lists[list]->at[i], found);
+            } else {
                 j->open++;
-                continue;
             }
-            koksma__doc_say(&j->more, "%s", said++ ? "; " : "");
-            test_coherence(j, s, &v, list, lists[list]->at[i], found);
         }
     }
-    koksma__doc_say(&j->more, ". ");
 }
 
 static void conclude_bands(judged *j)
@@ -512,7 +415,6 @@ static void conclude_bands(judged *j)
     koksma__subject s;
     long long spp;
     coherences found = {.low = {INFINITY, INFINITY}};
-    koksma__doc_say(&j->more, "Coherence of the errors in ");
     for (size_t i = 0; i < j->c->tables.n; i++) {
         const koksma__table *t = table_of(j, j->c->tables.at[i]);
         s = koksma__table_images(j->r->study, t);
@@ -544,12 +446,7 @@ static void conclude_metric(judged *j)
     const koksma__conclusion *c = j->c;
     koksma__subject s;
     long long spp;
-    size_t least = SIZE_MAX;
     koksma__doc_say(&j->words, "Ratios of their %s: ", c->metric);
-    koksma__doc_say(&j->more, "`%s` of ", c->metric);
-    say_label(j, &j->more, c->patterns.at[0]);
-    koksma__doc_say(&j->more, " over that of ");
-    say_label(j, &j->more, c->against.at[0]);
     for (size_t i = 0; next_images(j->r, c, &i, &s, &spp);) {
         const koksma__summary x = koksma__read_mean(j->r, &s, c->patterns.at[0], spp, NULL),
                               y = koksma__read_mean(j->r, &s, c->against.at[0], spp, NULL);
@@ -560,14 +457,9 @@ static void conclude_metric(judged *j)
         const double ratio = x.mean / y.mean;
         const double half = ratio * koksma__hypot((x.high - x.mean) / x.mean, (y.high - y.mean) / y.mean);
         test(j, ratio - half > 1);
-        koksma__doc_say(&j->words, "%s%.2f in %s", j->tests > 1 ? ", " : "", ratio, s.scene);
-        koksma__doc_say(&j->more, "%s %.3f (%.3f to %.3f) in %s", j->tests > 1 ? "," : ":", ratio, ratio - half,
-                        ratio + half, s.scene);
-        least = x.n < least ? x.n : least;
-        least = y.n < least ? y.n : least;
+        koksma__doc_say(&j->words, "%s%.2f ± %.2g in %s", j->tests > 1 ? ", " : "", ratio, half, s.scene);
     }
     koksma__doc_say(&j->words, "; surely above 1 in %zu of %zu.", j->passed, j->tests);
-    koksma__doc_say(&j->more, ", of the means of %zu images. ", j->tests ? least : 0);
 }
 
 /* ---- rates: the patterns converge faster than random points ------------------------------------------------ */
@@ -575,13 +467,6 @@ static void conclude_metric(judged *j)
 /* Exponents that differ from -1/2 by less are taken for those of finite sizes: the part of an error that vanishes faster
    still tilts it. */
 #define TOLERANCE 0.05
-
-static void say_tolerance(judged *j)
-{
-    koksma__doc_say(&j->more,
-                    "Faster means an exponent surely below %.2f; one nearer to -1/2 may be that of finite sizes. ",
-                    -0.5 - TOLERANCE);
-}
 
 /* The means of a pattern at all sizes, those above 0. */
 static koksma__curve read_curve(const judged *j, const koksma__subject *s, const char *pattern)
@@ -594,14 +479,15 @@ static koksma__curve read_curve(const judged *j, const koksma__subject *s, const
 }
 
 /* Each pattern and measure is a test: the whole interval of the slope over the block's numbers of points must be below
-   -1/2 - TOLERANCE. If the block has random points, each pattern's means are given, the last as a multiple of theirs. */
+   -1/2 - TOLERANCE. If the block has random points, their slope is the first. */
 static void test_rates(judged *j, const koksma__subject *s)
 {
     const koksma__texts *patterns = &j->c->patterns;
     const size_t sizes = s->n->n;
-    koksma__curve random = {0};
     koksma__doc_say(&j->words, "`%s`, N = %lld to %lld: ", s->measure, s->n->at[0], s->n->at[sizes - 1]);
-    if (koksma__texts_have(s->patterns, "random") && (random = read_curve(j, s, "random")).n == sizes) {
+    const koksma__curve random =
+        koksma__texts_have(s->patterns, "random") ? read_curve(j, s, "random") : (koksma__curve){0};
+    if (random.n == sizes) {
         const koksma__estimate slope = koksma__trend_of(random.x, random.y, sizes).slope;
         koksma__doc_say(&j->words, "random N^%.3f^ (± %.3f), ", slope.value, slope.high - slope.value);
     }
@@ -616,16 +502,6 @@ static void test_rates(judged *j, const koksma__subject *s)
         say_label(j, &j->words, patterns->at[i]);
         koksma__doc_say(&j->words, " N^%.3f^ (± %.3f%s)%s", slope.value, slope.high - slope.value,
                         slope.high < -0.5 - TOLERANCE ? "" : ", not surely better", i + 1 < patterns->n ? ", " : ".");
-        if (random.n < sizes) {
-            continue;
-        }
-        say_label(j, &j->more, patterns->at[i]);
-        for (size_t k = 0; k < sizes; k++) {
-            koksma__doc_say(&j->more, k ? ", %.3g at %lld" : " has means of %.3g at N = %lld", curve.y[k].mean,
-                            s->n->at[k]);
-        }
-        koksma__doc_say(&j->more, ", the last %.2g times that of random points. ",
-                        curve.y[sizes - 1].mean / random.y[sizes - 1].mean);
     }
 }
 
@@ -640,7 +516,6 @@ static void conclude_rates(judged *j)
             test_rates(j, &s);
         }
     }
-    say_tolerance(j);
 }
 
 /* ---- slopes: the printed tables over several n, by the slopes that stand beside their rows ------------------- */
@@ -662,51 +537,35 @@ static bool slope_passes(koksma__estimate slope, const koksma__estimate *other, 
     return other ? slope.low > other->high : (slope.high < -0.5 - TOLERANCE) == faster;
 }
 
-static void say_slope(const judged *j, koksma__document *d, const char *pattern, koksma__estimate slope)
-{
-    say_label(j, d, pattern);
-    koksma__doc_say(d, " %.3f ± %.3f", slope.value, slope.high - slope.value);
-}
-
 /* Each row of a pattern is a test: its slope must be surely below -1/2 - TOLERANCE and, of a pattern of `against`, must not
    be; with `by` it must be surely above the pattern's slope in that table. Rows by another procedure than the printed
-   one are no tests. */
+   one are no tests, and are named where there are no others. */
 static void conclude_slopes(judged *j)
 {
     const koksma__conclusion *c = j->c;
     const koksma__table *by = c->by.n ? table_of(j, c->by.at[0]) : NULL;
     for (size_t i = 0; i < c->tables.n; i++) {
         const koksma__table *t = table_of(j, c->tables.at[i]);
-        const bool other = is_other(t, 0), exact = judged_by(t) != t->measure;
-        koksma__document *to = other && c->tables.n > 1 ? &j->more : &j->words;
+        const bool other = is_other(t, 0), exact = judged_by(t) != t->measure, shown = !other || c->tables.n == 1;
+        koksma__document slopes = {0};
         size_t said = 0, unsure = 0; /* unsure: slopes that do not pass by the printed procedure */
-        koksma__doc_say(to, other ? "By our rows' procedure (`%s`) in table %s:" : "%s in table %s",
-                        other      ? t->measure
-                        : j->tests ? ";"
-                                   : "Slopes",
-                        t->id);
-        if (!other && exact) {
-            koksma__doc_say(to, " (`%s`)", judged_by(t));
-        }
         for (size_t k = 0; k < c->patterns.n + c->against.n; k++) {
             const bool faster = k < c->patterns.n;
             const char *pattern = faster ? c->patterns.at[k] : c->against.at[k - c->patterns.n];
-            koksma__estimate slope, least, *above = by ? &least : NULL;
+            koksma__estimate least, *above = by ? &least : NULL;
             if (!koksma__plan_row_of(t, pattern)) {
                 continue;
             }
-            slope = slope_of(j, t, judged_by(t), pattern);
-            koksma__doc_say(to, said++ ? ", " : " ");
-            say_slope(j, to, pattern, slope);
+            const koksma__estimate slope = slope_of(j, t, judged_by(t), pattern);
+            koksma__doc_say(&slopes, said++ ? ", " : " ");
+            say_label(j, &slopes, pattern);
+            koksma__doc_say(&slopes, " %.3f ± %.3f", slope.value, slope.high - slope.value);
             if (by) {
                 least = slope_of(j, by, judged_by(by), pattern);
-                koksma__doc_say(to, " (%.3f ± %.3f in table %s)", least.value, least.high - least.value, by->id);
+                koksma__doc_say(&slopes, " (%.3f ± %.3f in table %s)", least.value, least.high - least.value, by->id);
             }
             if (exact) {
-                const koksma__estimate printed = slope_of(j, t, t->measure, pattern);
-                koksma__doc_say(&j->more, said > 1 ? ", " : "By `%s`, as printed, ", t->measure);
-                say_slope(j, &j->more, pattern, printed);
-                unsure += !slope_passes(printed, above, faster);
+                unsure += !slope_passes(slope_of(j, t, t->measure, pattern), above, faster);
             }
             j->other += other;
             j->open += isnan(slope.high) || (by && isnan(least.high));
@@ -714,21 +573,28 @@ static void conclude_slopes(judged *j)
                 test(j, slope_passes(slope, above, faster));
             }
         }
-        koksma__doc_say(&j->more, exact ? ". " : "");
+        if (!shown) {
+            koksma__json_writer_fini(&slopes.json);
+            continue;
+        }
+        koksma__doc_say(&j->words, other ? "By our rows' procedure (`%s`) in table %s:" : "%s in table %s",
+                        other                             ? t->measure
+                        : koksma__doc_is_empty(&j->words) ? "Slopes"
+                                                          : ";",
+                        t->id);
+        if (!other && exact) {
+            koksma__doc_say(&j->words, " (`%s`)", judged_by(t));
+        }
+        koksma__doc_say_words(&j->words, &slopes);
         if (unsure) {
             koksma__doc_say(&j->words,
                             by ? "; by the printed procedure the intervals overlap in %zu of %zu"
                                : "; by the printed procedure not surely in %zu of %zu",
                             unsure, said);
         }
-        koksma__doc_say(to, other ? to == &j->words ? "." : ". " : "");
+        koksma__doc_say(&j->words, other ? "." : "");
     }
     koksma__doc_say(&j->words, j->tests ? "." : "");
-    if (by) {
-        koksma__doc_say(&j->more, "The intervals must be apart; that of a pattern with one set is that of the fit. ");
-    } else {
-        say_tolerance(j);
-    }
 }
 
 /* ---- adaptive: adaptive sampling splits fewer strata needlessly in the first of two figures ------------------ */
@@ -747,15 +613,12 @@ static void conclude_adaptive(judged *j)
                         : i   ? "; "
                               : "Needless splits: ",
                         100 * share[i % 2], i ? "" : "figure ", f->id, f->adaptive);
-        koksma__doc_say(&j->more, "%s%s: %.1f more samples a pixel", i ? ", " : "Figure ", f->id,
-                        (double)(cost->samples - cost->first) / (double)cost->first * (double)f->n);
         if (i % 2) {
             test(j, share[0] < share[1]);
             j->open += isnan(share[0] + share[1]);
         }
     }
     koksma__doc_say(&j->words, ".");
-    koksma__doc_say(&j->more, ". ");
 }
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
@@ -802,10 +665,8 @@ static void conclude(koksma__report *r, koksma__document *d, const koksma__concl
                        j.other && answer ? ", as far as our procedure is the printed one" : "",
                        is_fitted(r, c) ? " (scenes fitted)" : "", c->says);
     koksma__doc_say_words(d, &j.words);
-    if (c->remark || !koksma__doc_is_empty(&j.more)) {
-        koksma__doc_paragraph(d, "%s", "");
-        koksma__doc_say_words(d, &j.more);
-        koksma__doc_say(d, "%s", c->remark ? c->remark : "");
+    if (c->remark) {
+        koksma__doc_paragraph(d, "%s", c->remark);
     }
 }
 
