@@ -96,12 +96,11 @@ static void add_means(koksma__report *r, koksma__rho_means *s, const double rho[
     for (size_t m = 0; m < measures; m++) {
         for (size_t k = 0; k < SCENES; k++) {
             if (k != without) {
-                const koksma__rho_source source = {measure_names[m], scene_names[k], "", k < 2 ? 16 : 4, 16};
                 const koksma__estimate e = {rho[m][k], rho[m][k] - 2 * sd, rho[m][k] + 2 * sd};
                 for (uint64_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
                     draws[i] = rho[m][k] + sd * normal(10 * m + k, i);
                 }
-                koksma__rho_add(r, s, &source, &e, draws);
+                koksma__rho_add(r, s, measure_names[m], scene_names[k], 16, &e, draws);
             }
         }
     }
@@ -150,7 +149,6 @@ TEST_CASE(headline_without_one_scene)
     assert_non_null(strstr(text, "It comes first whichever one of the 4 scenes is left out (+0.92 to +0.92)"));
     assert_non_null(strstr(text, "A than B and D;"));
     assert_null(strstr(text, "A than C"));
-    assert_non_null(strstr(text, "2 more differences are sure over all scenes, but not if some scene is left out."));
     koksma__report_release(&report);
     koksma__json_writer_fini(&words.json);
 }
@@ -170,9 +168,7 @@ TEST_CASE(headline_that_depends_on_a_scene)
     said(&words, text, sizeof text);
     assert_non_null(strstr(text, "The best predictor depends on the scenes. Over all of them it is B (mean Spearman "
                                  "+0.60 over 4 cases"));
-    assert_non_null(strstr(text, "; without s3 it is A."));
     assert_non_null(strstr(text, "No measure is surely better than another, whichever one scene is left out."));
-    assert_null(strstr(text, "The last is"));
     koksma__report_release(&report);
     koksma__json_writer_fini(&words.json);
 }
@@ -180,6 +176,7 @@ TEST_CASE(headline_that_depends_on_a_scene)
 /* Each statement over all scenes is one again of means that never had a scene, whichever it is. */
 TEST_CASE(statements_survive_any_scene)
 {
+    static const bool every[SCENES] = {true, true, true, true}; /* of those that the means have */
     int stated = 0, dropped = 0;
     for (uint64_t t = 0; t < 8; t++) {
         double rho[MEASURES][SCENES];
@@ -192,7 +189,7 @@ TEST_CASE(statements_survive_any_scene)
         const koksma__rho_jackknife j = koksma__rho_leave_out(&report, &all);
         for (size_t k = 0; k < SCENES; k++) {
             add_means(&report, &less, rho, MEASURES, 0.05, k);
-            const koksma__rho_ranking r = koksma__rho_rank(&report, &less, &(koksma__rho_subset){0});
+            const koksma__rho_ranking r = koksma__rho_rank(&report, &less, every);
             for (size_t a = 0; a < MEASURES; a++) {
                 for (size_t b = 0; b < MEASURES; b++) {
                     const size_t x = number_of(&less, measure_names[a]), y = number_of(&less, measure_names[b]);
@@ -212,24 +209,22 @@ TEST_CASE(statements_survive_any_scene)
     assert_true(stated > 0 && dropped > 0);
 }
 
-/* A group's mean is over its scenes' cases, a size's over its; one scene alone is no jackknife. */
+/* A group's mean is over its scenes' cases. */
 TEST_CASE(means_of_parts)
 {
     const double rho[MEASURES][SCENES] = {{.9, .5, .3, .1}, {.2, .4, .6, .8}};
-    const bool first_two[SCENES] = {true, true, false, false};
+    const bool first_two[SCENES] = {true, true, false, false}, last_two[SCENES] = {false, false, true, true};
     koksma__report report = {0};
     koksma__rho_means s;
     koksma__rho_ranking r;
     add_means(&report, &s, rho, 2, 0.02, SCENES);
-    r = koksma__rho_rank(&report, &s, &(koksma__rho_subset){.scenes = first_two});
+    r = koksma__rho_rank(&report, &s, first_two);
     assert_string_equal(s.of[r.at[0].measure].measure, "A");
     assert_near(r.at[0].mean.value, 0.7, 1e-15);
     assert_near(r.at[1].less.value, 0.3 - 0.7, 1e-15);
     assert_in_range(1000 * (r.at[0].mean.high - r.at[0].mean.low), 50, 61); /* 2 x 1.96 x 0.02 / sqrt(2) = 0.0554 */
-    r = koksma__rho_rank(&report, &s, &(koksma__rho_subset){.spp = 4});     /* s2 and s3 */
+    r = koksma__rho_rank(&report, &s, last_two);
     assert_string_equal(s.of[r.at[0].measure].measure, "B");
     assert_near(r.at[0].mean.value, 0.7, 1e-15);
-    r = koksma__rho_rank(&report, &s, &(koksma__rho_subset){.scenes = first_two, .spp = 4});
-    assert_int_equal(r.n, 0);
     koksma__report_release(&report);
 }

@@ -4,8 +4,8 @@
  * and a scene with its options and number of samples; for each it computes the rank correlation, over patterns, of the mean
  * of the measure of n points with the mean error of images of n samples per pixel. The interval of a correlation comes from
  * a bootstrap over the patterns that also redraws the means. All cases and measures are resampled together, so that the
- * mean correlations of two measures can be compared. The answer gives the means over all cases, then by group of scenes, by
- * scene and by number of samples.
+ * mean correlations of two measures can be compared. The answer gives the means over all cases, then by group of scenes and
+ * by scene.
  *
  * Blocks of one question may overlap: a case is that of the first block that renders it, with the patterns of all of them.
  * If several blocks have results of a pattern, its means are read from the one with the most trials (images) or point sets
@@ -237,8 +237,7 @@ static size_t add_case(koksma__report *r, koksma__document *d, const koksma__top
         rho = koksma__rho_shown(&rho, found.n);
         koksma__doc_row(d, "ttdtzi", p->scene, p->variant[0] ? p->variant : "defaults", p->spp, p->of->label, found.n,
                         rho);
-        const koksma__rho_source source = {p->of->label, p->scene, p->variant, p->spp, found.n};
-        koksma__rho_add(r, means, &source, &rho, draws);
+        koksma__rho_add(r, means, p->of->label, p->scene, found.n, &rho, draws);
     }
     return found.patterns_in_all;
 }
@@ -249,32 +248,25 @@ static size_t add_case(koksma__report *r, koksma__document *d, const koksma__top
 static void add_measures(koksma__document *d, const char *id, const koksma__rho_means *s,
                          const koksma__rho_jackknife *j)
 {
-    const size_t n_variants = s->n_variants < KOKSMA__RHO_VARIANTS ? s->n_variants : KOKSMA__RHO_VARIANTS;
     const koksma__rho_ranking *r = &j->of[0];
     const koksma__estimate none = {NAN, NAN, NAN};
     koksma__doc_table(d, "correlation-%.40s", id);
     koksma__doc_columns(d, "t measure;i3 mean Spearman;n2 p of 0 (Holm);n3 lowest without a scene;n3 highest without "
                            "a scene;i2 less the first;n2 p of that (Holm);n7 cases;n7 cases that exclude 0");
-    for (size_t v = 0; v < n_variants; v++) {
-        koksma__doc_columns(d, "n3 mean, %s", s->variants[v][0] ? s->variants[v] : "defaults");
-    }
     for (size_t i = 0; i < r->n; i++) {
         const koksma__rho_sums *m = &s->of[r->at[i].measure];
         const koksma__estimate range = j->n > 1 ? koksma__rho_range(j, r->at[i].measure) : none;
         koksma__doc_row(d, "tinnninzz", m->measure, r->at[i].mean, r->at[i].p, range.low, range.high,
                         i ? r->at[i].less : none, i ? r->p[i] : (double)NAN, m->all, m->sure);
-        for (size_t v = 0; v < n_variants; v++) {
-            koksma__doc_cells(d, "n", m->cases[v] ? m->rho[v] / (double)m->cases[v] : (double)NAN);
-        }
     }
 }
 
-/* Adds a row for a part of the cases: the mean of every measure, the best measure, and those that are significantly worse
+/* Adds a row for some scenes: the mean of every measure, the best measure, and those that are significantly worse
    than the best, by Holm's method over the pairs of measures in that row. */
 static void add_part(koksma__report *report, koksma__document *d, const koksma__rho_means *s, const char *name,
-                     const koksma__rho_subset *of)
+                     const bool *scenes)
 {
-    const koksma__rho_ranking r = koksma__rho_rank(report, s, of);
+    const koksma__rho_ranking r = koksma__rho_rank(report, s, scenes);
     char worse[512] = "";
     for (size_t i = 1; i < r.n; i++) {
         if (koksma__rho_is_better(&r, r.at[0].measure, r.at[i].measure)) {
@@ -290,43 +282,34 @@ static void add_part(koksma__report *report, koksma__document *d, const koksma__
     }
 }
 
-enum by { GROUP, SCENE, SAMPLES, WAYS };
-
-/* Writes a table of the means by group of scenes if the plan has groups, by scene if there are two or more, or by number of
-   samples if there are two or more. */
+/* Writes a table of the means by group of scenes if the plan has groups, or by scene if there are two or more. */
 static void add_parts(koksma__report *r, koksma__document *d, const koksma__topic *topic, const koksma__rho_means *s,
-                      enum by by)
+                      bool by_group)
 {
-    static const char *const names[] = {"group", "scene", "samples"};
-    static const char *const titles[] = {"By what dominates the scenes' error", "By scene", "By number of samples"};
-    const size_t counts[] = {topic->n_groups, s->n_scenes, s->n_sizes};
+    const char *name = by_group ? "group" : "scene";
+    const size_t n = by_group ? topic->n_groups : s->n_scenes;
     bool *scenes = koksma__report_memory(r, s->n_scenes, sizeof *scenes);
-    if (counts[by] < (by == GROUP ? 1 : 2)) {
+    if (n < (by_group ? 1 : 2)) {
         return;
     }
-    koksma__doc_section(d, NULL, "%s", titles[by]);
-    koksma__doc_table(d, "correlation-%.10s-%.40s", names[by], topic->id);
-    koksma__doc_columns(d, "t %s;n7 cases;t best;t significantly worse than the best", names[by]);
+    koksma__doc_section(d, NULL, by_group ? "By what dominates the scenes' error" : "By scene");
+    koksma__doc_table(d, "correlation-%s-%.40s", name, topic->id);
+    koksma__doc_columns(d, "t %s;n7 cases;t best;t significantly worse than the best", name);
     for (size_t m = 0; m < s->n; m++) {
         koksma__doc_columns(d, "i2 %s", s->of[m].measure);
     }
-    for (size_t i = 0; !r->status && i < counts[by]; i++) {
-        char name[160], members[256] = "";
-        const koksma__rho_subset of = {by == SAMPLES ? NULL : scenes, by == SAMPLES ? s->sizes[i] : 0};
+    for (size_t i = 0; !r->status && i < n; i++) {
+        char text[160], members[256] = "";
         for (size_t k = 0; k < s->n_scenes; k++) {
-            scenes[k] = by == GROUP ? koksma__texts_have(&topic->groups[i].scenes, s->scenes[k]) : k == i;
+            scenes[k] = by_group ? koksma__texts_have(&topic->groups[i].scenes, s->scenes[k]) : k == i;
             if (scenes[k]) {
                 koksma__text_join(members, sizeof members, ", ", s->scenes[k]);
             }
         }
-        if (by == GROUP) {
-            snprintf(name, sizeof name, "%.70s (%.80s)", topic->groups[i].title, members);
-        } else if (by == SCENE) {
-            snprintf(name, sizeof name, "%.150s", s->scenes[i]);
-        } else {
-            snprintf(name, sizeof name, "%lld", s->sizes[i]);
+        if (by_group) {
+            snprintf(text, sizeof text, "%.70s (%.80s)", topic->groups[i].title, members);
         }
-        add_part(r, d, s, name, &of);
+        add_part(r, d, s, by_group ? text : s->scenes[i], scenes);
     }
     koksma__doc_end(d);
 }
@@ -373,16 +356,9 @@ void koksma__answer_correlation(koksma__report *r, koksma__document *d, const ko
                               "study export` has the results of all.",
                               most, MOST_PATTERNS);
     }
-    if (means.n_variants > KOKSMA__RHO_VARIANTS) {
-        koksma__doc_paragraph(d,
-                              "%zu more combinations of options have no column here; the means include them, and the "
-                              "list of cases has them all.",
-                              means.n_variants - KOKSMA__RHO_VARIANTS);
-    }
     add_measures(d, topic->id, &means, &jackknife);
-    for (enum by by = GROUP; by < WAYS; by++) {
-        add_parts(r, d, topic, &means, by);
-    }
+    add_parts(r, d, topic, &means, true);
+    add_parts(r, d, topic, &means, false);
     koksma__doc_collapsed_section(d, NULL, "Every case, with intervals");
     koksma__doc_append(d, &list);
     koksma__doc_end(d);

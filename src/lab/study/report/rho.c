@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Sums of rank correlations (a measure has a cell for each scene and number of samples; the cells are few, so linear
- * search finds them), and rankings of measures by their means. A measure's mean over the chosen cases, and its mean in each
- * resample, are computed from the sums of cells. Two means differ significantly where the p-value of their difference,
- * from the resamples and adjusted by Holm's method, is at most 0.05. Holm's method counts all pairs of measures, not only
- * those with the best measure, because the same data determine which measure is the best. A statement about all scenes is
- * made only if it also holds when any single scene is left out. The jackknife (Efron 1982) uses the same subsets, but to
+ * Sums of rank correlations (a measure has a cell for each scene; the cells are few, so linear search finds them), and
+ * rankings of measures by their means. A measure's mean over the chosen cases, and its mean in each resample, are
+ * computed from the sums of cells. Two means differ significantly where the p-value of their difference, from the
+ * resamples and adjusted by Holm's method, is at most 0.05. Holm's method counts all pairs of measures, not only those
+ * with the best measure, because the same data determine which measure is the best. A statement about all scenes is made
+ * only if it also holds when any single scene is left out. The jackknife (Efron 1982) uses the same subsets, but to
  * estimate a variance.
  */
 #include "study/report/rho.h"
@@ -16,43 +16,28 @@
 
 #include "core/status.h"
 
-/* The index of a text in a list of them, to which it is added if it is not there. */
-static size_t index_of(koksma__report *r, const char ***texts, size_t *n, const char *text)
-{
-    size_t i = 0;
-    while (i < *n && strcmp((*texts)[i], text) != 0) {
-        i++;
-    }
-    const char **added = i < *n ? NULL : koksma__report_add(r, texts, n, sizeof *added);
-    if (added) {
-        *added = text;
-    }
-    return i;
-}
-
-/* Finds or adds the sums of a measure, and their cell of a scene and a number of samples; NULL: no memory. */
-static koksma__rho_cell *cell_of(koksma__report *r, koksma__rho_means *s, const koksma__rho_source *source,
-                                 size_t scene, koksma__rho_sums **of)
+/* Finds or adds the sums of a measure, and their cell of a scene; NULL: no memory. */
+static koksma__rho_cell *cell_of(koksma__report *r, koksma__rho_means *s, const char *measure, size_t scene,
+                                 koksma__rho_sums **of)
 {
     size_t m = 0, c = 0;
-    while (m < s->n && strcmp(s->of[m].measure, source->measure) != 0) {
+    while (m < s->n && strcmp(s->of[m].measure, measure) != 0) {
         m++;
     }
     if (m == s->n && (*of = koksma__report_add(r, &s->of, &s->n, sizeof **of))) {
-        (*of)->measure = source->measure;
+        (*of)->measure = measure;
     }
     if (r->status) {
         return NULL;
     }
     *of = &s->of[m];
-    while (c < (*of)->n_cells && ((*of)->cells[c].scene != scene || (*of)->cells[c].spp != source->spp)) {
+    while (c < (*of)->n_cells && (*of)->cells[c].scene != scene) {
         c++;
     }
     koksma__rho_cell *cell =
         c < (*of)->n_cells ? NULL : koksma__report_add(r, &(*of)->cells, &(*of)->n_cells, sizeof *cell);
     if (cell) {
         *cell = (koksma__rho_cell){.scene = scene,
-                                   .spp = source->spp,
                                    .draws = koksma__report_memory(r, KOKSMA__RHO_SAMPLES, sizeof *cell->draws)};
     }
     return r->status ? NULL : &(*of)->cells[c];
@@ -64,44 +49,33 @@ koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_pattern
     return says ? *rho : (koksma__estimate){rho->value, NAN, NAN};
 }
 
-void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const koksma__rho_source *source,
-                     const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES])
+void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const char *measure, const char *scene,
+                     size_t n_patterns, const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES])
 {
     koksma__rho_sums *of;
-    const size_t v = index_of(r, &s->variants, &s->n_variants, source->variant),
-                 scene = index_of(r, &s->scenes, &s->n_scenes, source->scene);
-    size_t k = 0;
-    while (k < s->n_sizes && s->sizes[k] != source->spp) {
-        k++;
+    size_t i = 0;
+    while (i < s->n_scenes && strcmp(s->scenes[i], scene) != 0) {
+        i++;
     }
-    long long *size = k < s->n_sizes ? NULL : koksma__report_add(r, &s->sizes, &s->n_sizes, sizeof *size);
-    koksma__rho_cell *cell = cell_of(r, s, source, scene, &of);
+    const char **added = i < s->n_scenes ? NULL : koksma__report_add(r, &s->scenes, &s->n_scenes, sizeof *added);
+    if (added) {
+        *added = scene;
+    }
+    koksma__rho_cell *cell = cell_of(r, s, measure, i, &of);
     if (!cell) {
         return;
     }
-    s->sizes[k] = source->spp;
-    const bool few = source->n_patterns < KOKSMA__LEAST_PAIRS;
+    const bool few = n_patterns < KOKSMA__LEAST_PAIRS;
     cell->total += rho->value;
     cell->all++;
     cell->few += few;
-    for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
-        cell->draws[i] += draws[i];
+    for (size_t k = 0; k < KOKSMA__RHO_SAMPLES; k++) {
+        cell->draws[k] += draws[k];
     }
     of->total += rho->value;
     of->all++;
     of->sure += rho->low > 0 || rho->high < 0;
     of->few += few;
-    of->perfect += !few && isnan(rho->low);
-    if (v < KOKSMA__RHO_VARIANTS) {
-        of->rho[v] += rho->value;
-        of->cases[v]++;
-    }
-}
-
-static int compare_sizes(const void *a, const void *b)
-{
-    const long long x = *(const long long *)a, y = *(const long long *)b;
-    return x > y ? 1 : -(x < y);
 }
 
 static double mean_of(const koksma__rho_sums *m)
@@ -124,7 +98,6 @@ void koksma__rho_order(koksma__report *r, koksma__rho_means *s)
             sorted[m] = s->of[order[m]];
         }
         s->of = sorted;
-        qsort(s->sizes, s->n_sizes, sizeof *s->sizes, compare_sizes);
     }
 }
 
@@ -132,13 +105,8 @@ void koksma__rho_order(koksma__report *r, koksma__rho_means *s)
 
 static const double LEVEL = 0.05;
 
-static bool is_in(const koksma__rho_subset *of, const koksma__rho_cell *cell)
-{
-    return (!of->scenes || of->scenes[cell->scene]) && (!of->spp || of->spp == cell->spp);
-}
-
-/* Computes a measure's mean over the subset, and its resamples; out->cases = 0: the measure has no such cases. */
-static void stand(koksma__report *r, const koksma__rho_sums *m, const koksma__rho_subset *of, double *draws,
+/* Computes a measure's mean over some scenes, and its resamples; out->cases = 0: the measure has no such cases. */
+static void stand(koksma__report *r, const koksma__rho_sums *m, const bool *scenes, double *draws,
                   koksma__rho_standing *out)
 {
     size_t few = 0;
@@ -148,7 +116,7 @@ static void stand(koksma__report *r, const koksma__rho_sums *m, const koksma__rh
     }
     for (size_t c = 0; c < m->n_cells; c++) {
         const koksma__rho_cell *cell = &m->cells[c];
-        if (is_in(of, cell)) {
+        if (scenes[cell->scene]) {
             out->cases += cell->all;
             few += cell->few;
             total += cell->total;
@@ -204,7 +172,7 @@ static void compare(koksma__report *r, koksma__rho_ranking *k, double *const *dr
     }
 }
 
-koksma__rho_ranking koksma__rho_rank(koksma__report *r, const koksma__rho_means *s, const koksma__rho_subset *of)
+koksma__rho_ranking koksma__rho_rank(koksma__report *r, const koksma__rho_means *s, const bool *scenes)
 {
     koksma__rho_ranking k = {.at = koksma__report_memory(r, s->n, sizeof *k.at),
                              .place = koksma__report_memory(r, s->n, sizeof *k.place),
@@ -214,7 +182,7 @@ koksma__rho_ranking koksma__rho_rank(koksma__report *r, const koksma__rho_means 
     double *means = koksma__report_memory(r, s->n, sizeof *means);
     size_t *order = koksma__report_memory(r, s->n, sizeof *order);
     for (size_t m = 0; koksma__report_goes_on(r) && m < s->n; m++) {
-        stand(r, &s->of[m], of, s->draws + k.n * KOKSMA__RHO_SAMPLES, &found[k.n]);
+        stand(r, &s->of[m], scenes, s->draws + k.n * KOKSMA__RHO_SAMPLES, &found[k.n]);
         found[k.n].measure = m;
         means[k.n] = found[k.n].mean.value;
         k.n += found[k.n].cases > 0;
@@ -259,7 +227,7 @@ koksma__rho_jackknife koksma__rho_leave_out(koksma__report *r, const koksma__rho
         for (size_t k = 0; k < s->n_scenes; k++) {
             scenes[k] = j.n != 1 + k;
         }
-        j.of[j.n] = koksma__rho_rank(r, s, &(koksma__rho_subset){.scenes = scenes});
+        j.of[j.n] = koksma__rho_rank(r, s, scenes);
     }
     return j;
 }
@@ -271,8 +239,7 @@ bool koksma__rho_always(const koksma__rho_jackknife *j, koksma__rho_statement st
         const koksma__rho_ranking *r = &j->of[i];
         always = statement == KOKSMA__RHO_BETTER     ? koksma__rho_is_better(r, a, b)
                  : statement == KOKSMA__RHO_PREDICTS ? predicts(r, a)
-                 : statement == KOKSMA__RHO_FIRST    ? r->place[a] == 0
-                                                     : r->place[a] + 1 == r->n;
+                                                     : r->place[a] == 0;
     }
     return always;
 }
@@ -292,59 +259,25 @@ koksma__estimate koksma__rho_range(const koksma__rho_jackknife *j, size_t measur
 
 /* ---- Words ------------------------------------------------------------------------------------------------- */
 
-/* Writes the mean correlation and the number of its cases with and without an interval. */
-static void say_cases(koksma__document *d, const koksma__rho_sums *of)
-{
-    if (of->all == 1) {
-        koksma__doc_say(d, "Spearman %+.2f, one case; %s", mean_of(of),
-                        of->few       ? "too few patterns for an interval"
-                        : of->perfect ? "in perfect order, which has no interval"
-                        : of->sure    ? "its interval excludes 0"
-                                      : "its interval includes 0");
-        return;
-    }
-    koksma__doc_say(d, "mean Spearman %+.2f over %zu cases; the interval excludes 0 in %zu of them", mean_of(of),
-                    of->all, of->sure);
-    if (of->few) {
-        koksma__doc_say(d, "; %zu have fewer than %d patterns, too few for an interval", of->few,
-                        KOKSMA__LEAST_PAIRS);
-    }
-    if (of->perfect) {
-        koksma__doc_say(d, "; %zu are in perfect order, which has no interval", of->perfect);
-    }
-}
-
-/* For each scene whose omission changes the first measure, names the measure that is then the first. */
-static void say_other_firsts(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
-{
-    for (size_t i = 1; i < j->n; i++) {
-        if (j->of[i].n && j->of[i].at[0].measure != j->of[0].at[0].measure) {
-            koksma__doc_say(d, "; without %s it is `%s`", s->scenes[i - 1], s->of[j->of[i].at[0].measure].measure);
-        }
-    }
-}
-
 /* Writes which measure comes first, and whether that depends on a single scene. */
 static void say_first(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
-    const size_t first = j->of[0].at[0].measure;
-    const bool always = j->n > 1 && koksma__rho_always(j, KOKSMA__RHO_FIRST, first, 0);
-    if (j->n == 1 || always) {
-        koksma__doc_say(d, "*Best predictor:* `%s` (", s->of[first].measure);
-    } else {
-        koksma__doc_say(d, "*The best predictor depends on the scenes.* Over all of them it is `%s` (",
-                        s->of[first].measure);
-    }
-    say_cases(d, &s->of[first]);
-    koksma__doc_say(d, ")");
-    if (always) {
-        const koksma__estimate range = koksma__rho_range(j, first);
+    const koksma__rho_sums *first = &s->of[j->of[0].at[0].measure];
+    const bool always = koksma__rho_always(j, KOKSMA__RHO_FIRST, j->of[0].at[0].measure, 0);
+    koksma__doc_say(d,
+                    always
+                        ? "*Best predictor:* `%s` (mean Spearman %+.2f over %zu case%s; the interval excludes 0 in "
+                          "%zu of them)"
+                        : "*The best predictor depends on the scenes.* Over all of them it is `%s` (mean Spearman "
+                          "%+.2f over %zu case%s; the interval excludes 0 in %zu of them)",
+                    first->measure, mean_of(first), first->all, koksma__plural((double)first->all), first->sure);
+    if (j->n == 1) {
+        koksma__doc_say(d, ". All cases are of one scene; other scenes may differ.");
+    } else if (always) {
+        const koksma__estimate range = koksma__rho_range(j, j->of[0].at[0].measure);
         koksma__doc_say(d, ". It comes first whichever one of the %zu scenes is left out (%+.2f to %+.2f).",
                         s->n_scenes, range.low, range.high);
-    } else if (j->n == 1) {
-        koksma__doc_say(d, ". All cases are of one scene; other scenes may differ.");
     } else {
-        say_other_firsts(d, s, j);
         koksma__doc_say(d, ".");
     }
 }
@@ -377,21 +310,13 @@ static void say_sure(koksma__document *d, const koksma__rho_means *s, const koks
 {
     const char *whichever = j->n > 1 ? ", whichever one scene is left out" : "", *before = "";
     const size_t always = list_measures(NULL, s, j, NULL);
-    size_t sure = 0, better = 0, sure_better = 0;
+    size_t better = 0;
     for (size_t a = 0; a < s->n; a++) {
-        sure += predicts(&j->of[0], a);
         better += list_measures(NULL, s, j, &a);
-        for (size_t b = 0; b < s->n; b++) {
-            sure_better += koksma__rho_is_better(&j->of[0], a, b);
-        }
     }
     koksma__doc_say(d, always ? " Surely above 0%s: " : " No measure's mean is surely above 0%s.", whichever);
     list_measures(d, s, j, NULL);
     koksma__doc_say(d, "%s", always ? "." : "");
-    if (sure > always) {
-        koksma__doc_say(d, " %zu more are surely above 0 over all scenes, but not if some scene is left out.",
-                        sure - always);
-    }
     koksma__doc_say(d, better ? " Surely better%s: " : " No measure is surely better than another%s.", whichever);
     for (size_t a = 0; a < s->n; a++) {
         if (list_measures(NULL, s, j, &a)) {
@@ -401,31 +326,21 @@ static void say_sure(koksma__document *d, const koksma__rho_means *s, const koks
         }
     }
     koksma__doc_say(d, "%s", better ? "." : "");
-    if (sure_better > better) {
-        koksma__doc_say(d, " %zu more differences are sure over all scenes, but not if some scene is left out.",
-                        sure_better - better);
-    }
 }
 
 void koksma__rho_say(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
-    const size_t last = j->of[0].at[j->of[0].n - 1].measure;
-    const size_t first = j->of[0].at[0].measure;
-    const bool too_few = s->of[first].few == s->of[first].all;
-    koksma__doc_answer(d, !too_few && (j->n == 1 || koksma__rho_always(j, KOKSMA__RHO_FIRST, first, 0)), "%s", "");
+    const koksma__rho_sums *first = &s->of[j->of[0].at[0].measure];
+    const bool too_few = first->few == first->all;
+    koksma__doc_answer(d, !too_few && koksma__rho_always(j, KOKSMA__RHO_FIRST, j->of[0].at[0].measure, 0), "%s", "");
     if (too_few) {
         koksma__doc_say(d,
                         "*Undecided:* a rank correlation needs %d patterns or more for an interval. The largest "
-                        "correlation, over fewer patterns, is that of `%s` (",
-                        KOKSMA__LEAST_PAIRS, s->of[first].measure);
-        say_cases(d, &s->of[first]);
-        koksma__doc_say(d, ").");
+                        "correlation, over fewer patterns, is that of `%s`, %+.2f.",
+                        KOKSMA__LEAST_PAIRS, first->measure, mean_of(first));
     } else {
         say_first(d, s, j);
         say_sure(d, s, j);
-        if (s->n > 1 && koksma__rho_always(j, KOKSMA__RHO_LAST, last, 0)) {
-            koksma__doc_say(d, " The last is `%s` with %+.2f.", s->of[last].measure, mean_of(&s->of[last]));
-        }
     }
     koksma__doc_paragraph(
         d,

@@ -1,25 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rank correlations of measures with image errors. Sums by measure, scene and number of samples give means over any set of
- * scenes; all cases are resampled together, so that the means of two measures can be compared resample by resample.
- * Rankings of the measures by these means say which differ significantly, and which statements hold whichever one scene is
- * left out. All is in the report's memory; after a failure of the report, rankings are empty.
+ * Rank correlations of measures with image errors. Sums by measure and scene give means over any set of scenes; all
+ * cases are resampled together, so that the means of two measures can be compared resample by resample. Rankings of the
+ * measures by these means say which differ significantly, and which statements hold whichever one scene is left out. All
+ * is in the report's memory; after a failure of the report, rankings are empty.
  */
 #ifndef KOKSMA_STUDY_REPORT_RHO_H
 #define KOKSMA_STUDY_REPORT_RHO_H
 
 #include "study/report/report.h"
 
-/* KOKSMA__RHO_VARIANTS: the number of combinations of options that have a column in a table. KOKSMA__RHO_SAMPLES:
-   the number of bootstrap resamples. With ten measures, Holm's correction compares the smallest p-value of the 45
+/* The number of bootstrap resamples. With ten measures, Holm's correction compares the smallest p-value of the 45
    pairs with 0.05 / 45 = .0011. With 4,000 resamples, two or three resamples decide whether p is below this limit,
    and which differences were significant changed with the seed; with 20,000 resamples, eleven decide. */
-enum { KOKSMA__RHO_VARIANTS = 24, KOKSMA__RHO_SAMPLES = 20000 };
+enum { KOKSMA__RHO_SAMPLES = 20000 };
 
-/* Sums over the cases of a measure in one scene with one number of samples. */
+/* Sums over the cases of a measure in one scene. */
 typedef struct koksma__rho_cell {
     size_t scene;
-    long long spp;
     size_t all, few; /* number of cases, and of those with too few patterns for an interval */
     double total;    /* sum of rho over the cases */
     double *draws;   /* sum of rho over the cases, for each resample */
@@ -28,49 +26,31 @@ typedef struct koksma__rho_cell {
 /* Sums of rho of one measure. */
 typedef struct koksma__rho_sums {
     const char *measure;
-    double total, rho[KOKSMA__RHO_VARIANTS];
-    size_t all, cases[KOKSMA__RHO_VARIANTS];
-    size_t sure; /* number of cases whose interval excludes 0 */
-    /* numbers of cases without an interval: those with too few patterns, and those in perfect order */
-    size_t few, perfect;
+    double total;
+    size_t all, few; /* as of a cell */
+    size_t sure;     /* number of cases whose interval excludes 0 */
     size_t n_cells;
     koksma__rho_cell *cells;
 } koksma__rho_sums;
 
 typedef struct koksma__rho_means {
-    size_t n, n_variants, n_scenes, n_sizes;
+    size_t n, n_scenes;
     koksma__rho_sums *of;
-    const char **variants, **scenes;
-    long long *sizes; /* numbers of samples per pixel */
-    double *draws;    /* of all measures, for the ranking that is being made */
+    const char **scenes;
+    double *draws; /* of all measures, for the ranking that is being made */
 } koksma__rho_means;
-
-/* The case that a correlation belongs to; the strings must outlive the means. */
-typedef struct koksma__rho_source {
-    const char *measure, *scene, *variant;
-    long long spp;
-    size_t n_patterns;
-} koksma__rho_source;
 
 /* Returns a correlation over n_patterns patterns as tables show it: its interval becomes NaN if it has no meaning,
    because there are fewer than KOKSMA__LEAST_PAIRS patterns or its width is 0. */
 koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns);
 
-/* Adds a case: rho from koksma__rho_shown, and its resamples. For a measure that is better when larger, the caller
-   reverses the sign of rho and of its resamples. */
-void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const koksma__rho_source *source,
-                     const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES]);
+/* Adds a case of a measure and a scene, whose texts must outlive the means: rho from koksma__rho_shown, and its resamples.
+   For a measure that is better when larger, the caller reverses the sign of rho and of its resamples. */
+void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const char *measure, const char *scene,
+                     size_t n_patterns, const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES]);
 
-/* Ends adding: sorts the measures by their mean over all cases, the largest first and equal means in the plan's order, and
-   sorts the numbers of samples. */
+/* Ends adding: sorts the measures by their mean over all cases, the largest first and equal means in the plan's order. */
 void koksma__rho_order(koksma__report *r, koksma__rho_means *s);
-
-/* A subset of the cases. scenes: whether each scene is in it; NULL: all scenes. spp: the number of samples; 0:
-   all. */
-typedef struct koksma__rho_subset {
-    const bool *scenes;
-    long long spp;
-} koksma__rho_subset;
 
 typedef struct koksma__rho_standing {
     size_t measure; /* index of the measure in koksma__rho_means */
@@ -88,8 +68,8 @@ typedef struct koksma__rho_ranking {
     double *p;                /* n x n p-values of "the means are equal", by Holm over the pairs; NaN: not compared */
 } koksma__rho_ranking;
 
-/* Ranks the measures over a subset of the cases. */
-koksma__rho_ranking koksma__rho_rank(koksma__report *r, const koksma__rho_means *s, const koksma__rho_subset *of);
+/* Ranks the measures over the cases of some scenes; scenes: whether each is one of them. */
+koksma__rho_ranking koksma__rho_rank(koksma__report *r, const koksma__rho_means *s, const bool *scenes);
 
 /* Whether measure a has a significantly larger mean than measure b (at 5 % for all pairs
    together). Measures are indices in koksma__rho_means. */
@@ -109,8 +89,7 @@ koksma__rho_jackknife koksma__rho_leave_out(koksma__report *r, const koksma__rho
 typedef enum koksma__rho_statement {
     KOKSMA__RHO_BETTER,   /* measure a is significantly better than b */
     KOKSMA__RHO_PREDICTS, /* the mean of a is significantly above 0 */
-    KOKSMA__RHO_FIRST,    /* a is the first by its mean */
-    KOKSMA__RHO_LAST      /* a is the last */
+    KOKSMA__RHO_FIRST     /* a is the first by its mean */
 } koksma__rho_statement;
 
 /* Whether a statement holds over all scenes and whichever one scene is left out. */
@@ -120,7 +99,7 @@ bool koksma__rho_always(const koksma__rho_jackknife *jackknife, koksma__rho_stat
 koksma__estimate koksma__rho_range(const koksma__rho_jackknife *jackknife, size_t measure);
 
 /* The sentences on what predicts the error, which state only results that hold over all scenes and whichever one scene is
-   left out, and count those that hold over all scenes but not if some scene is left out. */
+   left out. */
 void koksma__rho_say(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *jackknife);
 
 #endif
