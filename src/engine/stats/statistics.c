@@ -77,14 +77,6 @@ koksma__estimate koksma__relative_change(const double *a, const double *base, si
     return (koksma__estimate){quotient - 1, quotient - 1 - half, quotient - 1 + half};
 }
 
-double koksma__trials_factor(double difference, double half)
-{
-    const double wanted = (1.95996 + 0.84162) / 1.95996; /* the 97.5 % and 80 % quantiles of the normal distribution
-                                                            */
-    const double ratio = wanted * half / difference;
-    return ratio * ratio;
-}
-
 koksma__summary koksma__exactly(double value)
 {
     return (koksma__summary){1, value, 0, value, value, value};

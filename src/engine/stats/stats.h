@@ -117,11 +117,6 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
    maxima. The SD is NaN for fewer than two blocks. */
 void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd);
 
-/* Returns the factor by which the number of trials must grow so that a test at the 5 % level detects the difference
-   of two means with a probability of 80 %, if standard errors decrease as trials^-1/2. half: half the width of the
-   present 95 % interval of the difference. */
-double koksma__trials_factor(double difference, double half);
-
 /* Computes the relative difference of means over n pairs, mean a / mean base - 1. It is 0 if both means are 0; the
    interval is NaN for n = 1. */
 koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n);

@@ -1,17 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Answers how fast measures and errors fall with n: by average slopes in log-log over the larger half of the sizes,
- * with intervals, and with the known lower bound of a measure for comparison. The page sorts the patterns by the
- * widths of the intervals, the narrowest first. A bound that contains a logarithm is not a power law; its row has the
- * average slope of the bound over the same sizes.
+ * Answers how fast measures and errors fall with n: by average slopes in log-log over the larger half of the sizes, with
+ * intervals, and with the known lower bound of a measure for comparison, the steepest first. A bound that contains a
+ * logarithm is not a power law; its row has the average slope of the bound over the same sizes.
  *
  * The sentence names the pattern whose values fall fastest. A pattern surely falls faster than another if the interval
  * of the difference of their slopes excludes 0. A pattern is a candidate if no other surely falls faster. If there are
- * several candidates, the sentence names those whose slopes have the narrowest intervals, and how many trials would
- * separate two of them, so that a pattern with a wide interval hides no order among patterns with narrow ones. It also
- * gives the number of patterns that fall faster than random points (or the power of theory), the number that follow no
- * power law, and the patterns with means of 0. For measures of quality or distance, for which a fast fall is not
- * better, it does not compare the patterns.
+ * several candidates, the sentence names those whose slopes have the narrowest intervals, so that a pattern with a wide
+ * interval hides no order among patterns with narrow ones. It also gives the number of patterns that fall faster than
+ * random points (or the power of theory). Means of 0 have no logarithm: the table marks slopes without them. For
+ * measures of quality or distance, for which a fast fall is not better, it does not compare the patterns.
  */
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +19,7 @@
 #include "measures/shared/shared.h"
 #include "study/report/report.h"
 
-enum { NAMED = 4, NAMED_ZEROS = 12, MOST_TRIALS = 1000 };
+enum { NAMED = 4 };
 
 /* Whether a steeper slope means a better pattern. */
 typedef enum sense {
@@ -36,24 +34,19 @@ typedef struct slopes {
     sense sense;
     const koksma__summary *means; /* [pattern * sizes + size] */
     koksma__trend *trends;
-    size_t *zeros; /* for each pattern, the number of sizes at which its mean is 0, which has no logarithm */
     double random; /* the slope of independent random points, for comparison if no pattern is one; NaN: unknown */
-    size_t counted, best, tied, faster, off_line; /* numbers of patterns; tied: those that may fall fastest */
-    size_t is_random;                             /* index of a pattern of random points; patterns->n: none */
+    size_t counted, best, tied, faster; /* numbers of patterns; tied: those that may fall fastest */
+    size_t is_random;                   /* index of a pattern of random points; patterns->n: none */
 } slopes;
 
-/* Fills in the sizes at which a pattern's mean is above 0; returns the number of those at which it is 0. */
-static size_t collect(const slopes *s, size_t pattern, koksma__curve *out)
+/* Fills in the sizes at which a pattern's mean is above 0. */
+static void collect(const slopes *s, size_t pattern, koksma__curve *out)
 {
     const koksma__wholes *n = s->of->n;
-    size_t zeros = 0;
     out->n = 0;
     for (size_t k = 0; k < n->n; k++) {
-        const koksma__summary *mean = &s->means[pattern * n->n + k];
-        zeros += mean->n && mean->mean <= 0;
-        koksma__curve_add(out, n->at[k], *mean);
+        koksma__curve_add(out, n->at[k], s->means[pattern * n->n + k]);
     }
-    return zeros;
 }
 
 /* The trend over the larger half of the sizes, and over at least three sizes if there are that many. */
@@ -125,7 +118,6 @@ static void count(slopes *s)
             s->best = isnan(best->value) || e->value < best->value ? i : s->best;
             s->is_random = s->is_random == n && is_random(s->of->patterns->at[i]) ? i : s->is_random;
             s->counted++;
-            s->off_line += s->trends[i].off_line;
         }
     }
     const koksma__estimate power = {s->random, s->random, s->random};
@@ -142,25 +134,6 @@ static void say_power(koksma__document *d, const koksma__estimate *e)
     koksma__doc_say(d, "N^%.3f^", e->value);
     if (!isnan(e->low) && e->low < e->high) {
         koksma__doc_say(d, " (%.3f to %.3f)", e->low, e->high);
-    }
-}
-
-/* Writes what would separate two slopes: more trials, or more sizes if a pattern is deterministic and so has a
-   single set of each size. */
-static void say_trials(koksma__document *d, const slopes *s, size_t a, size_t b)
-{
-    const koksma__estimate *x = &s->trends[a].slope, *y = &s->trends[b].slope;
-    const char *first = s->of->patterns->at[a], *second = s->of->patterns->at[b];
-    const double factor = koksma__trials_factor(x->value - y->value, koksma__hypot(half(x), half(y)));
-    if (!koksma__compare(x->value, y->value)) {
-        koksma__doc_say(d, "; the slopes of %s and %s are equal", first, second);
-    } else if (koksma__has_one_set(first) || koksma__has_one_set(second)) {
-        koksma__doc_say(d, "; more sizes might tell %s from %s, more trials would not", first, second);
-    } else if (factor > MOST_TRIALS) {
-        koksma__doc_say(d, "; more than %d times as many trials would be needed to tell %s from %s", MOST_TRIALS,
-                        first, second);
-    } else if (isfinite(factor)) {
-        koksma__doc_say(d, "; about %.0f times as many trials would tell %s from %s", ceil(factor), first, second);
     }
 }
 
@@ -188,7 +161,6 @@ static void say_tied(koksma__report *r, koksma__document *d, const slopes *s)
     if (n > named) {
         koksma__doc_say(d, ", and %zu more", n - named);
     }
-    say_trials(d, s, tied[by[0]], tied[by[0]] == s->best ? tied[by[1]] : s->best);
 }
 
 static void say_fastest(koksma__report *r, koksma__document *d, const slopes *s)
@@ -208,53 +180,22 @@ static void say_fastest(koksma__report *r, koksma__document *d, const slopes *s)
     }
 }
 
-/* Writes the patterns that have means of 0; names at most NAMED_ZEROS of them. */
-static void say_zeros(koksma__document *d, const slopes *s)
-{
-    size_t with = 0;
-    for (size_t i = 0; i < s->of->patterns->n; i++) {
-        if (s->zeros[i] && with++ < NAMED_ZEROS) {
-            koksma__doc_say(d, with == 1 ? "; means of 0 have no logarithm and are left out: " : ", ");
-            koksma__doc_say(d, s->zeros[i] == s->of->n->n ? "all %zu of %s" : "%zu of %s", s->zeros[i],
-                            s->of->patterns->at[i]);
-        }
-    }
-    if (with > NAMED_ZEROS) {
-        koksma__doc_say(d, ", and those of %zu more patterns", with - NAMED_ZEROS);
-    }
-}
-
-/* Writes the sentence, unless no pattern has a slope and no mean is left out. */
+/* Writes the sentence, unless no pattern has a slope. */
 static void say_slopes(koksma__report *r, koksma__document *d, slopes *s)
 {
-    bool zeros = false;
     count(s);
-    for (size_t i = 0; i < s->of->patterns->n; i++) {
-        zeros |= s->zeros[i] > 0;
-    }
-    if (!s->counted && !zeros) {
+    if (!s->counted) {
         return;
     }
     if (s->sense == FALLS) {
         koksma__doc_answer(d, s->tied == 1, "*%s:* ", s->of->name);
-    } else {
-        koksma__doc_paragraph(d, "*%s:* ", s->of->name);
-    }
-    if (s->sense != FALLS) {
-        koksma__doc_say(d, s->sense == LARGER
-                               ? "larger values are better, so patterns are not compared by how fast values fall"
-                               : "values follow no power law in N, so patterns are not compared by their slopes");
-    } else if (s->counted) {
         say_fastest(r, d, s);
     } else {
-        koksma__doc_say(d, "no pattern has a slope");
+        koksma__doc_paragraph(d, "*%s:* %s", s->of->name,
+                              s->sense == LARGER
+                                  ? "larger values are better, so patterns are not compared by how fast values fall"
+                                  : "values follow no power law in N, so patterns are not compared by their slopes");
     }
-    if (s->off_line) {
-        koksma__doc_say(d, "; %zu of %zu patterns %s", s->off_line, s->counted,
-                        s->off_line == 1 ? "does not follow a power law; its slope is an average"
-                                         : "do not follow a power law; their slope is an average");
-    }
-    say_zeros(d, s);
     koksma__doc_say(d, ".");
 }
 
@@ -287,12 +228,10 @@ static void add_pattern(koksma__document *d, koksma__document *chart, const slop
     for (size_t i = 0; i < c->n; i++) {
         koksma__doc_point(chart, c->x[i], c->y[i].mean, c->y[i].low, c->y[i].high);
     }
-    koksma__doc_row(d, "tit", of->patterns->at[p], s->trends[p].slope, s->trends[p].off_line ? "no" : "");
-    for (size_t k = 0; k < of->n->n; k++) {
-        const koksma__summary *mean = &s->means[p * of->n->n + k];
-        const koksma__estimate none = {NAN, NAN, NAN};
-        koksma__doc_cells(d, "i", mean->n ? koksma__estimate_of(mean) : none);
-    }
+    koksma__doc_row(d, "tit", of->patterns->at[p], s->trends[p].slope,
+                    s->trends[p].off_line ? "no"
+                    : c->n < of->n->n     ? "of fewer sizes"
+                                          : "");
 }
 
 /* Adds the row and the line of a bound. `scale` makes the line begin at a quarter of the first value of the first
@@ -312,14 +251,14 @@ static void add_bound(koksma__document *d, koksma__document *chart, const char *
     koksma__doc_row(d, "ti", text, slope);
 }
 
-/* Adds the rows and curves of all patterns, and finds their slopes and their numbers of means that are 0. */
+/* Adds the rows and curves of all patterns, and finds their slopes. */
 static void add_rows(koksma__report *r, koksma__document *d, koksma__document *chart, slopes *s)
 {
     koksma__curve c = koksma__curve_of(r, s->of->n->n), bound = koksma__curve_of(r, s->of->n->n);
     const char *who = NULL;
     double scale = 1;
     for (size_t p = 0; !r->status && p < s->of->patterns->n; p++) {
-        s->zeros[p] = collect(s, p, &c);
+        collect(s, p, &c);
         s->trends[p] = trend_of(&c);
         if (p == 0 && (who = bound_of(s->of, &c, &bound))) {
             scale = c.y[0].mean / bound.y[0].mean / 4;
@@ -340,7 +279,6 @@ static void add_subject(koksma__report *r, koksma__document *d, const char *id, 
                 .sense = sense_of(of),
                 .means = koksma__read_means(r, of),
                 .trends = koksma__report_memory(r, n, sizeof *s.trends),
-                .zeros = koksma__report_memory(r, n, sizeof *s.zeros),
                 .random = random_slope(of)};
     koksma__document rows = {0}, chart = {0};
     if (r->status) {
@@ -352,9 +290,6 @@ static void add_subject(koksma__report *r, koksma__document *d, const char *id, 
                                                s.sense == LARGER ? 1 : -1, NULL});
     koksma__doc_sorted_table(&rows, "slope", true, false, "slopes-%.32s-%zu", id, number);
     koksma__doc_columns(&rows, "t pattern;i3 slope##%s;t power law?", of->metric);
-    for (size_t i = 0; i < of->n->n; i++) {
-        koksma__doc_columns(&rows, "i3h N = %lld", of->n->at[i]);
-    }
     add_rows(r, &rows, &chart, &s);
     say_slopes(r, d, &s);
     koksma__doc_append(d, &rows);

@@ -3,8 +3,7 @@
  * Tables of the means of every pattern, with their intervals: one for each measure (and warp) of a block of points,
  * and one for each scene and options of a block of images. The patterns are sorted by the last column, the best
  * first. A sentence reports whether the best pattern differs from all others in that column, by the intervals of the
- * differences, which hold together at 95 % (Bonferroni). If the best pattern does not differ from some other, the
- * sentence says how many trials might separate the two. A table of images has the numbers of samples at which a
+ * differences, which hold together at 95 % (Bonferroni). A table of images has the numbers of samples at which a
  * pattern's error is in visible bands (koksma__mean_coherence), and the sentence names the best pattern without bands.
  */
 #include <math.h>
@@ -66,30 +65,11 @@ static bool is_tied(const standing *s, size_t i)
            !(fabs(first->mean - other->mean) > half_of(first, other, s->known - 1));
 }
 
-/* Writes how many trials would separate the best pattern from pattern i of the order, the first one that is tied
-   with it. */
-static void say_trials(koksma__document *d, const standing *s, size_t i)
-{
-    const koksma__summary *a = mean_at(s, 0), *b = mean_at(s, i);
-    const double half = half_of(a, b, s->known - 1), trials = (double)(a->n > b->n ? a->n : b->n);
-    if (!koksma__compare(a->mean, b->mean)) {
-        koksma__doc_say(d, " %s and %s have equal means", name_at(s, 0), name_at(s, i));
-    } else if (isnan(half)) {
-        koksma__doc_say(d, " A mean of one trial has no interval: 2 or more trials are needed");
-    } else {
-        const double needed = trials * koksma__trials_factor(a->mean - b->mean, half);
-        const double unit = koksma__pow(10, floor(koksma__log10(needed)) - 1);
-        koksma__doc_say(d, " About %.0f trials instead of %.0f would tell %s from %s",
-                        fmax(ceil(needed / unit) * unit, trials + 1), trials, name_at(s, 0), name_at(s, i));
-    }
-}
-
 static void say_standing(koksma__document *d, const standing *s)
 {
     const koksma__summary *mean = mean_at(s, 0);
-    size_t tied = 0, next = 0, named = 0;
-    for (size_t i = s->known; i-- > 1;) {
-        next = is_tied(s, i) ? i : next;
+    size_t tied = 0, named = 0;
+    for (size_t i = 1; i < s->known; i++) {
         tied += is_tied(s, i);
     }
     koksma__doc_answer(d, !tied, "*%s, %s:* ", s->of->name, s->last);
@@ -105,8 +85,6 @@ static void say_standing(koksma__document *d, const standing *s)
         if (tied > named) {
             koksma__doc_say(d, " and %zu more", tied - named);
         }
-        koksma__doc_say(d, ".");
-        say_trials(d, s, next);
     } else {
         koksma__doc_say(d, "%s has the %s mean, %.4g", name_at(s, 0), s->of->larger ? "largest" : "least",
                         mean->mean);
