@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """conclusions.py PROGRAM: a study whose answers are known by construction. Of every kind of conclusion one is true, one is
 false and, where a kind has several tests, one is half true; the report has to say so. What stands beside them (ratios,
-coherences, joint tests of z) is computed here again from the rows, or is the same wherever a page says it."""
+joint tests of z) is computed here again from the rows."""
 import csv
 import io
 import json
@@ -155,47 +155,26 @@ def check_agreement(report):
              for row in b["rows"] for cell in row if isinstance(cell, dict) and "verdict" in cell]
     of = {v: sum(c["verdict"] == v for c in cells) for v in ("agrees", "unexplained", "untested")}
     headline = next(words(b["text"]) for _, b in blocks(report["content"]) if "published means of measures" in words(b.get("text", [])))
-    more = next(words(b["text"]) for _, b in blocks(report["content"]) if "that are no test, as" in words(b.get("text", [])))
     near = [c for c in cells if c["verdict"] == "untested" and abs(c["z"]) < 2.6]
-    if of["untested"] != 5 or not near or "; 6 are by a procedure that was inferred from their tables" not in headline or not headline.startswith(f"{of['agrees']} of {of['agrees'] + of['unexplained']} published means of measures agree") \
-            or more != "The 5 that are no test, as their notes say: 4 in table other; 1 in table chosen.":
-        complain(f"{of}, {len(near)} within chance: {headline} {more}")
-
-
-def check_coherences(report):
-    """Of one error the page says one coherence, whatever section it is in."""
-    found = {}
-    for under, block in blocks(report["content"]):
-        names = [c["name"] for c in block.get("columns", [])]
-        if "coherence" in names:
-            scene = next(s for s in ("checker-45", "checker", "ball") if any(s in h or (s == "checker" and "Table errors" in h) or
-                                                                     (s == "checker-45" and "Table bands" in h) for h in under))
-            for row in block["rows"]:
-                of = dict(zip(names, row))
-                value = of["coherence"][0] if isinstance(of["coherence"], list) else of["coherence"]
-                bands = {"yes": True, "no": False, "coherent": True, "noise": False}[of.get("coherent", of.get("error"))]
-                found.setdefault((scene, of["pattern"]), set()).add((value, of["p"], bands))
-    both = [key for key, values in found.items() if len(values) > 1]
-    if both or len(found) < 8:
-        complain(f"several coherences of one error: {[(key, found[key]) for key in both]} of {len(found)}")
+    if of["untested"] != 5 or not near or not headline.startswith(f"{of['agrees']} of {of['agrees'] + of['unexplained']} published means of measures agree"):
+        complain(f"{of}, {len(near)} within chance: {headline}")
 
 
 def check_joint_tests(report):
-    """The words below a table follow from the values of z that its cells have."""
-    tables = [(under, b) for under, b in blocks(report["content"]) if b["kind"] == "table" and b["name"] in ("table-S", "table-sizes")]
-    verdicts = set()
-    for under, table in tables:
-        z = [cell["z"] for row in table["rows"] for cell in row if isinstance(cell, dict) and "z" in cell]
-        k, total = len(z), sum(z) / math.sqrt(len(z))
-        squares, limit = sum(v * v for v in z), {2: 5.991, 5: 11.070, 6: 12.592}[k]
-        text = next(words(b["text"]) for u, b in blocks(report["content"]) if u == under and b["kind"] == "paragraph" and "together" in words(b["text"]))
-        fails = (abs(total) > 1.96) + (squares > limit)
-        verdicts.add(fails > 0)
-        if f"together {('pass both tests', 'fail one of two tests', 'fail both tests')[fails]}:" not in text or f"{total:+.2f}, which {'fails' if abs(total) > 1.96 else 'passes'}" not in text:
-            complain(f"{table['name']}: {total:+.2f} and {squares:.1f} of {k}: {text}")
+    """Which tables fail follows from the values of z that their cells have."""
     headline = next(words(b["text"]) for _, b in blocks(report["content"]) if "joint tests" in words(b.get("text", [])))
-    if len(tables) != 2 or verdicts != {True, False} or "1 of 2 tables" not in headline or "fail: table sizes. No test, because of its note: table other, chosen." not in headline:
-        complain(f"{len(tables)} tables: {headline}")
+    verdicts = set()
+    for _, table in blocks(report["content"]):
+        if table.get("name") in ("table-S", "table-sizes"):
+            z = [cell["z"] for row in table["rows"] for cell in row if isinstance(cell, dict) and "z" in cell]
+            k, total, squares = len(z), sum(z) / math.sqrt(len(z)), sum(v * v for v in z)
+            fails = abs(total) > 1.96 or squares > {2: 5.991, 5: 11.070, 6: 12.592}[k]
+            verdicts.add(fails)
+            if fails != (f"{table['name'][6:]} ({total:+.2f}, {squares:.1f} of {k})" in headline):
+                complain(f"{table['name']}: {total:+.2f} and {squares:.1f} of {k}: {headline}")
+    if verdicts != {True, False} or "1 of 2 tables" not in headline or "fail: table sizes (" not in headline or \
+            "No test, because of its note: table other, chosen." not in headline:
+        complain(headline)
 
 
 def check_colours(report):
@@ -248,7 +227,6 @@ with tempfile.TemporaryDirectory() as folder:
     rows = list(csv.DictReader(io.StringIO(koksma("study", "export", "known").stdout)))
     check_verdicts(report, rows)
     check_agreement(report)
-    check_coherences(report)
     check_joint_tests(report)
     check_colours(report)
     check_slopes(report)

@@ -61,7 +61,7 @@ TEST_CASE(hashing_rows_can_end)
     assert_ok(koksma_study_close(study));
 }
 
-/* A question asks the callback at a grain of little work: once for every 64 of 150,000 resamples here, then in the
+/* A question asks the callback at a grain of little work: once for every 64 of 120,000 resamples here, then in the
    rankings, and for every number that it reads. A no at any of these calls is the last call and leaves no file. */
 TEST_CASE(questions_end_where_the_callback_says)
 {
@@ -81,7 +81,7 @@ TEST_CASE(questions_end_where_the_callback_says)
     calls all = {0};
     koksma_run run = {.threads = 1, .keep_going = count_call, .context = &all};
     assert_ok(koksma_study_report(study, &run));
-    assert_true(all.n > 150000 / 64 && !all.fell);
+    assert_true(all.n > 120000 / 64 && !all.fell);
     unlink("asking/report.json");
     for (size_t part = 1; part < 8; part++) {
         calls some = {.last = part < 4 ? all.n * part / 4 : all.n - 64 * (part - 4) - 1};

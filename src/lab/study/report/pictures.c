@@ -178,33 +178,13 @@ static size_t first_served(const koksma__image_block *block)
     return p;
 }
 
-/* Adds the table of the coherences of the errors of the block's first n patterns. */
-static void add_coherence(koksma__report *r, koksma__document *d, const koksma__task *first, size_t n)
-{
-    const char *id = first->image->id; /* blocks may have scenes in common */
-    koksma__doc_table(d, "coherence-%.20s%s%.20s-%lld", id ? id : "", id ? "-" : "", first->scene->name, first->n);
-    koksma__doc_columns(d, "t pattern;n3 coherence;n3 noise from;n3 to;n2 p;n2 in common;n2 cycles a pixel;t error");
-    for (size_t p = 0; !r->status && p < n; p++) {
-        const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
-        if (!is_served(first->image, p)) {
-            continue;
-        }
-        const koksma_coherence_values v = average(r, &task, r->run);
-        koksma__doc_row(d, "tnnnnnnt", task.pattern, v.coherence, v.noise_low, v.noise_high, v.p, v.common,
-                        koksma__hypot(v.frequency_x, v.frequency_y),
-                        v.images == 0 ? "none"
-                        : v.coherent  ? "coherent"
-                                      : "noise");
-    }
-}
-
-/* Whether the store has the first `trials` trials of the task for each of the first n patterns of its block. */
-static bool are_done(koksma__report *r, const koksma__task *first, size_t n, long long trials)
+/* Whether the store has the first trial of the task for each of the first n patterns of its block. */
+static bool are_done(koksma__report *r, const koksma__task *first, size_t n)
 {
     bool done = true;
     for (size_t p = 0; done && p < n; p++) {
         const koksma__task task = koksma__task_with(first, first->image->patterns.at[p]);
-        done = !is_served(first->image, p) || has_trials(r, &task, trials);
+        done = !is_served(first->image, p) || has_trials(r, &task, 1);
     }
     return done;
 }
@@ -230,7 +210,7 @@ static void add_scene(koksma__report *r, koksma__document *d, const koksma__task
 {
     const koksma__texts *patterns = &first->image->patterns;
     const size_t shown = patterns->n < MAX_SHOWN ? patterns->n : MAX_SHOWN;
-    if (!has_reference(r, first) || !are_done(r, first, shown, 1)) {
+    if (!has_reference(r, first) || !are_done(r, first, shown)) {
         return;
     }
     if (*used + 4 * (size_t)first->width * (size_t)first->height * (shown + 1) > MOST_BYTES) {
@@ -250,9 +230,6 @@ static void add_scene(koksma__report *r, koksma__document *d, const koksma__task
         koksma__doc_paragraph(
             d, shown + 1 == patterns->n ? "%zu more pattern is not shown." : "%zu more patterns are not shown.",
             patterns->n - shown);
-    }
-    if (!r->status && are_done(r, first, shown, averaged(first))) {
-        add_coherence(r, d, first, shown);
     }
     koksma__doc_end(d);
 }
@@ -275,15 +252,6 @@ static void write_pictures(koksma__report *r, koksma__document *d)
     if (used) {
         koksma__doc_paragraph(d, "The first trial of every pattern, its absolute error in luminance 8 times as "
                                  "bright, and the reference.");
-        koksma__doc_paragraph(
-            d,
-            "Coherence of the error: the peak of the mean power spectrum of its first %d trials over the mean power "
-            "(of frequencies as high if that is larger, so that blue noise counts as noise). Part of an error may be "
-            "common to all trials (column _in common_). For white noise with an equally large common part, 95 %% of "
-            "the coherences lie between the columns _noise from_ and _to_. An error is coherent if such noise has a "
-            "coherence as large with a probability _p_ below %g: it has bands or another pattern, which the eye sees "
-            "sooner than noise of the same size.",
-            KOKSMA__SPECTRUM_TRIALS, KOKSMA_COHERENT_P);
     }
     koksma__doc_append(d, &scenes);
     if (left_out) {

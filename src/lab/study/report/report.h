@@ -199,9 +199,6 @@ void koksma__z_add(koksma__z_sums *sums, const koksma__verdict *verdict, const k
 bool koksma__z_deviates(const koksma__z_sums *sums, double alpha);
 bool koksma__z_spreads(const koksma__z_sums *sums, double alpha);
 
-/* Writes a paragraph on the values of z of a table together, and on the cells that are left out. */
-void koksma__z_say(koksma__document *d, const koksma__z_sums *sums);
-
 /* ---- Sections, questions and conclusions ------------------------------------------------------------------- */
 
 /* A section of the report; each is a line of sections.def. It writes its content, below its heading; a section without
@@ -222,7 +219,7 @@ void koksma__conclude(koksma__report *r, koksma__document *d, bool on_figures);
 
 /* A question of a plan with its blocks. */
 typedef struct koksma__topic {
-    const char *id;                                  /* id of the question, part of the names of its CSV files */
+    const char *id;                                  /* id of the question, part of the names of its tables */
     const koksma__discrepancy_block **discrepancies; /* has capacity for all blocks of the plan */
     const koksma__image_block **images;
     size_t n_discrepancies, n_images;

@@ -10,8 +10,7 @@
  * the exponent, and the multiple of random points' mean. A chart of the means follows.
  *
  * Errors of images: our means against the block's first reference (the paper's), the coherence of the error and, if the
- * block has several references, our means against the last one (the converged image). The text below a table reports the
- * effect of the choice of the reference.
+ * block has several references, our means against the last one (the converged image).
  */
 #include <math.h>
 #include <stdio.h>
@@ -157,7 +156,6 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
     char group[KOKSMA_MAX_SPEC + 64];
     size_t sets;
     bool differ;
-    koksma__z_sums together = {0};
     count_sets(r, t, &sets, &differ);
     snprintf(group, sizeof group, "%s, %s%zu set%s", t->measure, differ ? "up to " : "", sets,
              koksma__plural((double)sets));
@@ -173,14 +171,12 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
         const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
         begin_row(d, t, row, &verdict);
         add_measure_cells(d, &cell, differ);
-        koksma__z_add(&together, &verdict, &cell);
         if (t->also) {
             const koksma__cell also = koksma__points_cell(r, t, t->also, row->pattern, t->n.at[0]);
             add_measure_cells(d, &also, differ);
         }
     }
     end_table(d, t);
-    koksma__z_say(d, &together);
     koksma__doc_end(d);
 }
 
@@ -208,10 +204,10 @@ static void add_printed_line(koksma__document *d, koksma__document *chart, const
     }
 }
 
-/* Adds a row with our means of a measure. Those of the table's first measure get verdicts, added to `together`, and a
-   curve; of the second one both are NULL. */
+/* Adds a row with our means of a measure. Those of the table's first measure get verdicts and a curve; of the second one
+   `chart` is NULL. */
 static void add_our_line(koksma__report *r, koksma__document *d, const koksma__table *t, const koksma__table_row *row,
-                         const char *measure, koksma__document *chart, koksma__z_sums *together)
+                         const char *measure, koksma__document *chart)
 {
     koksma__curve curve = koksma__curve_of(r, t->n.n);
     koksma__doc_row(d, "ttt", row->label, row->pattern, measure);
@@ -223,7 +219,6 @@ static void add_our_line(koksma__report *r, koksma__document *d, const koksma__t
         const koksma__verdict verdict = koksma__table_judge(t, row, i, &cell);
         add_mean(d, &cell.mean, 0, chart ? &verdict : NULL);
         if (chart) {
-            koksma__z_add(together, &verdict, &cell);
             koksma__doc_point(chart, (double)t->n.at[i], cell.mean.mean, cell.mean.low, cell.mean.high);
         }
         koksma__curve_add(&curve, t->n.at[i], cell.mean);
@@ -237,7 +232,6 @@ static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma
     size_t sets;
     bool differ, published = false;
     koksma__document chart = {0};
-    koksma__z_sums together = {0};
     snprintf(title, sizeof title, "Table %.60s: %.110s%s", t->id, t->title,
              t->rows[0].n_published ? ". Hollow: printed" : "");
     koksma__doc_chart(&chart, &(koksma__chart){title, "points", t->measure, true, true, 0, NULL});
@@ -249,9 +243,9 @@ static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma
     koksma__doc_columns(d, "i3f slope#slope 95 %%;n3 theory;n2 × random");
     for (size_t i = 0; i < t->n_rows; i++) {
         add_printed_line(d, NULL, t, &t->rows[i]);
-        add_our_line(r, d, t, &t->rows[i], t->measure, &chart, &together);
+        add_our_line(r, d, t, &t->rows[i], t->measure, &chart);
         if (t->also) {
-            add_our_line(r, d, t, &t->rows[i], t->also, NULL, NULL);
+            add_our_line(r, d, t, &t->rows[i], t->also, NULL);
         }
     }
     for (size_t i = 0; i < t->n_rows; i++) {
@@ -261,7 +255,6 @@ static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma
         }
     }
     end_table(d, t);
-    koksma__z_say(d, &together);
     count_sets(r, t, &sets, &differ);
     koksma__doc_paragraph(d,
                           published ? "Published means are taken to be over 100 sets, ours are over %s%zu"
@@ -287,7 +280,8 @@ static void write_point_tables(koksma__report *r, koksma__document *d)
         "ours, divided by the sum of SD √(1/100 + 1/T) and half of the last published digit, where SD and T are the "
         "standard deviation and the number of our sets: it accounts for the errors of both means, the published one "
         "taken to be over 100 sets, and for the rounding. A single |z| below %.1f is attributed to chance (✓ and z); "
-        "the text below each table tests its values of z together. _Largest of 100_ is the mean of the largest "
+        "the section _Agreement with the published means_ tests all of a table together. _Largest of 100_ is the "
+        "mean of the largest "
         "values in blocks of 100 sets; its ±, from five blocks on, is the SD of these largest values, whereas the "
         "other intervals are " KOKSMA__MEAN_INTERVALS ". With fewer than 100 sets it is the largest value of all.",
         KOKSMA__AGREEMENT_Z);
@@ -323,9 +317,8 @@ static void add_image_columns(koksma__document *d, const koksma__image_block *bl
     }
 }
 
-/* Adds a row; the means against the first [0] and the last [1] reference go to `means`. */
 static void add_image_row(koksma__report *r, koksma__document *d, const koksma__table *t,
-                          const koksma__table_row *row, double means[2])
+                          const koksma__table_row *row)
 {
     const koksma__subject s = koksma__table_images(r->study, t);
     const koksma__cell cell = koksma__table_cell(r, t, row->pattern, 0),
@@ -333,8 +326,6 @@ static void add_image_row(koksma__report *r, koksma__document *d, const koksma__
     const koksma_coherence_values v = koksma__mean_coherence(r, &s, row->pattern, t->n.at[0]);
     const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
     const double none = NAN;
-    means[0] = cell.mean.mean;
-    means[1] = last.mean.mean;
     begin_row(d, t, row, &verdict);
     koksma__doc_cells(d, "innnnnt", koksma__estimate_of(&cell.mean), cell.sd, cell.max, v.images ? v.coherence : none,
                       v.images ? v.noise_high : none, v.images ? v.p : none,
@@ -346,58 +337,14 @@ static void add_image_row(koksma__report *r, koksma__document *d, const koksma__
     }
 }
 
-/* Writes how much the choice of the reference changes the means, and whether it changes the order, if every row has both
-   means. */
-static void say_reference(koksma__report *r, koksma__document *d, const koksma__table *t, const double *means)
-{
-    const size_t n = t->n_rows;
-    const koksma__subject s = koksma__table_images(r->study, t);
-    size_t *paper = koksma__report_memory(r, 2 * n, sizeof *paper), *order = paper + n;
-    double low = INFINITY, high = -INFINITY;
-    if (!paper) {
-        return;
-    }
-    if (koksma__order_means(means, 2, n, false, paper) < n ||
-        koksma__order_means(means + 1, 2, n, false, order) < n) {
-        koksma__doc_paragraph(d, "Some rows have no trials yet.");
-        return;
-    }
-    koksma__doc_paragraph(d, "Best to worst against the converged reference: ");
-    for (size_t i = 0; i < n; i++) {
-        const double change = means[2 * i + 1] / means[2 * i] - 1;
-        low = fmin(low, change);
-        high = fmax(high, change);
-        koksma__doc_say(d, "%s%s", t->rows[order[i]].label, i + 1 < n ? "; " : ". ");
-    }
-    if (isfinite(low) && isfinite(high)) {
-        koksma__doc_say(d,
-                        "Taking the converged reference instead of the paper's changes the means by %+.1f to %+.1f "
-                        "%% and %s the order of the patterns. ",
-                        100 * low, 100 * high,
-                        memcmp(paper, order, n * sizeof *order) ? "changes" : "does not change");
-    }
-    const double error = koksma__reference_error(r, &s);
-    if (isfinite(error)) {
-        koksma__doc_say(d,
-                        "The mean error of the converged reference itself is %.2g, which is %.2g times the smallest "
-                        "error in the table.",
-                        error, error / means[2 * order[0] + 1]);
-    }
-}
-
 static void add_image_table(koksma__report *r, koksma__document *d, const koksma__table *t)
 {
-    double *means = koksma__report_memory(r, 2 * t->n_rows, sizeof *means);
-    if (!means) {
-        return;
-    }
     begin_table(d, t);
     add_image_columns(d, &r->study->plan.images[t->images]);
     for (size_t i = 0; i < t->n_rows; i++) {
-        add_image_row(r, d, t, &t->rows[i], means + 2 * i);
+        add_image_row(r, d, t, &t->rows[i]);
     }
     end_table(d, t);
-    say_reference(r, d, t, means);
     koksma__doc_end(d);
 }
 
@@ -411,8 +358,8 @@ static void write_image_tables(koksma__report *r, koksma__document *d)
     koksma__doc_paragraph(
         d,
         "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
-        "are " KOKSMA__MEAN_INTERVALS
-        ". A maximum is the error of one pixel; maxima get no verdict. Coherence (defined in the section _Pictures_) "
+        "are " KOKSMA__MEAN_INTERVALS ". A maximum is the error of one pixel; maxima get no verdict. Coherence, the "
+        "peak of the mean power spectrum over the mean power (of frequencies as high if that is larger), "
         "is that of the errors of the first %d trials: that of white noise is below _noise below_ in 97.5 %% of "
         "cases, and as large as here with probability p. An error with p below %g is coherent: in bands, a slow "
         "shade or another pattern that the eye sees.",

@@ -173,44 +173,6 @@ bool koksma__z_spreads(const koksma__z_sums *z, double alpha)
     return z->count > 1 && z->squares > koksma__chi_squared_quantile(1 - alpha, (double)z->count);
 }
 
-void koksma__z_say(koksma__document *d, const koksma__z_sums *z)
-{
-    const double k = (double)z->count;
-    if (!z->count && !z->untested) {
-        return;
-    }
-    if (z->count > 1) {
-        const bool one_side = koksma__z_deviates(z, 0.05), spread = koksma__z_spreads(z, 0.05);
-        koksma__doc_paragraph(
-            d,
-            "The %zu values of z together *%s*: their sum divided by √%zu is %+.2f, which %s (by chance between "
-            "-1.96 and +1.96 in 95 %% of tables; otherwise the means deviate to one side), and the sum of their "
-            "squares is %.1f, which %s (by chance below %.1f in 95 %%).",
-            z->count,
-            one_side && spread   ? "fail both tests"
-            : one_side || spread ? "fail one of two tests"
-                                 : "pass both tests",
-            z->count, z->sum / sqrt(k), one_side ? "fails" : "passes", z->squares, spread ? "fails" : "passes",
-            koksma__chi_squared_quantile(0.95, k));
-        if (one_side || spread) {
-            koksma__doc_say(d, " The section _Agreement with the published means_ weighs the tests of all tables.");
-        }
-    } else {
-        koksma__doc_paragraph(d, "The values of z have no joint test.");
-    }
-    if (z->one_set || z->untested) {
-        koksma__doc_say(d, " Left out whatever their z:");
-    }
-    if (z->one_set) {
-        koksma__doc_say(d, " %zu cell%s of a pattern with one set, whose z has no chance in it%s", z->one_set,
-                        koksma__plural((double)z->one_set), z->untested ? ";" : ".");
-    }
-    if (z->untested) {
-        koksma__doc_say(d, " %zu cell%s that a note calls no test.", z->untested,
-                        koksma__plural((double)z->untested));
-    }
-}
-
 /* ---- The section that counts them -------------------------------------------------------------------------- */
 
 /* The groups of tables that are counted separately: means of measures, which are tested statistically; means of image
@@ -220,20 +182,8 @@ enum { MEASURES, IMAGES, FITTED, GROUPS };
 /* The verdicts of each group, where the means of measures are no test, and the values of z of each table. */
 typedef struct counts {
     size_t of[GROUPS][KOKSMA_VERDICT_UNTESTED + 1];
-    size_t inferred; /* cells of measures that count, by a procedure that their table's note infers from the table */
-    char untested[256]; /* such as "3 in table 1; 15 in table 3" */
-    koksma__z_sums *z;  /* [table] */
+    koksma__z_sums *z; /* [table] */
 } counts;
-
-/* Whether a note on all means of a table says which procedure they are probably of, which explains no difference. */
-static bool is_inferred(const koksma__table *t)
-{
-    bool inferred = false;
-    for (size_t i = 0; i < t->n_notes; i++) {
-        inferred |= !t->notes[i].pattern && !t->notes[i].explained && !t->notes[i].untested;
-    }
-    return inferred;
-}
 
 /* A table over several numbers of points has one mean per row and column, other tables one per row. */
 static void count_table(koksma__report *r, const koksma__table *t, counts *all, koksma__z_sums *z)
@@ -244,14 +194,7 @@ static void count_table(koksma__report *r, const koksma__table *t, counts *all, 
         const koksma__cell cell = koksma__table_cell(r, t, row->pattern, i % t->n.n);
         const koksma__verdict verdict = koksma__table_judge(t, row, i % t->n.n, &cell);
         of[verdict.kind]++;
-        all->inferred += !t->scene && is_inferred(t) &&
-                         (verdict.kind == KOKSMA_VERDICT_AGREES || verdict.kind == KOKSMA_VERDICT_UNEXPLAINED);
         koksma__z_add(z, &verdict, &cell);
-    }
-    const size_t used = strlen(all->untested);
-    if (z->untested) {
-        snprintf(all->untested + used, sizeof all->untested - used, "%s%zu in table %.40s", used ? "; " : "",
-                 z->untested, t->id);
     }
 }
 
@@ -300,18 +243,10 @@ static void say_group(koksma__document *d, int group, const counts *all, size_t 
         koksma__doc_say(d, "; %zu of the %zu are of a pattern with one set, where rounding alone decides", one_set,
                         agree + explained + unexplained);
     }
-    if (group == MEASURES && all->inferred) {
-        koksma__doc_say(d, "; %zu are by a procedure that was inferred from their tables, as the notes say",
-                        all->inferred);
-    }
     if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
         koksma__doc_say(d, "; %zu more are no test", of[KOKSMA_VERDICT_UNTESTED]);
     }
     koksma__doc_say(d, ".");
-    if (group == MEASURES && of[KOKSMA_VERDICT_UNTESTED]) {
-        koksma__doc_paragraph(d, "The %zu that are no test, as their notes say: %s.", of[KOKSMA_VERDICT_UNTESTED],
-                              all->untested);
-    }
 }
 
 static bool fails(const koksma__z_sums *z, double alpha)
@@ -319,15 +254,16 @@ static bool fails(const koksma__z_sums *z, double alpha)
     return koksma__z_deviates(z, alpha) || koksma__z_spreads(z, alpha);
 }
 
-/* Lists the tables that fail one of their two tests at 5 %; strict: those that fail at 5 % for all tests of all tables
-   together, otherwise those that do not. */
+/* Lists the tables that fail one of their two tests at 5 %, with both sums; strict: those that fail at 5 % for all
+   tests of all tables together, otherwise those that do not. */
 static void list_failed(koksma__document *d, const koksma__plan *plan, const koksma__z_sums *z, double all_tests,
                         bool strict)
 {
     size_t named = 0;
     for (size_t i = 0; i < plan->n_tables; i++) {
         if (fails(&z[i], 0.05) && fails(&z[i], 0.05 / all_tests) == strict) {
-            koksma__doc_say(d, "%s%s", named++ ? "; " : "", plan->tables[i].id);
+            koksma__doc_say(d, "%s%s (%+.2f, %.1f of %zu)", named++ ? "; " : "", plan->tables[i].id,
+                            z[i].sum / sqrt((double)z[i].count), z[i].squares, z[i].count);
         }
     }
 }
@@ -348,12 +284,13 @@ static void say_joint(koksma__document *d, const koksma__plan *plan, const koksm
     if (!tested) {
         return;
     }
-    koksma__doc_answer(d,
-                       strictly ? KOKSMA__ANSWER_FAILS
-                       : failed ? KOKSMA__ANSWER_UNDECIDED
-                                : KOKSMA__ANSWER_DECIDED,
-                       "The values of z of %zu of %zu tables pass their joint tests (of sum and squares, 5 %% each)",
-                       tested - failed, tested);
+    koksma__doc_answer(
+        d,
+        strictly ? KOKSMA__ANSWER_FAILS
+        : failed ? KOKSMA__ANSWER_UNDECIDED
+                 : KOKSMA__ANSWER_DECIDED,
+        "The values of z of %zu of %zu tables pass their joint tests (of sum / √k and of squares, 5 %% each)",
+        tested - failed, tested);
     if (strictly) {
         koksma__doc_say(d, "; chance alone does not explain the tables that fail: table ");
         list_failed(d, plan, z, all_tests, true);
