@@ -385,7 +385,7 @@ void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t 
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
-static void begin_table(koksma__document *d, const char *column, bool by_width, bool descending, const char *format,
+static void begin_table(koksma__document *d, const char *column, bool descending, const char *format,
                         va_list arguments)
 {
     char name[256];
@@ -395,7 +395,6 @@ static void begin_table(koksma__document *d, const char *column, bool by_width, 
     if (column) {
         koksma__json_begin_object(&d->json, "sort");
         koksma__json_write_text(&d->json, "column", column);
-        koksma__json_write_text(&d->json, "by", by_width ? "width" : "value");
         put_flag(d, "descending", descending);
         koksma__json_end(&d->json);
     }
@@ -407,16 +406,15 @@ void koksma__doc_table(koksma__document *d, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    begin_table(d, NULL, false, false, format, arguments);
+    begin_table(d, NULL, false, format, arguments);
     va_end(arguments);
 }
 
-void koksma__doc_sorted_table(koksma__document *d, const char *column, bool by_width, bool descending,
-                              const char *format, ...)
+void koksma__doc_sorted_table(koksma__document *d, const char *column, bool descending, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    begin_table(d, column, by_width, descending, format, arguments);
+    begin_table(d, column, descending, format, arguments);
     va_end(arguments);
 }
 

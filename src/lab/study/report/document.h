@@ -102,16 +102,16 @@ typedef struct koksma__cell_data {
 
 koksma__cell_data koksma__cell_of(double value);
 
-/* Begins a table: write its columns first, then its rows. The format gives the name of its CSV file without the extension.
+/* Begins a table: write its columns first, then its rows. The format gives its name.
    A row may have fewer cells than columns. */
 void koksma__doc_table(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
-/* Begins a table that the page sorts by a column: by the column's values, or by the widths of its intervals. */
-void koksma__doc_sorted_table(koksma__document *d, const char *column, bool by_width, bool descending,
-                              const char *format, ...) KOKSMA_PRINTF(5, 6);
+/* Begins a table that the page sorts by a column. */
+void koksma__doc_sorted_table(koksma__document *d, const char *column, bool descending, const char *format, ...)
+    KOKSMA_PRINTF(4, 5);
 /* Columns, such as "t pattern;n7 cases;i3fh %s, slope#slope#%s". Each has a letter for its type: t text, n number, i value
    with its 95 % interval, s value with its standard deviation, v verdict on a published number; then the digits on the
    page; then letters: f the digits are decimal places, h the page hides the column, m it merges cells of neighbouring rows
-   with equal texts. After a blank follow the name, which heads the CSV file; after '#' the head on the page if that
+   with equal texts. After a blank follow the name; after '#' the head on the page if that
    differs; after another '#' a common head above neighbouring columns. The conversions are %s and %lld; a head that is
    empty, or "%s" alone for NULL, is left out. */
 void koksma__doc_columns(koksma__document *d, const char *columns, ...) KOKSMA_PRINTF(2, 3);

@@ -191,7 +191,7 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
             "Error of an image: %s (%s). Samplers are used as in a renderer: one set for each pixel and each use "
             "(lens, light, ...). Behind: the relative difference of the error to that of the first row with as many "
             "samples. Bands: the error has a pattern, which eyes notice more than noise. Intervals and decisions of "
-            "a scene hold together with 95 %%; coherence and decisions are in the CSV files.",
+            "a scene hold together with 95 %%; the data have coherence and decisions.",
             sheet->metric_text, sheet->metric.metric->title);
     }
     if (sheet->samplers[0]->sets != SIZE_MAX && sheet->n_spp) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows the data of a report (docs/report-format.md), which are in the page's element #data: first the answers and contents
-// (overview.mjs), then sections, tables with their CSV files (tables.mjs), charts (charts.mjs), figures and pictures.
+// (overview.mjs), then sections, tables (tables.mjs), charts (charts.mjs), figures and pictures.
 import { byId, element, svg } from "../../../../explorer/page/dom.mjs";
 import { chartFigure, redraw } from "./charts.mjs";
 import { addAnchors, overview } from "./overview.mjs";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers, words and tables of a report. A table is sorted by the column that its data name, or by the column whose head the
-// reader clicks: by values ascending, by values descending, by the widths of the intervals, and then in the order of the
-// data. Text in the table's search field, or in that of the whole page, filters the rows.
+// reader clicks: ascending, descending, and then in the order of the data. Text in the table's search field, or in that of the whole page, filters the rows.
 import { element } from "../../../../explorer/page/dom.mjs";
 
 const dash = "–", fewRows = 8, manyIntervals = 5, manyColumns = 8; // beyond these, intervals are below values
@@ -98,35 +97,12 @@ function groupHeads(columns) {
   return element("tr", {}, ...heads.map(({ group, n }) => element("th", { colspan: n > 1 ? n : null, scope: group ? "colgroup" : null }, group)));
 }
 
-// The columns of the CSV file for a column of the table: one for each number in its cells.
-function csvParts(column) {
-  const numbers = { interval: ["", " low", " high"], spread: ["", " SD"], verdict: ["", " z", " change"] }[column.type] ?? [""];
-  const keys = { interval: ["value", "low", "high"], spread: ["value", "sd"], verdict: ["verdict", "z", "change"] }[column.type] ?? ["value"];
-  return keys.map((key, i) => ({
-    name: column.name + numbers[i],
-    of: cell => Array.isArray(cell) ? cell[i] : cell !== null && typeof cell === "object" ? cell[key] : i === 0 ? cell : null,
-  }));
-}
-
-// Writes the table as CSV (RFC 4180).
-function csvOf({ columns, rows }) {
-  const parts = columns.map(csvParts), quote = v => typeof v === "string" ? `"${v.replaceAll('"', '""')}"` : v ?? "";
-  const lines = [parts.flat().map(p => quote(p.name))];
-  for (const row of rows) lines.push(columns.flatMap((_, c) => parts[c].map(p => row[c] === undefined ? "" : quote(p.of(row[c])))));
-  return lines.map(line => `${line.join(",")}\r\n`).join("");
-}
-
 // The key by which a row is sorted; null if the cell has no value.
-function sortKey(cell, by) {
-  if (cell === null || cell === undefined || typeof cell !== "object") return by === "width" ? null : cell ?? null;
-  const { value, low, high } = Array.isArray(cell) ? { value: cell[0], low: cell[1], high: cell[2] } : cell;
-  if (by !== "width") return value ?? null;
-  return typeof low === "number" && typeof high === "number" ? high - low : null;
-}
+const sortKey = cell => (Array.isArray(cell) ? cell[0] : cell !== null && typeof cell === "object" ? cell.value : cell) ?? null;
 
 // Sorts rows by a column. Rows without a value come last; rows with equal values keep their order.
-function sorted(rows, { c, by, descending }) {
-  const sign = descending ? -1 : 1, keys = new Map(rows.map(r => [r, sortKey(r.row[c], by)]));
+function sorted(rows, { c, descending }) {
+  const sign = descending ? -1 : 1, keys = new Map(rows.map(r => [r, sortKey(r.row[c])]));
   return [...rows].sort((r, s) => {
     const [a, b] = [keys.get(r), keys.get(s)];
     if (a === null || b === null) return (a === null) - (b === null);
@@ -135,15 +111,7 @@ function sorted(rows, { c, by, descending }) {
 }
 
 // The order of the rows after a click on the head of a column.
-function nextOrder(order, column) {
-  const steps = [{ by: "value" }, { by: "value", descending: true }, ...(column.type === "interval" ? [{ by: "width" }] : []), null];
-  const at = order?.c === column.c ? steps.findIndex(s => s && s.by === order.by && Boolean(s.descending) === Boolean(order.descending)) : -1;
-  const step = steps[at + 1];
-  return step && { c: column.c, ...step };
-}
-
-const says = (order, columns) => `Sorted by ${order.by === "width" ? "the width of the intervals of " : ""}${
-  columns.find(column => column.c === order.c).title ?? columns.find(column => column.c === order.c).name}, ${order.descending ? "largest" : "smallest"} first`;
+const nextOrder = (order, c) => order?.c !== c ? { c } : order.descending ? null : { c, descending: true };
 
 const filters = []; // one function per table, called when the search field of the page changes
 
@@ -176,14 +144,14 @@ export function table(block) {
   const show = () => {
     const has = [wanted, field.value.trim().toLowerCase()], shown = (order ? sorted(rows, order) : rows).filter(r => has.every(text => r.text.includes(text)));
     body.replaceChildren(...(moves ? shown : rows).map(r => r.node));
-    state.textContent = moves ? `${order ? `${says(order, visible)}. ` : ""}${shown.length === rows.length ? rows.length : `${shown.length} of ${rows.length}`} rows.` : "";
+    state.textContent = moves ? `${shown.length === rows.length ? rows.length : `${shown.length} of ${rows.length}`} rows.` : "";
     heads.forEach((head, i) => {
-      const mine = order?.c === visible[i].c, name = !mine ? null : order.by === "width" ? "other" : order.descending ? "descending" : "ascending";
+      const mine = order?.c === visible[i].c, name = !mine ? null : order.descending ? "descending" : "ascending";
       if (name) head.setAttribute("aria-sort", name);
       else head.removeAttribute("aria-sort");
     });
   };
-  heads.forEach((head, i) => head.firstChild.addEventListener?.("click", () => { order = nextOrder(order, visible[i]); show(); }));
+  heads.forEach((head, i) => head.firstChild.addEventListener?.("click", () => { order = nextOrder(order, visible[i].c); show(); }));
   field.addEventListener("input", show);
   if (moves) filters.push(text => { wanted = text; show(); });
   show();
@@ -191,6 +159,5 @@ export function table(block) {
   const grouped = visible.some(column => column.group);
   const node = element("div", { class: rows.length > longRows ? "scroll long" : "scroll", tabindex: 0, role: "region", "aria-label": `table ${block.name}` },
     element("table", { class: visible.filter(c => c.type === "interval").length > manyIntervals || visible.length > manyColumns ? "many wide" : grouped || visible.length > wideColumns ? "wide" : null }, element("thead", {}, grouped ? groupHeads(visible) : null, element("tr", {}, ...heads)), body));
-  const link = element("a", { download: `${block.name}.csv`, href: `data:text/csv;charset=utf-8,${encodeURIComponent(csvOf(block))}` }, `${block.name}.csv`);
-  return [tools, node, element("p", { class: "csv" }, link)].filter(Boolean);
+  return [tools, node].filter(Boolean);
 }
