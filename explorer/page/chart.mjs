@@ -4,7 +4,7 @@
 // at least three of them. Colours are the page's: a series is <g class="series CLASS"> with .line, .bar and .dots.
 import { svg, short } from "./dom.mjs";
 
-const numbersLeft = 64, namesLeft = 150, right = 14, top = 14, bottom = 42, legendWidth = 220, legendLine = 15, legendFits = 560;
+const numbersLeft = 64, right = 14, top = 14, bottom = 42, legendWidth = 220, legendLine = 15, legendFits = 560;
 
 // As wide as the place that it is for, so that its letters have their size.
 const widthOf = (place, most) => Math.min(Math.max(place.clientWidth, 280), most);
@@ -117,15 +117,13 @@ function drawLegend(node, named, x, y) {
   });
 }
 
-// Draws into a place of the page. x, y: { title, log, zero }; zero: a linear axis that begins there; y.names: names of y = 1,
-// 2, ... in place of ticks. series: [{ label,
-// className, points: [[x, y] or [x, y, low, high], ..], line, marks, hollow, guide }]; marks: the number of their shape;
+// Draws into a place of the page. x, y: { title, log, zero }; zero: a linear axis that begins there. series: [{ label, className, points: [[x, y] or [x, y, low, high], ..], line, marks, hollow, guide }]; marks: the number of their shape;
 // guides do not count for the axes. level: a horizontal guide. legend: series with labels, hollow ones left out, are named.
 // most: the largest width. Returns every point as drawn: { x, y, series, group, values }, in the units of the picture.
 export function chart(place, { title, x, y, series, level, legend, height = 300, most = 736 }) {
   const width = widthOf(place, most), drawn = [], named = legend ? series.filter(s => s.label && !s.hollow) : [];
   const beside = named.length > 0 && width >= legendFits, below = named.length > 0 && !beside;
-  const left = y.names ? namesLeft : numbersLeft, rightEnd = width - (beside ? legendWidth : right), bottomEnd = height - bottom;
+  const left = numbersLeft, rightEnd = width - (beside ? legendWidth : right), bottomEnd = height - bottom;
   const tall = Math.max(height, beside ? top + 12 + legendLine * named.length : 0) + (below ? legendLine * named.length + 8 : 0);
   const node = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${tall}`, role: "img", "aria-label": title });
   place.replaceChildren(node);
@@ -142,10 +140,10 @@ export function chart(place, { title, x, y, series, level, legend, height = 300,
     node.append(svg("path", { class: "tick", d: `M${at},${top}V${bottomEnd}` }),
       svg("text", { x: at, y: bottomEnd + 17, "text-anchor": "middle" }, short(v)));
   }
-  for (const v of y.names ? y.names.map((_, i) => i + 1) : ticks(ys)) {
+  for (const v of ticks(ys)) {
     const at = round(position(ys, v));
     node.append(svg("path", { class: "tick", d: `M${left},${at}H${rightEnd}` }),
-      svg("text", { x: left - 7, y: at + 4, "text-anchor": "end" }, y.names ? y.names[v - 1] : short(v)));
+      svg("text", { x: left - 7, y: at + 4, "text-anchor": "end" }, short(v)));
   }
   if (level !== undefined) node.append(svg("path", { class: "guide", d: `M${left},${round(position(ys, level))}H${rightEnd}` }));
   node.append(svg("text", { x: (left + rightEnd) / 2, y: height - 6, "text-anchor": "middle" }, x.title),

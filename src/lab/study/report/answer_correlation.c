@@ -323,7 +323,7 @@ static void add_scatter(koksma__report *r, koksma__document *d, const koksma__to
     koksma__case_name(p->scene, p->variant, name, sizeof name);
     koksma__snprintf(title, sizeof title, "%.120s, %lld sample%s: error against %.60s, Spearman %.2f", name, p->spp,
                      koksma__plural((double)p->spp), p->of->label, koksma__spearman(found.x, found.y, found.n));
-    koksma__doc_chart(d, &(koksma__chart){title, p->of->label, topic->metric, true, true, 0, NULL});
+    koksma__doc_chart(d, &(koksma__chart){title, p->of->label, topic->metric, true, true, 0});
     for (size_t i = 0; i < found.n; i++) {
         koksma__doc_series(d, found.patterns[i], NULL, KOKSMA__SERIES_MARKS);
         koksma__doc_point(d, found.x[i], found.y[i], found.low[i], found.high[i]);

@@ -320,19 +320,17 @@ void koksma__doc_end(koksma__document *d)
     close_to(d, d->level);
 }
 
-/* Begins a paragraph, after a member that marks it unless `key` is NULL. */
-static void begin_paragraph(koksma__document *d, const char *key, const char *value)
+/* Begins a paragraph, after its member `answer` unless that is NULL. */
+static void begin_paragraph(koksma__document *d, const char *answer)
 {
     begin_block(d, "paragraph", NULL);
-    if (key) {
-        koksma__json_write_text(&d->json, key, value);
-    }
+    put_text(d, "answer", answer);
     koksma__json_begin_array(&d->json, "text");
 }
 
 void koksma__doc_paragraph(koksma__document *d, const char *format, ...)
 {
-    begin_paragraph(d, NULL, NULL);
+    begin_paragraph(d, NULL);
     SAY(d, format);
 }
 
@@ -343,13 +341,7 @@ void koksma__doc_answer(koksma__document *d, koksma__answer_kind kind, const cha
                                         [KOKSMA__ANSWER_HOLDS] = "holds",
                                         [KOKSMA__ANSWER_PARTLY] = "partly",
                                         [KOKSMA__ANSWER_FAILS] = "fails"};
-    begin_paragraph(d, "answer", names[kind]);
-    SAY(d, format);
-}
-
-void koksma__doc_metric(koksma__document *d, const char *metric, const char *format, ...)
-{
-    begin_paragraph(d, "metric", metric);
+    begin_paragraph(d, names[kind]);
     SAY(d, format);
 }
 
@@ -545,21 +537,13 @@ void koksma__doc_cell(koksma__document *d, const koksma__cell_data *c)
 
 /* ---- Charts ------------------------------------------------------------------------------------------------ */
 
-static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log, int better,
-                     const char *const *names)
+static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log, int better)
 {
     koksma__json_begin_object(&d->json, key);
     koksma__json_write_text(&d->json, "title", title);
     koksma__json_write_flag(&d->json, "log", is_log);
     if (better) {
         koksma__json_write_text(&d->json, "better", better > 0 ? "larger" : "smaller");
-    }
-    if (names) {
-        koksma__json_begin_array(&d->json, "names");
-        for (; *names; names++) {
-            koksma__json_write_text(&d->json, NULL, *names);
-        }
-        koksma__json_end(&d->json);
     }
     koksma__json_end(&d->json);
 }
@@ -568,8 +552,8 @@ void koksma__doc_chart(koksma__document *d, const koksma__chart *c)
 {
     begin_block(d, "chart", NULL);
     koksma__json_write_text(&d->json, "title", c->title);
-    put_axis(d, "x", c->x_title, c->log_x, 0, NULL);
-    put_axis(d, "y", c->y_title, c->log_y, c->better, c->names);
+    put_axis(d, "x", c->x_title, c->log_x, 0);
+    put_axis(d, "y", c->y_title, c->log_y, c->better);
     koksma__json_begin_array(&d->json, "series");
     memset(d->curves, 0, sizeof d->curves);
 }

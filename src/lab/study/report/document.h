@@ -64,9 +64,9 @@ void koksma__doc_section(koksma__document *d, const char *id, const char *format
 void koksma__doc_collapsed_section(koksma__document *d, const char *id, const char *format, ...) KOKSMA_PRINTF(3, 4);
 void koksma__doc_end(koksma__document *d);
 
-/* Each begins a paragraph with its first words: one that names the metric (its canonical spec) of the image errors in its
-   section; that warns of doubtful or missing numbers; or that answers the question of its section, which the page also
-   shows in its overview. kind: whether the data decide the question (true or false), or what they say of a conclusion. */
+/* Each begins a paragraph with its first words: one that warns of doubtful or missing numbers, or one that answers the
+   question of its section, which the page also shows in its overview. kind: whether the data decide the question (true or
+   false), or what they say of a conclusion. */
 typedef enum koksma__answer_kind {
     KOKSMA__ANSWER_UNDECIDED,
     KOKSMA__ANSWER_DECIDED,
@@ -75,7 +75,6 @@ typedef enum koksma__answer_kind {
     KOKSMA__ANSWER_FAILS
 } koksma__answer_kind;
 void koksma__doc_paragraph(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
-void koksma__doc_metric(koksma__document *d, const char *metric, const char *format, ...) KOKSMA_PRINTF(3, 4);
 void koksma__doc_warning(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 void koksma__doc_answer(koksma__document *d, koksma__answer_kind kind, const char *format, ...) KOKSMA_PRINTF(3, 4);
 
@@ -128,7 +127,6 @@ typedef struct koksma__chart {
     bool log_x, log_y;
     /* which y is better: -1 smaller, 1 larger, 0 neither; of too many lines, the page first draws the best */
     int better;
-    const char *const *names; /* names of y = 1, 2, ..., ended by NULL, in place of ticks; NULL: numbers */
 } koksma__chart;
 
 /* How a series is drawn: LINE: marks joined by lines; MARKS: marks alone; THEORY: a dashed line without marks;

@@ -66,8 +66,8 @@ static metric_facts find_facts(koksma__report *r, const koksma__topic *topic)
 static void say_metric(koksma__document *d, const char *metric, const metric_facts *f)
 {
     koksma_metric_spec spec;
-    koksma__doc_metric(d, metric, "Images are compared, and patterns ranked, by `%s`: %s.", metric,
-                       koksma_metric_parse(metric, &spec) ? "" : spec.metric->title);
+    koksma__doc_paragraph(d, "Images are compared, and patterns ranked, by `%s`: %s.", metric,
+                          koksma_metric_parse(metric, &spec) ? "" : spec.metric->title);
     if (f->measured < f->images) {
         koksma__doc_say(d,
                         " It is not measured in %zu of %zu images, whose rows are older than its mention in the "

@@ -234,7 +234,7 @@ static void add_sizes_table(koksma__report *r, koksma__document *d, const koksma
     koksma__document chart = {0};
     snprintf(title, sizeof title, "Table %.60s: %.110s%s", t->id, t->title,
              t->rows[0].n_published ? ". Hollow: printed" : "");
-    koksma__doc_chart(&chart, &(koksma__chart){title, "points", t->measure, true, true, 0, NULL});
+    koksma__doc_chart(&chart, &(koksma__chart){title, "points", t->measure, true, true, 0});
     begin_table(d, t);
     koksma__doc_columns(d, "tm row#pattern;th pattern;t values#mean");
     for (size_t i = 0; i < t->n.n; i++) {

@@ -142,11 +142,6 @@ koksma_status koksma__sheet_evaluate(koksma__sheet *sheet, koksma__sheet_values 
 void koksma__sheet_values_fini(koksma__sheet_values *values);
 const koksma_tally *koksma__sheet_tally(const koksma__sheet_values *values, size_t s, size_t m, size_t i);
 
-/* A chart of a sheet of one size: a row for each name, a mark for each sampler at its value as a multiple of that of the
-   first other sampler. values[i * n_samplers + s] belongs to name i; smaller ones are better. */
-void koksma__sheet_put_dots(const koksma__sheet *sheet, const char *what, const char *const *names, size_t n,
-                            const double *values, koksma__document *d);
-
 /* Writes a table of all values and the commands that compute them. */
 void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *values, const char *name,
                               koksma__document *d);

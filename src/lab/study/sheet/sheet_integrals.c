@@ -54,7 +54,7 @@ static void put_chart(const koksma__sheet *sheet, const char *name, const koksma
     for (size_t k = 0; k < sheet->n_samplers * sheet->n_sizes; k++) {
         positive = positive && results[k / sheet->n_sizes].rows[k % sheet->n_sizes].rmse > 0;
     }
-    koksma__doc_chart(d, &(koksma__chart){name, "points n", "RMSE", true, positive, -1, NULL});
+    koksma__doc_chart(d, &(koksma__chart){name, "points n", "RMSE", true, positive, -1});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__doc_series(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < sheet->n_sizes; i++) {
@@ -127,13 +127,6 @@ koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d)
                               "sampler has none. For a sampler that has only one set, the error is that of this set.",
                               sheet->sizes[sheet->n_sizes - 1]);
         put_table(sheet, results, d);
-        double errors[N_INTEGRANDS * KOKSMA__SHEET_SAMPLERS];
-        for (size_t i = 0; i < count; i++) {
-            errors[i] = results[i].rows[0].rmse;
-        }
-        if (sheet->n_sizes == 1 && sheet->n_samplers > 1) {
-            koksma__sheet_put_dots(sheet, "Errors", integrands, N_INTEGRANDS, errors, d);
-        }
         for (size_t i = 0; i < N_INTEGRANDS && sheet->n_sizes > 1; i++) {
             put_chart(sheet, integrands[i], results + i * sheet->n_samplers, d);
         }

@@ -264,53 +264,13 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
         positive &= koksma__sheet_tally(v, k / v->n_sizes, m, k % v->n_sizes)->mean > 0;
     }
     koksma__doc_chart(d, &(koksma__chart){title, "points n", v->measures[m].name, true, positive,
-                                          measure->larger_is_better ? 1 : -1, NULL});
+                                          measure->larger_is_better ? 1 : -1});
     for (size_t s = 0; s < v->n_samplers; s++) {
         koksma__doc_series(d, v->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < v->n_sizes; i++) {
             const koksma__estimate e = mean_of(v, s, m, i);
             koksma__doc_point(d, (double)v->sizes[i], e.value, e.low, e.high);
         }
-    }
-}
-
-void koksma__sheet_put_dots(const koksma__sheet *sheet, const char *what, const char *const *names, size_t n,
-                            const double *values, koksma__document *d)
-{
-    const char *upwards[KOKSMA__SHEET_MEASURES + 1] = {NULL}, *other = sheet->samplers[1]->text;
-    char title[KOKSMA_MAX_SPEC + 128], axis[KOKSMA_MAX_SPEC + 64];
-    snprintf(title, sizeof title, "%s, as multiples of those of %s: further left is better", what, other);
-    snprintf(axis, sizeof axis, "multiple of %s", other);
-    for (size_t i = 0; i < n; i++) {
-        upwards[n - 1 - i] = names[i];
-    }
-    koksma__doc_chart(d, &(koksma__chart){title, axis, "", .log_x = true, .names = upwards});
-    for (size_t s = 0; s < sheet->n_samplers; s++) {
-        koksma__doc_series(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_MARKS);
-        for (size_t i = 0; i < n; i++) {
-            const double ratio = values[i * sheet->n_samplers + s] / values[i * sheet->n_samplers + 1];
-            koksma__doc_point(d, ratio > 0 ? ratio : (double)NAN, (double)(n - i), NAN, NAN);
-        }
-    }
-}
-
-/* A dot for each measure and sampler: what a sheet of one size has in place of lines against n. */
-static void put_dots(const koksma__sheet *sheet, const koksma__sheet_values *v, koksma__document *d)
-{
-    char text[KOKSMA__SHEET_MEASURES][KOKSMA_MAX_SPEC + 16];
-    const char *names[KOKSMA__SHEET_MEASURES];
-    double values[KOKSMA__SHEET_MEASURES * KOKSMA__SHEET_SAMPLERS];
-    for (size_t m = 0; m < v->n_measures; m++) {
-        const bool larger = v->measures[m].spec.measure->larger_is_better;
-        snprintf(text[m], sizeof text[m], "%s%s", larger ? "1 / " : "", v->measures[m].name);
-        names[m] = text[m];
-        for (size_t s = 0; s < v->n_samplers; s++) {
-            const double mean = koksma__sheet_tally(v, s, m, 0)->mean;
-            values[m * v->n_samplers + s] = larger ? 1 / mean : mean;
-        }
-    }
-    if (v->n_measures && v->n_samplers > 1) {
-        koksma__sheet_put_dots(sheet, "Measures", names, v->n_measures, values, d);
     }
 }
 
@@ -374,9 +334,7 @@ void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
         ". A deterministic sampler has one set of each size; its values are exact and have no interval.",
         v->sizes[v->n_sizes - 1], v->n_sizes > 1 ? ", and slopes of log mean over log n" : "");
     put_summary(v, d);
-    if (v->n_sizes == 1) {
-        put_dots(sheet, v, d);
-    } else {
+    if (v->n_sizes > 1) { /* one size has neither lines nor slopes */
         for (size_t m = 0; m < v->n_measures; m++) {
             put_chart(v, m, d);
         }

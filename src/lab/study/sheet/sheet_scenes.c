@@ -133,8 +133,7 @@ static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document
 {
     char title[128];
     snprintf(title, sizeof title, "Error in %s", sheet->scenes[scene]);
-    koksma__doc_chart(d,
-                      &(koksma__chart){title, "samples a pixel", sheet->metric.metric->title, true, true, -1, NULL});
+    koksma__doc_chart(d, &(koksma__chart){title, "samples a pixel", sheet->metric.metric->title, true, true, -1});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__doc_series(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t k = 0; k < sheet->n_spp; k++) {
@@ -186,8 +185,8 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_paragraph(d, "No scene was rendered: a pixel needs a set with one point for each of its samples, "
                                  "and the sampler has no set of 4, 16, 64 or any other number of up to 256 points.");
     } else {
-        koksma__doc_metric(
-            d, sheet->metric_text,
+        koksma__doc_paragraph(
+            d,
             "Error of an image: %s (%s). Samplers are used as in a renderer: one set for each pixel and each use "
             "(lens, light, ...). Behind: the relative difference of the error to that of the first row with as many "
             "samples. Bands: the error has a pattern, which eyes notice more than noise. Intervals and decisions of "

@@ -96,8 +96,8 @@ static koksma_status put_radial(const spectra *all, size_t n, koksma__document *
     const int half = all->radial.half;
     koksma_ring *rings = malloc((size_t)half * sizeof *rings);
     koksma_status status = rings ? KOKSMA_OK : koksma__fail_memory((size_t)half * sizeof *rings);
-    koksma__doc_chart(
-        d, &(koksma__chart){"Radial mean of the power", "frequency / sqrt(n)", "power", false, false, 0, NULL});
+    koksma__doc_chart(d,
+                      &(koksma__chart){"Radial mean of the power", "frequency / sqrt(n)", "power", false, false, 0});
     for (size_t s = 0; s < n && !status; s++) {
         status = koksma_spectrum_rings(&all[s].radial, rings);
         koksma__doc_series(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
@@ -113,7 +113,7 @@ static koksma_status put_radial(const spectra *all, size_t n, koksma__document *
 static void put_pairs(const spectra *all, size_t n, koksma__document *d)
 {
     koksma__doc_chart(d, &(koksma__chart){"Pair correlation", "distance on the torus × sqrt(n)",
-                                          "pairs, relative to random points", false, false, 0, NULL});
+                                          "pairs, relative to random points", false, false, 0});
     for (size_t s = 0; s < n; s++) {
         koksma__doc_series(d, all[s].sampler->text, NULL, KOKSMA__SERIES_LINE);
         for (size_t b = 0; b < BINS; b++) {

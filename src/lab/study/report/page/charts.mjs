@@ -21,7 +21,6 @@ const swatch = (className, mark, line) => svg("svg", { class: "swatch", width: 4
 // The label of a point: its series, values and axes.
 function tell({ x, y }, { label, hollow }, [px, py, low, high]) {
   const range = low < high ? ` (${short(low)} to ${short(high)})` : "";
-  if (y.names) return `${label}: ${short(px, 5)} times, ${y.names[py - 1]}; ${x.title}`;
   return `${label}${hollow ? ", printed" : ""}: ${short(py, 5)}${range} at ${short(px, 6)}; ${y.title} against ${x.title}`;
 }
 
@@ -93,7 +92,7 @@ export function chartFigure(block) {
       return { label, hollow, points: values.map(p => p.map(v => v ?? NaN)), className: theory ? "theory" : `${hollow ? "hollow " : ""}${classOf(look)}`,
         line: style === "line" || theory, marks: theory ? undefined : markOf(look) };
     });
-    points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: block.y.names ? 70 + 20 * block.y.names.length : 400, most });
+    points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: 400, most });
     legend.replaceChildren(...series.filter(s => !s.hollow).map(s => element("li", {}, swatch(s.className, s.marks, s.line), s.label)));
     count.textContent = `Choose lines: ${looks.size} of ${labels.length} are shown, ${lines} at most${block.y.better && labels.length > lines ? "; the best at the right end to begin with" : ""}`;
     boxes.forEach((box, label) => { box.disabled = !looks.has(label) && looks.size >= lines; });
