@@ -163,48 +163,26 @@ static void conclude_order(judged *j)
 /* ---- best: the first pattern has the least error ----------------------------------------------------------- */
 
 /* In the tables where it has not, only the patterns of `against` have less: each table is a test. More than half of the
-   tables must have it first, which is one more test. In how many its SD [1] and maximum [2] are least, in ours [0] and in
-   print [1], stands beside it. */
+   tables must have it first, which is one more test. */
 static void conclude_best(judged *j)
 {
-    const char *pattern = j->c->patterns.at[0];
-    size_t first = 0, least[3][2] = {{0}};
+    size_t first = 0;
     for (size_t k = 0; k < j->c->tables.n; k++) {
         const koksma__table *t = table_of(j, j->c->tables.at[k]);
-        double best[3][2], own[3][2], ours[2];
-        for (size_t s = 0; s < 6; s++) {
-            best[s / 2][s % 2] = INFINITY;
-            own[s / 2][s % 2] = NAN;
-        }
+        double own[2], other[2];
         size_t before = 0, unexpected = 0;
-        means_of(j, t, pattern, 0, ours);
+        means_of(j, t, j->c->patterns.at[0], 0, own);
         for (size_t i = 0; i < t->n_rows; i++) {
-            const koksma__table_row *row = &t->rows[i];
-            const koksma__cell cell = koksma__table_cell(j->r, t, row->pattern, 0);
-            const double values[] = {cell.mean.mean, cell.sd, cell.max};
-            double mean[2];
-            means_of(j, t, row->pattern, 0, mean);
-            j->open += isnan(mean[0]);
-            if (mean[0] < ours[0]) {
-                before++;
-                unexpected += !koksma__texts_have(&j->c->against, row->pattern);
-            }
-            for (size_t s = 0; s < 6; s++) {
-                const double value = s % 2 ? row->published[s / 2].value : values[s / 2];
-                best[s / 2][s % 2] = fmin(best[s / 2][s % 2], value);
-                own[s / 2][s % 2] = !strcmp(row->pattern, pattern) ? value : own[s / 2][s % 2];
-            }
+            means_of(j, t, t->rows[i].pattern, 0, other);
+            j->open += isnan(other[0]);
+            before += other[0] < own[0];
+            unexpected += other[0] < own[0] && !koksma__texts_have(&j->c->against, t->rows[i].pattern);
         }
         first += !before;
         test(j, !unexpected);
-        for (size_t s = 0; s < 6; s++) {
-            least[s / 2][s % 2] += own[s / 2][s % 2] <= best[s / 2][s % 2];
-        }
     }
     test(j, 2 * first > j->c->tables.n);
-    koksma__doc_say(
-        &j->words, "First in %zu of %zu tables. Its SD is the least in %zu (in print %zu), its maximum in %zu (%zu).",
-        first, j->c->tables.n, least[1][0], least[1][1], least[2][0], least[2][1]);
+    koksma__doc_say(&j->words, "First in %zu of %zu tables.", first, j->c->tables.n);
 }
 
 /* ---- predictor: a measure orders the patterns as the errors do --------------------------------------------- */
@@ -256,17 +234,14 @@ static const char *name_of(const koksma__table *t)
 }
 
 /* Each measure of `by` must be surely correlated with the errors of each table, which is a test. The words give the
-   correlations of the first, then the means over the tables of all, those of `than` beside them, and which is least, ours
-   [0] and in print [1]. */
+   correlations of the first, then the means over the tables of all, those of `than` beside them, ours [0] and in
+   print [1]. */
 static void conclude_predictor(judged *j)
 {
     const koksma__conclusion *c = j->c;
     const size_t tables = c->tables.n;
     const double limit = koksma__spearman_limit(c->patterns.n, 0.025);
-    double least[2] = {INFINITY, INFINITY};
-    const char *worst[2] = {"", ""};
     koksma__document averages = {0};
-    bool printed = true; /* whether all measures are in print */
     for (size_t i = 0; i < c->by.n + c->than.n; i++) {
         const koksma__table *of = table_of(j, i < c->by.n ? c->by.at[i] : c->than.at[i - c->by.n]);
         const char *spec = of->scene ? of->scene : of->measure;
@@ -283,11 +258,6 @@ static void conclude_predictor(judged *j)
         }
         koksma__doc_say(&averages, "%s%s%s`%s` %.2f (%.2f in print; %zu sure)", i ? ", " : "On average ",
                         of->symbol ? of->symbol : "", of->symbol ? " " : "", spec, means[0], means[1], sure);
-        printed &= !isnan(means[1]);
-        for (size_t side = 0; side < 2; side++) {
-            worst[side] = means[side] < least[side] ? name_of(of) : worst[side];
-            least[side] = fmin(least[side], means[side]);
-        }
         if (i >= c->by.n) {
             continue;
         }
@@ -303,13 +273,6 @@ static void conclude_predictor(judged *j)
         }
     }
     koksma__doc_say_words(&j->words, &averages);
-    if (c->by.n + c->than.n > 2) {
-        koksma__doc_say(&j->words, ": %s predicts worst", worst[0]);
-        koksma__doc_say(&j->words, printed ? ", in print %s" : "%s",
-                        !printed                     ? ""
-                        : strcmp(worst[0], worst[1]) ? worst[1]
-                                                     : "too");
-    }
     koksma__doc_say(&j->words, ". %zu of %zu correlations are surely above 0.", j->passed, j->tests);
 }
 

@@ -244,33 +244,24 @@ static char *split(char **path)
     return name;
 }
 
-/* Fails if `path` leads to the store's file or one of its logs, also by another name, to where SQLite would expect a log,
-   to the name of a file or folder that runs and reports make in the study's folder, whether it is there yet or not, or into
+/* Fails if `path` leads to the store's file, also by another name, to where SQLite would expect one of its logs, to the
+   name of a file or folder that runs and reports make in the study's folder, whether it is there yet or not, or into
    the folder of the study's reference images, whose files a run and a report read. */
 static koksma_status check_target(const char *study, const char *results, const char *path)
 {
-    static const char *const endings[] = {"", "-wal", "-shm", "-journal"};
     static const char *const own[] = {"report.json", "report.html", "references"};
     char *store = koksma__atomic_target(results), *target = store ? koksma__atomic_target(path) : NULL;
     const int reason = errno;
-    bool same = false, is_own = false, reference = false;
-    for (size_t i = 0; target && i < sizeof endings / sizeof *endings; i++) {
-        char name[2 * KOKSMA__PATH];
-        snprintf(name, sizeof name, "%s%s", results, endings[i]);
-        same |= same_file(name, target);
-    }
+    bool same = target && same_file(results, target), is_own = false, reference = false;
     if (target) {
-        char *store_folder = store, *folder = target;
+        char references[2 * KOKSMA__PATH], *store_folder = store, *folder = target;
         const char *store_name = split(&store_folder), *name = split(&folder);
         const size_t length = strlen(store_name);
-        for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-            same |= !strncmp(name, store_name, length) && !strcmp(name + length, endings[i]) &&
-                    same_file(store_folder, folder);
-        }
+        same |= !strncmp(name, store_name, length) && (!name[length] || name[length] == '-') &&
+                same_file(store_folder, folder);
         for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
             is_own |= !strcmp(name, own[i]) && same_file(study, folder);
         }
-        char references[2 * KOKSMA__PATH];
         snprintf(references, sizeof references, "%s/references", study);
         reference = strcmp(path, "-") && same_file(references, folder);
     }
