@@ -85,7 +85,7 @@ const koksma_pattern koksma__pattern_ranking_keys = {
     .max_dim = 128,
     .claims = KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_DIMENSION_PREFIXES,
     .params = params,
-    .revision = 5, /* of 1 the renderer gave each pixel a whole image */
+    .revision = 6, /* of 1 the renderer gave each pixel a whole image */
     .ranges = koksma__ranges_always,
     .generate = generate,
 };
