@@ -171,32 +171,10 @@ static koksma_status put_one(const comparison *c, const koksma_image *image, con
     return status;
 }
 
-/* The difference between a pixel's first channel and the mean of its neighbours at the left and right. */
-static double roughness(const koksma_image *image, size_t p)
-{
-    const ptrdiff_t channels = image->channels;
-    const float *x = image->pixels + p * (size_t)channels;
-    return (double)x[0] - ((double)x[-channels] + (double)x[channels]) / 2;
-}
-
-/* Warns where the first operand looks like the reference, which other programs want first. Let x and y be the squared
-   roughness of the first image and of the reference and d that of their difference: if only the reference has noise,
-   independent of the picture, y = x + d; if only the image has noise, x = y + d. Half way between is (y - x) / d = 1/2:
-   the reference has 3 times the image's variance. */
+/* Warns where the first operand looks like the reference, which other programs want first. */
 static void warn_of_order(const comparison *c, const koksma_image *first, const char *path)
 {
-    enum { LEAST = 256 };
-    const size_t width = (size_t)first->width, n = width * (size_t)first->height;
-    double x = 0, y = 0, d = 0;
-    for (size_t p = 1; n >= LEAST && p + 1 < n; p++) {
-        if (p % width && (p + 1) % width) {
-            const double of_first = roughness(first, p), of_last = roughness(&c->reference, p);
-            x += of_first * of_first;
-            y += of_last * of_last;
-            d += (of_first - of_last) * (of_first - of_last);
-        }
-    }
-    if (2 * (y - x) > d) {
+    if (cli_has_less_noise(first, &c->reference)) {
         cli_say(
             "compare",
             "warning: %s has less noise than %s, which is taken as the reference; if %s is the reference, name it "
@@ -220,6 +198,10 @@ static koksma_status add_image(comparison *c, const char *path, const char *diff
     if (!status && check_order) {
         warn_of_order(c, &image, path);
     }
+    if (!status && cli_is_another(&image, &c->reference)) {
+        cli_say("compare", "%s: warning: it differs from %s by more than noise: another scene, view or exposure?",
+                path, c->reference_path);
+    }
     koksma_image_fini(&image);
     return status;
 }
@@ -240,12 +222,6 @@ static int compare_all(const cli_arguments *arguments, comparison *c, const char
     koksma_coherence_fini(&c->all.coherence);
     koksma_image_fini(&c->reference);
     return code;
-}
-
-static bool has_8_bits(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && (!strcmp(dot, ".png") || !strcmp(dot, ".jpg") || !strcmp(dot, ".jpeg"));
 }
 
 static int run(const cli_arguments *arguments)
@@ -281,9 +257,9 @@ static int run(const cli_arguments *arguments)
         const char *image = arguments->operands[i];
         if (cli_is_same_file(image, c.reference_path)) {
             cli_say("compare", "%s: warning: it is the reference itself", image);
-        } else if (has_8_bits(c.reference_path) && !has_8_bits(image)) {
-            cli_say("compare", "%s: warning: a reference of 8 bits is rounded and clipped, and its error is no noise",
-                    c.reference_path);
+        } else if (cli_has_8_bits(c.reference_path) != cli_has_8_bits(image)) {
+            cli_say("compare", "%s: warning: 8 bits are rounded and clipped, and that is counted as error",
+                    cli_has_8_bits(image) ? image : c.reference_path);
         }
     }
     return code ? code : c.all.error.mean <= most * (double)c.all.images ? CLI_YES : CLI_NO;

@@ -419,6 +419,12 @@ static int parse_outside(const cli_arguments *arguments, request *r)
     koksma_rank_options *o = &r->options;
     const char *reference = cli_text(arguments, "reference", NULL), *command = cli_text(arguments, "with", NULL);
     if (cli_is_image(reference)) {
+        if (cli_has_8_bits(reference) && !command) {
+            return cli_usage_error(arguments,
+                                   "--reference %s: 8 bits are rounded and clipped, an error that looks like bands; "
+                                   "write it as .exr or .pfm",
+                                   reference);
+        }
         const koksma_status status = koksma_image_read(reference, &r->reference);
         if (status) {
             return cli_fail(arguments, status);
@@ -540,6 +546,37 @@ static int parse_request(const cli_arguments *arguments, request *r)
     return code ? code : parse_outside(arguments, r);
 }
 
+/* Warns of a reference that looks noisy beside a picture of the scene, or like one of another scene. */
+static koksma_status look_at_reference(const char *path, const request *r, size_t spp)
+{
+    enum { MOST = 16 };
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image picture = {0};
+    koksma_status status = koksma_scene_open(r->options.scene, &scene);
+    if (status) {
+        return status;
+    }
+    koksma_render_options_init(&options, scene);
+    options.integrator = r->options.integrator;
+    options.filter = r->options.filter;
+    options.width = r->options.width;
+    options.height = r->options.height;
+    options.spp = spp < MOST ? (int)spp : MOST;
+    status = koksma_render(scene, &options, NULL, &picture);
+    koksma_scene_close(scene);
+    const bool fits = !status && picture.width == r->reference.width && picture.height == r->reference.height;
+    if (fits && cli_is_another(&picture, &r->reference)) {
+        cli_say("rank", "%s: warning: a picture of %s looks otherwise: is it of another scene, view or exposure?",
+                path, r->options.scene);
+    } else if (fits && cli_has_less_noise(&picture, &r->reference)) {
+        cli_say("rank", "%s: warning: it has more noise than a picture of %d samples a pixel, and is taken as exact",
+                path, options.spp);
+    }
+    koksma_image_fini(&picture);
+    return status;
+}
+
 /* Makes a ranking for each number of samples. Returns the exit code. */
 static int rank_all(const cli_arguments *arguments, request *r, const size_t *spps, size_t n_spp)
 {
@@ -594,6 +631,10 @@ static int run(const cli_arguments *arguments)
     for (size_t i = 0; i < r.p.n && !said; i++) {
         koksma_spec spec;
         said = !koksma_pattern_spec(r.p.at[i], &spec) && cli_warn_unbalanced(arguments, &spec, spps[0]);
+    }
+    if (!code && r.reference.pixels && !r.options.render && !cli_flag(arguments, "quiet")) {
+        const koksma_status status = look_at_reference(cli_text(arguments, "reference", ""), &r, spps[0]);
+        code = status ? cli_fail(arguments, status) : CLI_YES;
     }
     code = code ? code : rank_all(arguments, &r, spps, n_spp);
     koksma_image_fini(&r.reference);

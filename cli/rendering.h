@@ -55,6 +55,15 @@ void cli_warn_unused(const cli_arguments *arguments, const char *name, const kok
 size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                           const koksma_render_options *options, size_t most);
 
+/* Whether a file's name says that its numbers have 8 bits. */
+bool cli_has_8_bits(const char *path);
+
+/* Whether an image has less noise than what is taken as its reference, of the same size. */
+bool cli_has_less_noise(const koksma_image *image, const koksma_image *reference);
+
+/* Whether an image differs from a reference of the same size by more than noise: another scene, view or exposure. */
+bool cli_is_another(const koksma_image *image, const koksma_image *reference);
+
 /* ---- Adaptive sampling -------------------------------------------------------------------------------- */
 
 #define CLI_ADAPTIVE_OPTIONS                                                                                         \
