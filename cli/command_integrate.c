@@ -258,8 +258,9 @@ static int run_all(job *j)
     const int end = j->rows ? cli_rows_close(j->rows, code) : code;
     if (!code && j->n_deterministic && !cli_flag(arguments, "quiet")) {
         cli_say(arguments->command->name,
-                "%s%s is deterministic, so its error is that of a single set; add :shift=1 for random sets",
-                j->deterministic, j->n_deterministic > 1 ? ", as others," : "");
+                "%s%s is deterministic, so its error is that of a single set; add %cshift=1 for random sets",
+                j->deterministic, j->n_deterministic > 1 ? ", as others," : "",
+                strchr(j->deterministic, ':') ? ',' : ':');
     }
     return end;
 }

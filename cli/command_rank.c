@@ -111,7 +111,6 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
             return cli_usage_error(arguments, "--patterns: '%s' is listed twice", p->texts[i]);
         }
         p->at[p->n] = p->texts[p->n];
-        cli_warn_file(arguments, item);
         p->n += i == p->n; /* "all" lists some patterns under two names, and a list may hold what is named, too */
     }
     return CLI_YES;
@@ -626,6 +625,9 @@ static int run(const cli_arguments *arguments)
     }
     if (!code && !cli_sizes(arguments, "spp", list, "", KOKSMA_MAX_SPP, spps, &n_spp)) {
         code = CLI_USAGE;
+    }
+    for (size_t i = 0; i < r.p.n && !code; i++) {
+        cli_warn_file(arguments, r.p.at[i], n_spp > 1 ? 0 : spps[0]);
     }
     bool said = code || n_spp > 1 || list == r.scene_spp;
     for (size_t i = 0; i < r.p.n && !said; i++) {

@@ -103,17 +103,22 @@ bool cli_warn_unbalanced(const cli_arguments *arguments, const koksma_spec *spec
     return is_so;
 }
 
-void cli_warn_file(const cli_arguments *arguments, const char *pattern)
+void cli_warn_file(const cli_arguments *arguments, const char *pattern, uint64_t n)
 {
     const char *use = strstr(pattern, "=file:"), *path = use ? use + 6 : pattern + 5;
     char name[KOKSMA_MAX_SPEC];
     koksma_points points;
     struct stat info;
     if (use || !strncmp(pattern, "file:", 5)) {
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(path, ",;@"), path);
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(path, ",;@\n"), path);
         const bool plain = !stat(name, &info) && S_ISREG(info.st_mode); /* a pipe is refused, without reading it */
         if (plain && !koksma_points_read(name, &points)) {
             cli_warn_points(arguments, name, &points);
+            if (n && n < points.n && !cli_given(arguments, "quiet")) {
+                cli_say(arguments->command->name,
+                        "note: %s: the first %llu of its %zu points; only a sequence is balanced at each number",
+                        name, (unsigned long long)n, points.n);
+            }
             koksma_points_fini(&points);
         }
     }

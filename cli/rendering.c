@@ -69,6 +69,7 @@ bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options 
 
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code)
 {
+    const char *const all = lines;
     uint64_t n = 0, spp;
     bool common = false; /* whether a line gave the pattern of all uses that have none of their own */
     while (*lines) {
@@ -100,7 +101,6 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
                 line);
             return false;
         }
-        cli_warn_file(arguments, line);
         common = common || options->pattern.pattern;
         options->pattern = options->pattern.pattern ? options->pattern : before;
     }
@@ -110,6 +110,9 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
     }
     options->spp = (int)spp;
     *code = CLI_USAGE;
+    for (const char *at = all; valid && *at; at += strcspn(at, "\n"), at += *at == '\n') {
+        cli_warn_file(arguments, at, options->scope == KOKSMA_SCOPE_PIXEL ? spp : 0);
+    }
     bool said =
         !valid || options->scope != KOKSMA_SCOPE_PIXEL || cli_warn_unbalanced(arguments, &options->pattern, spp);
     for (size_t i = 0; koksma_use_at(i) && !said; i++) {

@@ -444,8 +444,12 @@ static void warn_of_count(const cli_arguments *arguments)
         size_t n;
         int dim;
         snprintf(copy, sizeof copy, "%s", cli_spec_in(arguments->made[i]));
-        said = cli_source_is_pattern(arguments->made[i]) && split(copy, &n, &dim) &&
-               !koksma_pattern_spec(copy, &spec) && cli_warn_unbalanced(arguments, &spec, n);
+        if (!cli_source_is_pattern(arguments->made[i]) || !split(copy, &n, &dim) ||
+            koksma_pattern_spec(copy, &spec)) {
+            continue;
+        }
+        cli_warn_file(arguments, copy, n);
+        said = cli_warn_unbalanced(arguments, &spec, n);
     }
 }
 

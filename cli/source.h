@@ -29,9 +29,9 @@ void cli_warn_small(const cli_arguments *arguments, const char *path, const koks
    Returns whether that is so. */
 bool cli_warn_unbalanced(const cli_arguments *arguments, const koksma_spec *spec, uint64_t n);
 
-/* Does the first for the file of a pattern file:PATH. Other patterns and what can't be read give no
-   warning here. */
-void cli_warn_file(const cli_arguments *arguments, const char *pattern);
+/* Does the first for the file of a pattern file:PATH, of which n points are taken, or any number if n is 0. Other patterns
+   and what can't be read give no warning here. */
+void cli_warn_file(const cli_arguments *arguments, const char *pattern, uint64_t n);
 
 /* Reads the points of an operand, which is a file or "-" for stdin, or generates them, with `seed`, for
    "[pattern:]SPEC@N[@DIM]". Allocates the points. Returns the exit code, which is not 0 after an error on stderr. */

@@ -1034,6 +1034,12 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
                : koksma__import_unknown_if(!r.in_world, im, s.place,
                                            "no WorldBegin, from which on the scene is described: what precedes it is "
                                            "read as if it followed");
+    status = status
+                 ? status
+                 : koksma__import_unknown_if(r.n_stack > 0, im, s.place,
+                                             "%zu AttributeBegin or ObjectBegin without an end: what follows keeps "
+                                             "their transforms and materials",
+                                             r.n_stack);
     status = status ? status : check_media(&r);
     status = status ? status : set_camera(&r);
     status = status ? status : set_medium(&r);
