@@ -57,7 +57,7 @@ static const struct {
     {"count", {"n", "spp"}},
     {"points", {"n"}},
     {"num-points", {"n"}},
-    {"sampler", {"patterns"}},
+    {"sampler", {"patterns", "pattern"}},
     {"metric", {"measures", "metric"}},
     {"measure", {"metric"}},
     {"timeout", {"time-limit"}},
@@ -83,6 +83,9 @@ static const struct {
     {"replicates", {"trials"}},
     {"repeat", {"trials"}},
     {"seeds", {"trials", "max-trials"}},
+    {"epsilon", {"tolerance"}},
+    {"iterations", {"steps"}},
+    {"hdri", {"environment"}},
     {"ref", {"reference"}},
     {"out", {"output"}},
     {"file", {"output"}},
@@ -113,6 +116,10 @@ static const struct {
     {"scrambling", "it is a parameter of patterns, as in sobol:scramble=owen; "},
     {"format", "the ending of the file's name chooses it; "},
     {"scale", "coordinates are divided in the file; "},
+    {"fov", "the scene's camera has it; "},
+    {"camera", "the scene's own is taken; "},
+    {"denoise", "'koksma rank' has --filter-with for it; "},
+    {"exposure", "EXR and PFM keep the light as it is; "},
     {"sigma", "it is a parameter of filters, as in gaussian:sigma=1; "},
     {"pattern", "'koksma list patterns' names patterns; "},
     {"patterns", "'koksma list patterns' names patterns; "},
@@ -279,6 +286,7 @@ static const struct {
     {NULL, "its folder isn't there", "mkdir -p makes it"},
     {"measure", "can't be read: it is a directory", "name the files in it, as in folder/*"},
     {NULL, "--dim 0.", "a distance is a parameter, as in poisson-disk:d=0.2"},
+    {NULL, ": no parameter 'skip'", "--first N begins at a later point"},
     {NULL, ": no parameter 'seed'", "the seed is an option, as in --seed 7"},
     {NULL, "not float16, float32", "numpy.asarray(points, float) has such a type"},
     {NULL, "the shape is not (n,) or (n, dim)", "a file has one set"},
@@ -338,9 +346,9 @@ void cli_no_command(const char *command, const char *word)
 {
     static const struct {
         const char *name, *ours;
-    } elsewhere[] = {{"check", "scene check"}, {"diff", "compare"},  {"-v", "--version"},
-                     {"sample", "generate"},   {"error", "compare"}, {"convert", "generate"},
-                     {"evaluate", "measure"}};
+    } elsewhere[] = {{"check", "scene check"}, {"diff", "compare"},    {"-v", "--version"},
+                     {"sample", "generate"},   {"show", "plot"},       {"error", "compare"},
+                     {"convert", "generate"},  {"evaluate", "measure"}};
     char known[CLI_KNOWN], meant[96];
     const char *name = !strncmp(word, "koksma-", 7) ? word + 7 : word;
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
