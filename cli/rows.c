@@ -292,24 +292,41 @@ static void print_latex(const cli_cell *c, bool head)
     }
 }
 
-/* Prints a block as CSV or as a tabular of booktabs. */
-static void print_foreign(const block *b, bool first)
+/* Prints a block as CSV or as a tabular of booktabs, which has the columns that a page as wide as PAGE characters shows as
+   text; those that are the same in all rows, and those that don't fit, are comments. */
+static void print_foreign(block *b, bool first)
 {
+    enum { PAGE = 90 };
     const bool latex = format == CLI_LATEX;
     if (!first) {
         putchar('\n'); /* columns change: another table */
     }
     if (latex) {
-        printf("%s\\begin{tabular}{", first ? "% needs \\usepackage{booktabs}\n" : "");
+        printf("%s", first ? "% needs \\usepackage{booktabs}\n" : "");
+        if (measure_columns(b) > PAGE && b->rows > 1 && !is_long) {
+            fit(b, PAGE);
+        }
         for (size_t i = 0; i < b->columns; i++) {
-            putchar(b->cells[i].is_number ? 'r' : 'l');
+            if (b->states[i] != SHOWN) {
+                const bool common = b->states[i] == COMMON;
+                printf("%% %s%s %s\n", common ? "" : "with --long: ", b->cells[i].key,
+                       common ? b->cells[i].text : "");
+            }
+        }
+        printf("\\begin{tabular}{");
+        for (size_t i = 0; i < b->columns; i++) {
+            printf("%s", b->states[i] != SHOWN ? "" : b->cells[i].is_number ? "r" : "l");
         }
         puts("}\n\\toprule");
     }
     for (size_t row = 0; row <= b->rows; row++) {
+        bool begun = false;
         for (size_t i = 0; i < b->columns; i++) {
-            fputs(!i ? "" : latex ? " & " : ",", stdout);
-            (latex ? print_latex : print_csv)(cell_at(b, row ? row - 1 : 0, i), !row);
+            if (b->states[i] == SHOWN) {
+                fputs(!begun ? "" : latex ? " & " : ",", stdout);
+                (latex ? print_latex : print_csv)(cell_at(b, row ? row - 1 : 0, i), !row);
+                begun = true;
+            }
         }
         puts(!latex ? "" : row ? " \\\\" : " \\\\\n\\midrule");
     }
