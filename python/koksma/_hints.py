@@ -66,7 +66,7 @@ _PARTS = {  # what is no argument here, but a part of a spec
     "scramble": 'is a part of the pattern: "NAME:scramble=owen"', "shift": 'is a part of the pattern: "korobov,shift=1"',
     "trials": "is of koksma.trials(pattern, n, measure)", "optimise.method": "is chosen by the measure",
     "radius": 'is a part of the pattern: "poisson-disk:d=0.1"', "r": 'is a part of the pattern: "poisson-disk:d=0.1"',
-    "optimization": "is koksma.optimise(measure, n, d)", "bits": 'is a part of the pattern; koksma.patterns() has its parameters',
+    "optimization": "is koksma.optimise(measure, n, d)",
 }
 
 
@@ -84,6 +84,7 @@ def hint_of_argument(name: str, function: "Callable[..., Any]") -> str:
 
 
 _REMEDIES = (  # what a function ("": any) says, with FIRST for the name of its first argument, and what would work
+    ("", r"coordinate -?(nan|inf) is outside", "a value is missing, or was divided by 0"),
     ("", r"coordinate -.* is outside \[0,1\]", "points of [-0.5,0.5] are x + 0.5 here, those of [-1,1] (x + 1) / 2"),
     ("", r"is outside \[0,1\]", "points lie in the unit cube: divide by the largest coordinate there can be"),
     ("", r"scene must be a str, not <", "give its path"),
@@ -92,6 +93,7 @@ _REMEDIES = (  # what a function ("": any) says, with FIRST for the name of its 
     ("verify_sets", r"shape", "it takes several sets, verify(points) takes one"),
     ("integrate", r"returned the shape", "the points are rows: x[:, 0] * x[:, 1], and a sum takes axis=1"),
     ("integrate", r"^FIRST\(\) missing \d+ required positional", "it takes one array of shape (n, dim): x[:, 0], x[:, 1]"),
+    ("integrate", r"bounds of the integrand's values", "they are value_range=(low, high)"),
     ("integrate", r"no integrand", "koksma.integrands() names them; a function of one's own is one of Python"),
     ("mask_quality", r"those of scalar are 0 to 1", "divide values of 0 to 255 by 255"),
     ("mask_quality", r"must be an array of numbers, not '", "read_mask(path) reads a file"),

@@ -270,6 +270,8 @@ def _errors(handle: c_void_p, source: Union[str, PointArray], options: s.Integra
 
 def _each(name: str, numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> Sequence[SupportsIndex]:
     """One number or several, as several."""
+    if isinstance(numbers, float):
+        raise TypeError(f"{name} must be an int, not {numbers}")
     return [numbers] if hasattr(numbers, "__index__") and not np.ndim(numbers) else several(name, numbers)  # type: ignore[arg-type]
 
 
@@ -364,6 +366,8 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
     if tolerance is not None:
         if trials != 32 or not (math.isnan(integral) and math.isnan(variance)):
             raise ArgumentError("trials, integral and variance have no effect with a tolerance; the number of sets is replicates")
+        if np.ndim(pattern):
+            raise ArgumentError("points of one's own are one set, which tells no error; give a pattern, such as 'sobol:scramble=owen'")
         if hasattr(pattern, "__index__"):
             pattern, dim = None, pattern
         return integrate_to(_opened, function, pattern, n, dim, tolerance=tolerance, relative=relative, estimator=estimator,
@@ -381,6 +385,8 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
     sizes: List[int]
     if isinstance(pattern, (list, tuple)) or hasattr(pattern, "__array__"):
         points = as_points(pattern)
+        for i, k in np.argwhere(~((points >= 0) & (points <= 1)))[:1]:
+            raise ArgumentError(f"point {i}: coordinate {points[i, k]:g} is outside [0,1]")
         if n is not None:
             raise ArgumentError(f"n must be None, not {quoted(n)}: points have their own number")
         source: Union[str, PointArray] = points

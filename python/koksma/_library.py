@@ -291,9 +291,9 @@ def _block(function: Any) -> Any:
     return made
 
 
-def warn_of_one_set(pattern: str) -> None:
+def warn_of_one_set(pattern: str, stacklevel: int = 4) -> None:
     """A seed has no effect on a pattern with one set."""
-    warnings.warn(f"{pattern} has one set, whatever the seed; a random modifier, such as shift=1, gives others", stacklevel=4)
+    warnings.warn(f"{pattern} has one set, whatever the seed; a random modifier, such as shift=1, gives others", stacklevel=stacklevel)
 
 
 @_block

@@ -546,6 +546,8 @@ def _generate_sets(pattern: str, n: Optional[SupportsIndex], dim: Optional[Suppo
         raise ArgumentError("out must be a writable, aligned, C-contiguous array of doubles, of shape (sets, n, dim)")
     elif out.shape != (sets, out.shape[1] if n is None else n, out.shape[2] if dim is None else dim):
         raise ArgumentError(f"out has the shape {out.shape}, not that of sets, n and dim")
+    if sets > 1 and core().koksma_has_one_set(byref(parsed)):
+        warn_of_one_set(pattern, 5)
     points = view(out.reshape(-1, out.shape[2]))
     call(core().koksma_generate_sets, byref(parsed), seed, sets, byref(points), threads=threads, run_at=3)
     return out

@@ -492,8 +492,11 @@ def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> N
     from ._compare import as_image, view_image
 
     array = as_image(image)
-    if os.fsdecode(text(path, "path")).lower().endswith((".png", ".jpg", ".jpeg")) and 64 <= array.max() <= 256:
+    lossy = os.fsdecode(text(path, "path")).lower().endswith((".png", ".jpg", ".jpeg"))
+    if lossy and 64 <= array.max() <= 256:
         warnings.warn(f"pixels up to {array.max():g}: white is 1; divide by 255 if they are of 0 to 255", stacklevel=3)
+    elif lossy and (lost := int((~(array >= 0) | np.isinf(array)).sum())):
+        warnings.warn(f"{lost} of {array.size} values are negative or not finite: 8 bits have black or white there", stacklevel=3)
     check(lab().koksma_image_write(text(path, "path"), byref(view_image(array)), None))
 
 

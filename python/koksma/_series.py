@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, Seed, call, core, first_seed, flag, one_of, sizes_of, spec, whole
+from ._library import ArgumentError, Seed, call, core, first_seed, flag, one_of, sizes_of, spec, warn_of_one_set, whole
 from ._frame import Framed
 from ._matplotlib import curve
 from ._points import as_points, canonical, generate, is_sequence, value_of, view
@@ -72,9 +72,9 @@ class Trials(Framed):
         """The differences, set by set: their interval says which pattern has the smaller mean."""
         if not isinstance(other, Trials):
             return NotImplemented
-        ours, theirs = ((t.measure, t.seed, len(t.values)) for t in (self, other))
+        ours, theirs = ((t.measure, t.n, t.dim, t.seed, len(t.values)) for t in (self, other))
         if ours != theirs:
-            raise ArgumentError(f"differences of {ours} and {theirs}: both must have the same measure, first seed and number of sets")
+            raise ArgumentError(f"differences of {ours} and {theirs}: both must have the same measure, n, dim, first seed and number of sets")
         pattern = self.pattern if self.pattern == other.pattern else f"{self.pattern} - {other.pattern}"
         return Trials(pattern, self.measure, self.n, self.dim, self.seed, self.values - other.values,
                       self.are_exact & other.are_exact)
@@ -199,6 +199,8 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
     """
     count, dim = whole("trials", trials, 1, 1 << 24), one_of("dim", dim, 2, "d", d)
     seed = first_seed(one_of("seed", seed, 0, "rng", rng), count)
+    if count > 1 and core().koksma_has_one_set(byref(spec("pattern", pattern))):
+        warn_of_one_set(pattern)
     found = [value_of(generate(pattern, n, dim, seed + t, threads=threads), measure, warp=warp, threads=threads,
                       time_limit=time_limit) for t in range(count)]
     return Trials(canonical(pattern), canonical_measure(measure), whole("n", n, 1, s.MAX_COORDINATES),

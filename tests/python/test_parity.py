@@ -199,7 +199,7 @@ class Pairs(unittest.TestCase):
         one = koksma.trials("random", 16, trials=4)
         for other in (koksma.trials("random", 16, trials=5), koksma.trials("random", 16, trials=4, seed=1),
                       koksma.trials("random", 16, "l2-star", trials=4)):
-            with self.assertRaisesRegex(koksma.ArgumentError, "the same measure, first seed and number of sets"):
+            with self.assertRaisesRegex(koksma.ArgumentError, "the same measure, n, dim, first seed and number of sets"):
                 one - other
         with self.assertRaises(TypeError):
             one - 1
