@@ -5,6 +5,7 @@
  * --warp is given. The comment in the file has the pattern and the seed, and for points of blue-noise patterns in the unit
  * square the smallest distance of two of them.
  */
+#include <ctype.h>
 #include <koksma/koksma.h>
 #include <koksma/verify.h>
 
@@ -79,11 +80,13 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands != 1) {
         char known[CLI_KNOWN];
         const char *n = cli_text(arguments, "n", "");
+        const int is_number = arguments->n_operands < 2 || !isdigit((unsigned char)*arguments->operands[0]);
         return strchr(n, ',')
                    ? cli_usage_error(arguments, "-n %s: it takes one number of points, without commas", n)
-                   : cli_usage_error(
-                         arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2%s",
-                         arguments->n_operands > 1 ? cli_operand_hint(arguments, arguments->operands[1], known) : "");
+                   : cli_usage_error(arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2%s",
+                                     arguments->n_operands > 1
+                                         ? cli_operand_hint(arguments, arguments->operands[is_number], known)
+                                         : "");
     }
     int code = cli_pattern_open(arguments, arguments->operands[0], &source);
     if (code) {

@@ -489,6 +489,12 @@ static int ask_scene(const cli_arguments *arguments, request *r)
         koksma_render_options_init(&defaults, scene);
         defaults.integrator = cli_text(arguments, "integrator", NULL) ? r->options.integrator : defaults.integrator;
         r->options.integrator = defaults.integrator;
+        const char *ending = strrchr(r->options.scene, '.');
+        if (ending && strstr(".gltf .glb .obj .ply", ending) && !cli_given(arguments, "integrator") &&
+            !cli_flag(arguments, "quiet")) {
+            cli_say("rank", "%s: ranked by %s; a path tracer may need another pattern: --integrator path",
+                    r->options.scene, r->options.integrator->name);
+        }
         if (!cli_flag(arguments, "quiet")) {
             cli_scene_warnings(arguments, r->options.scene, scene, &defaults, 3);
         }

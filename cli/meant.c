@@ -242,8 +242,15 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
     for (size_t i = 0; dot && dot[1] && i < sizeof files / sizeof *files && !access(word, R_OK); i++) {
         const char *at = strstr(files[i].endings, dot);
         if (at && (!at[strlen(dot)] || at[strlen(dot)] == ' ')) {
-            const bool as_pattern = i == 0 && arguments && cli_option_of(arguments->command->options, "patterns");
-            return say_known(word, files[i].holds, as_pattern ? "-p file:" : files[i].before, files[i].after, text);
+            const cli_option *options = i == 0 && arguments ? arguments->command->options : NULL;
+            const bool as_pattern = options && !strstr("measure curve plot", arguments->command->name) &&
+                                    (cli_option_of(options, "patterns") || cli_option_of(options, "pattern"));
+            const bool as_filter = options && !strcmp(arguments->command->name, "mask");
+            return say_known(word, files[i].holds,
+                             as_filter    ? "--filter file:"
+                             : as_pattern ? "-p file:"
+                                          : files[i].before,
+                             files[i].after, text);
         }
     }
     snprintf(name, sizeof name, "%.*s", (int)strcspn(base, ":@."), base);

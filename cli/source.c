@@ -224,7 +224,8 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
     }
     if (status == KOKSMA_MALFORMED && cli_option_of(arguments->command->options, "scale") &&
         strstr(koksma_error_text(), "outside [0,1]") && !strstr(koksma_error_text(), "nan") &&
-        !strchr(koksma_error_text(), ';')) {
+        !strstr(koksma_error_text(), "coordinate -") &&
+        (!strchr(koksma_error_text(), ';') || strstr(koksma_error_text(), "# n 64"))) {
         cli_usage_error(arguments, "%s; --scale W,H divides coordinates, such as pixels", koksma_error_text());
         return koksma_status_exit_code(status);
     }

@@ -258,8 +258,8 @@ static const char *outside_hint(const reader *r, double x, int field, const char
         return more ? "; the first column counts the rows: leave it out"
                     : "; the last column counts the rows: leave it out";
     }
-    if (field == 0 && rows == 0 && !more && x == floor(x)) {
-        return "; if the line says how many points follow, write it as a comment, '# n N'";
+    if (field == 0 && rows == 0 && x == floor(x) && !strpbrk(r->line, ".eE")) {
+        return "; a line that says how many points follow is a comment, as in '# n 64'";
     }
     if (x < 0 && x >= -1) {
         return "; points of [-1,1] are (x + 1) / 2 here";
