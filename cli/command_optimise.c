@@ -71,7 +71,7 @@ static int report(job *j, const koksma_optimum *best)
     cli_row_whole(rows, "n", best->points.n);
     cli_row_whole(rows, "dim", (uint64_t)best->points.dim);
     cli_row_number(rows, "value", best->value);
-    if (j->options.keep == KOKSMA_KEEP_SEQUENCE) {
+    if (j->options.keep >= KOKSMA_KEEP_SEQUENCE) {
         cli_row_number(rows, "first", j->first);
     }
     cli_row_number(rows, "lower", best->lower);
@@ -372,7 +372,7 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out with --from FILE)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {0, "from", "FILE", "the initial set: a file, PATTERN or SPEC@N (default: the best that a listed pattern makes)"},
-    {0, "keep", "none|latin|net|sequence",
+    {0, "keep", "none|latin|net|sequence|every-prefix",
      "a structure of the initial set that the search preserves (default: none)"},
     {0, "projections", "0+1,0+2,..|pairs",
      "groups of coordinates that are measured separately (default: one group of all coordinates)"},
@@ -418,7 +418,9 @@ const cli_command cli_command_optimise = {
         "--keep latin permutes the coordinates on each axis; --keep net moves each coordinate only within its "
         "interval of length 1/n. --keep sequence changes the generator matrices of a digital sequence in base 2; "
         "the value is then the geometric mean of the measure over the first 2, 4, .., n points. FILE.txt has the "
-        "matrices, which --from FILE.txt and the pattern net-file:FILE.txt read.\n"
+        "matrices, which --from FILE.txt and the pattern net-file:FILE.txt read. --keep every-prefix keeps no "
+        "structure, and minimises the geometric mean over the first 8, 9, .., n points: a sequence for any number of "
+        "points, as the pattern every-n is.\n"
         "\n"
         "--power minimises the root mean square difference between the power spectrum and a target, over the plane "
         "of frequencies f. The target step is 0 for f below sqrt(n / pi) and 1 above, gaussian is 1 - exp(-pi f^2 "
@@ -428,6 +430,7 @@ const cli_command cli_command_optimise = {
                 "koksma optimise star -n 64 --from best.txt --time-limit 60 -o best.txt\n"
                 "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n"
                 "koksma optimise star -n 256 --keep sequence --steps 4 -o net.txt\n"
+                "koksma optimise l2-star -n 64 -d 3 --keep every-prefix --time-limit 60 -o any.txt\n"
                 "koksma optimise --power step -n 256 --steps 2 -o step.txt\n",
     .options = options,
     .run = run,

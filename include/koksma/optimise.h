@@ -24,19 +24,21 @@ extern "C" {
 /* The property of the first set that the search must preserve. */
 typedef enum koksma_keep {
     KOKSMA_KEEP_NONE,
-    KOKSMA_KEEP_LATIN,   /* on each axis the search only permutes the coordinates of the first set */
-    KOKSMA_KEEP_NET,     /* each coordinate stays in its interval of length 1/n, so that a (t,m,s)-net of n = b^m
+    KOKSMA_KEEP_LATIN,    /* on each axis the search only permutes the coordinates of the first set */
+    KOKSMA_KEEP_NET,      /* each coordinate stays in its interval of length 1/n, so that a (t,m,s)-net of n = b^m
                             points remains a net */
-    KOKSMA_KEEP_SEQUENCE /* the points remain the first n = 2^m points of a digital sequence in base 2. The search
-                            minimises the geometric mean of the measure over the first 2, 4, ..., n points in each
-                            of the projections */
+    KOKSMA_KEEP_SEQUENCE, /* the points remain the first n = 2^m points of a digital sequence in base 2. The search
+                             minimises the geometric mean of the measure over the first 2, 4, ..., n points in each
+                             of the projections */
+    KOKSMA_KEEP_PREFIXES /* no structure, but the search minimises the geometric mean of the measure over the first 8,
+                             9, ..., n points (n if there are fewer), as for a sequence of any number of points */
 } koksma_keep;
 
 /* The best point set that a search has found so far. */
 typedef struct koksma_optimum {
     koksma_points points;
-    double value;   /* value of the measure by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE the geometric mean that
-                           the search minimises */
+    double value;   /* value of the measure by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE and KOKSMA_KEEP_PREFIXES
+                           the geometric mean that the search minimises */
     double lower;   /* lower bound of the measure over all sets of n points in this dimension, or NaN if no bound
                            is known */
     uint64_t steps; /* number of steps done */

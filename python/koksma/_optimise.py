@@ -15,7 +15,7 @@ from . import _structs as s
 from ._library import ArgumentError, Seed, call, choice, core, quoted, seed_of, spec, text, whole
 from ._points import PointArray, as_points, numbers, shown, view
 
-_KEEP = ("none", "latin", "net", "sequence")
+_KEEP = ("none", "latin", "net", "sequence", "every-prefix")
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,10 +136,10 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Opt
         dim is 2 where it is left out.
     start : array_like of shape (n, dim), optional
         The first set; n and dim may then be left out. None: the best set that a listed pattern makes.
-    keep : {"none", "latin", "net", "sequence"}
+    keep : {"none", "latin", "net", "sequence", "every-prefix"}
         "latin" changes only which coordinates go together; "net" leaves each in its interval of length 1/n; "sequence"
         changes the generator matrices of a digital sequence in base 2, and the value is the geometric mean of the measure over
-        its first 2, 4, .., n points.
+        its first 2, 4, .., n points; "every-prefix" keeps nothing, and the value is that mean over the first 8, 9, .., n points.
     projections : sequence of sequences of int, or "pairs"
         The coordinates in which points are measured, as [(0, 1), (0, 2)]; "pairs": every two; empty: all together. The value
         is the root of the mean of the squares.

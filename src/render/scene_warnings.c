@@ -86,7 +86,8 @@ static bool of_placements(const koksma_scene *scene, asked *a)
 static bool of_camera(const koksma_scene *scene, asked *a)
 {
     const double degrees = scene->camera.fov_rad * 180 / 3.14159265358979;
-    return (!scene->is_model || scene->paths) && degrees > 0 && degrees < 3.2 && tell(a, "the camera sees %.3g degrees; is the angle in radians?", degrees);
+    return (!scene->is_model || scene->paths) && degrees > 0 && degrees < 3.2 &&
+           tell(a, "the camera sees %.3g degrees; is the angle in radians?", degrees);
 }
 
 static bool of_lights(const koksma_scene *scene, asked *a)

@@ -2,9 +2,10 @@
 /*
  * perturb: a random search that needs only the value of the measure, and so works for any measure. A walk moves one
  * point at a time on the torus, by a step whose length is drawn log-uniformly between 10^-4 and 1 times the mean
- * spacing n^(-1/d). With keep=net the point stays within its intervals of length 1/n; with keep=latin two points swap
- * a coordinate instead. A move is accepted if the new value is at most the walk's current value plus a threshold that
- * falls to 0 (threshold accepting, Dueck & Scheuer 1990).
+ * spacing n^(-1/d). With keep=net the point stays within its intervals of length 1/n; with keep=latin two points swap a
+ * coordinate instead, and with keep=every-prefix in three moves of ten their places in the order. A move is accepted if
+ * the new value is at most the walk's current value plus a threshold that falls to 0 (threshold accepting, Dueck &
+ * Scheuer 1990).
  */
 #include <math.h>
 #include <string.h>
@@ -35,10 +36,13 @@ static double moved(double x, double reach, size_t n, koksma_keep keep, koksma__
 static void move(koksma_points *points, koksma_keep keep, koksma__stream *random, double *a, double *b)
 {
     const size_t dim = (size_t)points->dim, k = koksma__next_below(random, dim);
-    if (keep == KOKSMA_KEEP_LATIN) {
-        const double swapped = a[k];
-        a[k] = b[k];
-        b[k] = swapped;
+    const bool order = keep == KOKSMA_KEEP_PREFIXES && koksma__next_unit(random) < 0.3;
+    for (size_t c = 0; c < dim && (order || keep == KOKSMA_KEEP_LATIN); c++) {
+        const double swapped = a[c];
+        a[c] = order || c == k ? b[c] : a[c];
+        b[c] = order || c == k ? swapped : b[c];
+    }
+    if (order || keep == KOKSMA_KEEP_LATIN) {
         return;
     }
     const double spacing = keep == KOKSMA_KEEP_NET ? 1 : koksma__pow((double)points->n, -1.0 / points->dim);

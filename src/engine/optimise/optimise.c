@@ -179,7 +179,7 @@ static koksma_status take_step(step *s, koksma_optimum *best)
    themselves are no smaller. On a grid, the boxes of either can miss all of it. */
 static double lower_bound(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    return o->keep == KOKSMA_KEEP_SEQUENCE || o->n_projections                       ? (double)NAN
+    return o->keep >= KOKSMA_KEEP_SEQUENCE || o->n_projections                       ? (double)NAN
            : measure->measure == &koksma__measure_star && measure->params[0] == 0    ? 0.5 / (double)o->n
            : measure->measure == &koksma__measure_extreme && measure->params[0] == 0 ? 1 / (double)o->n
                                                                                      : (double)NAN;
@@ -257,7 +257,7 @@ static koksma_status check(const koksma_spec *measure, const koksma_optimise_opt
     KOKSMA__FAIL_IF(!measure->measure || measure->measure->answer != KOKSMA_ANSWER_EXACT, KOKSMA_ARGUMENT,
                     "%s: a search needs a measure with exact values, such as star or l2-star",
                     measure->measure ? measure->measure->name : "koksma_optimise");
-    KOKSMA__FAIL_IF((unsigned)o->keep > KOKSMA_KEEP_SEQUENCE, KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF((unsigned)o->keep > KOKSMA_KEEP_PREFIXES, KOKSMA_ARGUMENT,
                     "koksma_optimise: keep = %d is not a value of koksma_keep", (int)o->keep);
     KOKSMA__TRY(koksma__search_check(o));
     const koksma_status status = o->first ? koksma__points_check(o->first) : KOKSMA_OK;

@@ -5,8 +5,8 @@
  *
  * For the L2 family this is the weighted discrepancy of Sloan & Wozniakowski (1998). The square of the value has a
  * gradient if the square of the measure has one. For a sequence the value is the weighted geometric mean over its
- * prefixes of 2, 4, ..., n points and over the projections: a gain of 1 % counts as much at 2 points as at n, although
- * measures decrease with n at different rates.
+ * prefixes of 2, 4, ..., n points and over the projections, and with keep=every-prefix over those of FROM, FROM + 1, ...,
+ * n: a gain of 1 % counts as much at 2 points as at n, although measures decrease with n at different rates.
  */
 #include "optimise/optimise.h"
 
@@ -55,13 +55,20 @@ static void project(const koksma_points *points, uint64_t u, koksma_points *out)
     }
 }
 
+enum { FROM = 8 };
+
+static bool of_prefixes(const koksma_optimise_options *o)
+{
+    return o->keep == KOKSMA_KEEP_SEQUENCE || o->keep == KOKSMA_KEEP_PREFIXES;
+}
+
 /* Computes the mean of the logarithms of the measure over all prefixes. */
-static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_points *points, const koksma_run *run,
-                                      double *mean)
+static koksma_status mean_of_prefixes(const koksma_spec *measure, bool each, const koksma_points *points,
+                                      const koksma_run *run, double *mean)
 {
     double count = 0;
     *mean = 0;
-    for (size_t n = 2; n <= points->n; n *= 2, count++) {
+    for (size_t n = !each ? 2 : points->n < FROM ? points->n : FROM; n <= points->n; n += each ? 1 : n, count++) {
         const koksma_points prefix = {.n = n, .dim = points->dim, .xs = points->xs};
         koksma_value value;
         KOKSMA__TRY(koksma_evaluate(measure, &prefix, run, &value));
@@ -80,8 +87,8 @@ static koksma_status term(const koksma_spec *measure, const koksma_optimise_opti
                           const koksma_run *run, double *out)
 {
     koksma_value value = {0};
-    if (o->keep == KOKSMA_KEEP_SEQUENCE) {
-        return mean_of_prefixes(measure, points, run, out);
+    if (of_prefixes(o)) {
+        return mean_of_prefixes(measure, o->keep == KOKSMA_KEEP_PREFIXES, points, run, out);
     }
     KOKSMA__TRY(koksma_evaluate(measure, points, run, &value));
     *out = value.value * value.value;
@@ -100,7 +107,7 @@ koksma_status koksma__search_value(const koksma_spec *measure, const koksma_opti
         *value = sqrt(mean);
         return status;
     }
-    if (!o->n_projections && o->keep != KOKSMA_KEEP_SEQUENCE) {
+    if (!o->n_projections && !of_prefixes(o)) {
         status = koksma_evaluate(measure, points, run, &whole);
         *value = whole.value;
         return status;
@@ -120,7 +127,7 @@ koksma_status koksma__search_value(const koksma_spec *measure, const koksma_opti
         mean /= weights;
         koksma_points_fini(&projected);
     }
-    *value = o->keep == KOKSMA_KEEP_SEQUENCE ? koksma__exp(mean) : sqrt(mean);
+    *value = of_prefixes(o) ? koksma__exp(mean) : sqrt(mean);
     return status;
 }
 
