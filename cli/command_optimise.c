@@ -430,7 +430,7 @@ const cli_command cli_command_optimise = {
                 "koksma optimise star -n 64 --from best.txt --time-limit 60 -o best.txt\n"
                 "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n"
                 "koksma optimise star -n 256 --keep sequence --steps 4 -o net.txt\n"
-                "koksma optimise l2-star -n 64 -d 3 --keep every-prefix --time-limit 60 -o any.txt\n"
+                "koksma optimise l2-star -n 64 -d 3 --keep every-prefix -o any.txt\n"
                 "koksma optimise --power step -n 256 --steps 2 -o step.txt\n",
     .options = options,
     .run = run,

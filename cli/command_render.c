@@ -326,6 +326,20 @@ static bool set_sky(const cli_arguments *arguments, koksma_scene *scene, int *co
     return !status;
 }
 
+/* Takes the number of samples of the scene's own sampler, where the command line has none. */
+static void take_count(const cli_arguments *arguments, const koksma_scene *scene, koksma_render_options *options)
+{
+    const size_t own = koksma_scene_count(scene).spp;
+    const bool typed = cli_text(arguments, "spp", NULL) || strchr(cli_text(arguments, "pattern", ""), '@');
+    if (own && own <= KOKSMA_MAX_SPP && own != (size_t)options->spp && !typed) {
+        options->spp = (int)own;
+        if (!cli_flag(arguments, "quiet")) {
+            cli_say("render", "%s: its sampler takes %zu samples a pixel, and so does this picture; -n N chooses",
+                    arguments->operands[0], own);
+        }
+    }
+}
+
 static int run(const cli_arguments *arguments)
 {
     koksma_scene *scene;
@@ -353,13 +367,8 @@ static int run(const cli_arguments *arguments)
         if (!cli_flag(arguments, "quiet")) {
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_warn_unused(arguments, arguments->operands[0], scene, &options);
-            const size_t own = koksma_scene_count(scene).spp;
-            const bool typed = cli_text(arguments, "spp", NULL) || strchr(cli_text(arguments, "pattern", ""), '@');
-            if (own && own != (size_t)options.spp && !typed) {
-                cli_say("render", "%s: its sampler takes %zu samples a pixel: rendering with %d; -n N chooses",
-                        arguments->operands[0], own, options.spp);
-            }
         }
+        take_count(arguments, scene, &options);
         code = try_files(arguments, &adaptive);
         code = code ? code
                : announce_size(arguments, scene, &options, &adaptive.options)
@@ -374,7 +383,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'p', "pattern", "[USE[+USE]=]PATTERN...",
      "pattern (or SPEC@N) of all uses, of one use, or of a group; may be repeated (default: n-rooks)"},
-    {'n', "spp", "N", "samples a pixel (default: 16)"},
+    {'n', "spp", "N", "samples a pixel (default: those of the scene's sampler, or 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "sky", "L",
