@@ -204,9 +204,10 @@ def plan(runner, options):
 def make_inputs(runner, shared):
     """Files that the commands read, in $IN."""
     commands = [["generate", "n-rooks", "-n", "64", "-o", "points.txt"], ["generate", "sobol", "-n", "16", "-o", "points.npy"]]
-    for name in ("a.png", "b.exr", "c.pfm",):
+    for name in ("a.png", "b.png", "b.exr", "c.pfm"):
         seed = str(len(commands))
         commands.append(["render", "ball", "--spp", "2", "--size", "8x8", "-q", "-o", name, "--seed", seed])
+    commands.append(["render", "ball", "--spp", "2", "--size", "16x8", "-q", "-o", "e.exr"])
     commands.append(["study", "run", "./plan.json", "-q", "-o", "done"])
     for name in os.listdir(os.path.join(FOLDER, "inputs")):
         shutil.copy(os.path.join(FOLDER, "inputs", name), shared)
