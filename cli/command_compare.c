@@ -171,15 +171,21 @@ static koksma_status put_one(const comparison *c, const koksma_image *image, con
     return status;
 }
 
-/* Warns where the first operand looks like the reference, which other programs want first. */
-static void warn_of_order(const comparison *c, const koksma_image *first, const char *path)
+/* Warns where the first operand looks like the reference, which other programs want first, or an image like that of
+   another scene. */
+static void warn_of_looks(const comparison *c, bool check_order, const koksma_image *image, const char *path)
 {
-    if (cli_has_less_noise(first, &c->reference)) {
+    const cli_likeness looks = cli_compare_noise(image, &c->reference);
+    if (check_order && looks.less_noise) {
         cli_say(
             "compare",
             "warning: %s has less noise than %s, which is taken as the reference; if %s is the reference, name it "
             "last or by --reference",
             path, c->reference_path, path);
+    }
+    if (looks.another) {
+        cli_say("compare", "%s: warning: it differs from %s by more than noise: another scene, view or exposure?",
+                path, c->reference_path);
     }
 }
 
@@ -195,12 +201,8 @@ static koksma_status add_image(comparison *c, const char *path, const char *diff
         c->compared = NULL;
         status = difference ? write_difference(difference, &image, &c->reference) : KOKSMA_OK;
     }
-    if (!status && check_order) {
-        warn_of_order(c, &image, path);
-    }
-    if (!status && cli_is_another(&image, &c->reference)) {
-        cli_say("compare", "%s: warning: it differs from %s by more than noise: another scene, view or exposure?",
-                path, c->reference_path);
+    if (!status) {
+        warn_of_looks(c, check_order, &image, path);
     }
     koksma_image_fini(&image);
     return status;

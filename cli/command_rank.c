@@ -571,10 +571,11 @@ static koksma_status look_at_reference(const char *path, const request *r, size_
     status = koksma_render(scene, &options, NULL, &picture);
     koksma_scene_close(scene);
     const bool fits = !status && picture.width == r->reference.width && picture.height == r->reference.height;
-    if (fits && cli_is_another(&picture, &r->reference)) {
+    const cli_likeness looks = fits ? cli_compare_noise(&picture, &r->reference) : (cli_likeness){false, false};
+    if (looks.another) {
         cli_say("rank", "%s: warning: a picture of %s looks otherwise: is it of another scene, view or exposure?",
                 path, r->options.scene);
-    } else if (fits && cli_has_less_noise(&picture, &r->reference)) {
+    } else if (looks.less_noise) {
         cli_say("rank", "%s: warning: it has more noise than a picture of %d samples a pixel, and is taken as exact",
                 path, options.spp);
     }
@@ -640,7 +641,8 @@ static int run(const cli_arguments *arguments)
         koksma_spec spec;
         said = !koksma_pattern_spec(r.p.at[i], &spec) && cli_warn_unbalanced(arguments, &spec, spps[0]);
     }
-    if (!code && r.reference.pixels && !r.options.render && !cli_flag(arguments, "quiet")) {
+    const bool as_here = !r.options.render && !r.options.variant; /* which may make another picture */
+    if (!code && r.reference.pixels && as_here && !cli_flag(arguments, "quiet")) {
         const koksma_status status = look_at_reference(cli_text(arguments, "reference", ""), &r, spps[0]);
         code = status ? cli_fail(arguments, status) : CLI_YES;
     }

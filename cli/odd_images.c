@@ -44,18 +44,14 @@ static sums sums_of(const koksma_image *image, const koksma_image *reference)
 
 /* If only the reference has noise, independent of the picture, rough_y = rough_x + rough_d; if only the image has noise,
    rough_x = rough_y + rough_d. Half way between, (rough_y - rough_x) / rough_d = 1/2, the reference has 3 times the
-   image's variance. */
-bool cli_has_less_noise(const koksma_image *image, const koksma_image *reference)
-{
-    const sums s = sums_of(image, reference);
-    return s.n >= LEAST && 2 * (s.rough_y - s.rough_x) > s.rough_d;
-}
-
-/* What noise leaves of the mean square difference (the roughness of white noise has 3/2 of its variance) is above half
-   of the reference's variance. */
-bool cli_is_another(const koksma_image *image, const koksma_image *reference)
+   image's variance. An image is another if what noise leaves of the mean square difference (the roughness of white noise
+   has 3/2 of its variance) is above half of the reference's variance. */
+cli_likeness cli_compare_noise(const koksma_image *image, const koksma_image *reference)
 {
     const sums s = sums_of(image, reference);
     const double n = (double)s.n, noise = s.inner ? s.rough_d / (1.5 * (double)s.inner) : 0;
-    return s.n >= LEAST && s.d / n - noise > (s.yy / n - s.y / n * (s.y / n)) / 2;
+    return (cli_likeness){
+        .less_noise = s.n >= LEAST && 2 * (s.rough_y - s.rough_x) > s.rough_d,
+        .another = s.n >= LEAST && s.d / n - noise > (s.yy / n - s.y / n * (s.y / n)) / 2,
+    };
 }

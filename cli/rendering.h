@@ -58,11 +58,13 @@ size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, cons
 /* Whether a file's name says that its numbers have 8 bits. */
 bool cli_has_8_bits(const char *path);
 
-/* Whether an image has less noise than what is taken as its reference, of the same size. */
-bool cli_has_less_noise(const koksma_image *image, const koksma_image *reference);
+/* How an image looks beside what is taken as its reference, of the same size: whether it has less noise, and whether it
+   differs by more than noise (another scene, view or exposure). */
+typedef struct cli_likeness {
+    bool less_noise, another;
+} cli_likeness;
 
-/* Whether an image differs from a reference of the same size by more than noise: another scene, view or exposure. */
-bool cli_is_another(const koksma_image *image, const koksma_image *reference);
+cli_likeness cli_compare_noise(const koksma_image *image, const koksma_image *reference);
 
 /* ---- Adaptive sampling -------------------------------------------------------------------------------- */
 

@@ -168,7 +168,7 @@ static size_t find_slabs(searcher *s, size_t k)
     const problem *p = s->p;
     const region *r = &s->levels[k];
     const uint32_t *orders = p->orders + k * p->n, *ranks = p->ranks + k * p->n;
-    const size_t spacing = k == 0 ? p->spacing : p->spacing * 7 / 5;
+    const size_t spacing = k == 0 ? p->spacing : p->spacing * 7 / 5; /* 1 to 2 times, measured: 5 to 14 % at 7/5 */
     uint32_t *sorted = s->sorted + k * p->n, *ends = s->ends + k * (2 * p->n + 4);
     double *cuts = s->cuts + k * (p->n + 2);
     const double *values = p->sorted + k * p->n;
