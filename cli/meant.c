@@ -243,8 +243,8 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
         const char *at = strstr(files[i].endings, dot);
         if (at && (!at[strlen(dot)] || at[strlen(dot)] == ' ')) {
             const cli_option *options = i == 0 && arguments ? arguments->command->options : NULL;
-            const bool as_pattern = options && !strstr("measure curve plot", arguments->command->name) &&
-                                    (cli_option_of(options, "patterns") || cli_option_of(options, "pattern"));
+            const bool as_pattern =
+                options && (cli_option_of(options, "patterns") || cli_option_of(options, "pattern"));
             const bool as_filter = options && !strcmp(arguments->command->name, "mask");
             return say_known(word, files[i].holds,
                              as_filter    ? "--filter file:"

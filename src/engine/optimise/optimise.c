@@ -179,7 +179,7 @@ static koksma_status take_step(step *s, koksma_optimum *best)
    themselves are no smaller. On a grid, the boxes of either can miss all of it. */
 static double lower_bound(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    return o->keep >= KOKSMA_KEEP_SEQUENCE || o->n_projections                       ? (double)NAN
+    return koksma__search_of_prefixes(o) || o->n_projections                         ? (double)NAN
            : measure->measure == &koksma__measure_star && measure->params[0] == 0    ? 0.5 / (double)o->n
            : measure->measure == &koksma__measure_extreme && measure->params[0] == 0 ? 1 / (double)o->n
                                                                                      : (double)NAN;

@@ -51,6 +51,12 @@ static inline uint32_t koksma__next_below(koksma__stream *s, size_t n)
    without a coordinate or with a coordinate that the points do not have; a weight outside 1e-100 to 1e100). */
 koksma_status koksma__search_check(const koksma_optimise_options *options);
 
+/* Whether the value that a search minimises is a mean over the first points of the set. */
+static inline bool koksma__search_of_prefixes(const koksma_optimise_options *o)
+{
+    return o->keep == KOKSMA_KEEP_SEQUENCE || o->keep == KOKSMA_KEEP_PREFIXES;
+}
+
 /* Computes the value of these points that a search minimises and reports (koksma_optimum.value). Errors: those of
    koksma_evaluate, ARGUMENT (a value of 0 in a geometric mean). */
 koksma_status koksma__search_value(const koksma_spec *measure, const koksma_optimise_options *options,

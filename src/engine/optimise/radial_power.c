@@ -57,7 +57,7 @@ koksma_status koksma__radial_power_check(const koksma_optimise_options *o)
     KOKSMA__FAIL_IF(o->power && (o->rings < 1 || o->rings > KOKSMA_SPECTRUM_MAX_HALF), KOKSMA_ARGUMENT,
                     "rings = %d: a target power takes 1 to %d", o->rings, KOKSMA_SPECTRUM_MAX_HALF);
     KOKSMA__FAIL_IF(o->power && o->dim != 2, KOKSMA_DIM, "dim = %d: a target power needs 2 dimensions", o->dim);
-    KOKSMA__FAIL_IF(o->power && (o->n_projections || o->keep >= KOKSMA_KEEP_SEQUENCE), KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF(o->power && (o->n_projections || koksma__search_of_prefixes(o)), KOKSMA_ARGUMENT,
                     "a target power takes neither projections nor keep=sequence nor keep=every-prefix");
     for (int r = 0; o->power && r < o->rings; r++) {
         KOKSMA__FAIL_IF(!(o->power[r] >= 0 && o->power[r] <= KOKSMA__MOST_POWER), KOKSMA_ARGUMENT,

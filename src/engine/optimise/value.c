@@ -57,11 +57,6 @@ static void project(const koksma_points *points, uint64_t u, koksma_points *out)
 
 enum { FROM = 8 };
 
-static bool of_prefixes(const koksma_optimise_options *o)
-{
-    return o->keep == KOKSMA_KEEP_SEQUENCE || o->keep == KOKSMA_KEEP_PREFIXES;
-}
-
 /* Computes the mean of the logarithms of the measure over all prefixes. */
 static koksma_status mean_of_prefixes(const koksma_spec *measure, bool each, const koksma_points *points,
                                       const koksma_run *run, double *mean)
@@ -87,7 +82,7 @@ static koksma_status term(const koksma_spec *measure, const koksma_optimise_opti
                           const koksma_run *run, double *out)
 {
     koksma_value value = {0};
-    if (of_prefixes(o)) {
+    if (koksma__search_of_prefixes(o)) {
         return mean_of_prefixes(measure, o->keep == KOKSMA_KEEP_PREFIXES, points, run, out);
     }
     KOKSMA__TRY(koksma_evaluate(measure, points, run, &value));
@@ -107,7 +102,7 @@ koksma_status koksma__search_value(const koksma_spec *measure, const koksma_opti
         *value = sqrt(mean);
         return status;
     }
-    if (!o->n_projections && !of_prefixes(o)) {
+    if (!o->n_projections && !koksma__search_of_prefixes(o)) {
         status = koksma_evaluate(measure, points, run, &whole);
         *value = whole.value;
         return status;
@@ -127,7 +122,7 @@ koksma_status koksma__search_value(const koksma_spec *measure, const koksma_opti
         mean /= weights;
         koksma_points_fini(&projected);
     }
-    *value = of_prefixes(o) ? koksma__exp(mean) : sqrt(mean);
+    *value = koksma__search_of_prefixes(o) ? koksma__exp(mean) : sqrt(mean);
     return status;
 }
 
