@@ -35,7 +35,7 @@ static int read_points(const cli_arguments *arguments, const char *source, uint6
     }
     const koksma_status status = koksma_points_read_mapped(source, points);
     if (!status) {
-        cli_warn_points(arguments, source, points);
+        cli_warn_points(arguments, source, points, NULL);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }

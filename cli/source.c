@@ -180,7 +180,9 @@ static int read_scaled(const cli_arguments *arguments, const char *path, const c
                                "--scale %s: it takes one number, or one for each of the %d coordinates of %s", scale,
                                points->dim, path);
     }
-    cli_warn_points(arguments, path, points);
+    char said[CLI_ODDITIES];
+    koksma_points_oddities(points, said, sizeof said);
+    cli_warn_points(arguments, path, points, NULL);
     for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
         const double divisor = divisors[n == 1 ? 0 : i % (size_t)points->dim], x = points->xs[i];
         if (!(x >= 0 && x <= divisor)) {
@@ -189,7 +191,7 @@ static int read_scaled(const cli_arguments *arguments, const char *path, const c
         }
         points->xs[i] = x / divisor;
     }
-    cli_warn_small(arguments, path, points);
+    cli_warn_points(arguments, path, points, said);
     return CLI_YES;
 }
 
@@ -230,7 +232,7 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
         return koksma_status_exit_code(status);
     }
     if (!status && !source.is_pattern) {
-        cli_warn_points(arguments, text, points);
+        cli_warn_points(arguments, text, points, NULL);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }

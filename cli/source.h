@@ -18,12 +18,11 @@
         'd', "dim", "DIM", "number of dimensions of patterns without @N (default: 2)"                                \
     }
 
-/* Warns, unless --quiet, about what in a file's points looks like a mistake: columns that are constant or count the rows,
-   equal rows, rows and columns swapped, coordinates in another unit. */
-void cli_warn_points(const cli_arguments *arguments, const char *path, const koksma_points *points);
+enum { CLI_ODDITIES = 4096 }; /* bytes of the text of koksma_points_oddities */
 
-/* Warns, unless --quiet, that all coordinates are small, as pixels read as fractions of 2^16 are. */
-void cli_warn_small(const cli_arguments *arguments, const char *path, const koksma_points *points);
+/* Warns, unless --quiet, of what koksma_points_oddities finds in a file's points, but for the lines that are in `said`,
+   which may be NULL. */
+void cli_warn_points(const cli_arguments *arguments, const char *path, const koksma_points *points, const char *said);
 
 /* Says, unless --quiet, that a pattern whose first 2^m points are a net or lattice is better at such a number.
    Returns whether that is so. */

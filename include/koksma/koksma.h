@@ -180,6 +180,14 @@ KOKSMA_API koksma_status koksma_points_write(const char *path, const koksma_poin
 KOKSMA_API koksma_status koksma_points_write_mapped(const char *path, const koksma_points *points,
                                                     const char *comment, const koksma_run *run);
 
+/* Says what in points looks like a mistake of whoever made them, though it can be measured: a column that is constant,
+   counts the rows, has only 0 and 1, sums to 1 or is narrower than chance, equal points (among at most 65,536), rows and
+   columns swapped.
+     text  receives a line for each remark, as many as fit; "" if there are none
+     room  size of text in bytes; 4096 is plenty
+   Returns the number of remarks. */
+KOKSMA_API size_t koksma_points_oddities(const koksma_points *points, char *text, size_t room);
+
 /* ---- Parameters and specs ----------------------------------------------------------------------------- */
 
 /* A parameter of a pattern or measure. An array of parameters ends at a member whose name is NULL. */

@@ -30,7 +30,11 @@ typedef struct reader {
     size_t line_number, length;
     uint64_t bytes; /* total length of all lines so far */
     bool header_seen;
-    size_t ended_at;  /* the line that ended the set; 0: none */
+    size_t ended_at; /* the line that ended the set; 0: none */
+    /* of parts between blank lines: the coordinates of the first, how many are whole, whether one has another size, and
+       whether the last line was blank */
+    size_t part, parts;
+    bool uneven, blank;
     bool in_preamble; /* true after a line `key number`, until the line `points` */
     size_t header_fields;
     unsigned long long promised_n, promised_dim; /* 0: nothing promised */
@@ -267,9 +271,22 @@ static const char *outside_hint(const reader *r, double x, int field, const char
     return "";
 }
 
+/* Counts the parts of a file that blank lines divide, when a part begins. */
+static void begin_part(reader *r)
+{
+    const size_t n = r->points->n;
+    r->part = r->part ? r->part : n;
+    r->parts++;
+    r->uneven |= n != r->parts * r->part;
+    r->blank = false;
+}
+
 static koksma_status read_row(reader *r, const char *s)
 {
     int fields = 0;
+    if (r->blank) {
+        begin_part(r);
+    }
     while (s && *s) {
         char *end;
         const double x = koksma__strtod(s, &end);
@@ -340,6 +357,7 @@ static koksma_status take_line(reader *r)
     const bool marked = r->line_number == 1 && !strncmp(r->line, "\xef\xbb\xbf", 3);
     char *const line = r->line + (marked ? 3 : 0), *const s = line + (skip_blanks(line) - line);
     if (*s == '\0') {
+        r->blank = r->points->n > 0;
         return KOKSMA_OK;
     }
     if (*s == '#') {
@@ -373,8 +391,16 @@ static koksma_status check_promises(const reader *r, size_t n)
                     r->name);
     KOKSMA__FAIL_IF(n == 0, KOKSMA_MALFORMED, "%s: line %zu: no points in the file", r->name, r->line_number);
     KOKSMA__FAIL_IF(r->promised_n && r->promised_n != n, KOKSMA_MALFORMED,
-                    "%s: line %zu: the file ends after %zu of %llu points", r->name, r->line_number, n,
-                    r->promised_n);
+                    n < r->promised_n
+                        ? "%s: line %zu: the file ends after %zu of %llu points"
+                        : "%s: line %zu: the file has %zu points, not %llu as it claims; is it two files?",
+                    r->name, r->line_number, n, r->promised_n);
+    const size_t rows = r->part / (size_t)dim, sets = r->parts + 1;
+    KOKSMA__FAIL_IF(
+        rows > 1 && !r->uneven && n == sets * rows && !r->promised_n, KOKSMA_MALFORMED,
+        "%s: line %zu: blank lines divide it into %zu sets of %zu points; put each into a file, or leave the "
+        "lines out",
+        r->name, r->line_number, sets, rows);
     KOKSMA__FAIL_IF((r->promised_dim && r->promised_dim != (unsigned)dim) ||
                         (r->header_fields && r->header_fields != (size_t)dim),
                     KOKSMA_MALFORMED, "%s: line %zu: rows have %d coordinates, but the header claims %llu", r->name,
