@@ -3,11 +3,32 @@
  * `koksma scene check`: reads a scene file, warns about what can be rendered but looks like a mistake, and prints
  * what the scene contains.
  */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli.h"
 #include "rendering.h"
+
+enum { SMALL = 32, SAMPLES = 16 }; /* the width of a small picture, and its samples a pixel */
+
+/* Renders a small picture. Returns whether nothing is in it. */
+static koksma_status look(const koksma_scene *scene, koksma_image *picture, bool *is_black)
+{
+    koksma_render_options options;
+    koksma_render_options_init(&options, scene);
+    options.height = (int)fmax(1, SMALL * (double)options.height / options.width);
+    options.width = SMALL;
+    options.spp = SAMPLES;
+    const koksma_status status = koksma_render(scene, &options, NULL, picture);
+    const size_t n = status ? 0 : (size_t)picture->width * (size_t)picture->height * (size_t)picture->channels;
+    size_t black = 0;
+    while (black < n && picture->pixels[black] <= 0) {
+        black++;
+    }
+    *is_black = n && black == n;
+    return status;
+}
 
 static int run(const cli_arguments *arguments)
 {
@@ -15,13 +36,21 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands != 2 || strcmp(arguments->operands[0], "check") != 0) {
         return cli_usage_error(arguments, "it takes check and one scene, as in 'koksma scene check ball'");
     }
-    const koksma_status status = koksma_scene_open(arguments->operands[1], &scene);
+    koksma_status status = koksma_scene_open(arguments->operands[1], &scene);
     if (status) {
         return cli_fail(arguments, status);
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     const koksma_scene_counts counts = koksma_scene_count(scene);
-    const bool odd = cli_scene_warnings(arguments, arguments->operands[1], scene, NULL, SIZE_MAX) > 0;
+    bool odd = cli_scene_warnings(arguments, arguments->operands[1], scene, NULL, SIZE_MAX) > 0;
+    koksma_image picture = {0};
+    bool is_black = false;
+    status = odd ? KOKSMA_OK : look(scene, &picture, &is_black);
+    if (is_black) {
+        cli_say("scene", "%s: warning: all pixels of %d x %d are black; is the scene in view, and lit?",
+                arguments->operands[1], picture.width, picture.height);
+    }
+    koksma_image_fini(&picture);
     cli_row_text(rows, "scene", arguments->operands[1]);
     cli_row_whole(rows, "shapes", counts.shapes);
     cli_row_whole(rows, "meshes", counts.meshes);
@@ -37,7 +66,8 @@ static int run(const cli_arguments *arguments)
     }
     cli_row_end(rows);
     koksma_scene_close(scene);
-    return cli_rows_close(rows, odd ? CLI_NO : CLI_YES);
+    const int code = cli_rows_close(rows, odd || is_black ? CLI_NO : CLI_YES);
+    return status ? cli_fail(arguments, status) : code;
 }
 
 static const cli_option options[] = {CLI_UNKNOWN_OPTION, CLI_ROW_OPTIONS, {0}};
@@ -48,7 +78,8 @@ const cli_command cli_command_scene = {
     .synopsis = "check SCENE",
     .details = "SCENE is a name, a JSON file (docs/scenes.md), a mesh file, or a scene of pbrt-v4 (.pbrt) or "
                "Mitsuba (.xml). An error names file, line, field and reason (exit code 3). A warning reports "
-               "something odd that can still be rendered (exit code 1). stdout lists what the scene contains (spp: "
+               "something odd that can still be rendered, or that a small picture is black (exit code 1). stdout "
+               "lists what the scene contains (spp: "
                "samples a pixel that its own sampler asks for).\n",
     .examples = "koksma scene check ball\n",
     .options = options,

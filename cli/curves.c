@@ -35,7 +35,9 @@ const cli_curve *cli_curve_find(cli_curve_list list, const char *name)
             return curve;
         }
     }
-    return !strcmp(name, "radial") ? cli_curve_find(list, "rings") : NULL; /* what others call it */
+    return !strcmp(name, "radial")     ? cli_curve_find(list, "rings") /* what others call them */
+           : !strcmp(name, "spectrum") ? cli_curve_find(list, "power")
+                                       : NULL;
 }
 
 /* Returns whether `word` is one of the words in `words`, which have blanks between them. */

@@ -57,6 +57,7 @@ koksma_status koksma__parse_colour_value(const field *node, double max, double o
     if (koksma__json_is_array(node)) {
         return koksma__json_numbers(node, 0, max, 3, out);
     }
+    KOKSMA__JSON_FAIL_IF(koksma__json_is_text(node), node, "a colour is a number, or three of red, green and blue");
     const koksma_status status = koksma__json_number(node, 0, max, &out[0]);
     out[1] = out[2] = out[0];
     return status;

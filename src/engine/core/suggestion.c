@@ -143,6 +143,7 @@ static const struct {
     {"pattern", "white-noise", "random", "independent uniform points"},
     {"pattern", "lds", "sobol:scramble=owen", "or halton, r-sequence, lattice-sequence"},
     {"pattern", "low-discrepancy", "sobol:scramble=owen", "or halton, r-sequence, lattice-sequence"},
+    {"pattern", "lowdiscrepancy", "sobol:scramble=owen", "or halton, r-sequence, lattice-sequence"},
     {"pattern", "qmc", "sobol:scramble=owen", "or halton, r-sequence, lattice-sequence"},
     {"pattern", "orthogonal", "orthogonal-array", "Mitsuba calls it so"},
     {"pattern", "02sequence", "sobol:scramble=digital-shift", "its first two dimensions are a (0,2)-sequence"},

@@ -335,7 +335,10 @@ static koksma_status run_steps(job *j, size_t steps, koksma_tolerance *t)
     estimate.confidence = step_confidence(j, steps);
     estimate.interval = j->parts ? "student" : estimate.interval;
     for (size_t k = 0; k < steps && !t->reached; k++) {
-        KOKSMA__TRY(take_step(j, k));
+        const koksma_status status = take_step(j, k);
+        KOKSMA__FAIL_IF(status == KOKSMA_N && k, status, "%s; the tolerance is out of reach of n = %zu",
+                        koksma_error_text(), (size_t)t->steps[k - 1].n);
+        KOKSMA__TRY(status);
         estimate.share = share_of(j);
         koksma_tolerance_step *step = &t->steps[t->n_steps++];
         *step = (koksma_tolerance_step){.n = j->n, .points = j->points};

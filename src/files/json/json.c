@@ -180,7 +180,8 @@ static const char *reason_of(const json_error_t *error, char out[REASON])
     }
     static const struct {
         const char *near, *hint;
-    } hints[] = {{" near '/", "JSON has no comments"},
+    } hints[] = {{"'[' or '{' expected near", "JSON begins so, and has no comments"},
+                 {" near '/", "JSON has no comments"},
                  {" near '#", "JSON has no comments"},
                  {" near '''", "texts stand in double quotes"},
                  {" near '}'", "a comma before it is one too many"},
@@ -283,8 +284,12 @@ static const char *key_at(const void *keys, size_t i)
 
 static koksma_status fail_unknown_field(const koksma__json_node *member, const char *key, const char *const *keys)
 {
-    static const char *const foreign[][2] = {{"position", "eye"},   {"origin", "eye"},    {"from", "eye"},
-                                             {"look_at", "target"}, {"lookat", "target"}, {"to", "target"}};
+    static const char *const foreign[][2] = {
+        {"position", "eye"},    {"origin", "eye"},       {"from", "eye"},        {"look_at", "target"},
+        {"lookat", "target"},   {"to", "target"},        {"position", "centre"}, {"origin", "centre"},
+        {"location", "centre"}, {"translate", "centre"}, {"diffuse", "albedo"},  {"color", "albedo"},
+        {"colour", "albedo"},   {"power", "intensity"},  {"power", "radiance"},  {"intensity", "radiance"},
+        {"type", "kind"},       {"emission", "radiance"}};
     const char *closest = koksma_closest_name(key, key_at, keys);
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) { /* names of other renderers */
         for (size_t k = 0; keys[k] && !strcmp(key, foreign[i][0]); k++) {

@@ -177,11 +177,24 @@ bool koksma__pbrt_is_kind(const char *directive, const char *kind)
     return !has_kinds;
 }
 
+/* Writes what to do with a name of pbrt-v3's materials. Returns whether it is one. */
+static bool is_old(const char *name, char text[KOKSMA__OR_MEANT])
+{
+    static const char old[] = "Kd Ks Kr Kt disney fourier glass kdsubsurface matte metal mirror plastic substrate "
+                              "translucent uber";
+    const bool found = koksma__lists(old, strlen(old), ' ', name);
+    snprintf(text, KOKSMA__OR_MEANT, "%s",
+             found ? "; of pbrt-v3: 'pbrt --upgrade FILE' makes it one of pbrt-v4" : "");
+    return found;
+}
+
 const char *koksma__pbrt_kind_meant(const char *directive, const char *kind, char *text)
 {
     *text = '\0';
     const char *of = strcmp(directive, "MakeNamedMaterial") ? directive : "Material";
-    return koksma__pbrt_is_kind(directive, kind) ? text : koksma__kind_meant(&koksma__pbrt_plugins, of, kind, text);
+    return koksma__pbrt_is_kind(directive, kind) || (!strcmp(of, "Material") && is_old(kind, text))
+               ? text
+               : koksma__kind_meant(&koksma__pbrt_plugins, of, kind, text);
 }
 
 static bool takes_type(const koksma__entry *e, const koksma__pbrt_parameter *p)
@@ -232,7 +245,7 @@ static verdict judge(const char *directive, const char *kind, const koksma__pbrt
             snprintf(meant, KOKSMA__OR_MEANT, "%.*s", (int)e.type_length, e.type);
         }
     }
-    if (best == NO_SUCH_NAME) {
+    if (best == NO_SUCH_NAME && !is_old(p->name, meant)) {
         koksma__or_meant(koksma__word_list_closest(&names, p->name), meant);
     }
     return best;

@@ -148,10 +148,13 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
     if (p->n != (koksma__pbrt_is(p, "rgb color") ? 3 : 1)) {
         return koksma__import_fail(place, "%s: more than one colour", p->name);
     }
+    bool beyond = false;
     for (size_t k = 0; k < 3; k++) {
         out->rgb[k] = p->numbers[p->n == 3 ? k : 0];
+        beyond |= !(out->rgb[k] >= 0 && out->rgb[k] <= 1);
     }
-    return KOKSMA_OK;
+    return koksma__import_unknown_if(beyond && use == KOKSMA__REFLECTANCE && !is_float, scene->im, place,
+                                     "%s: a reflectance beyond 0 to 1 is clamped; pbrt refuses it", p->name);
 }
 
 /* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
