@@ -20,15 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/* sampler.h is C, whose casts are old-style ones */
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wold-style-cast"
-#endif
 #include "sampler.h"
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
 
 namespace koksma {
 

@@ -45,7 +45,8 @@
  * and are then dependent. The points of koksma_sobol_2d and koksma_pmj02_2d have the same probability distribution
  * but different values.
  *
- * The points equal those of the following patterns of libkoksma bit for bit, with the key of the domain as seed:
+ * The points equal those of the following patterns of libkoksma bit for bit, with the key of the domain as seed (hash-owen
+ * hashes where scramble=owen permutes; both are nets):
  *
  *     koksma_sobol_2d    sobol:scramble=hash-owen,shuffle=1
  *     koksma_sobol_4d    sobol:scramble=hash-owen,shuffle=1
@@ -62,8 +63,7 @@
  * the header.
  *
  * Coordinates are in [0,1). Draw floats with koksma_sobol_2f and similar functions, or convert doubles with
- * koksma_to_float, because (float)0.99999999 is 1. `docs/put-it-into-your-renderer.md` has an example of each
- * function.
+ * koksma_to_float, because (float)0.99999999 is 1. `docs/put-it-into-your-renderer.md` has examples.
  *
  * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021.
  * Seeds: constants of Wellons 2018 and of Degski's hash. PMJ02 by matrices: Helmer, Christensen & Kensler 2021.
@@ -74,6 +74,11 @@
 #define KOKSMA_SAMPLER_H
 
 #include <stdint.h>
+
+#if defined(__GNUC__) && defined(__cplusplus) /* this is C, whose casts are old-style ones */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#endif
 
 #if defined(__CUDACC__)
 #define KOKSMA_INLINE static __host__ __device__ inline
@@ -940,5 +945,9 @@ KOKSMA_INLINE uint32_t koksma_z_rank(koksma_domain domain, uint32_t x, uint32_t 
     }
     return rank;
 }
+
+#if defined(__GNUC__) && defined(__cplusplus)
+#pragma GCC diagnostic pop
+#endif
 
 #endif
