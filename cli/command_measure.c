@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "measuring.h"
 #include "source.h"
@@ -270,6 +271,18 @@ static bool check_list(const measuring *j, const char *option, size_t most)
     return true;
 }
 
+/* Whether files stand beside patterns, whose trials they are compared with. */
+static bool has_files_beside_patterns(const measuring *j)
+{
+    int files = 0, patterns = 0;
+    for (int i = 0; i < j->arguments->n_operands; i++) {
+        const bool pattern = cli_source_is_pattern(j->arguments->operands[i]);
+        patterns += pattern;
+        files += !pattern && !access(j->arguments->operands[i], R_OK);
+    }
+    return files && patterns && files + patterns == j->arguments->n_operands;
+}
+
 static bool parse_options(measuring *j)
 {
     if (!check_list(j, "measures", MAX_MEASURES) || !check_list(j, "warp", MAX_WARPS)) {
@@ -278,7 +291,8 @@ static bool parse_options(measuring *j)
     j->paired = cli_flag(j->arguments, "paired");
     if (!parse_warps(j) || !cli_trials(j->arguments, 1, 1000000000, &j->seed, &j->trials) ||
         !cli_real(j->arguments, "time-limit", 0, 0, 1e9, &j->time_limit_s) || !parse_prefixes(j) ||
-        !measuring_check_prefixes(j) || !cli_sources_check(j->arguments, 0, j->trials, j->n_warps)) {
+        !measuring_check_prefixes(j) ||
+        !cli_sources_check(j->arguments, 0, !j->paired && has_files_beside_patterns(j) ? 1 : j->trials, j->n_warps)) {
         return false;
     }
     const size_t contestants = (size_t)j->arguments->n_operands * (j->n_warps ? j->n_warps : 1);

@@ -356,7 +356,7 @@ int measuring_trials(measuring *j, const char *source)
     memset(j->n_exact, 0, 2 * MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->n_exact);
     memset(j->n_whole, 0, (j->n_measures + 1) * sizeof *j->n_whole);
     memset(j->joints, 0, (j->n_measures + 1) * sizeof *j->joints);
-    for (uint64_t t = 0; t < j->trials && !code; t++) {
+    for (uint64_t t = 0; t < (parts.is_pattern ? j->trials : 1) && !code; t++) {
         if (!own_sets) {
             cli_work_unknown(&j->work, "points");
             code = next_points(j, source, &parts, t, &points);

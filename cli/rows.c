@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Rows of results: JSON lines, printed when a row ends, or aligned text, printed after the last row, when the widths
    of the columns are known. */
-#include "cli.h"
+#include "rows.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -18,25 +18,11 @@
  * remaining columns, those that fit are kept from left to right; a column of text needs at least LEAST characters and
  * continues longer texts on further lines. A line below the table names the columns that are left out.
  */
-enum { MOST = 64, LEAST = 28, GAP = 2, NARROWEST = 40, USUAL = 80 };
+enum { LEAST = 28, GAP = 2, NARROWEST = 40, USUAL = 80 };
 
 static int digits = CLI_DIGITS;
 static bool is_long;
 static int format = CLI_TEXT;
-
-typedef struct cli_cell {
-    char *key, *text;
-    bool is_number;
-} cli_cell;
-
-typedef enum state { SHOWN, COMMON, LEFT_OUT } state;
-
-typedef struct block {
-    const cli_cell *cells;
-    size_t columns, rows;
-    int widths[MOST];
-    state states[MOST];
-} block;
 
 int cli_terminal_width(int stream)
 {
@@ -48,11 +34,6 @@ int cli_terminal_width(int stream)
     int width = wish ? atoi(wish) : 0;
     width = width > 0 ? width : ioctl(stream, TIOCGWINSZ, &size) || !size.ws_col ? USUAL : size.ws_col;
     return width > NARROWEST ? width : NARROWEST;
-}
-
-static const cli_cell *cell_at(const block *b, size_t row, size_t column)
-{
-    return &b->cells[row * (b->columns + 1) + column];
 }
 
 /* Returns the width of UTF-8 text in terminal columns: the number of bytes that begin a character. */
@@ -111,13 +92,13 @@ static void print_row(piece *pieces, size_t n)
     }
 }
 
-/* Prints the columns in state `which` as a list "key text, key text" (COMMON, with the texts of the first row) or
-   "key, key" (LEFT_OUT, after `begin`). */
-static void print_list(const block *b, const char *begin, state which, int width)
+/* Prints the columns in state `which` as a list "key text, key text" (CLI_COMMON, with the texts of the first row) or
+   "key, key" (CLI_LEFT_OUT, after `begin`). */
+static void print_list(const cli_block *b, const char *begin, cli_column_state which, int width)
 {
     int column = 0;
     for (size_t i = 0; i < b->columns; i++) {
-        const char *key = b->cells[i].key, *text = which == COMMON ? b->cells[i].text : "";
+        const char *key = b->cells[i].key, *text = which == CLI_COMMON ? b->cells[i].text : "";
         if (b->states[i] != which) {
             continue;
         }
@@ -126,7 +107,7 @@ static void print_list(const block *b, const char *begin, state which, int width
             puts(",");
             column = 0;
         }
-        const char *before = column > 0 ? ", " : which == LEFT_OUT && *begin ? begin : "";
+        const char *before = column > 0 ? ", " : which == CLI_LEFT_OUT && *begin ? begin : "";
         column += printf("%s%s%s", before, key, *text ? " " : "");
         begin = "";
         if (column + length > width) {
@@ -141,7 +122,7 @@ static void print_list(const block *b, const char *begin, state which, int width
 }
 
 /* Prints a row as one line per key. */
-static void print_record(const block *b, int width)
+static void print_record(const cli_block *b, int width)
 {
     int keys = 0;
     for (size_t i = 0; i < b->columns; i++) {
@@ -153,14 +134,13 @@ static void print_record(const block *b, int width)
     }
 }
 
-/* Makes each column as wide as its widest text. Returns the total width of the columns. */
-static int measure_columns(block *b)
+int cli_measure_columns(cli_block *b)
 {
     int total = -GAP;
     for (size_t i = 0; i < b->columns; i++) {
         b->widths[i] = width_of(b->cells[i].key, strlen(b->cells[i].key));
         for (size_t row = 0; row < b->rows; row++) {
-            const char *text = cell_at(b, row, i)->text;
+            const char *text = cli_cell_at(b, row, i)->text;
             const int width = width_of(text, strlen(text));
             b->widths[i] = b->widths[i] > width ? b->widths[i] : width;
         }
@@ -169,41 +149,40 @@ static int measure_columns(block *b)
     return total;
 }
 
-static bool is_common(const block *b, size_t column)
+static bool is_common(const cli_block *b, size_t column)
 {
     for (size_t row = 1; row < b->rows; row++) {
-        if (strcmp(cell_at(b, row, column)->text, b->cells[column].text) != 0) {
+        if (strcmp(cli_cell_at(b, row, column)->text, b->cells[column].text) != 0) {
             return false;
         }
     }
     return true;
 }
 
-/* Chooses the columns that fit the width, and divides the width that remains among the columns of text. */
-static void fit(block *b, int width)
+void cli_fit_columns(cli_block *b, int width)
 {
-    int least[MOST], room = width + GAP;
+    int least[CLI_MOST_COLUMNS], room = width + GAP;
     for (size_t i = 0; i < b->columns; i++) {
         const int key = width_of(b->cells[i].key, strlen(b->cells[i].key)), natural = b->widths[i];
         least[i] = b->cells[i].is_number || natural < LEAST ? natural : key > LEAST ? key : LEAST;
-        b->states[i] = is_common(b, i) ? COMMON : least[i] + GAP > room ? LEFT_OUT : SHOWN;
-        room -= b->states[i] == SHOWN ? least[i] + GAP : 0;
+        b->states[i] = is_common(b, i) ? CLI_COMMON : least[i] + GAP > room ? CLI_LEFT_OUT : CLI_SHOWN;
+        room -= b->states[i] == CLI_SHOWN ? least[i] + GAP : 0;
     }
     for (size_t i = 0; i < b->columns; i++) {
         const int more = b->widths[i] - least[i] < room ? b->widths[i] - least[i] : room;
         b->widths[i] = least[i] + more;
-        room -= b->states[i] == SHOWN ? more : 0;
+        room -= b->states[i] == CLI_SHOWN ? more : 0;
     }
 }
 
 /* Prints the shown columns of a row; row SIZE_MAX is the header. */
-static void print_columns(const block *b, size_t row)
+static void print_columns(const cli_block *b, size_t row)
 {
-    piece pieces[MOST];
+    piece pieces[CLI_MOST_COLUMNS];
     size_t n = 0;
     for (size_t i = 0; i < b->columns; i++) {
-        const cli_cell *c = cell_at(b, row == SIZE_MAX ? 0 : row, i);
-        if (b->states[i] == SHOWN) {
+        const cli_cell *c = cli_cell_at(b, row == SIZE_MAX ? 0 : row, i);
+        if (b->states[i] == CLI_SHOWN) {
             pieces[n++] = (piece){row == SIZE_MAX ? c->key : c->text, b->widths[i], c->is_number};
         }
     }
@@ -212,20 +191,20 @@ static void print_columns(const block *b, size_t row)
     }
 }
 
-static void print_block(block *b, int width)
+static void print_block(cli_block *b, int width)
 {
-    if (measure_columns(b) > width && width > 0) {
+    if (cli_measure_columns(b) > width && width > 0) {
         if (b->rows == 1) {
             print_record(b, width);
             return;
         }
-        fit(b, width);
-        print_list(b, "", COMMON, width);
+        cli_fit_columns(b, width);
+        print_list(b, "", CLI_COMMON, width);
     }
     for (size_t row = 0; row <= b->rows; row++) {
         print_columns(b, row - 1);
     }
-    print_list(b, "with --long: ", LEFT_OUT, width);
+    print_list(b, "with --long: ", CLI_LEFT_OUT, width);
 }
 
 static size_t columns_of(const cli_cell *row, size_t n)
@@ -234,7 +213,7 @@ static size_t columns_of(const cli_cell *row, size_t n)
     while (columns < n && row[columns].key) {
         columns++;
     }
-    if (columns > MOST) {
+    if (columns > CLI_MOST_COLUMNS) {
         abort(); /* a command made a row of too many columns, which is a bug */
     }
     return columns;
@@ -251,103 +230,19 @@ static bool same_keys(const cli_cell *row, size_t n, const cli_cell *other, size
     return columns < n && !row[columns].key;
 }
 
-/* ---- Tables for other programs ------------------------------------------------------------------------- */
-
-/* A field of CSV (RFC 4180): in quotes where it needs them, and behind an apostrophe where a spreadsheet would run it, as
-   koksma__csv_put has it. */
-static void print_csv(const cli_cell *c, bool head)
-{
-    const char *text = head ? c->key : c->text;
-    const bool formula = !c->is_number && strspn(text, "=+@-\t") && strcmp(text, "-") != 0;
-    const char *quote = formula || strpbrk(text, ",\"\r\n") ? "\"" : "";
-    printf("%s%s", quote, formula ? "'" : "");
-    for (; *text; text++) {
-        printf(*text == '"' ? "\"\"" : "%c", *text);
-    }
-    fputs(quote, stdout);
-}
-
-/* A cell of a LaTeX table: numbers in mathematics, with powers of ten; of texts the special characters escaped. */
-static void print_latex(const cli_cell *c, bool head)
-{
-    static const char special[] = "\\~^<>";
-    static const char *const command[] = {"\\textbackslash{}", "\\textasciitilde{}", "\\textasciicircum{}",
-                                          "\\textless{}", "\\textgreater{}"};
-    const char *text = head ? c->key : c->text, *power = strchr(text, 'e');
-    if (c->is_number && !head) {
-        const int mantissa = (int)(power ? (size_t)(power - text) : strlen(text));
-        printf(!strcmp(text, "-") ? "--"
-               : power            ? "$%.*s \\times 10^{%d}$"
-                                  : "$%.*s$",
-               mantissa, text, power ? atoi(power + 1) : 0);
-        return;
-    }
-    for (; *text; text++) {
-        const char *at = strchr(special, *text);
-        if (at) {
-            fputs(command[at - special], stdout);
-        } else {
-            printf(strchr("#$%&_{}", *text) ? "\\%c" : "%c", *text);
-        }
-    }
-}
-
-/* Prints a block as CSV or as a tabular of booktabs, which has the columns that a page as wide as PAGE characters shows as
-   text; those that are the same in all rows, and those that don't fit, are comments. */
-static void print_foreign(block *b, bool first)
-{
-    enum { PAGE = 90 };
-    const bool latex = format == CLI_LATEX;
-    if (!first) {
-        putchar('\n'); /* columns change: another table */
-    }
-    if (latex) {
-        printf("%s", first ? "% needs \\usepackage{booktabs}\n" : "");
-        if (measure_columns(b) > PAGE && b->rows > 1 && !is_long) {
-            fit(b, PAGE);
-        }
-        for (size_t i = 0; i < b->columns; i++) {
-            if (b->states[i] != SHOWN) {
-                const bool common = b->states[i] == COMMON;
-                printf("%% %s%s %s\n", common ? "" : "with --long: ", b->cells[i].key,
-                       common ? b->cells[i].text : "");
-            }
-        }
-        printf("\\begin{tabular}{");
-        for (size_t i = 0; i < b->columns; i++) {
-            printf("%s", b->states[i] != SHOWN ? "" : b->cells[i].is_number ? "r" : "l");
-        }
-        puts("}\n\\toprule");
-    }
-    for (size_t row = 0; row <= b->rows; row++) {
-        bool begun = false;
-        for (size_t i = 0; i < b->columns; i++) {
-            if (b->states[i] == SHOWN) {
-                fputs(!begun ? "" : latex ? " & " : ",", stdout);
-                (latex ? print_latex : print_csv)(cell_at(b, row ? row - 1 : 0, i), !row);
-                begun = true;
-            }
-        }
-        puts(!latex ? "" : row ? " \\\\" : " \\\\\n\\midrule");
-    }
-    if (latex) {
-        puts("\\bottomrule\n\\end{tabular}");
-    }
-}
-
 /* Prints n cells as rows; a cell with a NULL key ends a row. width: the number of columns that rows may take, 0 for
    no limit. */
 static void print_table(const cli_cell *cells, size_t n, int width)
 {
     for (size_t start = 0, end; start < n; start = end) {
-        block b = {.cells = &cells[start], .columns = columns_of(&cells[start], n - start)};
+        cli_block b = {.cells = &cells[start], .columns = columns_of(&cells[start], n - start)};
         for (end = start; same_keys(&cells[end], n - end, b.cells, b.columns); b.rows++) {
             end += b.columns + 1;
         }
         if (format == CLI_TEXT) {
             print_block(&b, width);
         } else {
-            print_foreign(&b, start == 0);
+            cli_print_foreign(&b, format == CLI_LATEX, is_long, start == 0);
         }
     }
 }

@@ -190,8 +190,8 @@ int cli_convergence_open(cli_curves *c, cli_convergence *v)
     if (!code) {
         koksma_spec_text(&measure, text);
         snprintf(v->title, sizeof v->title, "Convergence of %.120s", text);
-        snprintf(v->y_label, sizeof v->y_label, c->trials > 1 ? "%.120s, mean of %llu sets" : "%.120s", text,
-                 (unsigned long long)c->trials);
+        snprintf(v->y_label, sizeof v->y_label, c->trials > 1 ? "%.120s, mean of %llu sets of a pattern" : "%.120s",
+                 text, (unsigned long long)c->trials);
         v->chart = (koksma_chart){.x_label = "n",
                                   .y_label = v->y_label,
                                   .log_x = true,
