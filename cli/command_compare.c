@@ -171,24 +171,6 @@ static koksma_status put_one(const comparison *c, const koksma_image *image, con
     return status;
 }
 
-/* Warns where the first operand looks like the reference, which other programs want first, or an image like that of
-   another scene. */
-static void warn_of_looks(const comparison *c, bool check_order, const koksma_image *image, const char *path)
-{
-    const cli_likeness looks = cli_compare_noise(image, &c->reference);
-    if (check_order && looks.less_noise) {
-        cli_say(
-            "compare",
-            "warning: %s has less noise than %s, which is taken as the reference; if %s is the reference, name it "
-            "last or by --reference",
-            path, c->reference_path, path);
-    }
-    if (looks.another) {
-        cli_say("compare", "%s: warning: it differs from %s by more than noise: another scene, view or exposure?",
-                path, c->reference_path);
-    }
-}
-
 /* Adds the errors of the image in the file `path`. difference: the file for an image of the errors, or NULL. */
 static koksma_status add_image(comparison *c, const char *path, const char *difference, bool check_order)
 {
@@ -201,8 +183,9 @@ static koksma_status add_image(comparison *c, const char *path, const char *diff
         c->compared = NULL;
         status = difference ? write_difference(difference, &image, &c->reference) : KOKSMA_OK;
     }
-    if (!status) {
-        warn_of_looks(c, check_order, &image, path);
+    const char *doubt = status ? "" : koksma_image_doubt(&image, &c->reference, check_order);
+    if (doubt[0]) {
+        cli_say("compare", "%s: warning: %s", path, doubt);
     }
     koksma_image_fini(&image);
     return status;
@@ -257,11 +240,9 @@ static int run(const cli_arguments *arguments)
     const int code = compare_all(arguments, &c, output, !reference);
     for (int i = 0; i < c.n && !code; i++) {
         const char *image = arguments->operands[i];
-        if (cli_is_same_file(image, c.reference_path)) {
-            cli_say("compare", "%s: warning: it is the reference itself", image);
-        } else if (cli_has_8_bits(c.reference_path) != cli_has_8_bits(image)) {
+        if (cli_has_eight_bits(c.reference_path) != cli_has_eight_bits(image)) {
             cli_say("compare", "%s: warning: 8 bits are rounded and clipped, and that is counted as error",
-                    cli_has_8_bits(image) ? image : c.reference_path);
+                    cli_has_eight_bits(image) ? image : c.reference_path);
         }
     }
     return code ? code : c.all.error.mean <= most * (double)c.all.images ? CLI_YES : CLI_NO;

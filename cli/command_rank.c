@@ -309,6 +309,13 @@ static void take_look(void *context, const double *errors)
     }
 }
 
+static void say_doubt(void *context, const char *line)
+{
+    (void)context;
+    cli_work_end();
+    cli_say("rank", "warning: %s", line);
+}
+
 /* Ranks the patterns for one number of samples, and prints the rows and the advice. *settled: whether it is decided which
    pattern to use. */
 static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_options *options, cli_work *work,
@@ -418,7 +425,7 @@ static int parse_outside(const cli_arguments *arguments, request *r)
     koksma_rank_options *o = &r->options;
     const char *reference = cli_text(arguments, "reference", NULL), *command = cli_text(arguments, "with", NULL);
     if (cli_is_image(reference)) {
-        if (cli_has_8_bits(reference) && !command) {
+        if (cli_has_eight_bits(reference) && !command) {
             return cli_usage_error(arguments,
                                    "--reference %s: 8 bits are rounded and clipped, an error that looks like bands; "
                                    "write it as .exr or .pfm",
@@ -537,6 +544,7 @@ static int parse_request(const cli_arguments *arguments, request *r)
     o->filter = koksma_filter_find("box");
     o->one_size = cli_flag(arguments, "one-size");
     o->metric = r->metric.specs;
+    o->doubt = cli_flag(arguments, "quiet") ? NULL : say_doubt;
     parse_variant(arguments, r);
     if (!cli_real(arguments, "time-limit", 60, 0, 1e9, &r->time_limit_s) ||
         !cli_integrator_and_filter(arguments, &o->integrator, &o->filter) ||
@@ -549,38 +557,6 @@ static int parse_request(const cli_arguments *arguments, request *r)
     o->max_trials = (long long)max_trials;
     code = ask_scene(arguments, r);
     return code ? code : parse_outside(arguments, r);
-}
-
-/* Warns of a reference that looks noisy beside a picture of the scene, or like one of another scene. */
-static koksma_status look_at_reference(const char *path, const request *r, size_t spp)
-{
-    enum { MOST = 16 };
-    koksma_scene *scene;
-    koksma_render_options options;
-    koksma_image picture = {0};
-    koksma_status status = koksma_scene_open(r->options.scene, &scene);
-    if (status) {
-        return status;
-    }
-    koksma_render_options_init(&options, scene);
-    options.integrator = r->options.integrator;
-    options.filter = r->options.filter;
-    options.width = r->options.width;
-    options.height = r->options.height;
-    options.spp = spp < MOST ? (int)spp : MOST;
-    status = koksma_render(scene, &options, NULL, &picture);
-    koksma_scene_close(scene);
-    const bool fits = !status && picture.width == r->reference.width && picture.height == r->reference.height;
-    const cli_likeness looks = fits ? cli_compare_noise(&picture, &r->reference) : (cli_likeness){false, false};
-    if (looks.another) {
-        cli_say("rank", "%s: warning: a picture of %s looks otherwise: is it of another scene, view or exposure?",
-                path, r->options.scene);
-    } else if (looks.less_noise) {
-        cli_say("rank", "%s: warning: it has more noise than a picture of %d samples a pixel, and is taken as exact",
-                path, options.spp);
-    }
-    koksma_image_fini(&picture);
-    return status;
 }
 
 /* Makes a ranking for each number of samples. Returns the exit code. */
@@ -603,6 +579,7 @@ static int rank_all(const cli_arguments *arguments, request *r, const size_t *sp
         r->options.time_limit_s = left_s / (double)(n_spp - i);
         atomic_store(&r->outside.timed, false);
         status = rank_at(arguments, &r->options, &work, rows, &settled);
+        r->options.doubt = NULL; /* of the same reference */
         all_settled &= settled;
     }
     cli_work_end();
@@ -640,11 +617,6 @@ static int run(const cli_arguments *arguments)
     for (size_t i = 0; i < r.p.n && !said; i++) {
         koksma_spec spec;
         said = !koksma_pattern_spec(r.p.at[i], &spec) && cli_warn_unbalanced(arguments, &spec, spps[0]);
-    }
-    const bool as_here = !r.options.render && !r.options.variant; /* which may make another picture */
-    if (!code && r.reference.pixels && as_here && !cli_flag(arguments, "quiet")) {
-        const koksma_status status = look_at_reference(cli_text(arguments, "reference", ""), &r, spps[0]);
-        code = status ? cli_fail(arguments, status) : CLI_YES;
     }
     code = code ? code : rank_all(arguments, &r, spps, n_spp);
     koksma_image_fini(&r.reference);

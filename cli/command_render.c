@@ -221,7 +221,7 @@ static koksma_status write_map(const char *path, koksma_image *map, const char *
 static void warn_of_flat(const cli_arguments *arguments, const koksma_image *image)
 {
     const char *scene = arguments->operands[0];
-    const bool has_8_bits = cli_has_8_bits(cli_text(arguments, "output", ""));
+    const bool has_8_bits = cli_has_eight_bits(cli_text(arguments, "output", ""));
     const float least = has_8_bits ? 1.5e-4F : 0; /* up to it, sRGB has the byte 0 */
     const size_t channels = (size_t)image->channels, n = (size_t)image->width * (size_t)image->height * channels;
     size_t same = channels, black = 0, white = 0;

@@ -361,5 +361,5 @@ void cli_warn_of_few_pixels(const char *command, const char *subject, const char
 bool cli_has_eight_bits(const char *path)
 {
     const char *end = strrchr(path, '.');
-    return end && (!strcmp(end, ".png") || !strcmp(end, ".jpg"));
+    return end && (!strcmp(end, ".png") || !strcmp(end, ".jpg") || !strcmp(end, ".jpeg"));
 }

@@ -55,17 +55,6 @@ void cli_warn_unused(const cli_arguments *arguments, const char *name, const kok
 size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                           const koksma_render_options *options, size_t most);
 
-/* Whether a file's name says that its numbers have 8 bits. */
-bool cli_has_8_bits(const char *path);
-
-/* How an image looks beside what is taken as its reference, of the same size: whether it has less noise, and whether it
-   differs by more than noise (another scene, view or exposure). */
-typedef struct cli_likeness {
-    bool less_noise, another;
-} cli_likeness;
-
-cli_likeness cli_compare_noise(const koksma_image *image, const koksma_image *reference);
-
 /* ---- Adaptive sampling -------------------------------------------------------------------------------- */
 
 #define CLI_ADAPTIVE_OPTIONS                                                                                         \

@@ -115,6 +115,12 @@ KOKSMA_API koksma_status koksma_image_check_finite(const koksma_image *image, co
 KOKSMA_API koksma_status koksma_image_compare(const koksma_image *image, const koksma_image *reference,
                                               koksma_image_error *out);
 
+/* Returns what looks like a mistake in an image beside the reference that it is compared with, as one line without their
+   names: equal images, a picture that has the reference's light times a factor, one of another scene, a grey one beside
+   colours. "": nothing, or images of different sizes. The string is valid until the thread calls this again.
+     order  also say that the image has less noise than the reference, as if they were swapped */
+KOKSMA_API const char *koksma_image_doubt(const koksma_image *image, const koksma_image *reference, bool order);
+
 /* Makes the one-channel image of |e|, the absolute difference of the luminances; allocates out.
    Errors: ARGUMENT (the sizes differ), MEMORY. */
 KOKSMA_API koksma_status koksma_image_difference(const koksma_image *image, const koksma_image *reference,

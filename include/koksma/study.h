@@ -268,6 +268,10 @@ KOKSMA_API koksma_status koksma_rank_process_by_command(void *context, const kok
    whose images are equal. */
 typedef void (*koksma_rank_look)(void *context, const double *errors);
 
+/* Gets, in the caller's thread, what looks like a mistake in a given reference or in what options->process makes of a
+   picture, as one line: light times a factor, another scene, or a reference with more noise than a picture. */
+typedef void (*koksma_rank_doubt)(void *context, const char *line);
+
 /* Options of koksma_rank_patterns. */
 typedef struct koksma_rank_options {
     const char *scene;           /* as for koksma_scene_open */
@@ -308,6 +312,8 @@ typedef struct koksma_rank_options {
        process or a finished reference, nor of images that together exceed 256 MiB. It changes no result */
     koksma_rank_look look;
     void *look_context;
+    koksma_rank_doubt doubt; /* told at most once (NULL: nobody is). It changes no result */
+    void *doubt_context;
 } koksma_rank_options;
 
 /* Whether a pattern was ranked. */

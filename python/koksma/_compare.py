@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from ctypes import POINTER, byref, c_float, create_string_buffer
 from dataclasses import dataclass, field
 from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple, Union
@@ -13,7 +12,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._frame import Framed, columns_of
-from ._library import ArgumentError, check, flag, lab, quoted, text, texts
+from ._library import ArgumentError, check, flag, lab, quoted, text, texts, warn
 from ._points import Named, has_masked, named
 
 FEW_PIXELS = 0.5  #: the share of the error in 0.1 % of the pixels from which on koksma warns
@@ -161,7 +160,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     Warns
     -----
     RuntimeWarning
-        0.1 % of the pixels carry half of the error or more.
+        0.1 % of the pixels carry half of the error or more; or an image looks as if units, order or scene were wrong.
 
     Examples
     --------
@@ -187,6 +186,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     c_target, raw, error, values = view_image(target), s.Coherence(), s.ImageError(), s.CoherenceValues()
     errors: List[List[float]] = []
     caveats: Dict[str, Optional[bytes]] = {}
+    doubts: List[str] = []
     found: Dict[str, List[List[float]]] = {name: [] for name in specs}
     value = s.MetricValue()
     looks = not asked if coherence is None else flag("coherence", coherence)
@@ -203,6 +203,8 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
                 check(lab().koksma_metric_evaluate(byref(spec), byref(c_image), byref(c_target), byref(value)))
                 found[name].append([value.value, value.robust, value.top_share])
                 caveats[name] = value.caveat  # of the reference: the same for all images
+            if doubt := lab().koksma_image_doubt(byref(c_image), byref(c_target), not errors).decode():
+                doubts.append(f"image {len(errors)}: {doubt}")
             errors.append([error.mean, error.sd, error.max, error.rmse])
         if not errors:
             raise ArgumentError("a comparison takes at least one image")
@@ -214,12 +216,14 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
         lab().koksma_coherence_fini(byref(raw))
     mean, sd, most, rmse = (sum(column) / len(errors) for column in zip(*errors))
     values_of = {name: MetricValue(*(sum(column) / len(errors) for column in zip(*rows))) for name, rows in found.items()}
+    for doubt in doubts[:1]:
+        warn(doubt, RuntimeWarning)
     for name, caveat in caveats.items():
         if caveat:
-            warnings.warn(f"{name}: {caveat.decode()}", RuntimeWarning, stacklevel=2)
+            warn(f"{name}: {caveat.decode()}", RuntimeWarning)
     for name, averaged in values_of.items():
         if averaged.top_share >= FEW_PIXELS:
-            warnings.warn(f"0.1 % of the pixels carry {100 * averaged.top_share:.0f} % of the error; without them {name} is "
-                          f"{averaged.robust:.5g}", RuntimeWarning, stacklevel=2)
+            warn(f"0.1 % of the pixels carry {100 * averaged.top_share:.0f} % of the error; without them {name} is "
+                 f"{averaged.robust:.5g}", RuntimeWarning)
     return Comparison(mean, sd, most, rmse, values.coherence, values.low, values.high, values.noise_low, values.noise_high, values.p,
                       values.frequency_x, values.frequency_y, values.common, values.coherent, len(errors), values_of)

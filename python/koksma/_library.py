@@ -15,7 +15,7 @@ from math import inf
 from operator import index
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, Callable, Dict, Hashable, Iterable, Iterator, List, Optional, Sequence, Set, SupportsIndex, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Hashable, Iterable, Iterator, List, Optional, Sequence, Set, SupportsIndex, Tuple, Type, Union
 
 import numpy as np
 
@@ -249,6 +249,7 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_image_png_bytes", image, POINTER(POINTER(c_ubyte)), POINTER(c_size_t))
     _declare(library, c_int, "koksma_image_write", c_char_p, image, c_char_p)
     _declare(library, c_int, "koksma_image_compare", image, image, POINTER(s.ImageError))
+    _declare(library, c_char_p, "koksma_image_doubt", image, image, c_bool)
     _declare(library, c_int, "koksma_metric_parse", c_char_p, POINTER(s.MetricSpec))
     _declare(library, None, "koksma_metric_text", POINTER(s.MetricSpec), c_char_p)
     _declare(library, c_int, "koksma_metric_evaluate", POINTER(s.MetricSpec), image, image, POINTER(s.MetricValue))
@@ -279,7 +280,7 @@ class _Block:
 
     def __del__(self) -> None:
         if not self._entered:
-            warnings.warn(f"{self._call} has an effect in a block only: with {self._call}:", stacklevel=2)
+            warn(f"{self._call} has an effect in a block only: with {self._call}:")
 
 
 def _block(function: Any) -> Any:
@@ -291,9 +292,17 @@ def _block(function: Any) -> Any:
     return made
 
 
-def warn_of_one_set(pattern: str, stacklevel: int = 4) -> None:
+def warn(message: str, kind: Type[Warning] = UserWarning) -> None:
+    """Warns of what looks like a mistake, at the line that called the package."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == os.path.dirname(__file__):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, kind, stacklevel=level)
+
+
+def warn_of_one_set(pattern: str) -> None:
     """A seed has no effect on a pattern with one set."""
-    warnings.warn(f"{pattern} has one set, whatever the seed; a random modifier, such as shift=1, gives others", stacklevel=stacklevel)
+    warn(f"{pattern} has one set, whatever the seed; a random modifier, such as shift=1, gives others")
 
 
 @_block

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-import warnings
 import weakref
 from ctypes import byref
 from dataclasses import dataclass
@@ -16,7 +15,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import (ArgumentError, MalformedError, allow_exec as allowing_exec, call, check, choice, core, flag, kept_spec,
-                       lab, one_of, quick, quoted, Seed, seed_of, spec, text, texts, warn_of_one_set, whole)
+                       lab, one_of, quick, quoted, Seed, seed_of, spec, text, texts, warn, warn_of_one_set, whole)
 
 PointArray = npt.NDArray[np.float64]
 STRATIFIED, LATIN = 1 << 3, 1 << 4  # KOKSMA_CLAIM_STRATIFIED and so on
@@ -349,7 +348,7 @@ def as_points(points: npt.ArrayLike) -> PointArray:
         column = "; points[:, None] has one dimension" if given.ndim == 1 and len(given) > 1 else ""
         raise ArgumentError(f"points must be an array of shape (n, dim), with n and dim of at least 1, not {given.shape}{column}")
     if 2 <= array.shape[0] < array.shape[1] / 2 and array.shape[1] > 3:
-        warnings.warn(f"{array.shape[0]} points in {array.shape[1]} dimensions; are rows and columns swapped?", stacklevel=3)
+        warn(f"{array.shape[0]} points in {array.shape[1]} dimensions; are rows and columns swapped?")
     return array
 
 
@@ -547,7 +546,7 @@ def _generate_sets(pattern: str, n: Optional[SupportsIndex], dim: Optional[Suppo
     elif out.shape != (sets, out.shape[1] if n is None else n, out.shape[2] if dim is None else dim):
         raise ArgumentError(f"out has the shape {out.shape}, not that of sets, n and dim")
     if sets > 1 and core().koksma_has_one_set(byref(parsed)):
-        warn_of_one_set(pattern, 5)
+        warn_of_one_set(pattern)
     points = view(out.reshape(-1, out.shape[2]))
     call(core().koksma_generate_sets, byref(parsed), seed, sets, byref(points), threads=threads, run_at=3)
     return out

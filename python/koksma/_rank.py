@@ -15,7 +15,7 @@ from . import _structs as s
 from ._compare import as_image, _metric, view_image
 from ._frame import Framed, columns_of
 from ._library import (ArgumentError, Seed, call, flag, in_python, lab, pair, quoted, real, seconds_of, seed_of, text, texts,
-                       whole)
+                       warn, whole)
 from ._points import canonical
 from ._render import _found, _scene_name, check_scene
 
@@ -263,6 +263,8 @@ class _Request:
         if self.other is not None:
             options.render = self.other.callback
             options.reference = text(reference, "reference") if isinstance(reference, str) else None
+        self.doubts = doubts = []  # type: List[str]
+        self.doubted = options.doubt = s.RankDoubt(lambda _context, line: doubts.append(line.decode(errors="replace")))
         self.calls = self.other if self.other is not None or process is None else _Renderer(None, process)
         if self.calls is not None and process is not None:
             options.process = self.calls.processed
@@ -282,6 +284,8 @@ class _Request:
                 pattern, reason = next(iter(self.reasons.items()))
                 raise ArgumentError(f"renderer: {pattern}: {reason}") from None
             raise
+        for doubt in self.doubts:
+            warn(doubt)
 
 
 def rank(scene: Union[str, "os.PathLike[str]"], patterns: Union[str, Sequence[str]] = "modern", spp: Optional[SupportsIndex] = None, *,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import warnings
 from contextlib import contextmanager
 from ctypes import byref, c_void_p, create_string_buffer
 from dataclasses import dataclass
@@ -15,7 +14,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import (ArgumentError, Seed, call, check, choice, core, flag, lab, pair, quoted, real, seed_of, text,
-                       whole)
+                       warn, whole)
 from ._points import Named, free_with, named, shown
 
 
@@ -470,7 +469,7 @@ def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:
     image = s.Image()
     check(lab().koksma_image_read(text(path, "path"), byref(image)))
     if remark := lab().koksma_image_remark().decode():
-        warnings.warn(f"{os.fspath(path)}: {remark}", stacklevel=2)
+        warn(f"{os.fspath(path)}: {remark}")
     return adopt_image(image)
 
 
@@ -494,9 +493,9 @@ def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> N
     array = as_image(image)
     lossy = os.fsdecode(text(path, "path")).lower().endswith((".png", ".jpg", ".jpeg"))
     if lossy and 64 <= array.max() <= 256:
-        warnings.warn(f"pixels up to {array.max():g}: white is 1; divide by 255 if they are of 0 to 255", stacklevel=3)
+        warn(f"pixels up to {array.max():g}: white is 1; divide by 255 if they are of 0 to 255")
     elif lossy and (lost := int((~(array >= 0) | np.isinf(array)).sum())):
-        warnings.warn(f"{lost} of {array.size} values are negative or not finite: 8 bits have black or white there", stacklevel=3)
+        warn(f"{lost} of {array.size} values are negative or not finite: 8 bits have black or white there")
     check(lab().koksma_image_write(text(path, "path"), byref(view_image(array)), None))
 
 

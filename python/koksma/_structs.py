@@ -350,6 +350,7 @@ class RankPicture(Structure):
                 ("seed", c_uint64)]
 
 
+RankDoubt = CFUNCTYPE(None, c_void_p, c_char_p)
 RankProcess = CFUNCTYPE(c_int, c_void_p, POINTER(Image), POINTER(Run), POINTER(Image))
 RankRenderer = CFUNCTYPE(c_int, c_void_p, POINTER(RankPicture), POINTER(Run), POINTER(Image))
 
@@ -359,7 +360,7 @@ class RankOptions(Structure):
                 ("width", c_int), ("height", c_int), ("integrator", c_void_p), ("filter", c_void_p), ("adaptive", c_char_p),
                 ("metric", POINTER(MetricSpec)), ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool), ("render", RankRenderer),
                 ("render_context", c_void_p), ("reference", c_char_p), ("reference_image", POINTER(Image)), ("process", RankProcess), ("process_context", c_void_p), ("seed", c_uint64),
-                ("variant", c_char_p), ("look", c_void_p), ("look_context", c_void_p)]
+                ("variant", c_char_p), ("look", c_void_p), ("look_context", c_void_p), ("doubt", RankDoubt), ("doubt_context", c_void_p)]
 
 
 class SceneCounts(Structure):

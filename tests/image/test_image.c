@@ -114,6 +114,65 @@ TEST_CASE(errors_by_hand)
     koksma_image_fini(&b);
 }
 
+/* A slope of light from 1 to 2, and white noise. */
+static koksma_image slope(double noise, double times, bool backwards, uint64_t seed)
+{
+    koksma_image image;
+    assert_ok(koksma_image_init(&image, 32, 32, 1));
+    for (size_t i = 0; i < 1024; i++) {
+        const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_TEST, i, 0);
+        const double at = (double)(backwards ? 31 - i % 32 : i % 32) / 31;
+        image.pixels[i] = (float)(times * (1 + at + noise * ((double)r.w[0] * 0x1p-32 - 0.5)));
+    }
+    return image;
+}
+
+TEST_CASE(doubts_by_construction)
+{
+    static const struct {
+        double noise, times;
+        bool backwards;
+        const char *said; /* NULL: nothing */
+    } cases[] = {
+        {0.2, 1, false, NULL},
+        {2, 1, false, NULL},
+        {0.2, 1.1, false, NULL},
+        {0.2, 255, false, "its mean is 25"},
+        {0.2, 1 / 255.0, false, "0.0039"},
+        {2, 2, false, "times"},
+        {0.2, 0.5, false, "0.5"},
+        {0.2, 1, true, "another scene"},
+        {0, 1, false, "same image"},
+        {0, 0, false, "another scene"},
+    };
+    koksma_image reference = slope(0, 1, false, 0);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        koksma_image image = slope(cases[i].noise, cases[i].times, cases[i].backwards, 1);
+        const char *said = koksma_image_doubt(&image, &reference, true);
+        if (cases[i].said ? !strstr(said, cases[i].said) : *said) {
+            fail_msg("case %zu: '%s'", i, said);
+        }
+        koksma_image_fini(&image);
+    }
+    koksma_image noisy = slope(1, 1, false, 1), better = slope(0.2, 1, false, 2), colours, other;
+    assert_non_null(strstr(koksma_image_doubt(&better, &noisy, true), "less noise"));
+    assert_string_equal(koksma_image_doubt(&better, &noisy, false), "");
+    assert_ok(koksma_image_init(&colours, 32, 32, 3));
+    for (size_t i = 0; i < 3072; i++) {
+        colours.pixels[i] = noisy.pixels[i / 3];
+    }
+    assert_string_equal(koksma_image_doubt(&colours, &better, true), "");
+    colours.pixels[5] *= 1.5f;
+    assert_non_null(strstr(koksma_image_doubt(&colours, &better, true), "has colours"));
+    assert_ok(koksma_image_init(&other, 32, 31, 1));
+    assert_string_equal(koksma_image_doubt(&other, &better, true), "");
+    koksma_image_fini(&other);
+    koksma_image_fini(&colours);
+    koksma_image_fini(&better);
+    koksma_image_fini(&noisy);
+    koksma_image_fini(&reference);
+}
+
 TEST_CASE(sizes_are_checked)
 {
     static const char *const headers[] = {

@@ -19,11 +19,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/c_locale.h"
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "core/sum.h"
 #include "image/coherence.h"
+#include "image/doubt.h"
 #include "image/formats.h"
 #include "image/image.h"
 
@@ -372,6 +374,38 @@ static koksma_status make_image(const koksma__contest *c, koksma__contestant *p,
     return status || !c->options->process ? status : process(c, run, image);
 }
 
+/* Notes what the first picture tells of a reference that was given, or of a process; and also other patterns' first
+   pictures, of a reference with more noise. */
+static koksma_status doubt(const batch *b, bool first, const koksma_image *image)
+{
+    koksma__contest *c = b->contest;
+    const koksma_rank_options *o = c->options;
+    const char *made = o->process ? "processed picture" : "picture";
+    koksma_image mean;
+    double factor;
+    KOKSMA__TRY(koksma_image_init(&mean, image->width, image->height, image->channels));
+    for (size_t i = 0; i < b->reference->pixels * (size_t)image->channels; i++) {
+        mean.pixels[i] = (float)luminance(b->reference, i / (size_t)image->channels);
+    }
+    const koksma__likeness like = koksma__image_likeness(image, &mean, o->reference_image && !o->process, &factor);
+    koksma_image_fini(&mean);
+    pthread_mutex_lock(&c->lock);
+    if (like == KOKSMA__LIKE_SCALED && first) {
+        koksma__snprintf(c->doubt, sizeof c->doubt,
+                         "a %s of %s has %.4g times the light of the reference; do the units differ?", made,
+                         c->scene.name, factor);
+    } else if (like == KOKSMA__LIKE_ANOTHER && first) {
+        snprintf(c->doubt, sizeof c->doubt,
+                 "a %s of %s differs from the reference by more than noise: another scene, view or exposure?", made,
+                 c->scene.name);
+    } else if (like == KOKSMA__LIKE_SMOOTHER && !c->doubt[0]) {
+        snprintf(c->doubt, sizeof c->doubt,
+                 "the reference has more noise than a picture of %d samples a pixel, and is taken as exact", o->spp);
+    }
+    pthread_mutex_unlock(&c->lock);
+    return KOKSMA_OK;
+}
+
 /* Measures the errors of a trial. In the first round, also adds the errors of its pixels to the sums from
    which the coherence of the pattern's error is computed. */
 static koksma_status measure_trial(const batch *b, koksma__contestant *p, size_t trial, const koksma_run *run,
@@ -380,7 +414,10 @@ static koksma_status measure_trial(const batch *b, koksma__contestant *p, size_t
     koksma_image image;
     koksma_status status = make_image(b->contest, p, trial, run, &image);
     if (!status) {
+        const koksma__contest *c = b->contest;
+        const bool tells = c->options->doubt && (c->options->reference_image || c->options->process) && !c->asked;
         status = compare_with(b->reference, &image, errors);
+        status = status || !tells || trial ? status : doubt(b, p == &c->contestants[b->active[0]], &image);
         status = status || isfinite(errors[0])
                      ? status
                      : koksma__fail(KOKSMA_IMPOSSIBLE, "pixels of trial %zu are not finite numbers", trial);
@@ -566,6 +603,10 @@ static koksma_status do_round(koksma__contest *c, int round, const size_t *activ
         status = do_batch(&b);
     }
     free(b.errors);
+    if (c->doubt[0]) {
+        c->options->doubt(c->options->doubt_context, c->doubt);
+        c->doubt[0] = '\0';
+    }
     for (size_t a = 0; !status && a < n_active; a++) {
         koksma__rank_entrant *e = &c->table.entrants[active[a]];
         koksma__contestant *p = &c->contestants[active[a]];

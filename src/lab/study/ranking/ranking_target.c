@@ -71,6 +71,7 @@ static koksma_status measure(search *s, candidate *p, int spp, bool fresh, koksm
         p->row->coherent = contest.contestants[0].coherence.coherent;
     }
     contest.references[0] = (koksma__rank_reference){0};
+    s->options.doubt = NULL; /* the first contest has told */
     koksma__contest_fini(&contest);
     return status;
 }

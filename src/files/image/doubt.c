@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What in an image, beside the reference that it is compared with, looks like a mistake, but can be compared. */
+#include "image/doubt.h"
+
+#include "core/c_locale.h"
+#include "image/image.h"
+
+enum { LEAST = 256 }; /* pixels, below which nothing is said of noise and factors */
+
+/* Sums over pixels of the luminances x of an image and y of its reference, and of their squares and products; the same of
+   their roughness, the difference between a pixel and the mean of its neighbours at the left and right. */
+typedef struct sums {
+    double x, y, xx, xy, yy, rough_xx, rough_xy, rough_yy, n, inner;
+    bool equal, grey;
+} sums;
+
+static double roughness(const koksma_image *image, size_t p)
+{
+    return koksma__luminance(image, p) - (koksma__luminance(image, p - 1) + koksma__luminance(image, p + 1)) / 2;
+}
+
+/* Whether a pixel of one image has a colour where the other has none. */
+static bool lacks_colour(const koksma_image *image, const koksma_image *other, size_t p)
+{
+    const float *rgb = image->pixels + 3 * p;
+    return image->channels == 3 && other->channels == 1 && (rgb[0] != rgb[1] || rgb[1] != rgb[2]);
+}
+
+static sums sums_of(const koksma_image *image, const koksma_image *reference)
+{
+    const size_t width = (size_t)image->width, n = width * (size_t)image->height;
+    sums s = {.n = (double)n, .equal = true};
+    for (size_t p = 0; p < n; p++) {
+        const double x = koksma__luminance(image, p), y = koksma__luminance(reference, p);
+        s.x += x;
+        s.y += y;
+        s.xx += x * x;
+        s.xy += x * y;
+        s.yy += y * y;
+        s.equal &= x == y;
+        s.grey |= lacks_colour(image, reference, p) || lacks_colour(reference, image, p);
+        if (p % width && (p + 1) % width) {
+            const double rough_x = roughness(image, p), rough_y = roughness(reference, p);
+            s.rough_xx += rough_x * rough_x;
+            s.rough_xy += rough_x * rough_y;
+            s.rough_yy += rough_y * rough_y;
+            s.inner++;
+        }
+    }
+    return s;
+}
+
+static double noise(const sums *s, double c)
+{
+    const double rough = (s->rough_xx / c - 2 * s->rough_xy) / c + s->rough_yy;
+    return s->inner > 0 ? rough / 1.5 / s->inner : 0; /* the roughness of white noise has 3/2 of its variance */
+}
+
+/* What noise leaves of the mean square difference between the image, divided by c, and the reference, beyond rounding. */
+static double residue(const sums *s, double c)
+{
+    const double square = (s->xx / c - 2 * s->xy) / c + s->yy;
+    return (square - 1e-9 * s->yy) / s->n - noise(s, c);
+}
+
+koksma__likeness koksma__image_likeness(const koksma_image *image, const koksma_image *reference, bool order,
+                                        double *factor)
+{
+    const sums s = sums_of(image, reference);
+    const double c = s.x / s.y, mean = s.y / s.n, apart = s.x / s.n - mean, whole = residue(&s, 1);
+    *factor = c;
+    if (s.equal && !s.grey) {
+        return KOKSMA__LIKE_ITSELF;
+    }
+    if (s.n < LEAST) {
+        return s.grey ? KOKSMA__LIKE_GREY : KOKSMA__LIKE_NOISE;
+    }
+    /* A factor is larger than 5 standard errors of the mean, and leaves little of the difference. */
+    if (isfinite(c) && (c > 1.5 || (c > 0 && c < 1 / 1.5)) && apart * apart * s.n > 25 * c * c * noise(&s, c) &&
+        residue(&s, c) < whole / 10) {
+        return KOKSMA__LIKE_SCALED;
+    }
+    if (whole > (s.yy / s.n - mean * mean) / 2) {
+        return KOKSMA__LIKE_ANOTHER;
+    }
+    /* If only the reference has noise, independent of the picture, rough_yy = rough_xx + that of the difference; if only
+       the image has noise, the reverse. Half way between the reference has 3 times the image's variance. */
+    if (order && !s.grey && 2 * (s.rough_yy - s.rough_xx) > s.rough_xx - 2 * s.rough_xy + s.rough_yy) {
+        return KOKSMA__LIKE_SMOOTHER;
+    }
+    return s.grey ? KOKSMA__LIKE_GREY : KOKSMA__LIKE_NOISE;
+}
+
+const char *koksma_image_doubt(const koksma_image *image, const koksma_image *reference, bool order)
+{
+    static _Thread_local char scaled[128];
+    static const char *const said[] = {
+        [KOKSMA__LIKE_NOISE] = "",
+        [KOKSMA__LIKE_ITSELF] = "its luminance is that of the reference in all pixels; is it the same image?",
+        [KOKSMA__LIKE_SCALED] = NULL,
+        [KOKSMA__LIKE_ANOTHER] = "it differs from the reference by more than noise: another scene, view or exposure?",
+        [KOKSMA__LIKE_SMOOTHER] = "it has less noise than the reference, which comes last; are the two swapped?",
+        [KOKSMA__LIKE_GREY] =
+            "only one of it and the reference has colours; errors are of luminance but for metrics of colours",
+    };
+    double factor;
+    if (!image || !reference || koksma__image_check_sizes(image, reference)) {
+        return "";
+    }
+    const koksma__likeness like = koksma__image_likeness(image, reference, order, &factor);
+    koksma__snprintf(scaled, sizeof scaled,
+                     "its mean is %.4g times that of the reference; divide by this, if the units differ", factor);
+    return said[like] ? said[like] : scaled;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* How an image looks beside the reference that it is compared with. */
+#ifndef KOKSMA_IMAGE_DOUBT_H
+#define KOKSMA_IMAGE_DOUBT_H
+
+#include <koksma/image.h>
+
+/* As the reference with noise; or, the first that holds: equal in all pixels; like it but for a factor; different by more
+   than noise (what noise leaves of the mean square difference is above half of the reference's variance); with less noise;
+   without its colours. */
+typedef enum koksma__likeness {
+    KOKSMA__LIKE_NOISE,
+    KOKSMA__LIKE_ITSELF,
+    KOKSMA__LIKE_SCALED,
+    KOKSMA__LIKE_ANOTHER,
+    KOKSMA__LIKE_SMOOTHER,
+    KOKSMA__LIKE_GREY,
+} koksma__likeness;
+
+/* Of images of equal size. order: look for less noise, too. factor: the mean of the image over that of the reference. */
+koksma__likeness koksma__image_likeness(const koksma_image *image, const koksma_image *reference, bool order,
+                                        double *factor);
+
+#endif
