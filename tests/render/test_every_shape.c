@@ -255,8 +255,10 @@ TEST_CASE(hits_are_those_of_the_equation)
             memset(&one, 0xff, sizeof one); /* numbers that are none, where a loop forgets to write */
             memset(&two, 0xff, sizeof two);
             make_rays(scene->shapes, 7000 + 100 * kind + trial, &rays);
-            koksma__batch()->closest(&(koksma__batch_shapes){1, &shape}, &rays, NULL, KOKSMA__BLOCK, &one);
-            koksma__batch()->closest(&(koksma__batch_shapes){2, list}, &rays, NULL, KOKSMA__BLOCK, &two);
+            koksma__batch()->closest(&(koksma__batch_shapes){.n = 1, .shapes = &shape}, &rays, NULL, KOKSMA__BLOCK,
+                                     &one);
+            koksma__batch()->closest(&(koksma__batch_shapes){.n = 2, .shapes = list}, &rays, NULL, KOKSMA__BLOCK,
+                                     &two);
             check_closest(scene->shapes, 100 * kind + trial, &rays, NULL, &one, &sum);
             assert_memory_equal(one.primitive, two.primitive, sizeof one.primitive);
             check_closest(scene->shapes, 100 * kind + trial, &rays, NULL, &two, &sum);
@@ -276,7 +278,7 @@ TEST_CASE(starts_are_not_met_again)
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
             koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial, "");
             const koksma__batch_shape shape = koksma__batch_shape_of(scene->shapes, 0);
-            const koksma__batch_shapes list = {1, &shape};
+            const koksma__batch_shapes list = {.n = 1, .shapes = &shape};
             koksma__rays rays;
             koksma__hits first, next;
             KOKSMA__LANES(int32_t, from);
@@ -331,7 +333,7 @@ TEST_CASE(shadows_are_those_of_the_equation)
                     shadows[k].light[i] = 1;
                 }
             }
-            const koksma__batch_shapes list = {1, &shape};
+            const koksma__batch_shapes list = {.n = 1, .shapes = &shape};
             koksma__batch()->occlude(&list, &from, KOKSMA__BLOCK, &shadows[0]);
             shape.material = -1;
             koksma__batch()->occlude(&list, &from, KOKSMA__BLOCK, &shadows[1]);
@@ -379,7 +381,7 @@ static void check_moved_lanes(const koksma_scene *scene, const koksma__rays *ray
             to[i / KOKSMA__BLOCK][lane] = from[i / KOKSMA__BLOCK][all ? hitting : (lane + 13) % KOKSMA__BLOCK];
         }
         memset(&hit, 0xff, sizeof hit); /* no numbers, where a loop forgets to write */
-        koksma__batch()->closest(&(koksma__batch_shapes){2, two}, &turned, NULL, KOKSMA__BLOCK, &hit);
+        koksma__batch()->closest(&(koksma__batch_shapes){.n = 2, .shapes = two}, &turned, NULL, KOKSMA__BLOCK, &hit);
         const float *const got[] = {hit.nx, hit.ny, hit.nz, hit.px, hit.py, hit.pz, hit.u, hit.v};
         const float *const wanted[] = {h->nx, h->ny, h->nz, h->px, h->py, h->pz, h->u, h->v};
         for (int i = 0; i < 8 * KOKSMA__BLOCK; i++) {
@@ -400,7 +402,7 @@ TEST_CASE(lanes_are_alike)
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
             koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial, "");
             const koksma__batch_shape shape = koksma__batch_shape_of(scene->shapes, 0);
-            const koksma__batch_shapes list = {1, &shape};
+            const koksma__batch_shapes list = {.n = 1, .shapes = &shape};
             koksma__rays rays;
             koksma__hits hits[4];
             koksma__shadows shadows[4];

@@ -124,13 +124,13 @@ static void check_part(const koksma__frustum_cull *sight, const koksma__batch_ca
     for (size_t i = 0; i < n; i++) {
         list[i] = shapes->shapes[seen[i]];
     }
-    const koksma__batch_shapes in_sight = {n, list};
+    const koksma__batch_shapes in_sight = {.n = n, .shapes = list};
     const int hit = batch->closest(shapes, &rays, NULL, KOKSMA__BLOCK, &all);
     assert_int_equal(batch->closest(&in_sight, &rays, NULL, KOKSMA__BLOCK, &some), hit);
     same_hits(&all, &some);
     /* One by one, too: a shape that stands behind another must not be forgotten. */
     for (size_t k = 0; k < SHAPES; k++) {
-        const koksma__batch_shapes one = {1, &shapes->shapes[k]};
+        const koksma__batch_shapes one = {.n = 1, .shapes = &shapes->shapes[k]};
         met[k] = batch->closest(&one, &rays, NULL, KOKSMA__BLOCK, &some) > 0;
         bool is_seen = false;
         for (size_t i = 0; i < n; i++) {
@@ -150,7 +150,7 @@ static void try_worlds(double offset, double height, tally *sum)
         koksma__frustum_cull *sight;
         make_shapes(offset, list);
         make_camera(list, offset, height, &camera);
-        const koksma__batch_shapes shapes = {SHAPES, list};
+        const koksma__batch_shapes shapes = {.n = SHAPES, .shapes = list};
         assert_ok(koksma__frustum_cull_open(&camera, &shapes, SIDE, SIDE, &sight));
         for (int i = 0; i < PARTS; i++) {
             check_part(sight, &camera, &shapes, sum);
@@ -193,7 +193,7 @@ static void check_shadows(const koksma__frustum_cull *sight, const koksma__batch
     koksma__hits hits;
     koksma__footprint part;
     const size_t on = (size_t)uniform(0, SHAPES);
-    const koksma__batch_shapes own = {1, &shapes->shapes[on]};
+    const koksma__batch_shapes own = {.n = 1, .shapes = &shapes->shapes[on]};
     frame(light.normal, u, v);
     for (int k = 0; k < 3; k++) {
         light.corner[k] = (float)(offset + uniform(-6, 6));
@@ -210,7 +210,7 @@ static void check_shadows(const koksma__frustum_cull *sight, const koksma__batch
         xy[i] = (float)(i % 8 < 4 ? i / 2 % 2 : uniform(0, 1));
     }
     for (size_t k = 0; k < SHAPES; k++) {
-        const koksma__batch_shapes one = {1, &shapes->shapes[k]};
+        const koksma__batch_shapes one = {.n = 1, .shapes = &shapes->shapes[k]};
         koksma__shadows before, after;
         if (k == on || !batch->aim(&light, &hits, xy, KOKSMA__BLOCK, &before)) {
             continue;
@@ -236,7 +236,7 @@ TEST_CASE(clear_shapes_cast_no_shadow)
             koksma__frustum_cull *sight;
             make_shapes(offsets[o], list);
             make_camera(list, offsets[o], o == 1 ? pow(10, uniform(-3, 0)) : 0, &camera);
-            const koksma__batch_shapes shapes = {SHAPES, list};
+            const koksma__batch_shapes shapes = {.n = SHAPES, .shapes = list};
             assert_ok(koksma__frustum_cull_open(&camera, &shapes, SIDE, SIDE, &sight));
             for (int i = 0; i < PARTS; i++) {
                 check_shadows(sight, &camera, &shapes, offsets[o], &sum);

@@ -110,7 +110,7 @@ TEST_CASE(small_spheres_far_away_shade)
             dark[i] = !passes && !stops && aimed[i] != 7;
             hits.primitive[i] = -1;
         }
-        const koksma__batch_shapes shapes = {1, &sphere};
+        const koksma__batch_shapes shapes = {.n = 1, .shapes = &sphere};
         for (int isa = 0; isa < 4; isa++) {
             const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
             if (!batch) {

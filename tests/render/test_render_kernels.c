@@ -58,7 +58,7 @@ static void make_world(world *w, uint64_t round)
     for (int k = 0; k < 5; k++) {
         w->list[k] = random_shape(k);
     }
-    w->shapes = (koksma__batch_shapes){5, w->list};
+    w->shapes = (koksma__batch_shapes){.n = 5, .shapes = w->list};
     random_rays(&w->rays);
 }
 
@@ -83,7 +83,7 @@ TEST_CASE(lists_are_as_their_shapes_one_by_one)
             nearest.t[i] = INFINITY;
         }
         for (int k = 0; k < 5; k++) {
-            const koksma__batch_shapes one = {1, &w.list[k]};
+            const koksma__batch_shapes one = {.n = 1, .shapes = &w.list[k]};
             koksma__shadows shadows = w.shadows;
             koksma__hits hits;
             batch->closest(&one, &w.rays, NULL, KOKSMA__BLOCK, &hits);

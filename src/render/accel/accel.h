@@ -42,6 +42,10 @@ typedef struct koksma__geometry {
 /* Makes the geometry of the scene's analytic shapes, without an acceleration structure. Errors: MEMORY. */
 koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out);
 
+/* Puts the shapes of a list into bundles where that makes rays cheaper (bundles.c). Both arrays have room for all shapes.
+   Errors: MEMORY. */
+koksma_status koksma__bundle(koksma__batch_shapes *to, koksma__batch_bundle *bundles, uint32_t *order);
+
 /* ---- The module ------------------------------------------------------------------------------------------------- */
 
 /* Functions that the module provides. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The geometry of scenes with only analytic shapes, without a tree: every shape is intersected with every block of
- * rays. A flat shape casts no shadow if all other shapes and all lights lie on one side of its plane, because no
+ * The geometry of scenes with only analytic shapes: every shape is intersected with every block of rays, or with those that
+ * meet its bundle. A flat shape casts no shadow if all other shapes and all lights lie on one side of its plane, because no
  * segment between two points on that side crosses the plane; shadow rays therefore skip, for example, a floor. In a
  * scene with a medium no shape is skipped, because shadow rays may start at any point of the medium.
  */
@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "core/vector.h"
 #include "render/lights/lights.h"
@@ -19,7 +20,9 @@ typedef struct shapes {
     const koksma_scene *scene;
     koksma__batch_shapes all, occluders;
     const koksma__batch_table *batch;
-    koksma__batch_shape list[];
+    koksma__batch_shape *list; /* all, then the occluders; so the arrays below */
+    koksma__batch_bundle *bundles;
+    uint32_t *order;
 } shapes;
 
 static int closest(const koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,
@@ -43,7 +46,8 @@ static int light_of(const koksma__geometry *geometry, int32_t primitive)
 
 static void release(koksma__geometry *geometry)
 {
-    free(geometry->made);
+    shapes *s = geometry->made;
+    KOKSMA__FREE(s->list, s->bundles, s->order, s);
     *geometry = (koksma__geometry){0};
 }
 
@@ -99,23 +103,39 @@ static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat
     return all;
 }
 
-koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out)
+static koksma_status fill(shapes *s)
 {
-    const size_t size = sizeof(shapes) + 2 * scene->n_shapes * sizeof(koksma__batch_shape);
-    shapes *s = malloc(size);
-    *out = (koksma__geometry){0};
-    KOKSMA__REQUIRE_MEMORY(s, size);
-    s->all = (koksma__batch_shapes){scene->n_shapes, s->list};
-    s->occluders = (koksma__batch_shapes){0, s->list + scene->n_shapes};
-    for (size_t i = 0; i < scene->n_shapes; i++) {
+    const koksma_scene *scene = s->scene;
+    const size_t n = scene->n_shapes;
+    s->all = (koksma__batch_shapes){.n = n, .shapes = s->list};
+    s->occluders = (koksma__batch_shapes){.shapes = s->list + n};
+    for (size_t i = 0; i < n; i++) {
         const koksma__shape *shape = &scene->shapes[i];
         s->list[i] = koksma__batch_shape_of(shape, (int32_t)i);
         if (!all_on_one_side(scene, shape, 1) && !all_on_one_side(scene, shape, -1)) {
-            s->list[scene->n_shapes + s->occluders.n++] = s->list[i];
+            s->list[n + s->occluders.n++] = s->list[i];
         }
     }
-    s->batch = koksma__batch();
-    s->scene = scene;
+    KOKSMA__TRY(koksma__bundle(&s->all, s->bundles, s->order));
+    return koksma__bundle(&s->occluders, s->bundles + n, s->order + n);
+}
+
+koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out)
+{
+    const size_t n = 2 * scene->n_shapes + 1;
+    shapes *s = calloc(1, sizeof *s);
+    *out = (koksma__geometry){0};
+    KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
     *out = (koksma__geometry){s, &s->all, &s->occluders, closest, occlude, light_of, NULL, release};
-    return KOKSMA_OK;
+    s->scene = scene;
+    s->batch = koksma__batch();
+    s->list = malloc(n * sizeof *s->list);
+    s->bundles = malloc(n * sizeof *s->bundles);
+    s->order = malloc(n * sizeof *s->order);
+    const koksma_status status =
+        s->list && s->bundles && s->order ? fill(s) : koksma__fail_memory(n * sizeof *s->list);
+    if (status) {
+        release(out);
+    }
+    return status;
 }

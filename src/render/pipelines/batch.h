@@ -103,10 +103,23 @@ typedef struct koksma__batch_shape {
     float pivot[3], axis[3], angle, growth; /* growth: scale - 1 */
 } koksma__batch_shape;
 
+/* Shapes within a box: a ray that misses the box meets none of them. */
+typedef struct koksma__batch_bundle {
+    float low[3], high[3];
+    size_t first, end; /* in koksma__batch_shapes.order */
+} koksma__batch_bundle;
+
 /* A list of shapes in ascending order of id. */
 typedef struct koksma__batch_shapes {
     size_t n;
     const koksma__batch_shape *shapes;
+    /* If n_bundles > 0: `order` has the indices of the n_alone shapes in no bundle, then those of each bundle, all
+       ascending; `size` is the largest sum of the absolute coordinates of a place in a bundle; and, in a list for
+       `closest`, ids are indices. */
+    size_t n_bundles, n_alone;
+    const koksma__batch_bundle *bundles;
+    const uint32_t *order;
+    float size;
 } koksma__batch_shapes;
 
 /* Triangles that rays hit or on which rays start; lanes without a triangle have primitive -1. */

@@ -132,57 +132,47 @@ void BATCH_NAME(roulette)(const float *restrict u, int n, struct koksma__directi
     }
 }
 
-INLINE void move(const void *restrict from, const int32_t *restrict order, int n, void *restrict to)
+/* Copies the picked lanes to an array of the block to[0], from lane `at` on, and the rest to that of the block to[1]. */
+static void move(const void *from, const koksma__picks *p, int at, void *to)
 {
-    const uint32_t *restrict x = from;
-    uint32_t *restrict y = to;
-    LANES_APART
-    for (int i = 0; i < n; i++) {
-        y[i] = x[order[i]];
+    KOKSMA__LANES(uint32_t, moved);
+    const int room = KOKSMA__BLOCK - at, n = p->n < room ? p->n : room;
+    koksma__batch_pull(from, p, moved);
+    memcpy((uint32_t *)to + at, moved, (size_t)n * sizeof *moved);
+    if (n < p->n) {
+        memcpy((char *)to + sizeof(koksma__paths), moved + n, (size_t)(p->n - n) * sizeof *moved);
     }
 }
 
-/* Copies the lanes order[0], ... order[n - 1] to the lanes of `to` from `at` on. Times and normals are copied only
-   if later kernels read them. */
-static void move_all(const koksma__vertices *restrict v, const koksma__directions *restrict d,
-                     const int32_t *restrict order, int n, koksma__paths *restrict to, int at)
-{
-    const koksma__hits *restrict h = &v->hits;
-    move(h->px, order, n, to->rays.ox + at);
-    move(h->py, order, n, to->rays.oy + at);
-    move(h->pz, order, n, to->rays.oz + at);
-    move(d->w[0], order, n, to->rays.dx + at);
-    move(d->w[1], order, n, to->rays.dy + at);
-    move(d->w[2], order, n, to->rays.dz + at);
-    move(d->weight[0], order, n, to->beta[0] + at);
-    move(d->weight[1], order, n, to->beta[1] + at);
-    move(d->weight[2], order, n, to->beta[2] + at);
-    move(d->pdf, order, n, to->pdf + at);
-    move(h->primitive, order, n, to->from + at);
-    move(v->paths->sample, order, n, to->sample + at);
-    if (v->moves) {
-        move(v->paths->rays.time, order, n, to->rays.time + at);
-    }
-    if (v->chooses) {
-        move(h->nx, order, n, to->n[0] + at);
-        move(h->ny, order, n, to->n[1] + at);
-        move(h->nz, order, n, to->n[2] + at);
-    }
-}
-
+/* Times and normals are copied only if later kernels read them. */
 int BATCH_NAME(close_up)(const struct koksma__vertices *restrict v, const struct koksma__directions *restrict d,
                          struct koksma__paths *restrict to, int at)
 {
-    KOKSMA__LANES(int32_t, order);
-    int count = 0;
-    for (int i = 0; i < v->n; i++) {
-        order[count] = i;
-        count += d->kept[i];
+    const koksma__hits *h = &v->hits;
+    KOKSMA__LANES(int32_t, kept);
+    koksma__picks p;
+    memcpy(kept, d->kept, sizeof kept);
+    memset(kept + v->n, 0, (size_t)(v->whole - v->n) * sizeof *kept);
+    koksma__batch_pick(kept, v->whole, &p);
+    move(h->px, &p, at, to->rays.ox);
+    move(h->py, &p, at, to->rays.oy);
+    move(h->pz, &p, at, to->rays.oz);
+    for (int k = 0; k < 3; k++) {
+        move(d->weight[k], &p, at, to->beta[k]);
     }
-    const int room = KOKSMA__BLOCK - at, first = count < room ? count : room;
-    move_all(v, d, order, first, to, at);
-    if (first < count) {
-        move_all(v, d, order + first, count - first, to + 1, 0);
+    move(d->w[0], &p, at, to->rays.dx);
+    move(d->w[1], &p, at, to->rays.dy);
+    move(d->w[2], &p, at, to->rays.dz);
+    move(d->pdf, &p, at, to->pdf);
+    move(h->primitive, &p, at, to->from);
+    move(v->paths->sample, &p, at, to->sample);
+    if (v->moves) {
+        move(v->paths->rays.time, &p, at, to->rays.time);
     }
-    return count;
+    if (v->chooses) {
+        move(h->nx, &p, at, to->n[0]);
+        move(h->ny, &p, at, to->n[1]);
+        move(h->nz, &p, at, to->n[2]);
+    }
+    return p.n;
 }

@@ -150,6 +150,205 @@ static void shade_turned(const koksma__batch_shape *s, const koksma__hits *h, co
     memcpy(r->light, there.light, sizeof there.light);
 }
 
+/* ---- Some lanes of a block ------------------------------------------------------------------------------------ */
+
+/* Copies the picked lanes, and the last of them up to a whole step; at most half of the block is picked. */
+static void pull(const void *from, const koksma__picks *p, void *to)
+{
+    uint32_t *last = (uint32_t *)to + p->n;
+    koksma__batch_pull(from, p, to);
+    for (int j = 0; j < KOKSMA__LANE_STEP; j++) {
+        last[j] = last[-1];
+    }
+}
+
+/* The number of lanes that `pull` makes. */
+static int pulled(const koksma__picks *p)
+{
+    return STEP(p->n + KOKSMA__LANE_STEP - 1);
+}
+
+static void pull_rays(const koksma__rays *r, const koksma__picks *p, koksma__rays *to)
+{
+    pull(r->ox, p, to->ox);
+    pull(r->oy, p, to->oy);
+    pull(r->oz, p, to->oz);
+    pull(r->dx, p, to->dx);
+    pull(r->dy, p, to->dy);
+    pull(r->dz, p, to->dz);
+}
+
+/* ---- Bundles of shapes ---------------------------------------------------------------------------------------- */
+
+/*
+ * A hit that a loop of a shape reports lies at o + t d within a few rounding errors of the shape, relative to |o| and the
+ * size of the shapes; 2^-15 is some hundred times as much. The ray comes as near to the box in the interval of t where it
+ * is between low - margin and high + margin, in all coordinates: it meets the shapes nowhere else.
+ */
+#define MARGIN 0x1p-15f
+
+typedef struct slabs {
+    _Alignas(64) float above[3][KOKSMA__BLOCK]; /* the origin plus the margin */
+    _Alignas(64) float below[3][KOKSMA__BLOCK];
+    _Alignas(64) float inverse[3][KOKSMA__BLOCK]; /* of the direction, whose coordinates are not 0 */
+} slabs;
+
+INLINE float largest(float x, float y, float z)
+{
+    const float m = x > y ? x : y;
+    return m > z ? m : z;
+}
+
+static void slabs_of(const float *const o[3], const float *const d[3], float size, int n, slabs *restrict to)
+{
+    const float *restrict ox = o[0], *restrict oy = o[1], *restrict oz = o[2];
+    const float *restrict dx = d[0], *restrict dy = d[1], *restrict dz = d[2];
+    for (int i = 0; i < STEP(n); i++) {
+        const float margin = MARGIN * (fabsf(ox[i]) + fabsf(oy[i]) + fabsf(oz[i]) + size);
+        const float most = largest(fabsf(dx[i]), fabsf(dy[i]), fabsf(dz[i]));
+        const float least = 0x1p-24f * most > 1e-30f ? 0x1p-24f * most : 1e-30f;
+        const float x = fabsf(dx[i]) > least ? fabsf(dx[i]) : least;
+        const float y = fabsf(dy[i]) > least ? fabsf(dy[i]) : least;
+        const float z = fabsf(dz[i]) > least ? fabsf(dz[i]) : least;
+        to->above[0][i] = ox[i] + margin;
+        to->above[1][i] = oy[i] + margin;
+        to->above[2][i] = oz[i] + margin;
+        to->below[0][i] = ox[i] - margin;
+        to->below[1][i] = oy[i] - margin;
+        to->below[2][i] = oz[i] - margin;
+        to->inverse[0][i] = 1 / (dx[i] < 0 ? -x : x);
+        to->inverse[1][i] = 1 / (dy[i] < 0 ? -y : y);
+        to->inverse[2][i] = 1 / (dz[i] < 0 ? -z : z);
+    }
+}
+
+INLINE float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+INLINE float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* Picks the lanes that may meet the shapes of a bundle before t = end. `wanted` is 0 in lanes that do not count. */
+INLINE void near_bundle(const koksma__batch_bundle *restrict b, const slabs *restrict s, const float *restrict end,
+                        const float *restrict wanted, int n, koksma__picks *restrict to)
+{
+    KOKSMA__LANES(int32_t, flags);
+    const float lx = b->low[0], ly = b->low[1], lz = b->low[2], hx = b->high[0], hy = b->high[1], hz = b->high[2];
+    for (int i = 0; i < STEP(n); i++) {
+        const float x0 = (lx - s->above[0][i]) * s->inverse[0][i], x1 = (hx - s->below[0][i]) * s->inverse[0][i];
+        const float y0 = (ly - s->above[1][i]) * s->inverse[1][i], y1 = (hy - s->below[1][i]) * s->inverse[1][i];
+        const float z0 = (lz - s->above[2][i]) * s->inverse[2][i], z1 = (hz - s->below[2][i]) * s->inverse[2][i];
+        const float in = larger(larger(smaller(x0, x1), smaller(y0, y1)), larger(smaller(z0, z1), 0));
+        const float last = end ? end[i] : KOKSMA__SHADOW_END;
+        const float out = smaller(smaller(larger(x0, x1), larger(y0, y1)), smaller(larger(z0, z1), last));
+        flags[i] = (in <= out) & (wanted ? wanted[i] != 0 : 1);
+    }
+    koksma__batch_pick(flags, n, to);
+}
+
+/* Keeps the closer of the hits of each lane; of two at the same t that of the first shape, whatever their order. */
+INLINE void keep(const koksma__hits *restrict mine, const int32_t *restrict lanes, int n, koksma__hits *restrict h)
+{
+    for (int j = 0; j < n; j++) {
+        const int i = lanes ? lanes[j] : j;
+        const int closer = mine->t[j] < h->t[i];
+        const int same = (mine->primitive[j] >= 0) & (mine->t[j] <= h->t[i]) & (mine->primitive[j] < h->primitive[i]);
+        h->t[i] = closer | same ? mine->t[j] : h->t[i];
+        h->primitive[i] = closer | same ? mine->primitive[j] : h->primitive[i];
+    }
+}
+
+static void hit_bundles(const koksma__batch_shapes *shapes, const koksma__rays *r, const int32_t *from, int n,
+                        koksma__hits *h)
+{
+    const float *const o[3] = {r->ox, r->oy, r->oz}, *const d[3] = {r->dx, r->dy, r->dz};
+    KOKSMA__LANES(int32_t, starts);
+    koksma__picks p;
+    slabs s;
+    koksma__rays some;
+    koksma__hits mine;
+    slabs_of(o, d, shapes->size, n, &s);
+    for (size_t b = 0; b < shapes->n_bundles; b++) {
+        const koksma__batch_bundle *bundle = &shapes->bundles[b];
+        near_bundle(bundle, &s, h->t, NULL, n, &p);
+        if (!p.n) {
+            continue;
+        }
+        const bool all = p.n > STEP(n) / 2;
+        const int whole = all ? n : pulled(&p);
+        if (!all) {
+            pull_rays(r, &p, &some);
+            pull(from, &p, starts);
+        }
+        for (int j = 0; j < STEP(whole); j++) {
+            mine.t[j] = INFINITY;
+            mine.primitive[j] = -1;
+        }
+        for (size_t k = bundle->first; k < bundle->end; k++) {
+            const koksma__batch_shape *shape = &shapes->shapes[shapes->order[k]];
+            types[shape->kind]->hit(shape, all ? r : &some, all ? from : starts, whole, &mine);
+        }
+        if (all) {
+            keep(&mine, NULL, STEP(n), h);
+        } else {
+            keep(&mine, p.lane, p.n, h);
+        }
+    }
+}
+
+/* nowhere: -1 in all lanes */
+static void shade_shape(const koksma__batch_shape *s, const koksma__hits *h, const int32_t *nowhere, int n,
+                        koksma__shadows *r)
+{
+    /* a shape without a material is the surface of a light */
+    const int32_t *aimed = s->material < 0 && r->aimed ? r->aimed : nowhere;
+    (s->turns ? shade_turned : types[s->kind]->shade)(s, h, aimed, n, r);
+}
+
+static void shade_bundles(const koksma__batch_shapes *shapes, const koksma__hits *h, const int32_t *nowhere, int n,
+                          koksma__shadows *r)
+{
+    const float *const o[3] = {h->px, h->py, h->pz}, *const d[3] = {r->dx, r->dy, r->dz};
+    KOKSMA__LANES(int32_t, aimed);
+    koksma__picks p;
+    slabs s;
+    koksma__hits some;
+    koksma__shadows mine = {.aimed = r->aimed ? aimed : NULL};
+    slabs_of(o, d, shapes->size, n, &s);
+    for (size_t b = 0; b < shapes->n_bundles; b++) {
+        const koksma__batch_bundle *bundle = &shapes->bundles[b];
+        near_bundle(bundle, &s, NULL, r->light, n, &p);
+        if (!p.n) {
+            continue;
+        }
+        const bool all = p.n > STEP(n) / 2;
+        if (!all) {
+            pull(h->px, &p, some.px);
+            pull(h->py, &p, some.py);
+            pull(h->pz, &p, some.pz);
+            pull(h->primitive, &p, some.primitive);
+            pull(r->dx, &p, mine.dx);
+            pull(r->dy, &p, mine.dy);
+            pull(r->dz, &p, mine.dz);
+            pull(r->light, &p, mine.light);
+        }
+        if (!all && r->aimed) {
+            pull(r->aimed, &p, aimed);
+        }
+        for (size_t k = bundle->first; k < bundle->end; k++) {
+            shade_shape(&shapes->shapes[shapes->order[k]], all ? h : &some, nowhere, all ? n : pulled(&p),
+                        all ? r : &mine);
+        }
+        if (!all) {
+            koksma__batch_push(mine.light, &p, r->light);
+        }
+    }
+}
+
 /* ---- Lists of shapes ------------------------------------------------------------------------------------------ */
 
 static void clear(koksma__hits *hits, int n)
@@ -161,6 +360,81 @@ static void clear(koksma__hits *hits, int n)
         hits->nx[i] = hits->ny[i] = hits->nz[i] = 0;
         hits->u[i] = hits->v[i] = 0;
     }
+}
+
+/* Completes the picked hits, which are on the shape s. */
+static void finish_some(const koksma__batch_shape *s, const koksma__rays *rays, const koksma__picks *p,
+                        koksma__hits *h)
+{
+    koksma__rays some;
+    koksma__hits done;
+    pull_rays(rays, p, &some);
+    pull(h->t, p, done.t);
+    finish_shape(s, &some, pulled(p), &done, true);
+    koksma__batch_push(done.px, p, h->px);
+    koksma__batch_push(done.py, p, h->py);
+    koksma__batch_push(done.pz, p, h->pz);
+    koksma__batch_push(done.nx, p, h->nx);
+    koksma__batch_push(done.ny, p, h->ny);
+    koksma__batch_push(done.nz, p, h->nz);
+    koksma__batch_push(done.u, p, h->u);
+    koksma__batch_push(done.v, p, h->v);
+    koksma__batch_push(done.back, p, h->back);
+    koksma__batch_push(done.material, p, h->material);
+}
+
+/* Completes the hits on shapes in a list with bundles, of which a block may meet many, each in few lanes. */
+static void finish_each(const koksma__batch_shapes *shapes, const koksma__rays *rays, int n, koksma__hits *h)
+{
+    KOKSMA__LANES(int32_t, left);
+    KOKSMA__LANES(int32_t, mine);
+    koksma__picks p;
+    memcpy(left, h->primitive, sizeof left);
+    for (int i = 0; i < STEP(n); i++) {
+        const int32_t id = left[i];
+        if (id < 0) {
+            continue;
+        }
+        for (int j = 0; j < STEP(n); j++) {
+            mine[j] = left[j] == id;
+            left[j] = left[j] == id ? -1 : left[j];
+        }
+        koksma__batch_pick(mine, n, &p);
+        const koksma__batch_shape *s = &shapes->shapes[id];
+        if (s->turns) {
+            finish_turned(s, rays, n, h);
+        } else if (s->moves || p.n > STEP(n) / 8) {
+            finish_shape(s, rays, n, h, p.n == STEP(n));
+        } else {
+            finish_some(s, rays, &p, h);
+        }
+    }
+}
+
+/* Completes the hits on shapes in a short list; some lanes may have none. */
+static void finish_all(const koksma__batch_shapes *shapes, const koksma__rays *rays, int n, int hit,
+                       koksma__hits *hits)
+{
+    int done = STEP(n) - hit, count = 0;
+    for (size_t k = 0; k < shapes->n && done < STEP(n); k++, done += count) {
+        count = koksma__batch_count_hits(hits, shapes->shapes[k].id, n);
+        if (count && shapes->shapes[k].turns) {
+            finish_turned(&shapes->shapes[k], rays, n, hits);
+        } else if (count) {
+            finish_shape(&shapes->shapes[k], rays, n, hits, count == STEP(n));
+        }
+    }
+}
+
+/* The shapes of a list that are in no bundle. */
+static size_t alone(const koksma__batch_shapes *shapes)
+{
+    return shapes->n_bundles ? shapes->n_alone : shapes->n;
+}
+
+static const koksma__batch_shape *shape_at(const koksma__batch_shapes *shapes, size_t k)
+{
+    return &shapes->shapes[shapes->n_bundles ? shapes->order[k] : k];
 }
 
 int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *rays, const int32_t *from, int n,
@@ -175,22 +449,21 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
         hits->t[i] = INFINITY;
         hits->primitive[i] = -1;
     }
-    for (size_t k = 0; k < shapes->n; k++) {
-        const koksma__batch_shape *s = &shapes->shapes[k];
+    for (size_t k = 0; k < alone(shapes); k++) {
+        const koksma__batch_shape *s = shape_at(shapes, k);
         (s->turns ? hit_turned : types[s->kind]->hit)(s, rays, from ? from : nowhere, n, hits);
     }
-    int done = koksma__batch_count_hits(hits, -1, n), count = 0;
-    const int hit = STEP(n) - done;
+    if (shapes->n_bundles) {
+        hit_bundles(shapes, rays, from ? from : nowhere, n, hits);
+    }
+    const int hit = STEP(n) - koksma__batch_count_hits(hits, -1, n);
     if (hit < STEP(n)) {
         clear(hits, n);
     }
-    for (size_t k = 0; k < shapes->n && done < STEP(n); k++, done += count) {
-        count = koksma__batch_count_hits(hits, shapes->shapes[k].id, n);
-        if (count && shapes->shapes[k].turns) {
-            finish_turned(&shapes->shapes[k], rays, n, hits);
-        } else if (count) {
-            finish_shape(&shapes->shapes[k], rays, n, hits, count == STEP(n));
-        }
+    if (shapes->n_bundles) {
+        finish_each(shapes, rays, n, hits);
+    } else {
+        finish_all(shapes, rays, n, hit, hits);
     }
     return hit;
 }
@@ -202,10 +475,10 @@ void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits 
     for (int i = 0; i < STEP(n); i++) {
         nowhere[i] = -1;
     }
-    for (size_t k = 0; k < shapes->n; k++) {
-        const koksma__batch_shape *s = &shapes->shapes[k];
-        /* a shape without a material is the surface of a light */
-        const int32_t *aimed = s->material < 0 && shadows->aimed ? shadows->aimed : nowhere;
-        (s->turns ? shade_turned : types[s->kind]->shade)(s, hits, aimed, n, shadows);
+    for (size_t k = 0; k < alone(shapes); k++) {
+        shade_shape(shape_at(shapes, k), hits, nowhere, n, shadows);
+    }
+    if (shapes->n_bundles) {
+        shade_bundles(shapes, hits, nowhere, n, shadows);
     }
 }

@@ -92,7 +92,7 @@ static void find_blockers(const koksma__frame *f, scratch *r, size_t i, const do
     koksma__footprint part;
     const bool bounded = koksma__frustum_cull_footprint(f->frustum_cull, i, x, y, &part);
     for (size_t l = 0; l < f->lights.n; l++, list += f->geometry.shapes->n) {
-        r->blockers[l] = (koksma__batch_shapes){0, list};
+        r->blockers[l] = (koksma__batch_shapes){.shapes = list};
         for (size_t k = 0; k < all->n; k++) {
             const koksma__batch_shape *s = &all->shapes[k];
             const bool own = (size_t)s->id == i;
@@ -113,7 +113,8 @@ static void look_at(const koksma__frame *f, scratch *r, size_t first, size_t end
     const size_t end_column = row + 1 == end_row ? last % width + 1 : width;
     const double x[2] = {(double)column - reach, (double)end_column + reach};
     const double y[2] = {(double)row - reach, (double)end_row + reach};
-    r->shapes = (koksma__batch_shapes){koksma__frustum_cull_shapes(f->frustum_cull, x, y, r->seen), r->list};
+    r->shapes =
+        (koksma__batch_shapes){.n = koksma__frustum_cull_shapes(f->frustum_cull, x, y, r->seen), .shapes = r->list};
     for (size_t i = 0; i < r->shapes.n; i++) {
         r->list[i] = f->geometry.shapes->shapes[r->seen[i]];
     }
