@@ -268,6 +268,14 @@ static int run_all(job *j)
 static int run(const cli_arguments *arguments)
 {
     job j = {.arguments = arguments};
+    const bool command = cli_text(arguments, "with", NULL);
+    for (int i = !command; i < arguments->n_operands; i++) {
+        if (koksma_integrand_find(arguments->operands[i])) {
+            return cli_usage_error(arguments, "%s: %s", arguments->operands[i],
+                                   command ? "--with takes the place of an integrand"
+                                           : "the integrand comes first, several with commas between them");
+        }
+    }
     if (cli_estimates(arguments)) {
         return cli_run_estimates(arguments);
     }

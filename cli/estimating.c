@@ -9,12 +9,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { REPLICATES = 15, MOST_REPLICATES = 100000, DIGITS = 9 };
-
-/* Of smooth integrands the errors fall fastest with linear scrambling; the digital shift makes random the digits below
-   the 32 of the sequence, whose truncation is a bias of 2^-33 in each coordinate. */
-static const char default_pattern[] = "sobol:scramble=lms,digital-shift=1";
 
 static const char *const names[] = {"tolerance",  "estimator", "interval", "replicates",
                                     "confidence", "range",     "with"};
@@ -105,11 +102,11 @@ static int open_source(estimating *e, int i)
 {
     cli_source *source = &e->source;
     const cli_arguments *arguments = e->arguments;
-    const char *text = i < arguments->n_operands ? arguments->operands[i] : default_pattern;
+    const char *text = i < arguments->n_operands ? arguments->operands[i] : CLI_USUAL_PATTERN;
     uint64_t dim;
     if (i >= arguments->n_operands && !e->to_tolerance) {
         return cli_usage_error(arguments, "an estimate takes points, as in disk -p %s -n 1024, or --tolerance",
-                               default_pattern);
+                               CLI_USUAL_PATTERN);
     }
     int code = cli_pattern_open(arguments, text, source);
     if (!code && !source->n && !e->to_tolerance) {
@@ -195,6 +192,25 @@ static void take_bounds(koksma_estimate_options *o, const koksma_integral_facts 
     }
 }
 
+/* Says what of the values makes the estimate doubtful. */
+static void tell_values(const estimating *e, const printed *p, const koksma_tolerance *t)
+{
+    const uint64_t points = t->steps[t->n_steps - 1].points;
+    const double largest = fabs(t->largest) > fabs(t->least) ? t->largest : t->least;
+    if (cli_flag(e->arguments, "quiet")) {
+        return;
+    }
+    if (t->least == t->largest && points > 1 && e->command.command) {
+        cli_say(e->arguments->command->name, "warning: all values are %g; the program gets %d numbers a line (-d)",
+                t->least, e->source.dim);
+    } else if (points >= 4096 && t->top_share > 0.02) {
+        cli_say(e->arguments->command->name,
+                "warning: %s: one value, %.3g, is %.0f %% of the sum: the integral may be infinite, or its peak is "
+                "narrow",
+                p->name, largest, 100 * t->top_share);
+    }
+}
+
 /* Estimates the integral and prints the steps. integral: NULL with --with. Returns the exit code. */
 static int put_estimate(const koksma_integral *integral, void *context)
 {
@@ -215,6 +231,10 @@ static int put_estimate(const koksma_integral *integral, void *context)
     if (o.resume && e->searches++) {
         return cli_usage_error(e->arguments, "--resume %s: a file has one integrand with one pattern", o.resume);
     }
+    if (facts.value == 0 && o.relative > 0) {
+        return cli_usage_error(e->arguments, "--relative: the integral of %s is 0, and no error is small beside it",
+                               p.name);
+    }
     o.function = p.name;
     o.first_n = source->n;
     o.most_points = e->to_tolerance ? o.most_points : (uint64_t)o.replicates * source->n;
@@ -228,6 +248,9 @@ static int put_estimate(const koksma_integral *integral, void *context)
                             source->dim, &source->spec, &o, &e->work.run, t);
     for (size_t i = 0; i < t->n_steps && !status; i++) {
         put_step(e, &p, t, i);
+    }
+    if (!status) {
+        tell_values(e, &p, t);
     }
     if (!status && e->to_tolerance) {
         put_end(e, &p, t);
@@ -248,6 +271,14 @@ int cli_run_estimates(const cli_arguments *arguments)
     }
     if (!cli_work_begin(arguments, "integrating", &e.work) || !read_options(&e)) {
         return CLI_USAGE;
+    }
+    for (int i = first; i < arguments->n_operands; i++) {
+        const char *operand = arguments->operands[i];
+        if (!cli_source_is_pattern(operand) && !cli_names_pattern(operand) && !access(operand, R_OK)) {
+            return cli_usage_error(
+                arguments, "%s is one set, whose error no interval knows; -p file:%s,shift=1 shifts it at random",
+                operand, operand);
+        }
     }
     const int end = arguments->n_operands > first ? arguments->n_operands : first + 1;
     int code = CLI_YES;

@@ -477,6 +477,10 @@ int cli_sources_expand(cli_arguments *arguments)
         code = add_sizes(arguments, arguments->operands[i], &of);
         of.other = i > 0 || !takes_name_first(arguments) ? of.other : NULL;
     }
+    if (!code && of.list && !patterns && !strcmp(arguments->command->name, "integrate") &&
+        arguments->n_operands == !cli_text(arguments, "with", NULL)) {
+        code = add_sizes(arguments, CLI_USUAL_PATTERN, &of);
+    }
     of.all = patterns && !strcmp(patterns, "all");
     if (!code && of.all && !of.list) {
         code = cli_usage_error(arguments, "-p all takes -n N, the number of points");

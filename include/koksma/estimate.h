@@ -116,6 +116,9 @@ typedef struct koksma_tolerance {
        error is above 0, for errors that do not fall, and `needed` without a tolerance. Errors of successive steps
        depend on each other, so that the interval is approximate. */
     double rate, rate_error, needed, needed_low, needed_high;
+    /* of all values that were computed: the extremes, and the share of the largest in the sum of absolute values. Above
+       0.02 of at least 4096 values the integral may be infinite, or its peak narrow, and there is no rate */
+    double least, largest, top_share;
 } koksma_tolerance;
 
 /* Integrates a function over [0,1)^dim: R sets of first_n points, twice as many in each further step, until the error

@@ -244,7 +244,8 @@ class ToleranceStep(Structure):
 
 class Tolerance(Structure):
     _fields_ = [("reached", c_bool), ("parts", c_bool), ("replicates", c_size_t), ("n_steps", c_size_t), ("steps", ToleranceStep * MAX_STEPS), ("rate", c_double),
-                ("rate_error", c_double), ("needed", c_double), ("needed_low", c_double), ("needed_high", c_double)]
+                ("rate_error", c_double), ("needed", c_double), ("needed_low", c_double), ("needed_high", c_double),
+                ("least", c_double), ("largest", c_double), ("top_share", c_double)]
 
 
 class ScatterOptions(Structure):

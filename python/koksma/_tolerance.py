@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from contextlib import ExitStack
 from ctypes import byref
 from dataclasses import dataclass
@@ -61,7 +62,7 @@ class Integral(Framed):
     value, low, high, error : float
         Of the last step.
     reached : bool
-        Whether the error is within the tolerance.
+        Whether the error is within the tolerance; True without one (tolerance=0).
     points, replicates, dim : int
         Function values in all; sets; dimensions.
     parts : bool
@@ -99,7 +100,7 @@ class Integral(Framed):
 
     def __repr__(self) -> str:
         missed = "" if self.reached else ", tolerance not reached"
-        return f"Integral({self.value:.12g} in [{self.low:.12g}, {self.high:.12g}], {self.points} points{missed})"
+        return f"Integral({self.value:.12g} in [{self.low:.12g}, {self.high:.12g}], {self.points} points in {self.dim} dimensions{missed})"
 
     def _repr_html_(self) -> str:
         from ._display import table
@@ -246,6 +247,11 @@ def integrate_to(opened: Any, function: Any, pattern: Optional[str], n: Optional
     path = tuple(Step(step.n, step.points, e.value, e.low, e.high, e.error, e.confidence, e.estimator.decode(), e.interval.decode())
                  for step in result.steps[:result.n_steps] for e in (step.estimate,))
     last = path[-1]
-    return Integral(last.value, last.low, last.high, last.error, result.reached, last.points, result.replicates, dim, path, result.rate,
-                    result.rate_error, math.nan if result.reached else result.needed, result.needed_low, result.needed_high,
+    if callable(function) and last.points > 1 and result.least == result.largest:
+        warnings.warn(f"all {last.points} values are {result.least:g}, of points in {dim} dimensions", RuntimeWarning, stacklevel=3)
+    elif last.points >= 4096 and result.top_share > 0.02:
+        warnings.warn(f"one of {last.points} values is {100 * result.top_share:.0f} % of the sum: the integral may be infinite, or its "
+                      "peak is narrow", RuntimeWarning, stacklevel=3)
+    return Integral(last.value, last.low, last.high, last.error, result.reached or not tolerance, last.points, result.replicates, dim, path,
+                    result.rate, result.rate_error, math.nan if result.reached else result.needed, result.needed_low, result.needed_high,
                     canonical(pattern), result.parts)

@@ -41,6 +41,8 @@ enum {
     LEAST_EACH = 6
 };
 
+static const uint64_t LEAST_KNOWN = 4096; /* values, of which one has at most this share of the sum: */
+static const double MOST_OF_ONE = 0.02;
 static const uint64_t MOST_POINTS = UINT64_C(1) << 24;
 
 typedef struct job {
@@ -59,6 +61,7 @@ typedef struct job {
     koksma__search path; /* the steps so far; its sums are those of the values of each set */
     uint64_t points;
     double least, largest; /* of all values so far */
+    double sizes;          /* the sum of their absolute values */
 } job;
 
 /* Part of a set: points first .. first + count - 1 of the set `replicate`. */
@@ -98,6 +101,7 @@ static koksma_status add(job *j, const piece *p, const double *values)
         koksma__sum_add(&j->path.sums[p->replicate], values[i]);
         j->least = fmin(j->least, values[i]);
         j->largest = fmax(j->largest, values[i]);
+        j->sizes += fabs(values[i]);
     }
     j->points += p->count;
     return KOKSMA_OK;
@@ -190,6 +194,12 @@ static void predict(const job *j, koksma_tolerance *t)
     double points[FITTED], errors[FITTED];
     koksma_line line;
     t->rate = t->rate_error = t->needed = t->needed_low = t->needed_high = NAN;
+    t->least = j->least;
+    t->largest = j->largest;
+    t->top_share = j->sizes > 0 ? fmax(fabs(j->least), fabs(j->largest)) / j->sizes : 0;
+    if (j->points >= LEAST_KNOWN && t->top_share > MOST_OF_ONE) {
+        return; /* errors that hang on a few values have no rate */
+    }
     for (size_t i = 0; i < count; i++) {
         points[i] = (double)j->sets * (double)t->steps[first + i].n;
         errors[i] = t->steps[first + i].estimate.error;
