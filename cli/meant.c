@@ -84,6 +84,7 @@ static const struct {
     {"repeat", {"trials"}},
     {"seeds", {"trials", "max-trials"}},
     {"epsilon", {"tolerance"}},
+    {"alpha", {"confidence"}},
     {"iterations", {"steps"}},
     {"hdri", {"environment"}},
     {"ref", {"reference"}},
@@ -121,6 +122,7 @@ static const struct {
     {"denoise", "'koksma rank' has --filter-with for it; "},
     {"exposure", "EXR and PFM keep the light as it is; "},
     {"sigma", "it is a parameter of filters, as in gaussian:sigma=1; "},
+    {"measure", "the measure is an operand, as in 'koksma optimise star'; "},
     {"pattern", "'koksma list patterns' names patterns; "},
     {"patterns", "'koksma list patterns' names patterns; "},
 };
@@ -192,6 +194,27 @@ const char *cli_meant_option(const cli_option *options, const char *name, char t
     return text;
 }
 
+bool cli_slip(const cli_option *options, const char *word, const char *value, char text[128])
+{
+    char name[32];
+    const bool is_short = *word == '-' && word[1] != '-';
+    *text = '\0';
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word);
+    if (is_short && strlen(name) > 2 && cli_option_of(options, name + 1)) {
+        snprintf(text, 128, "%s: did you mean -%s?", name, name);
+    } else if (is_short && value && *value == '=' && value == word + 2) {
+        snprintf(text, 128, "%.60s: write %s %.40s", word, name, value + 1);
+    }
+    bool is_option = value && value[0] == '-' && value[1] == '-' && cli_option_of(options, value + 2);
+    for (size_t i = 0; value && options[i].name; i++) {
+        is_option |= *value == '-' && options[i].letter && value[1] == options[i].letter && !value[2];
+    }
+    if (is_option) {
+        snprintf(text, 128, "%s takes a value, and '%.60s' is an option", name, value);
+    }
+    return *text;
+}
+
 static bool is_member(size_t family, const char *name)
 {
     const char *member;
@@ -228,6 +251,10 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
         snprintf(text, CLI_KNOWN,
                  *word == 'h' && word[1] == 't' ? "; only files are read: download it first"
                                                 : "; --help describes the command");
+        return text;
+    }
+    if (!strcmp(word, "all") && arguments && cli_option_of(arguments->command->options, "patterns")) {
+        snprintf(text, CLI_KNOWN, "; every pattern is -p all");
         return text;
     }
     if (!strncmp(word, "\xe2\x80", 2)) { /* an en or em dash, of a word processor */
@@ -308,10 +335,12 @@ static const struct {
     {NULL, "is not a whole number below 2^64", "a file of points is file:PATH"},
     {NULL, ", but --at ", "a point has commas, as in 0.5,0.5"},
     {NULL, "--time-limit ", "seconds, as in 60"},
-    {NULL, "--output goes with power", "--format csv prints the others"},
+    {NULL, "--output goes with power", "--format csv prints the others, 'koksma plot --curve' draws them"},
+    {NULL, ": no parameter 'base", "the bases are the first primes"},
     {NULL, "--output: it takes power of one", "'koksma plot --curve power' draws several"},
     {NULL, "--warp disk", "concentric-disk and polar-disk map to it"},
     {NULL, "--curve spectrum", "power is the spectrum"},
+    {"mask", "'check' and files", "a size is --size 64x64"},
     {"integrate", "no integrand '", "--with takes a program for one's own"},
     {"integrate", "are more than --max-points", "raise that, or lower -n"},
     {"optimise", "which differs from -n or -d", "leave these out"},

@@ -144,7 +144,7 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
 {
     const cli_command *command = arguments->command;
     struct option longs[CLI_MAX_OPTIONS + 2] = {{0}};
-    char shorts[2 * CLI_MAX_OPTIONS + 4] = {':', HELP_LETTER};
+    char slip[128], shorts[2 * CLI_MAX_OPTIONS + 4] = {':', HELP_LETTER};
     int n = 0;
     for (; command->options[n].name; n++) {
         const cli_option *o = &command->options[n];
@@ -171,8 +171,8 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
             cli_print_help(command);
             return CLI_YES;
         }
-        if (code < LONG_BASE && optarg && *optarg == '=' && optarg == last + 2) {
-            return cli_usage_error(arguments, "%s: write -%c %s", last, code, optarg + 1);
+        if (cli_slip(command->options, word, optarg, slip)) {
+            return cli_usage_error(arguments, "%s", slip);
         }
         int i = code - LONG_BASE;
         if (code < LONG_BASE) {

@@ -124,6 +124,19 @@ bool cli_ending_fits(const cli_arguments *arguments, const char *argument, const
     return !used;
 }
 
+/* Whether koksma wrote a file of points, as far as its text says: a search may continue in it. */
+static bool is_ours(const char *path)
+{
+    char head[8] = "";
+    FILE *f = fopen(path, "rb"); /* it is the output, a plain file */
+    const bool ours = f && fread(head, 1, sizeof head, f) == sizeof head && !memcmp(head, "# koksma", sizeof head);
+    if (f) {
+        fclose(f);
+    }
+    const char *end = strrchr(path, '.');
+    return ours || (end && (!strcmp(end, ".npy") || !strcmp(end, ".csv")));
+}
+
 bool cli_keeps_inputs(const cli_arguments *arguments)
 {
     const cli_option *options = arguments->command->options;
@@ -140,8 +153,8 @@ bool cli_keeps_inputs(const cli_arguments *arguments)
     }
     for (int i = 0; options[i].name; i++) {
         const char *name = options[i].name, *value = arguments->values[i];
-        const bool is_read = value && value != output && strcmp(name, "from") != 0 && strcmp(name, "error-map") != 0;
-        input = is_read && cli_reads(value, output) ? value : input;
+        const bool is_read = value && value != output && strcmp(name, "error-map") != 0 && cli_reads(value, output);
+        input = is_read && (strcmp(name, "from") != 0 || !is_ours(value)) ? value : input;
     }
     return !input ||
            !cli_usage_error(arguments, "--output %s: it would replace what is read, %s; choose another file", output,

@@ -55,10 +55,11 @@ static column look_at(const koksma_points *points, size_t k)
     return c;
 }
 
-/* The least range that is no surprise: that of n random numbers is smaller in one column of 10^9. */
+/* The least range that is no surprise: that of n random numbers is smaller in one column of 10^9. A regular grid of two
+   columns has 1/2. */
 static double least_range(size_t n)
 {
-    return n < 2 * (size_t)FEW ? 0.2 : 0.45;
+    return n < 32 ? 0.2 : n < 40 ? 0.45 : 0.4999;
 }
 
 static void look_at_columns(remarks *r, const koksma_points *points)
@@ -140,7 +141,9 @@ size_t koksma_points_oddities(const koksma_points *points, char *text, size_t ro
     if (room) {
         *text = '\0';
     }
-    if (points && points->xs && points->n > 1 && points->dim > 1) {
+    if (points && points->xs && points->n == 1 && points->dim > 3) {
+        remark(&r, "one point in %d dimensions; a line is a point", points->dim);
+    } else if (points && points->xs && points->n > 1 && points->dim > 1) {
         look_at_columns(&r, points);
         look_for_twins(&r, points);
         if (points->dim > 3 && 2 * points->n < (size_t)points->dim) {

@@ -266,7 +266,8 @@ static const char *outside_hint(const reader *r, double x, int field, const char
         return "; a line that says how many points follow is a comment, as in '# n 64'";
     }
     if (x < 0 && x >= -1) {
-        return "; points of [-1,1] are (x + 1) / 2 here";
+        return x < -0.5 ? "; points of [-1,1] are (x + 1) / 2 here"
+                        : "; points of [-1/2,1/2] are x + 1/2 here, of [-1,1] (x + 1) / 2";
     }
     return "";
 }
