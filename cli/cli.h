@@ -128,7 +128,8 @@ bool cli_choice(const cli_arguments *arguments, const char *name, int *choice);
 bool cli_refuse(const cli_arguments *arguments, const char *names, const char *why, ...) KOKSMA_PRINTF(3, 4);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
 
-/* Says in text what is meant by -NAME or -N=VALUE, or by an option in place of a value. Returns whether it is such a slip. */
+/* Says in text what is meant by -NAME or -N=VALUE, or by an option in place of a value. Returns whether
+   it is such a slip. */
 bool cli_slip(const cli_option *options, const char *word, const char *value, char text[128]);
 
 /* Writes "did you mean --NAME? " for an option that a command lacks, or "", or what else would do; returns the text. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A list of shapes in bundles is met as the same list without them, to the last bit, by every instruction set: by rays from
-   near and far, along axes, in the planes of shapes, to their edges, from shape to shape, and of two shapes in one place. */
+   near and far, along axes, in the planes of shapes, to their edges, from shape to shape, and of two shapes in one
+   place. */
 #include "render/accel/accel.h"
 #include "render/shapes/shapes.h"
 #include "rendering.h"
