@@ -497,8 +497,8 @@ static int ask_scene(const cli_arguments *arguments, request *r)
         defaults.integrator = cli_text(arguments, "integrator", NULL) ? r->options.integrator : defaults.integrator;
         r->options.integrator = defaults.integrator;
         const char *ending = strrchr(r->options.scene, '.');
-        if (ending && strstr(".gltf .glb .obj .ply", ending) && !cli_given(arguments, "integrator") &&
-            !cli_flag(arguments, "quiet")) {
+        if (ending && strstr(".gltf .glb .obj .ply", ending) && !counts.paths &&
+            !cli_given(arguments, "integrator") && !cli_flag(arguments, "quiet")) {
             cli_say("rank", "%s: ranked by %s; a path tracer may need another pattern: --integrator path",
                     r->options.scene, r->options.integrator->name);
         }

@@ -86,8 +86,8 @@ KOKSMA_API bool koksma_scene_refuse_unknown(bool refuse);
 
 /* Numbers of the objects that a scene contains. `placements` counts the copies of meshes: a mesh may be placed
    several times. media: 1 if the scene has a medium, which only the integrator path and its variants render, else 0.
-   paths: 1 if it has a medium, or is a scene of pbrt or Mitsuba whose integrator follows paths between surfaces, else
-   0. spp: samples per pixel that the sampler of a pbrt or Mitsuba scene asks for; 0: none. */
+   paths: 1 if it has a medium or materials of glTF, or is a scene of pbrt or Mitsuba whose integrator follows paths
+   between surfaces, else 0. spp: samples per pixel that the sampler of a pbrt or Mitsuba scene asks for; 0: none. */
 typedef struct koksma_scene_counts {
     size_t shapes, meshes, placements, triangles, materials, lights, media, paths, spp;
 } koksma_scene_counts;

@@ -605,5 +605,8 @@ koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_sce
     scene->hash += MODEL_REVISION;
     KOKSMA__TRY(complete(scene, has_camera));
     koksma__scene_finish(scene);
+    for (size_t i = 0; i < scene->n_materials; i++) { /* the materials of glTF are those of path tracers */
+        scene->paths |= scene->materials[i].bsdf == &koksma__bsdf_principled;
+    }
     return KOKSMA_OK;
 }
