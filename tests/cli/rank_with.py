@@ -103,7 +103,8 @@ def main():
                             ("true {out}", "No such file"),
                             (f"{command.replace('{width}', '9')}", "9 x ")):
             code, rows, said = rank(bad, "fine,coarse", "--size", "48x32")
-            check(bad, code not in (0, 1) and reason in said and said.count("\n") == 1 and not rows, (code, rows, said))
+            lines = [line for line in said.splitlines() if "samples took" not in line]  # said of slow pictures
+            check(bad, code not in (0, 1) and reason in said and len(lines) == 1 and not rows, (code, rows, said))
         check("nothing is left after failures", not os.listdir(os.environ["TMPDIR"]))
 
         for arguments, reason in ((["--with", command], "--with needs --patterns"),
