@@ -54,6 +54,9 @@ void koksma__wavefront_attenuate(const koksma_scene *scene, const koksma__vertic
         const float p[3] = {v->hits.px[i], v->hits.py[i], v->hits.pz[i]};
         const float d[3] = {shadows->dx[i], shadows->dy[i], shadows->dz[i]};
         float passed[3];
+        if (!(shadows->light[i] > 0)) {
+            continue;
+        }
         koksma__medium_transmittance(&scene->medium, p, d, 1, passed);
         for (int k = 0; k < 3; k++) {
             light[k][i] *= passed[k];
